@@ -1,4 +1,4 @@
-/* See bands.h. */
+/* Reads a set band by band. See bands.h. */
 #include "compact/bands.h"
 
 #include "set/band.h"

@@ -1,4 +1,4 @@
-/* See build.h. */
+/* Builds a compact set from kept parts, new footprints and new terms. See build.h. */
 #include "compact/build.h"
 
 #include <stdarg.h>
@@ -14,22 +14,22 @@
 
 typedef struct Compaction {
     const RetexCompactLight *light;
-    RetexSet *set; /* the new one */
+    RetexSet *set; /* the new set */
     const RetexCompactScales *scales;
     int nthreads;
-    RetexCompactCache *cache;                  /* where what is made is kept */
-    int trial;                                 /* 1: for other trials too; 0: all is there, and is taken */
-    RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* of trials */
+    RetexCompactCache *cache; /* clusters and gains that are made already */
+    int trial;                /* 1: copy from the cache, for other trials; 0: the cache is complete, move from it */
+    RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* trial textures by footprint, if trial is 1 */
     int factors[RETEX_COMPACT_KINDS],
-        interreflected[RETEX_COMPACT_KINDS]; /* of each kind, the factor of its single-hit light and that of its
-                                                        and for that which goes on */
-    int mixtures[RETEX_MIXTURES_MAX];        /* new factors of the old mixtures of interreflections */
+        interreflected[RETEX_COMPACT_KINDS]; /* by kind: factors of single-hit and of interreflected light */
+    int mixtures[RETEX_MIXTURES_MAX];        /* by mixture of interreflections in the old set: the new factor */
     int footprints[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX];
-    int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX], shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts */
-    int counts[RETEX_COMPACT_KINDS]; /* of each kind's new footprints and their weights */
+    int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX],
+        shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts of weights */
+    int counts[RETEX_COMPACT_KINDS];                   /* by kind: number of new footprints */
 } Compaction;
 
-/* ---- what stays as it is ---- */
+/* ---- parts that are copied ---- */
 
 int retex_compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
 {
@@ -51,7 +51,8 @@ int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *er
     return code;
 }
 
-/* Parts that neither terms nor footprints nor mixtures use stay; so do those of terms without factors. */
+/* Whether a part is copied: the picture, originals, radiance of terms without factors, and parts that nothing refers
+ * to. Denoising data is not copied. */
 static int is_kept(const RetexSet *set, int part)
 {
     if (retex_part_is_denoise_data(set, part))
@@ -91,7 +92,7 @@ static int copy_kept(const Compaction *work, RetexError *err)
     return code;
 }
 
-/* ---- what is made anew ---- */
+/* ---- new parts ---- */
 
 /* Move an image into the set as a part. */
 static int move_image(RetexSet *set, RetexImage *image, const char *letters, RetexPixelType type, int *index,
@@ -113,7 +114,7 @@ static int move_image(RetexSet *set, RetexImage *image, const char *letters, Ret
     return code;
 }
 
-/* ---- what trials have in common ---- */
+/* ---- the cache that trials share ---- */
 
 static int step_of(int scale)
 {
@@ -123,7 +124,7 @@ static int step_of(int scale)
     return step;
 }
 
-/* A copy of what the cache holds, for a set to own. */
+/* Copy clusters of the cache, so that a set can own them. */
 static int copy_clusters(RetexCompactClusters *to, const RetexCompactClusters *from, RetexError *err)
 {
     int code = retex_image_copy(&to->albedo, &from->albedo, err);
@@ -183,7 +184,7 @@ static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexEr
     return code ? code : take_image(sum, work, kept, err);
 }
 
-/* All gains of a kind: 0 for the clusters alone, then those of the terms that go on. */
+/* A kind's gains in the cache: [0] of single-hit light, then one for each of the kind's interreflection terms. */
 static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
 {
     const RetexCompactMixed mixed = work->scales->mixed[number];
@@ -226,7 +227,7 @@ void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight 
 
 /* ---- footprints ---- */
 
-/* One cluster as a footprint, which refers to the albedo that all of its kind have. */
+/* Add a cluster as a footprint. All footprints of a kind share one part of albedo. */
 static int add_cluster(Compaction *work, int number, RetexCompactClusters *clusters, int k, int albedo, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
@@ -253,7 +254,8 @@ static int add_cluster(Compaction *work, int number, RetexCompactClusters *clust
     return code;
 }
 
-/* The factor that stands for a kind, its footprints weighed by these parts. */
+/* Add a mixture of a kind's footprints with these parts of weights. *place: its factor, or the footprint if only
+ * one. */
 static int add_mixture(Compaction *work, int number, const int *weights, int *place, RetexError *err)
 {
     RetexMixture mixture = {.nshares = work->counts[number]};
@@ -299,7 +301,7 @@ static int find_kind(const RetexCompactLight *light, int target, RetexFootprintK
     return -1;
 }
 
-/* Mixtures of interreflection footprints: of one target, or of several. */
+/* Add the mixtures of interreflection footprints: of one target, or of several. */
 static int add_interreflection_mixtures(Compaction *work, RetexError *err)
 {
     const RetexSet *old = work->light->set;
@@ -391,9 +393,9 @@ static int add_terms(Compaction *work, int number, RetexError *err)
     return code;
 }
 
-/* ---- all of it ---- */
+/* ---- the whole set ---- */
 
-/* Room for all that is made of a kind. */
+/* Allocate the clusters and gains of a kind. */
 static int begin_kind(const Compaction *work, int number, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
@@ -441,7 +443,7 @@ static int end_kind(const Compaction *work, int number, RetexError *err)
     return code;
 }
 
-/* All kinds by bands of rows, for the set may be larger than memory. */
+/* Make the clusters and gains of all kinds, band by band, because the set may be larger than memory. */
 static int make_kinds(Compaction *work, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
@@ -491,7 +493,7 @@ int retex_compact_build_kind(RetexSet **result, RetexImage *of[][RETEX_COMPACT_W
         work.set->targets[t].original = -1;
     if (!code && kind < 0)
         code = copy_kept(&work, err);
-    else if (!code) /* the picture, which no recombination reads */
+    else if (!code) /* part 0 must be the picture; recombination does not read it, so it is empty */
         code = retex_set_add_part(work.set, old->parts[0].name, old->parts[0].letters, old->parts[0].type, 0, 0, NULL,
                                   err);
     for (int i = 0; i < light->nkinds && !code && kind >= 0; i++)

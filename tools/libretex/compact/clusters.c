@@ -1,4 +1,4 @@
-/* See clusters.h. */
+/* Clusters of light in UV: gathers those of a block of pixels and merges them. See clusters.h. */
 #include "compact/clusters.h"
 
 #include <math.h>
@@ -10,13 +10,13 @@
 
 #include "compact/uniform.h"
 
-#define POOL 12                  /* most clusters while those of a block are gathered */
-#define SHARE_STEP (1.0 / 512)   /* of weights */
-#define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
-#define UNIFORM_NOISE 0.3        /* params->noise from which on uniform pixels are smoothed */
+#define POOL 12                  /* most clusters while a block is gathered */
+#define SHARE_STEP (1.0 / 512)   /* quantizer step of weights */
+#define LEAST_SHARE (1.0 / 1024) /* clusters with a smaller share of their block's light are dropped */
+#define UNIFORM_NOISE 0.3        /* uniform pixels are smoothed if params->noise is at least this */
 #define MORE_VARIANCE 0.25       /* relative variance by which a cluster may grow when merged */
-#define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
-#define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
+#define UNKNOWN_SAMPLES 1024     /* samples of a pixel, if the set does not have their number */
+#define TEXEL (1.0 / (1 << 26))  /* UV variance of a texel of a texture 8192 wide */
 
 typedef struct Cluster {
     RetexUvStats place;
@@ -27,16 +27,16 @@ typedef struct Pool {
     const int *periodic;
     int sharp, count;
     double noise;           /* RetexCompactLight's */
-    double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
+    double weight, squares; /* light gathered: sum, and sum of squares divided by the numbers of samples */
     Cluster of[POOL + 1];
-    double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
+    double cost[POOL + 1][POOL + 1]; /* of merging clusters i and j < i */
 } Pool;
 
 typedef struct ClustersWork {
     RetexCompactClusters *clusters;
     const RetexCompactLight *light;
     const RetexCompactKind *kind;
-    int scale, first; /* first: row of blocks */
+    int scale, first; /* first: the band's first row of blocks */
 } ClustersWork;
 
 static double merging_cost(const Pool *pool, int i, int j)
@@ -52,7 +52,7 @@ static void find_costs(Pool *pool, int i)
             pool->cost[j < i ? i : j][j < i ? j : i] = merging_cost(pool, i, j);
 }
 
-/* Cluster j's place is taken by the last one. */
+/* Remove cluster j; the last cluster takes its index. */
 static void remove_cluster(Pool *pool, int j)
 {
     const int last = --pool->count;
@@ -107,7 +107,7 @@ static Shape shape_of(const RetexUvStats *place)
     return shape;
 }
 
-/* Whether merging enlarges neither the variances along u and v nor the area by more than a factor. */
+/* Whether merging enlarges the variances along u and v, and the area, by at most a factor. */
 static int are_same(const Shape *each, const Shape *merged, double more)
 {
     int same = 1;
@@ -117,7 +117,7 @@ static int are_same(const Shape *each, const Shape *merged, double more)
     return same;
 }
 
-/* Whether no texture would show that the two were merged. */
+/* Whether two clusters are so alike that no texture shows whether they are merged. */
 static int are_one_place(const Pool *pool, int i, int j)
 {
     const double more = 1 + pool->noise * MORE_VARIANCE;
@@ -191,7 +191,7 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     }
 }
 
-/* Sum of the shares of all targets' interreflection footprints in a pixel: shares are relative to it. */
+/* Sum of the weights of all targets' interreflection footprints in a pixel; their shares are relative to this sum. */
 static double sum_of_shares(const RetexCompactLight *light, size_t pixel)
 {
     const RetexSet *set = light->set;
@@ -258,8 +258,8 @@ static double part_of(const Cluster *cluster, Part part)
                                          : cluster->place.weight;
 }
 
-/* Shares of all, 0 for that of the clusters; but where they have none of this light, of what they have. A share is 0
- * where it is nothing, but is never made so by rounding. */
+/* Store each cluster's share of the light `part`, relative to `all`, or to the clusters' own sum if `all` is 0. If the
+ * clusters have no such light, store their shares of all light instead. Positive shares never round to 0. */
 static void store_weights(RetexImage *images, size_t block, const Pool *pool, Part part, double all)
 {
     double own = 0;
@@ -296,7 +296,8 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
-/* Merge all clusters of a pixel: a candidate of uniform pixels, if several clusters can be stored as four quarters. */
+/* Store the sum of a pixel's clusters as a candidate for uniform pixels. A pixel with several clusters is one only if
+ * the kind has four, for the quarters. */
 static void store_pixel(const ClustersWork *work, size_t block, const Pool *pool)
 {
     RetexUniformPixel *whole = &work->clusters->pixels[block];
@@ -336,7 +337,8 @@ static void blocks_job(void *context, int by, int thread)
     }
 }
 
-/* weight: factor on the weights, small for interreflections, where other targets may have light in this block. */
+/* Copy a block. weight: factor on its weights, small for interreflections, because other targets may have light
+ * there. */
 static void copy_block(RetexCompactClusters *clusters, size_t to, size_t from, float weight)
 {
     for (int k = 0; k < clusters->count; k++) {
@@ -349,7 +351,7 @@ static void copy_block(RetexCompactClusters *clusters, size_t to, size_t from, f
     memcpy(clusters->albedo.pixels + 3 * to, clusters->albedo.pixels + 3 * from, 3 * sizeof(float));
 }
 
-/* From a neighbour to the left or right, else above or below, else diagonal. */
+/* Fill blocks without light from a lit neighbour: left or right, else above or below, else diagonal. */
 static void fill_holes(RetexCompactClusters *clusters, const unsigned char *lit, float weight)
 {
     static const int beside[8][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
@@ -365,7 +367,7 @@ static void fill_holes(RetexCompactClusters *clusters, const unsigned char *lit,
             }
 }
 
-/* ---- all of them ---- */
+/* ---- all blocks ---- */
 
 static int alloc_images(RetexCompactClusters *clusters, const RetexCompactLight *light, int uniform, RetexError *err)
 {

@@ -1,6 +1,6 @@
-/* Compacting a set: see compact.h. The set is sorted by whose light is where (light.h); sizes are chosen by
- * trial (search.h); then each kind's footprints are made anew (clusters.h), its terms become gains of
- * one radiance (gains.h), and the new set is put together (build.h). */
+/* Makes compact sets: see retex/compact.h. light.h sorts terms and footprints by target and kind. search.h chooses the
+ * scales by measuring distortion. For each kind, clusters.h makes new footprints, and gains.h turns its terms into one
+ * radiance with gains. build.h puts the new set together. */
 #include <retex/compact.h>
 
 #include <stdlib.h>

@@ -17,29 +17,29 @@
 #include "compact/image_noise.h"
 #include "set/parts.h"
 
-#define TILE RETEX_COMPACT_BAND_ROWS /* pixels of a tile that count */
-#define MARGIN 16                    /* on each side: two pixels of what is smallest */
-#define LENGTHS 3                    /* of waves; other trials are of one colour */
-#define FLAT 1                       /* variance in waves at which nothing is left of them */
-#define PROBE 8                      /* pixels from one that is looked at to the next */
+#define TILE RETEX_COMPACT_BAND_ROWS /* side of a tile in pixels, without margins */
+#define MARGIN 16                    /* pixels on each side: two pixels of an image of scale 8 */
+#define LENGTHS 3                    /* trials with waves, one for each wavelength; other trials have flat colours */
+#define FLAT 1                       /* variance in wavelengths at which a filtered wave is flat */
+#define PROBE 8                      /* distance in pixels of the samples by which difficulty is estimated */
 
 /* ---- tiles ---- */
 
 typedef struct Tile {
-    int x, y; /* first pixel that counts */
+    int x, y; /* first pixel, without the margin */
     double difficulty;
 } Tile;
 
 typedef struct Mosaic {
-    const RetexCompactLight *light; /* of a band */
-    int first, height;              /* its first row; rows of the whole */
+    const RetexCompactLight *light; /* the light of a band */
+    int first, height;              /* first: the band's first row; height: of the picture */
     RetexSet *result;
-    int columns, count; /* of the picture's tiles */
+    int columns, count; /* tiles of the picture: in a row, and in all */
     Tile *tiles;
     Tile taken[RETEX_COMPACT_TILES];
 } Mosaic;
 
-/* Light of a pixel's clusters that differ in UV from the same clusters of another pixel. */
+/* A pixel's light, each cluster weighted by how far its UV is from that cluster's UV in another pixel. */
 static double probe_pixels(const RetexCompactLight *light, size_t a, size_t b)
 {
     const RetexSet *set = light->set;
@@ -89,8 +89,8 @@ static int compare_tiles(const void *a, const void *b)
     return below ? below : (one->x > other->x) - (one->x < other->x);
 }
 
-/* Sorted by how difficult they are, tiles fall into groups of the same sum of it, but half of it evenly: the middle one
- * of each is taken for the group. */
+/* Choose the tiles that represent the picture. Tiles are sorted by difficulty and divided into groups of equal sums of
+ * half their share of the difficulty plus half their share of the number. The median tile represents its group. */
 static void take_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
 {
     double all = 0, sum = 0;
@@ -99,7 +99,7 @@ static void take_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
     for (int i = 0; i < mosaic->count; i++)
         all += mosaic->tiles[i].difficulty;
     for (int i = 0, k = 0; i < mosaic->count && k < RETEX_COMPACT_TILES; i++) {
-        const int left = mosaic->count - 1 - i, groups = RETEX_COMPACT_TILES - 1 - k; /* after this */
+        const int left = mosaic->count - 1 - i, groups = RETEX_COMPACT_TILES - 1 - k; /* still to come */
         sum += 0.5 / mosaic->count + (all > 0 ? 0.5 * mosaic->tiles[i].difficulty / all : 0.5 / mosaic->count);
         if (left > groups && (k == RETEX_COMPACT_TILES - 1 || sum < (k + 1.0) / RETEX_COMPACT_TILES))
             continue;
@@ -114,7 +114,7 @@ static int clamp(int at, int size)
     return at < 0 ? 0 : at < size ? at : size - 1;
 }
 
-/* What of a tile is in the band. */
+/* Copy the rows of a tile that are in the band. */
 static void copy_tile(RetexImage *to, int row, const RetexImage *from, const Mosaic *mosaic)
 {
     const int side = TILE + 2 * MARGIN, x = mosaic->taken[row].x - MARGIN, y = mosaic->taken[row].y - MARGIN;
@@ -138,7 +138,7 @@ static int copy_tiles(void *context, const RetexCompactLight *light, int first, 
     return RETEX_OK;
 }
 
-/* A set as tall as tiles are many. Originals and what no term needs become black. */
+/* Make a set of the chosen tiles, one below the other. Originals, and parts that no term needs, become black. */
 static int make_mosaic(RetexSet **result, const RetexCompactLight *light, Mosaic *mosaic, int nthreads, RetexError *err)
 {
     const RetexSet *set = light->set;
@@ -227,7 +227,7 @@ static void wave_row(void *context, int y, int thread)
     }
 }
 
-/* One texture of waves at one footprint. */
+/* Filter a trial texture at one footprint. */
 static int make_waves(RetexImage *image, const RetexSet *set, int footprint, int trial, int nthreads, RetexError *err)
 {
     const RetexFootprint *f = &set->footprints[footprint];
@@ -259,7 +259,8 @@ static void encode_row(void *context, int y, int thread)
         row[i] = encoded(row[i]);
 }
 
-/* One trial's picture, linear. waves: by footprint, in a cache, made where they are not there yet; or NULL. */
+/* Make the linear picture of one trial. waves: a cache of filtered trial textures by footprint, which is filled as
+ * needed; or NULL. */
 static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *waves[][RETEX_COMPACT_WAVES], int trial,
                         int nthreads, RetexError *err)
 {
@@ -273,7 +274,7 @@ static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *wa
     }
     if (!code)
         code = retex_combine(picture, set, samples, NULL, NULL, nthreads, err);
-    if (samples && waves) /* they stay the cache's */
+    if (samples && waves) /* the cache owns them */
         memset(samples->images, 0, (size_t)set->nfootprints * sizeof *samples->images);
     retex_samples_close(&samples);
     return code;
@@ -292,8 +293,9 @@ int retex_compact_trial_pictures(RetexImage pictures[RETEX_COMPACT_TRIALS], cons
     return code;
 }
 
-/* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. Of denoised sets
- * they are not there: of what is left, the finest is seen in a picture of flat colours. */
+/* Estimate the mean square noise of the picture. Sets that are not denoised have parts of noise: these are added to the
+ * picture, those of targets by half because targets' noise is divided so. Denoised sets do not have these parts: their
+ * remaining noise is estimated from the high frequencies of a trial picture of flat colours. */
 static int measure_noise(RetexCompactReference *reference, int nthreads, RetexError *err)
 {
     const RetexSet *set = reference->set;
@@ -385,16 +387,16 @@ void retex_compact_reference_close(RetexCompactReference *reference)
     retex_set_close(&reference->set);
 }
 
-/* ---- reading ---- */
+/* ---- distortion ---- */
 
 typedef struct ReadWork {
     const RetexCompactReference *reference;
-    const RetexImage *const *parts; /* each the first of so many trials */
+    const RetexImage *const *parts; /* for each part of the set, its pictures by trial */
     int count, trial;
-    double *rows; /* sums of squares */
+    double *rows; /* by row: sum of squared errors */
 } ReadWork;
 
-/* What a row of the mosaic counts, 0 in a margin. */
+/* The weight of a row of the tiled set; 0 in margins. */
 static double row_weight(const RetexCompactReference *reference, int y)
 {
     const int row = reference->tile ? y % reference->tile : 0;

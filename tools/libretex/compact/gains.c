@@ -1,4 +1,4 @@
-/* See gains.h. */
+/* Gains: a term's radiance divided by the sum of its kind's. See gains.h. */
 #include "compact/gains.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <retex/parallel.h>
 
 typedef struct Source {
-    const float *radiance, *uv; /* uv: of its footprint, or NULL */
+    const float *radiance, *uv; /* uv: means and coverage of its footprint, or NULL */
     double share;
 } Source;
 
@@ -16,7 +16,7 @@ typedef struct GainWork {
     const RetexCompactLight *light;
     const RetexCompactKind *kind;
     RetexImage *sum, *gain; /* of the whole picture */
-    int first;              /* row of it that light begins with */
+    int first;              /* the picture's row of the light's first row */
     int number;
     RetexCompactMixed mixed;
     int scale;
@@ -59,7 +59,8 @@ int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, con
     return code;
 }
 
-/* List whose light a term is: its radiance by share, where the footprint, if any, is there. */
+/* List the old terms whose radiance a new term has, with their shares. Radiance with a footprint counts only where that
+ * is covered. */
 static int list_sources(GainWork *work, RetexError *err)
 {
     const RetexSet *set = work->light->set;
@@ -81,7 +82,7 @@ static int list_sources(GainWork *work, RetexError *err)
     return RETEX_OK;
 }
 
-/* A term's light in a pixel, as the set shows it. */
+/* A new term's radiance in a pixel: the sum of its sources. */
 static void term_light(const GainWork *work, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
@@ -96,7 +97,7 @@ static void term_light(const GainWork *work, size_t pixel, double rgb[3])
     }
 }
 
-/* -1: no light, to be filled. */
+/* Compute a row of gains. A gain of -1 marks a hole: a block without light. */
 static void gain_row(void *context, int by, int thread)
 {
     const GainWork *work = context;
@@ -120,8 +121,8 @@ static void gain_row(void *context, int by, int thread)
     }
 }
 
-/* Holes become means of what is around them, near ones first: from an image of half the size, whose pixels are the
- * means of those that are none. */
+/* Fill holes with averages of their surroundings (pull-push): each hole takes its value from an image of half the size,
+ * whose pixels are means of valid pixels and whose own holes are filled first, recursively. */
 static int fill_holes(RetexImage *image, RetexError *err)
 {
     const int width = (image->width + 1) / 2, height = (image->height + 1) / 2;

@@ -1,16 +1,17 @@
-/* See image_noise.h. Differences of second differences know neither shades nor straight edges (Immerkaer 1996); their
- * median none of the few pixels where light breaks off. */
+/* Estimates noise by Immerkaer's filter (1996); see image_noise.h. The filter, a second difference along x and along y,
+ * is 0 on gradients and on horizontal and vertical edges. The median of its magnitudes ignores the few pixels at other
+ * edges. */
 #include "compact/image_noise.h"
 
 #include <math.h>
 
 enum { BINS = 4096 };
 
-static const double BIN = 1.0 / 128;    /* levels */
-static const double DEVIATION = 0.6745; /* of a Gaussian, that half of it stays below */
-static const double DIFFERENCES = 6;    /* deviation of what is summed, of noise of 1 */
+static const double BIN = 1.0 / 128;    /* width of a bin, in levels */
+static const double DEVIATION = 0.6745; /* median magnitude of a Gaussian of standard deviation 1 */
+static const double DIFFERENCES = 6;    /* standard deviation of the filter's output if the noise has 1 */
 
-/* The middle of the bin that half of all are below. */
+/* The median of a histogram of `all` values: the middle of its bin. */
 static double median(const int counts[BINS], int all)
 {
     int bin = 0, below = 0;

@@ -1,4 +1,4 @@
-/* See light.h. */
+/* Sorts the terms and footprints of a set by target and kind. See light.h. */
 #include "compact/light.h"
 
 #include <stdlib.h>
@@ -44,7 +44,8 @@ static int sort_footprints(RetexCompactLight *light)
     return 1;
 }
 
-/* Weights of mixtures. Footprints of a mixture are of one kind; interreflections may be of several targets. */
+/* Find the weights of footprints in mixtures. All footprints of a mixture must have one kind; those of interreflections
+ * may be of several targets. */
 static int sort_shares(RetexCompactLight *light)
 {
     const RetexSet *set = light->set;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int kept_orders[] = {1, 2, 3, 5, 8}; /* and the highest */
+static const int kept_orders[] = {1, 2, 3, 5, 8}; /* the highest order is kept too */
 
 enum { KEPT_ORDERS = sizeof kept_orders / sizeof *kept_orders, FIRST_MIXED = 3 };
 
@@ -26,7 +26,7 @@ static int is_any_target(const RetexSet *set, int factor)
     return 0;
 }
 
-/* That of hits on any target; 0 where no term has it. */
+/* The factor that mixes several targets' interreflection footprints, or 0 if no term has one. */
 static int find_any_target(const RetexCompactKind *kind, const RetexSet *set)
 {
     for (int i = 0; i < kind->ninterreflections; i++)
@@ -40,7 +40,8 @@ static int same_factors(const RetexTerm *a, const RetexTerm *b)
     return a->nfactors == b->nfactors && memcmp(a->factors, b->factors, (size_t)a->nfactors * sizeof *a->factors) == 0;
 }
 
-/* The gain of so many further hits on what another term's are on. */
+/* Find or add the gain for `order` interreflections, with the factors of term `number`, or with factor `any` if not
+ * 0. */
 static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, int number, int order,
                      int any)
 {
@@ -56,7 +57,7 @@ static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMi
         return g;
     RetexCompactGain *gain = &kind->gains[mixed][kind->ngains[mixed]++];
     gain->term = term;
-    /* named after the radiance it replaces, or the order */
+    /* the gain is named after the radiance it replaces, or after its order */
     const char *name = set->parts[old->radiance].name, *tail = strrchr(name, '_');
     if (any || order != old->nfactors - 1)
         snprintf(gain->name, sizeof gain->name, "%c%d", any ? 'm' : 'a', order);
@@ -65,7 +66,7 @@ static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMi
     return g;
 }
 
-/* Kept orders on both sides of one, and the share of the lower; the order itself where it is kept. */
+/* Find the kept orders below and above an order. Returns the share of the lower one. A kept order is both, share 1. */
 static double between(int order, int highest, int orders[2])
 {
     orders[0] = orders[1] = order;
@@ -82,7 +83,7 @@ static double between(int order, int highest, int orders[2])
     return (pow(grey, order) - high) / (low - high);
 }
 
-/* Into which gains a term goes. */
+/* Divide a term between the gains of kept orders. */
 static void share_term(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed,
                        RetexCompactInterreflection *part, int highest)
 {

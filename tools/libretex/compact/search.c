@@ -32,13 +32,13 @@ typedef enum What { CLUSTERS, GAINS, MIXED } What;
 typedef struct Choice {
     What what;
     int kinds[RETEX_COMPACT_KINDS], nkinds;
-    int steps, at, before;                       /* at: 0, the finest, to steps - 1; before: when last measured */
-    double squares[STEPS][RETEX_COMPACT_TRIALS]; /* distortion */
-    double noise[RETEX_COMPACT_TRIALS];          /* that an infinite scale would remove */
-    double numbers[STEPS];                       /* stored for each pixel */
+    int steps, at, before;                       /* at: current step, 0 is the finest; before: step last measured */
+    double squares[STEPS][RETEX_COMPACT_TRIALS]; /* by step and trial: distortion */
+    double noise[RETEX_COMPACT_TRIALS];          /* by trial: noise that an infinite scale would remove */
+    double numbers[STEPS];                       /* by step: rate, in numbers for each pixel */
 } Choice;
 
-/* A kind's pictures at some scales. */
+/* A kind's trial pictures, and the scales they were made with. */
 typedef struct TrialPictures {
     int clusters, gains, mixed, interreflection;
     RetexImage pictures[RETEX_COMPACT_TRIALS];
@@ -81,8 +81,9 @@ static double numbers_of(const Search *work, const Choice *choice, int step)
         else if (choice->what == GAINS)
             numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + 1) / (1 << (2 * step));
         else if (!step)
-            numbers += 3.0 / 16 *
-                       (kind->ngains[RETEX_COMPACT_APART] - kind->ngains[RETEX_COMPACT_MIXED]); /* of a usual size */
+            numbers +=
+                3.0 / 16 *
+                (kind->ngains[RETEX_COMPACT_APART] - kind->ngains[RETEX_COMPACT_MIXED]); /* gains of a typical scale */
     }
     return numbers;
 }
@@ -106,7 +107,7 @@ static void add_choice(Search *work, What what, int kind)
     choice->kinds[choice->nkinds++] = kind;
 }
 
-/* Scales that the parameters fix are set at once. */
+/* List the choices to search. Scales that the parameters fix are set here and are no choices. */
 static void list_choices(Search *work, RetexCompactScales *scales, const RetexCompactParams *params)
 {
     for (int i = 0; i < work->light->nkinds; i++) {
@@ -133,7 +134,7 @@ static void free_pictures(TrialPictures *shown)
         retex_image_free(&shown->pictures[t]);
 }
 
-/* Interreflection footprints of all targets have one scale. */
+/* The scale of interreflection footprints, which all targets share. */
 static int interreflection_scale(const RetexCompactLight *light, const RetexCompactScales *scales)
 {
     for (int i = 0; i < light->nkinds; i++)
@@ -215,7 +216,7 @@ static double worst(const double squares[RETEX_COMPACT_TRIALS])
     return most;
 }
 
-/* The distortion that each step of each choice adds to that of the finest. */
+/* Measure the distortion that each step of each choice adds to that of the finest scales. */
 static int measure(Search *work, const RetexCompactScales *fine, RetexError *err)
 {
     int code = measure_scales(work, fine, work->finest, err);
@@ -239,8 +240,8 @@ static int measure(Search *work, const RetexCompactScales *fine, RetexError *err
 
 /* ---- choosing ---- */
 
-/* The combination of choices from `first` on with the lowest rate whose sums are within bounds. *numbers stays as it
- * is where there is none. */
+/* Branch and bound over choices from `first` on: find the combination of lowest rate whose sums of distortion are
+ * within bounds. best and *numbers change only if one has a lower rate than *numbers. */
 static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIALS],
                    const double bounds[RETEX_COMPACT_TRIALS], double so_far, double *numbers, int best[GROUPS_MOST])
 {
@@ -266,13 +267,14 @@ static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIA
     }
 }
 
-/* The bound limits the distortion that choices add, not that of the finest scales. */
+/* Most distortion of a trial: that of the finest scales, plus what choices may add. */
 static double bound_of(const Search *work, int trial)
 {
     return work->finest[trial] + fmax(work->bound, LETTING * work->light->noise * work->finest[trial]);
 }
 
-/* 1 if the result differs from the combination before. *numbers: in, the highest rate allowed; out, the rate. */
+/* Search with bounds scaled by factors. Returns 1 if the combination differs from the last one. *numbers: in, the upper
+ * limit of the rate; out, the rate. */
 static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS], double *numbers)
 {
     double bounds[RETEX_COMPACT_TRIALS];
@@ -291,7 +293,7 @@ static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS
 }
 
 /* Measure the combination: *within = 1 if its distortion is within bounds. factors: for each trial, predicted over
- * measured distortion. Together, choices are taken to lose no less than the worst of them alone. */
+ * measured distortion. The measured distortion is taken to be at least that of the worst choice alone. */
 static int measure_all(Search *work, RetexCompactScales *scales, double factors[RETEX_COMPACT_TRIALS], int *within,
                        RetexError *err)
 {
@@ -317,7 +319,7 @@ static int measure_all(Search *work, RetexCompactScales *scales, double factors[
 
 static int search_measured(Search *work, RetexCompactScales *scales, RetexError *err)
 {
-    RetexCompactScales good = *scales; /* all at their finest */
+    RetexCompactScales good = *scales; /* all choices at their finest step */
     double factors[RETEX_COMPACT_TRIALS], fewest = INFINITY;
     int code = RETEX_OK;
     for (int i = 0; i < work->count; i++)

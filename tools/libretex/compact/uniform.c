@@ -41,7 +41,7 @@ typedef struct Map {
     double depth[2]; /* gradient of the depth, right and down; depth is 1 at the pixel's centre */
 } Map;
 
-/* What is kept of a map. */
+/* The coefficients of a map that storing a pixel needs. */
 typedef struct UvMap {
     double mean[2];
     float right[2], down[2], depth[2];
@@ -96,7 +96,7 @@ static double off_most(const SmoothWork *work, const RetexUniformPixel *place)
     return work->noise * work->noise * (OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST);
 }
 
-/* Gaussian elimination; 0 where there is no one solution. */
+/* Gaussian elimination. Returns 0 if there is no unique solution. */
 static int solve(double rows[TERMS][TERMS + 2])
 {
     for (int i = 0; i < TERMS; i++) {
@@ -120,7 +120,7 @@ static int solve(double rows[TERMS][TERMS + 2])
     return 1;
 }
 
-/* Means around a pixel, from its own, that are fitted. */
+/* The mean UVs around a pixel, relative to its own, to which a map is fitted. */
 typedef struct Window {
     double dx[SIDE * SIDE], dy[SIDE * SIDE], d[SIDE * SIDE][2];
     int count;
@@ -169,7 +169,7 @@ static void change_depth(Map *map, const double depth[2])
     }
 }
 
-/* Curvature, in squared pixels. */
+/* The curvature of a map, in squared pixels. */
 static double bend_of(const Map *map)
 {
     double bend = 0;
@@ -179,7 +179,8 @@ static double bend_of(const Map *map)
     return bend;
 }
 
-/* The depth that leaves least curvature, if it is large enough and leaves little; else none. */
+/* Find the depth that minimizes the map's curvature. It is used only if it is large enough and leaves little
+ * curvature. */
 static void find_depth(Map *map)
 {
     double both = TEXEL, mixed = 0, bend[2] = {0}, depth[2];
@@ -353,7 +354,7 @@ static void fit_row(void *context, int y, int thread)
     }
 }
 
-/* The next pass starts from the means of the last one. */
+/* Copy the smoothed means, from which the next pass starts. */
 static void renew_row(void *context, int y, int thread)
 {
     const SmoothWork *work = context;
@@ -366,7 +367,7 @@ static void renew_row(void *context, int y, int thread)
     }
 }
 
-/* The whole pixel, or its quarters, in the order of u + v. */
+/* Store a uniform pixel as one cluster, or as its quarters, sorted by u + v as all clusters are. */
 static void store_uniform(const SmoothWork *work, size_t pixel)
 {
     const UvMap *map = &work->maps[pixel];
@@ -420,7 +421,8 @@ static int compare_floats(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* The distance of means from maps is noise everywhere, and larger at the few edges of light: hence the median. */
+/* Measure how far means scatter about their maps. Most distances are noise; the few at edges of light are larger, so
+ * the median is used. */
 static int find_scatter(SmoothWork *work, int nthreads, RetexError *err)
 {
     const size_t all = (size_t)work->width * (size_t)work->height;

@@ -1,5 +1,5 @@
-/* Comparing two files: parts by name, channels by name, then values. See retex/diff.h. What cannot be compared, because
- * a size, a part or a channel is not there twice, differs. */
+/* Compares two files: matches parts and channels by name, then compares values. See retex/diff.h. Parts differ too if
+ * their sizes differ, or if a part or a channel is in one file only. */
 #include <retex/diff.h>
 #include <retex/nearest.h>
 
@@ -10,13 +10,13 @@
 
 #include "files/layers.h"
 
-/* Note why parts differ; the first reason stays. */
+/* Record why parts differ. Only the first reason is kept. */
 #define REASON(part, ...) ((part)->reason[0] ? 0 : snprintf((part)->reason, sizeof(part)->reason, __VA_ARGS__))
 
 typedef struct Pair {
     const RetexDiffParams *params;
     RetexLayer a, b;
-    int exact; /* both files' channels are their own: see retex_layers_is_exact */
+    int exact; /* 1: retex_layers_is_exact is 1 for both files */
 } Pair;
 
 static int is_color(const char *channel)
@@ -24,7 +24,7 @@ static int is_color(const char *channel)
     return strcmp(channel, "R") == 0 || strcmp(channel, "G") == 0 || strcmp(channel, "B") == 0;
 }
 
-/* Every channel of one is in the other. The alpha that a reader makes up need not be. */
+/* Check that the other layer has each channel of one layer. Alpha may be missing if a reader may have added it. */
 static void check_channels(RetexDiffPart *part, const Pair *pair, int swapped)
 {
     const RetexLayer *a = swapped ? &pair->b : &pair->a, *b = swapped ? &pair->a : &pair->b;
@@ -57,7 +57,7 @@ static int extract_color(RetexImage *color, const RetexLayer *layer, RetexError 
     return 1;
 }
 
-/* psnr, relmse, flip and mae of the colours. */
+/* Compute PSNR, relMSE, FLIP and MAE of the colour channels. */
 static int compare_color(RetexDiffPart *part, const Pair *pair, RetexError *err)
 {
     RetexImage a = {0}, b = {0};
@@ -73,7 +73,7 @@ static int compare_color(RetexDiffPart *part, const Pair *pair, RetexError *err)
     return code;
 }
 
-/* Figures over all pixels of one channel. */
+/* Add the errors of one channel, over all pixels. */
 static void compare_channel(RetexDiffPart *part, const Pair *pair, int ca, int cb, double *sum)
 {
     const RetexImage *a = &pair->a.image, *b = &pair->b.image;
@@ -99,7 +99,7 @@ static void compare_channel(RetexDiffPart *part, const Pair *pair, int ca, int c
         }
 }
 
-/* The part's figures over all channels; *other (may be NULL) gets those of what is not colour. */
+/* Compute the part's errors over all channels. *other gets those of channels that are not colour. */
 static void compare_channels(RetexDiffPart *part, const Pair *pair, RetexDiffPart *other)
 {
     double sum = 0, ignored = 0, n = 0;
@@ -109,7 +109,7 @@ static void compare_channels(RetexDiffPart *part, const Pair *pair, RetexDiffPar
         const char *name = pair->a.channels[c];
         int twin = retex_layer_find(&pair->b, name);
         if (twin < 0)
-            continue; /* a made-up alpha */
+            continue; /* an alpha that the reader added */
         compare_channel(part, pair, c, twin, &sum);
         n += (double)pair->a.image.width * pair->a.image.height;
         if (!(part->has_color && (is_color(name) || strcmp(name, "Y") == 0)))
@@ -215,7 +215,7 @@ static int fail_part(const RetexLayers *a, const RetexLayers *b, const char *par
     return retex_fail(err, RETEX_ENOTFOUND, "neither file has a part '%s'%s", part, retex_meant(nearest.best, meant));
 }
 
-/* The one part that was asked for. */
+/* Compare only the part that the parameters name. */
 static int compare_one(RetexDiff *diff, RetexLayers *a, RetexLayers *b, const RetexDiffParams *params, RetexError *err)
 {
     int ia = params->part ? retex_layers_find(a, params->part) : 0;

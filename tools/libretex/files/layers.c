@@ -1,4 +1,5 @@
-/* Any picture file as layers: EXR parts are read when asked for, packs and other pictures at once. See layers.h. */
+/* Reads any picture file as layers. EXR parts are read on demand, packs and other pictures when opened. See
+ * layers.h. */
 #include "files/layers.h"
 
 #include <stdio.h>
@@ -16,12 +17,12 @@
 struct RetexLayers {
     int nthreads;
     RetexInput *input;
-    RetexExr *exr; /* one of these three */
+    RetexExr *exr; /* the file is one of exr, set and picture */
     RetexSet *set;
     RetexImage picture;
 };
 
-/* A pack is unpacked, anything else goes to OpenImageIO. */
+/* Read a file that is not an EXR: a pack by libretex, any other by OpenImageIO. */
 static int open_other(RetexLayers *layers, const char *path, const RetexReadParams *params, RetexError *err)
 {
     unsigned char begin[4] = {0};
@@ -51,7 +52,7 @@ int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess 
     else if (!code)
         code = open_other(layers, path, &params, err);
     if (!code && layers->exr && !retex_exr_part_readable(layers->exr, 0, &reason)) {
-        /* beyond our own reader: what OpenImageIO makes of it */
+        /* libretex's EXR reader does not support this file: OpenImageIO reads it */
         retex_exr_close(&layers->exr);
         code = retex_image_read(&layers->picture, path, &params, nthreads, err);
     }
@@ -125,7 +126,7 @@ static int alloc_layer(RetexLayer *layer, int width, int height, int channels, R
     return retex_image_alloc(&layer->image, width, height, channels, err);
 }
 
-/* Read channels first.. of a part, as many as go into one request, into the layer. */
+/* Read channels of a part into the layer, from `first` on, as many as one request may have. */
 static int read_exr_channels(RetexLayer *layer, RetexLayers *layers, int part, int first, RetexError *err)
 {
     RetexImage block = {0};

@@ -1,4 +1,4 @@
-/* Any picture file as a list of layers: images with named channels. Private to libretex. */
+/* Reads any picture file as a list of layers. A layer is an image with named channels. Private to libretex. */
 #ifndef RETEX_FILES_LAYERS_H
 #define RETEX_FILES_LAYERS_H
 
@@ -6,20 +6,20 @@
 
 typedef struct RetexLayers RetexLayers;
 
-/* One layer's pixels, all channels of them. */
+/* All channels of one layer. */
 typedef struct RetexLayer {
-    char (*channels)[192]; /* names, without the layer's own in front; image.channels of them */
+    char (*channels)[192]; /* image.channels names, without the layer's name as prefix */
     RetexImage image;
 } RetexLayer;
 
-/* Open an EXR (its parts are the layers), a pack (likewise), or another picture (one layer R,G,B,A). */
+/* Open a file: an EXR or a pack, whose parts are the layers, or another picture, which is one layer R,G,B,A. */
 int retex_layers_open(RetexLayers **layers, const char *path, const RetexAccess *access, const RetexBudget *budget,
                       int nthreads, RetexError *err);
 void retex_layers_close(RetexLayers **layers);
 int retex_layers_count(const RetexLayers *layers);
-const char *retex_layers_name(const RetexLayers *layers, int index); /* "" where it has none */
+const char *retex_layers_name(const RetexLayers *layers, int index); /* "" if it has no name */
 int retex_layers_find(const RetexLayers *layers, const char *name);  /* index or -1 */
-int retex_layers_is_exact(const RetexLayers *layers); /* 0: channels are what the reader made, not what the file has */
+int retex_layers_is_exact(const RetexLayers *layers); /* 0: the reader may have added or converted channels */
 
 int retex_layers_read(RetexLayer *layer, RetexLayers *layers, int index, RetexError *err);
 void retex_layer_free(RetexLayer *layer);

@@ -1,4 +1,4 @@
-/* What a set's path leads to: an EXR file, or a pack. */
+/* Opens, reads and checks sets, each an EXR file or a pack, and samples. */
 #include <retex/pack.h>
 #include <retex/samples.h>
 #include <retex/set.h>
@@ -16,7 +16,7 @@ static int is_pack(const RetexInput *input)
     return got > 0 && retex_pack_probe(begin, (size_t)got);
 }
 
-/* Read what is wanted, or with open all but the set's parts. */
+/* Read the set, the samples, or both: those whose pointer is not NULL. open: 1 = parts of the set are read later. */
 static int read_file(const char *path, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
