@@ -143,7 +143,8 @@ static inline float hit_number(const void *hits, unsigned n, unsigned i, HitFiel
     return ((const float *)hits)[(unsigned)field * n + i];
 }
 
-/* In the second trace a ray keeps the nearest hit and continues to all other candidates. */
+/* Filter function: tests a triangle in double. An occlusion query ends at the first opaque triangle. The second
+ * trace keeps the nearest hit and continues to all other candidates. */
 void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;

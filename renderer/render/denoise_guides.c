@@ -84,7 +84,7 @@ static void note_primitive(PixelGuides *sums, int primitive)
     sums->differ |= primitive != sums->primitive;
 }
 
-/* first: shading of the surface at hit, or NULL if the ray has no hit. */
+/* hit: the ray's first hit. first: the shading at that hit; not read if there is none. */
 static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
 {
     const DenoiseGuides *job = sums->of;

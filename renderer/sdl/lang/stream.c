@@ -113,9 +113,9 @@ static void end_of_file(Sdl *sdl, const Raw *raw)
     set_token(sdl, raw, TOKEN_END);
 }
 
-/* Produce the next token. If the next raw token in frame `stop` itself starts a declaration or a similar directive,
- * it is not consumed and 0 is returned; an expression without `;` ends in this way. stop = -1: never. With `any`
- * every token of that frame is left unconsumed. */
+/* Produce the next token. Returns 0, and consumes nothing, if the next raw token in frame `stop` itself is a
+ * declaration or a similar directive; an expression without `;` ends in this way. stop = -1: never. With `any` it
+ * also returns 0 as soon as frame `stop` is on top again. */
 static int fill(Sdl *sdl, int stop, int any)
 {
     while (!sdl->have) {
