@@ -17,7 +17,7 @@ typedef struct Compaction {
     RetexSet *set; /* the new set */
     const RetexCompactScales *scales;
     int nthreads;
-    RetexCompactCache *cache; /* clusters and gains that are made already */
+    RetexCompactCache *cache; /* clusters, sums and gains that are made already */
     int trial;                /* 1: copy from the cache, for other trials; 0: the cache is complete, move from it */
     RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* trial textures by footprint, if trial is 1 */
     int factors[RETEX_COMPACT_KINDS],

@@ -16,20 +16,20 @@
 #include <retex/parallel.h>
 
 #define TEXEL (1.0 / (1 << 26)) /* UV variance of a texel of a texture 8192 wide */
-#define OFF_TIMES 3             /* standard deviations between a mean and its map, at most, */
-#define OFF_MEDIAN 0.55         /* median squared distance of independent samples from a map fitted to them too, */
-                                /* relative to their mean squared distance from the true map */
-#define OFF_LEAST 0.02          /* plus so many pixels */
-#define VARIANCE_TIMES 3        /* relative error of a variance, times the root of the samples, at most, */
-#define VARIANCE_LEAST 0.4      /* or this, if larger */
-#define CORRELATION_LEAST 0.3   /* likewise of covariances, relative to the variances' geometric mean */
-#define INSIDE 0.75             /* pixels from the pixel's centre to a cluster, at most, along both sides */
-#define ROUGH 9                 /* factor on the squared limit of distances from the first, rough map */
-#define DEPTH_LEAST 0.04        /* change of depth per pixel; less changes steps by half a percent only */
-#define DEPTH_MOST 0.4          /* depth at a corner of the window is then still a fifth */
-#define DEPTH_BEND 0.25         /* curvature that a depth may leave, as a share of the squared depth */
-#define QUARTERED 16            /* samples of a pixel that is stored as quarters, at least */
-#define NEAR_MAP 0.02           /* squared pixels between smoothed means and their neighbours' maps, at most */
+#define OFF_TIMES 3             /* most distance of a mean from its map, in standard deviations, */
+#define OFF_MEDIAN 0.55       /* for independent samples: median squared distance from a map that is fitted to them, */
+                              /* relative to their mean squared distance from the true map */
+#define OFF_LEAST 0.02        /* plus this many pixels */
+#define VARIANCE_TIMES 3      /* most relative error of a variance, times the square root of the number of samples, */
+#define VARIANCE_LEAST 0.4    /* or this, if larger */
+#define CORRELATION_LEAST 0.3 /* the same for covariances, relative to the geometric mean of the variances */
+#define INSIDE 0.75           /* most distance of a cluster from the pixel's centre, in pixels along each side */
+#define ROUGH 9               /* factor on the squared limit of distances from the first, rough map */
+#define DEPTH_LEAST 0.04 /* least change of depth per pixel; a smaller one changes UV steps by only half a percent */
+#define DEPTH_MOST 0.4   /* most change of depth per pixel; the depth at a corner of the window is then a fifth */
+#define DEPTH_BEND 0.25  /* most curvature that remains with a depth, relative to the squared depth */
+#define QUARTERED 16     /* least samples of a pixel that is stored as quarters */
+#define NEAR_MAP 0.02    /* most squared distance of smoothed means from the last map, in pixels */
 enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* of fitting */ };
 
 /* ---- the map ---- */
@@ -54,7 +54,7 @@ typedef struct SmoothWork {
     UvMap *maps;
     const int *periodic;
     int width, height;
-    int pass;       /* -1: distances only */
+    int pass;       /* -1: only distances are measured, for scatter */
     double noise;   /* share of the expected noise that may be removed */
     double scatter; /* variance of means about their maps, relative to that of independent samples */
     float *offs;

@@ -18,7 +18,7 @@ enum {
     TOKENS = 1 << TOKEN_BITS,
     CLASSES = 32,          /* contexts of tokens: by the size of residuals nearby */
     RANKS_MAX = 4096,      /* most distinct numbers that are coded by rank */
-    LARGEST_SIZE = 1 << 24 /* of a residual in contexts: larger ones are clamped to it */
+    LARGEST_SIZE = 1 << 24 /* most size of a residual in contexts: larger ones are clamped */
 };
 
 /* Adaptive probabilities, updated while a band is coded. */
