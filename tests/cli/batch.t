@@ -200,30 +200,30 @@ $ mkfifo ../pipe; cp brick.jpg ../soon.jpg; mkdir out ../outside; printf '%s\n' 
 ! retex-combine: error: 2 of 4 pictures failed
 
 # Pictures stay below --batch-root, whatever they are called; they are named from there.
-$ mkdir -p root/there rootx; ln -s ../../outside root/link; ln -s ../../outside/x.png root/x.png; ln -s nowhere.png root/dangling.png; touch ../outside/x.png; printf '%s\n' output,floor ../d.png ../rootx/e.png link/f.png x.png "$PWD/h.png" link/new/i.png there/../../j.png gone/../k.png >../t; retex-combine s.exr --batch ../t --batch-root root --mkdir 2>&1 | sed "s,$PWD,PWD,"; printf '%s\n' output,floor a.png ./there/../b.png new/c.png "$PWD/root/g.png" ../root/k.png dangling.png >../t; retex-combine -q s.exr --batch ../t --batch-root root/ --mkdir; find root | sort | tr '\n' ' '; ls rootx; rm -r root rootx
-> retex-combine: error: ../t:2: ../d.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:3: ../rootx/e.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:4: link/f.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:5: x.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:6: PWD/h.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:7: link/new/i.png is not below root, as --batch-root requires
-> retex-combine: error: ../t:8: there/../../j.png is not below root, as --batch-root requires
+$ mkdir -p base/there basex; ln -s ../../outside base/link; ln -s ../../outside/x.png base/x.png; ln -s nowhere.png base/dangling.png; touch ../outside/x.png; printf '%s\n' output,floor ../d.png ../basex/e.png link/f.png x.png "$PWD/h.png" link/new/i.png there/../../j.png gone/../k.png >../t; retex-combine s.exr --batch ../t --batch-root base --mkdir 2>&1 | sed "s,$PWD,PWD,"; printf '%s\n' output,floor a.png ./there/../b.png new/c.png "$PWD/base/g.png" ../base/k.png dangling.png >../t; retex-combine -q s.exr --batch ../t --batch-root base/ --mkdir; find base | sort | tr '\n' ' '; ls basex; rm -r base basex
+> retex-combine: error: ../t:2: ../d.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:3: ../basex/e.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:4: link/f.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:5: x.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:6: PWD/h.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:7: link/new/i.png is not below base, as --batch-root requires
+> retex-combine: error: ../t:8: there/../../j.png is not below base, as --batch-root requires
 > retex-combine: error: ../t:9: cannot write gone/../k.png: '..' in a folder that is not there
-> root root/a.png root/b.png root/dangling.png root/g.png root/k.png root/link root/new root/new/c.png root/there root/x.png
-$ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-root root; retex-combine -q s.exr --batch ../t --batch-root s.exr --mkdir; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir --dry-run; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir; find root | sort; rm -r root
-> root
-> root/of
-> root/of/batch
-> root/of/batch/a.png
-! retex-combine: error: --batch-root root: no such folder
+> base base/a.png base/b.png base/dangling.png base/g.png base/k.png base/link base/new base/new/c.png base/there base/x.png
+$ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-root base; retex-combine -q s.exr --batch ../t --batch-root s.exr --mkdir; retex-combine -q s.exr --batch ../t --batch-root base/of/batch --mkdir --dry-run; retex-combine -q s.exr --batch ../t --batch-root base/of/batch --mkdir; find base | sort; rm -r base
+> base
+> base/of
+> base/of/batch
+> base/of/batch/a.png
+! retex-combine: error: --batch-root base: no such folder
 ! retex-combine: error: --batch-root s.exr: no such folder
 # So do they where a folder becomes a link while the batch runs.
-$ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg sub/deep/e.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root root --mkdir & sh ../race 'mv root/sub root/old; ln -s ../../outside root/sub; ln -s ../../outside root/new'; wait $!; echo $?; find root | sort | tr '\n' ' '; ls ../outside; rm -r root; sh ../new
+$ mkdir -p base/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg sub/deep/e.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root base --mkdir & sh ../race 'mv base/sub base/old; ln -s ../../outside base/sub; ln -s ../../outside base/new'; wait $!; echo $?; find base | sort | tr '\n' ' '; ls ../outside; rm -r base; sh ../new
 > 2
-> root root/a.png root/d.png root/new root/old root/sub x.png
-! retex-combine: error: ../t:3: sub/b.png is not below root, as --batch-root requires
-! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root requires
-! retex-combine: error: ../t:5: sub/deep/e.png is not below root, as --batch-root requires
+> base base/a.png base/d.png base/new base/old base/sub x.png
+! retex-combine: error: ../t:3: sub/b.png is not below base, as --batch-root requires
+! retex-combine: error: ../t:4: new/c.png is not below base, as --batch-root requires
+! retex-combine: error: ../t:5: sub/deep/e.png is not below base, as --batch-root requires
 ! retex-combine: error: 3 of 5 pictures failed
 
 # A signal ends a batch, while it waits for its second row's image; the report has what was done until then.
@@ -295,7 +295,7 @@ $ retex-render --size 8x6 --spp 1 --variants ../t --mkdir --progress json scenes
 ! retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated
 ! retex-render: error: ../t:20: cannot write /dev/full: No space left on device
 ! retex-render: error: 2 of 20 pictures failed
-$ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; echo 'A' >part.inc; for r in report work/wrong.pov work/part.inc; do retex-render -q --size 8x6 --spp 1 --variants ../t --report ../$r wrong.pov; done; sh ../times <../report; cat wrong.pov part.inc; rm wrong.pov part.inc; retex-render -q --size 8x6 --spp 1 --variants ../t --report ../report --replace floor=none.jpg scenes/cornell-box/cornell-box.pov; sh ../times <../report | grep -v row
+$ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; echo 'A' >part.inc; for r in report here/wrong.pov here/part.inc; do retex-render -q --size 8x6 --spp 1 --variants ../t --report ../$r wrong.pov; done; sh ../times <../report; cat wrong.pov part.inc; rm wrong.pov part.inc; retex-render -q --size 8x6 --spp 1 --variants ../t --report ../report --replace floor=none.jpg scenes/cornell-box/cornell-box.pov; sh ../times <../report | grep -v row
 > {
 >   "tool": "retex-render", "version": "0.1.0", "table": "../t",
 >   "status": "failed", "total": 1, "made": 0, "failed": 0, "seconds": S, "error": "wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path",
@@ -313,7 +313,7 @@ $ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; e
 >   ]
 > }
 ! retex-render: error: wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path
-! retex-render: error: ../work/wrong.pov: --report would replace the scene, wrong.pov
+! retex-render: error: ../here/wrong.pov: --report would replace the scene, wrong.pov
 ! retex-render: error: wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path
 ! retex-render: error: cannot read none.jpg: No such file or directory
 $ printf '%s\n' output,floor sub/1.exr ../2.exr >../t; retex-render -q --size 8x6 --spp 1 --variants ../t --batch-root out --mkdir scenes/cornell-box/cornell-box.pov; sed -i 3d ../t;  retex-render -q --size 8x6 --spp 1 --variants ../t --batch-root out --mkdir scenes/cornell-box/cornell-box.pov; find out

@@ -25,8 +25,8 @@ export PATH SCENES TESTS LC_ALL
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-mkdir "$folder/work"
-cd "$folder/work" || exit 1
+mkdir "$folder/here"
+cd "$folder/here" || exit 1
 
 number=0 skipping=
 

@@ -16,7 +16,7 @@ OIIO_LIBRARY_PATH=$build/plugins
 export PATH LC_ALL OIIO_LIBRARY_PATH
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-mkdir "$folder/work" "$folder/examples"
+mkdir "$folder/here" "$folder/examples"
 
 awk -v out="$folder/examples" '
     function line(text) {
@@ -33,7 +33,7 @@ awk -v out="$folder/examples" '
     /^\.Ed/ { display = 0; next }
     display && !/^\.\\"/ { line($0) }' "$page"
 
-cd "$folder/work" || exit 1
+cd "$folder/here" || exit 1
 ln -s "$here/scenes" scenes
 cp "$here/scenes/textures/brick.jpg" brick.jpg
 cp "$here/scenes/living-room/textures/oak-planks.jpg" oak.jpg

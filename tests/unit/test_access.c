@@ -26,20 +26,20 @@ static void write_text(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* top/root with a file and a folder in it; beside it a folder whose name begins alike; and links of all kinds. */
+/* top/base with a file and a folder in it; beside it a folder whose name begins alike; and links of all kinds. */
 static char top[PATH_MAX], root[PATH_MAX + 8];
 
 static int make_tree(void **state)
 {
     if (test_make_folder(state) || !realpath(test_folder, top) || chdir(top))
         return -1;
-    snprintf(root, sizeof root, "%s/root", top);
-    mkdir("root", 0777), mkdir("root/sub", 0777), mkdir("rootless", 0777), mkdir("rootless/sub", 0777);
-    write_text("root/file", "I"), write_text("root/sub/file", "I"), write_text("rootless/file", "O");
-    write_text("above", "O"), write_text("rootless/sub/file", "O");
-    return symlink("sub/file", "root/within") || symlink("../above", "root/away") || symlink(top, "root/up") ||
-           symlink("../rootless/none", "root/dangling") || symlink("none", "root/nowhere") ||
-           symlink("root", "to-root") || mkfifo("root/pipe", 0666);
+    snprintf(root, sizeof root, "%s/base", top);
+    mkdir("base", 0777), mkdir("base/sub", 0777), mkdir("baseless", 0777), mkdir("baseless/sub", 0777);
+    write_text("base/file", "I"), write_text("base/sub/file", "I"), write_text("baseless/file", "O");
+    write_text("above", "O"), write_text("baseless/sub/file", "O");
+    return symlink("sub/file", "base/within") || symlink("../above", "base/away") || symlink(top, "base/up") ||
+           symlink("../baseless/none", "base/dangling") || symlink("none", "base/nowhere") ||
+           symlink("base", "to-base") || mkfifo("base/pipe", 0666);
 }
 
 static int remove_entry(const char *path, const struct stat *info, int type, struct FTW *where)
@@ -73,7 +73,7 @@ static void test_answers(void **state)
         {"sub", RETEX_ACCESS_IRREGULAR, RETEX_ACCESS_IRREGULAR},
         {"pipe", RETEX_ACCESS_IRREGULAR, RETEX_ACCESS_IRREGULAR},
         {"../above", RETEX_ACCESS_OUTSIDE, RETEX_ACCESS_OUTSIDE},
-        {"../rootless/file", RETEX_ACCESS_OUTSIDE, RETEX_ACCESS_OUTSIDE},
+        {"../baseless/file", RETEX_ACCESS_OUTSIDE, RETEX_ACCESS_OUTSIDE},
         {"away", RETEX_ACCESS_OUTSIDE, RETEX_ACCESS_OUTSIDE},
         {"up/above", RETEX_ACCESS_OUTSIDE, RETEX_ACCESS_OUTSIDE},
         /* of what is outside, safe access does not tell whether it is there */
@@ -81,11 +81,11 @@ static void test_answers(void **state)
         {"up/none", RETEX_ACCESS_ABSENT, RETEX_ACCESS_OUTSIDE},
         {"dangling", RETEX_ACCESS_ABSENT, RETEX_ACCESS_OUTSIDE},
         {"nowhere", RETEX_ACCESS_ABSENT, RETEX_ACCESS_OUTSIDE},
-        {"../root/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
-        {"../rootless/../root/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
-        {"up/root/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
+        {"../base/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
+        {"../baseless/../base/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
+        {"up/base/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_OUTSIDE},
     };
-    static const char *const spellings[] = {"root", "root/", "./root/", "to-root", ""};
+    static const char *const spellings[] = {"base", "base/", "./base/", "to-base", ""};
     const char *roots[] = {root};
     RetexAccess access = RETEX_ACCESS_INIT;
     access.roots = roots, access.nroots = 1;
@@ -108,38 +108,38 @@ static void test_absolute_names(void **state)
         const char *name;
         RetexAccessResult safe;
     } cases[] = {
-        {"/root/file", RETEX_ACCESS_ALLOWED},
-        {"/to-root/file", RETEX_ACCESS_ALLOWED},
-        {"/root/none", RETEX_ACCESS_ABSENT},
-        {"/root", RETEX_ACCESS_IRREGULAR},
-        {"/rootless/file", RETEX_ACCESS_OUTSIDE},
-        {"/rootless", RETEX_ACCESS_OUTSIDE},
+        {"/base/file", RETEX_ACCESS_ALLOWED},
+        {"/to-base/file", RETEX_ACCESS_ALLOWED},
+        {"/base/none", RETEX_ACCESS_ABSENT},
+        {"/base", RETEX_ACCESS_IRREGULAR},
+        {"/baseless/file", RETEX_ACCESS_OUTSIDE},
+        {"/baseless", RETEX_ACCESS_OUTSIDE},
         {"/above", RETEX_ACCESS_OUTSIDE},
         {"/none", RETEX_ACCESS_OUTSIDE},
-        {"/rootless/../root/file", RETEX_ACCESS_OUTSIDE},
-        {"/none/../root/file", RETEX_ACCESS_OUTSIDE},
-        {"/root/../above", RETEX_ACCESS_OUTSIDE},
-        {"/root/up/root/file", RETEX_ACCESS_OUTSIDE},
+        {"/baseless/../base/file", RETEX_ACCESS_OUTSIDE},
+        {"/none/../base/file", RETEX_ACCESS_OUTSIDE},
+        {"/base/../above", RETEX_ACCESS_OUTSIDE},
+        {"/base/up/base/file", RETEX_ACCESS_OUTSIDE},
     };
     const char *roots[] = {root}, *all[] = {"/"};
     RetexAccess access = {sizeof access, 1, roots, 1};
     char name[PATH_MAX + 64];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         snprintf(name, sizeof name, "%s%s", top, cases[i].name);
-        RetexAccessResult answer = retex_access_check(&access, "root", name);
+        RetexAccessResult answer = retex_access_check(&access, "base", name);
         if (answer != cases[i].safe)
             fail_msg("`%s`: %d", cases[i].name, (int)answer);
     }
-    assert_int_equal(retex_access_check(&access, "root", "/"), RETEX_ACCESS_OUTSIDE);
-    assert_int_equal(retex_access_check(&access, "root", "/etc/passwd"), RETEX_ACCESS_OUTSIDE);
+    assert_int_equal(retex_access_check(&access, "base", "/"), RETEX_ACCESS_OUTSIDE);
+    assert_int_equal(retex_access_check(&access, "base", "/etc/passwd"), RETEX_ACCESS_OUTSIDE);
     access.roots = all;
     assert_int_equal(retex_access_check(&access, "/", "etc/passwd"), RETEX_ACCESS_ALLOWED);
-    assert_int_equal(retex_access_check(&access, "root", "../above"), RETEX_ACCESS_ALLOWED);
+    assert_int_equal(retex_access_check(&access, "base", "../above"), RETEX_ACCESS_ALLOWED);
     access.nroots = 0; /* a folder that is not there is no leave to read everything */
     assert_int_equal(retex_access_check(&access, "/", "etc/passwd"), RETEX_ACCESS_OUTSIDE);
     access.roots = NULL;
     assert_int_equal(retex_access_check(&access, "", "above"), RETEX_ACCESS_ALLOWED);
-    assert_int_equal(retex_access_check(NULL, "", "root/pipe"), RETEX_ACCESS_IRREGULAR);
+    assert_int_equal(retex_access_check(NULL, "", "base/pipe"), RETEX_ACCESS_IRREGULAR);
 }
 
 /* The file's letter, or the negative code. */
@@ -159,16 +159,16 @@ static void test_open(void **state)
     (void)state;
     const char *roots[] = {root};
     RetexAccess access = {sizeof access, 1, roots, 1};
-    assert_int_equal(opened(&access, "root/file"), 'I');
-    assert_int_equal(opened(&access, "root/within"), 'I');
-    assert_int_equal(opened(&access, "to-root/sub/../file"), 'I');
-    assert_int_equal(opened(&access, "root/none"), RETEX_EIO);
-    assert_int_equal(opened(&access, "root/away"), RETEX_EACCESS);
-    assert_int_equal(opened(&access, "rootless/file"), RETEX_EACCESS);
-    assert_int_equal(opened(&access, "root/pipe"), RETEX_EACCESS);
-    assert_int_equal(opened(&access, "root"), RETEX_EACCESS);
+    assert_int_equal(opened(&access, "base/file"), 'I');
+    assert_int_equal(opened(&access, "base/within"), 'I');
+    assert_int_equal(opened(&access, "to-base/sub/../file"), 'I');
+    assert_int_equal(opened(&access, "base/none"), RETEX_EIO);
+    assert_int_equal(opened(&access, "base/away"), RETEX_EACCESS);
+    assert_int_equal(opened(&access, "baseless/file"), RETEX_EACCESS);
+    assert_int_equal(opened(&access, "base/pipe"), RETEX_EACCESS);
+    assert_int_equal(opened(&access, "base"), RETEX_EACCESS);
     access.roots = NULL;
-    assert_int_equal(opened(&access, "rootless/file"), 'O');
+    assert_int_equal(opened(&access, "baseless/file"), 'O');
     assert_int_equal(opened(&access, "/dev/zero"), RETEX_EACCESS);
     assert_int_equal(opened(NULL, "above"), 'O');
 }
@@ -179,7 +179,7 @@ static atomic_int ended;
 static void *exchange(void *unused)
 {
     while (!atomic_load(&ended))
-        if (renameat2(AT_FDCWD, "root/sub", AT_FDCWD, "root/out", RENAME_EXCHANGE))
+        if (renameat2(AT_FDCWD, "base/sub", AT_FDCWD, "base/out", RENAME_EXCHANGE))
             break;
     return unused;
 }
@@ -191,11 +191,11 @@ static void test_what_is_read_was_checked(void **state)
     RetexAccess access = {sizeof access, 1, roots, 1};
     pthread_t thread;
     int read_inside = 0;
-    assert_int_equal(symlink("../rootless/sub", "root/out"), 0);
+    assert_int_equal(symlink("../baseless/sub", "base/out"), 0);
     atomic_store(&ended, 0);
     assert_int_equal(pthread_create(&thread, NULL, exchange, NULL), 0);
     for (int i = 0; i < 20000; i++) {
-        int letter = opened(&access, "root/sub/file");
+        int letter = opened(&access, "base/sub/file");
         read_inside += letter == 'I';
         if (letter == 'O')
             fail_msg("turn %d: a file from outside", i);
@@ -203,7 +203,7 @@ static void test_what_is_read_was_checked(void **state)
     atomic_store(&ended, 1);
     pthread_join(thread, NULL);
     assert_true(read_inside > 0);
-    unlink("root/out"), unlink("root/sub"); /* one of them is the link */
+    unlink("base/out"), unlink("base/sub"); /* one of them is the link */
 }
 
 /* The first bytes of a file, and OpenImageIO's name of the format. */
