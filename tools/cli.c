@@ -37,12 +37,6 @@ static const CliOption common_options[] = {
     {0},
 };
 
-/* The common options of this tool; without -o if it has no output file. */
-static const CliOption *common_of(const Cli *cli)
-{
-    return common_options + (cli->no_output != 0);
-}
-
 /* Called before the first option is parsed. Open closed standard descriptors, so that no other file gets their numbers;
  * they are opened in the wrong direction, so that using them still fails. Ignore SIGPIPE and SIGXFSZ: a closed pipe or
  * a file size limit is then a write error like a full disk. The watchdog takes over the terminating signals. */
@@ -111,7 +105,7 @@ static _Noreturn void print_help(const Cli *cli)
         print_options(cli->options);
         putchar('\n');
     }
-    print_options(common_of(cli));
+    print_options(common_options);
     exit(cli_close(cli, CLI_OK));
 }
 
@@ -126,7 +120,7 @@ static _Noreturn void print_version(const Cli *cli)
 /* Find an option by name (length bytes) or, if name is NULL, by letter. The tool's own options come first. */
 static const CliOption *find_option(const Cli *cli, const char *name, size_t length, char letter)
 {
-    const CliOption *tables[] = {cli->options, common_of(cli)};
+    const CliOption *tables[] = {cli->options, common_options};
     for (int t = 0; t < 2; t++)
         for (const CliOption *o = tables[t]; o && o->name; o++) {
             if (name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
@@ -139,7 +133,7 @@ static const CliOption *find_option(const Cli *cli, const char *name, size_t len
 
 static const CliOption *nearest_option(const Cli *cli, const char *name)
 {
-    const CliOption *tables[] = {cli->options, common_of(cli)};
+    const CliOption *tables[] = {cli->options, common_options};
     RetexNearest nearest = {name, NULL, 0};
     for (int t = 0; t < 2; t++)
         for (const CliOption *o = tables[t]; o && o->name; o++)
@@ -156,8 +150,6 @@ static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const c
                                                                        : toupper((unsigned char)name[0])
                                      : 0;
     const CliOption *option = letter ? find_option(cli, NULL, 0, (char)letter) : nearest_option(cli, name);
-    if (cli->no_output && (strcmp(name, "output") == 0 || (dashes[1] == 0 && name[0] == 'o')))
-        cli_die(cli, "the answer goes to standard output: no -o");
     if (option && letter)
         cli_die(cli, "unknown option %s%.*s; is -%c meant?", dashes, length, text, letter);
     if (option)
@@ -326,7 +318,7 @@ static int has_output(const Cli *cli)
     for (int i = cli->next; i < cli->argc; i++)
         if (strncmp(cli->argv[i], "-o", 2) == 0 || strncmp(cli->argv[i], "--output", 8) == 0)
             return 1;
-    return cli->output || cli->no_output;
+    return cli->output != NULL;
 }
 
 const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t size)
@@ -496,6 +488,33 @@ const char *cli_output(const Cli *cli)
     return path;
 }
 
+void cli_answer(Cli *cli)
+{
+    RetexError err = {0};
+    cli_writes(cli, "the answer", cli->output ? cli->output : "-");
+    cli->answer = stdout;
+    if (!cli->output || strcmp(cli->output, "-") == 0)
+        return;
+    if (retex_set_write_check(cli->output, &err))
+        cli_fail(cli, &err);
+    cli->answer = open_memstream(&cli->answer_text, &cli->answer_bytes);
+    if (!cli->answer)
+        cli_die(cli, "not enough memory for the answer");
+}
+
+/* Write the answer that is kept in memory to the file of -o. */
+static void write_answer(const Cli *cli)
+{
+    RetexError err = {0};
+    int failed = ferror(cli->answer);
+    if (fclose(cli->answer) != 0 || failed)
+        cli_die(cli, "not enough memory for the answer");
+    failed = retex_file_write(cli->output, cli->answer_text, cli->answer_bytes, &err);
+    free(cli->answer_text);
+    if (failed)
+        cli_fail(cli, &err);
+}
+
 void cli_input(const Cli *cli, const char *path, const char *what)
 {
     if (strcmp(path, "-") == 0 && isatty(STDIN_FILENO))
@@ -615,6 +634,8 @@ void cli_progress(const Cli *cli, const char *label, double done)
 
 int cli_close(const Cli *cli, int status)
 {
+    if (cli->answer && cli->answer != stdout && status != CLI_FAIL)
+        write_answer(cli);
     int failed = ferror(stdout);
     errno = 0;
     if (fclose(stdout) != 0)

@@ -2,6 +2,8 @@
 #ifndef RETEX_CLI_H
 #define RETEX_CLI_H
 
+#include <stdio.h>
+
 #include <retex/access.h>
 #include <retex/budget.h>
 #include <retex/set.h>
@@ -25,7 +27,6 @@ typedef struct Cli {
     const char *usage;       /* "SET --texture[:opts] NAME=IMAGE … [-o SAMPLES]" */
     const char *about;       /* one sentence, for --help */
     const CliOption *options;
-    int no_output;           /* 1: the tool writes to standard output only and refuses -o */
     int argc;
     char **argv;
     int next;                /* index of the next argument; starts at 1 */
@@ -41,6 +42,9 @@ typedef struct Cli {
     const char *value;       /* argument of the option last returned */
     const char *modifiers;   /* the text after `--name:`, or "" */
     const char *group;       /* the letters of a group such as -qv that are not parsed yet */
+    FILE *answer;            /* what a tool whose output is text prints to; see cli_answer */
+    char *answer_text;       /* its text, where -o names a file */
+    size_t answer_bytes;
 } Cli;
 
 /* Return the next option of the tool's own table and set cli->value and cli->modifiers. Return &cli_positional for a
@@ -80,6 +84,11 @@ char *cli_plain(char *text);
 /* Return the output file: that of -o, or "-" if standard output is not a terminal. Otherwise exit with an error: pixels
  * are never written to a terminal, not even with `-o -` or /dev/tty. */
 const char *cli_output(const Cli *cli);
+
+/* For a tool whose output is text: check the output, announce it as with cli_writes, and open cli->answer. Without -o
+ * that is standard output, which may be a terminal. With -o it is memory, and cli_close writes the file, unless the
+ * status is CLI_FAIL. */
+void cli_answer(Cli *cli);
 
 /* Check a file to read. Exit with an error if it is "-" and standard input is a terminal, or if --safe is given and it
  * is neither "-" nor a regular file. `what` is the expected content, for the message. */
@@ -125,7 +134,8 @@ void cli_take_progress(Cli *cli);
  * rate-limited; one thread may call often. */
 void cli_progress(const Cli *cli, const char *label, double done);
 
-/* Flush and close stdout. Exit with CLI_FAIL if that fails, for instance on a full disk. Call last. */
+/* Write the answer to the file of -o, flush and close stdout. Exit with CLI_FAIL if that fails, for instance on a full
+ * disk. Call last. */
 int cli_close(const Cli *cli, int status);
 
 #endif

@@ -59,86 +59,85 @@ static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *name
 }
 
 /* Print a figure, or null if it is not defined: the part has no colours. */
-static void print_json_figure(const char *name, double value, int defined)
+static void print_json_figure(FILE *out, const char *name, double value, int defined)
 {
     if (defined)
-        printf("\"%s\": %.9g, ", name, value);
+        fprintf(out, "\"%s\": %.9g, ", name, value);
     else
-        printf("\"%s\": null, ", name);
+        fprintf(out, "\"%s\": null, ", name);
 }
 
 /* Print the keys of one part, without braces. */
-static void print_json_part(const RetexDiffPart *part)
+static void print_json_part(FILE *out, const RetexDiffPart *part)
 {
     const RetexMetrics *m = &part->metrics;
     int color = part->compared && part->has_color;
-    printf("\"part\": ");
-    json_text(stdout, part->name);
-    printf(", \"width\": %d, \"height\": %d, \"channels\": %d, ", part->width, part->height, part->channels);
-    print_json_figure("psnr", m->psnr, color);
-    print_json_figure("relmse", m->relmse, color);
-    print_json_figure("mae", m->mae, part->compared);
-    print_json_figure("flip_mean", m->flip_mean, color);
-    print_json_figure("flip_p99", m->flip_p99, color);
-    print_json_figure("max_abs", m->max_abs, part->compared);
-    print_json_figure("max_rel", m->max_rel, part->compared);
-    printf("\"nonfinite\": %ld, ", m->nonfinite);
+    fprintf(out, "\"part\": ");
+    json_text(out, part->name);
+    fprintf(out, ", \"width\": %d, \"height\": %d, \"channels\": %d, ", part->width, part->height, part->channels);
+    print_json_figure(out, "psnr", m->psnr, color);
+    print_json_figure(out, "relmse", m->relmse, color);
+    print_json_figure(out, "mae", m->mae, part->compared);
+    print_json_figure(out, "flip_mean", m->flip_mean, color);
+    print_json_figure(out, "flip_p99", m->flip_p99, color);
+    print_json_figure(out, "max_abs", m->max_abs, part->compared);
+    print_json_figure(out, "max_rel", m->max_rel, part->compared);
+    fprintf(out, "\"nonfinite\": %ld, ", m->nonfinite);
     if (part->compared) {
-        printf("\"worst\": {\"x\": %d, \"y\": %d, \"channel\": ", m->worst.x, m->worst.y);
-        json_text(stdout, part->worst_channel);
-        printf("}, ");
+        fprintf(out, "\"worst\": {\"x\": %d, \"y\": %d, \"channel\": ", m->worst.x, m->worst.y);
+        json_text(out, part->worst_channel);
+        fprintf(out, "}, ");
     } else {
-        printf("\"worst\": null, ");
+        fprintf(out, "\"worst\": null, ");
     }
-    printf("\"reason\": ");
-    json_text(stdout, part->reason);
+    fprintf(out, "\"reason\": ");
+    json_text(out, part->reason);
 }
 
 /* Print the first part's figures; with --all-parts also a list of all parts. */
-static void print_json(const RetexDiff *diff, int all_parts)
+static void print_json(FILE *out, const RetexDiff *diff, int all_parts)
 {
-    printf("{\"differs\": %s, ", diff->differs ? "true" : "false");
+    fprintf(out, "{\"differs\": %s, ", diff->differs ? "true" : "false");
     if (diff->nparts)
-        print_json_part(&diff->parts[0]);
+        print_json_part(out, &diff->parts[0]);
     else
-        print_json_part(&(RetexDiffPart){0});
+        print_json_part(out, &(RetexDiffPart){0});
     if (all_parts) {
-        printf(", \"parts\": [");
+        fprintf(out, ", \"parts\": [");
         for (int i = 0; i < diff->nparts; i++) {
-            printf("%s{", i ? ", " : "");
-            print_json_part(&diff->parts[i]);
-            printf("}");
+            fprintf(out, "%s{", i ? ", " : "");
+            print_json_part(out, &diff->parts[i]);
+            fprintf(out, "}");
         }
-        printf("]");
+        fprintf(out, "]");
     }
-    printf(", \"why\": ");
-    json_text(stdout, diff->reason);
-    printf("}\n");
+    fprintf(out, ", \"why\": ");
+    json_text(out, diff->reason);
+    fprintf(out, "}\n");
 }
 
 /* Print one line per part: its figures, and why it differs. */
-static void print_line(RetexDiffPart *part, int name)
+static void print_line(FILE *out, RetexDiffPart *part, int name)
 {
     const RetexMetrics *m = &part->metrics;
     cli_plain(part->name), cli_plain(part->worst_channel), cli_plain(part->reason);
     if (name)
-        printf("%s: ", part->name);
+        fprintf(out, "%s: ", part->name);
     if (part->compared && part->has_color)
-        printf("psnr %.2f relmse %.4g mae %.4g flip %.4g (p99 %.4g) ", m->psnr, m->relmse, m->mae, m->flip_mean,
-               m->flip_p99);
+        fprintf(out, "psnr %.2f relmse %.4g mae %.4g flip %.4g (p99 %.4g) ", m->psnr, m->relmse, m->mae, m->flip_mean,
+                m->flip_p99);
     if (part->compared)
-        printf("max %.4g rel %.4g at %d,%d %s%s", m->max_abs, m->max_rel, m->worst.x, m->worst.y, part->worst_channel,
-               part->reason[0] ? ": " : "");
-    printf("%s\n", part->reason);
+        fprintf(out, "max %.4g rel %.4g at %d,%d %s%s", m->max_abs, m->max_rel, m->worst.x, m->worst.y,
+                part->worst_channel, part->reason[0] ? ": " : "");
+    fprintf(out, "%s\n", part->reason);
 }
 
 int main(int argc, char **argv)
 {
     Cli cli = {
         .tool = "retex-diff",
-        .usage = "[options] A B",
+        .usage = "[options] A B [-o FILE]",
         .options = options,
-        .no_output = 1,
         .argc = argc,
         .argv = argv,
         .about =
@@ -155,18 +154,18 @@ int main(int argc, char **argv)
         cli_input(&cli, names[i], "an OpenEXR file");
         cli_reads(&cli, i ? "B" : "A", names[i]);
     }
-    cli_writes(&cli, "the answer", "-");
+    cli_answer(&cli);
     params.access = &cli.access;
     params.budget = cli.budget;
     if (retex_diff(&diff, names[0], names[1], &params, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;
     if (json)
-        print_json(diff, params.all_parts);
+        print_json(cli.answer, diff, params.all_parts);
     for (int i = 0; !json && !cli.quiet && i < diff->nparts; i++)
-        print_line(&diff->parts[i], params.all_parts);
+        print_line(cli.answer, &diff->parts[i], params.all_parts);
     if (!json && !cli.quiet && differs && (!diff->nparts || params.all_parts))
-        printf("%s\n", cli_plain(diff->reason));
+        fprintf(cli.answer, "%s\n", cli_plain(diff->reason));
     retex_diff_close(&diff);
     return cli_close(&cli, differs ? CLI_NO : CLI_OK);
 }

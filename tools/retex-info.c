@@ -74,34 +74,34 @@ static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *
     return sizes;
 }
 
-static void print_bytes(const char *what, long long bytes)
+static void print_bytes(FILE *out, const char *what, long long bytes)
 {
     if (bytes > 0)
-        printf("  %-12s %10.2f MB\n", what, (double)bytes / 1e6);
+        fprintf(out, "  %-12s %10.2f MB\n", what, (double)bytes / 1e6);
 }
 
-static void print_target(const RetexSet *set, const RetexTarget *target)
+static void print_target(FILE *out, const RetexSet *set, const RetexTarget *target)
 {
-    printf("target %s\n", target->name);
-    printf("  idents       %s\n", target->idents);
+    fprintf(out, "target %s\n", target->name);
+    fprintf(out, "  idents       %s\n", target->idents);
     if (target->uv_scale[0] > 0 && target->uv_scale[1] > 0)
-        printf("  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
-               target->uv_scale[1]);
-    printf("  share        %.2f%% of the picture\n", 100 * target->share);
-    printf("  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
-           (double)target->mean_albedo[2]);
-    printf("  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],
-           target->periodic[0] ? ", closed" : "");
-    printf("  v            %.6g to %.6g%s\n", target->uv_min[1], target->uv_max[1],
-           target->periodic[1] ? ", closed" : "");
+        fprintf(out, "  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
+                target->uv_scale[1]);
+    fprintf(out, "  share        %.2f%% of the picture\n", 100 * target->share);
+    fprintf(out, "  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
+            (double)target->mean_albedo[2]);
+    fprintf(out, "  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],
+            target->periodic[0] ? ", closed" : "");
+    fprintf(out, "  v            %.6g to %.6g%s\n", target->uv_min[1], target->uv_max[1],
+            target->periodic[1] ? ", closed" : "");
     if (target->original >= 0)
-        printf("  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n", set->parts[target->original].image.width,
-               set->parts[target->original].image.height, target->original_min[0], target->original_min[1],
-               target->original_max[0], target->original_max[1]);
+        fprintf(out, "  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n",
+                set->parts[target->original].image.width, set->parts[target->original].image.height,
+                target->original_min[0], target->original_min[1], target->original_max[0], target->original_max[1]);
 }
 
 /* Layout footprints: print the highest number of clusters per pixel and target, for any target. */
-static void print_clusters(const RetexSet *set)
+static void print_clusters(FILE *out, const RetexSet *set)
 {
     int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0;
 
@@ -115,7 +115,7 @@ static void print_clusters(const RetexSet *set)
         most_broad = broad[i] > most_broad ? broad[i] : most_broad;
     }
     if (most_sharp || most_broad)
-        printf("clusters       %d sharp, %d broad\n", most_sharp, most_broad);
+        fprintf(out, "clusters       %d sharp, %d broad\n", most_sharp, most_broad);
 }
 
 /* Warn of folded light, which does not follow a new texture: its path has more hits than the set keeps apart. */
@@ -130,80 +130,81 @@ static void warn_folded(const Cli *cli, const RetexSet *set)
         cli_warn(cli, "%.2f%% of the light keeps the original textures: %s", 100 * worst, advice);
 }
 
-static void print_set(const RetexSet *set, const Sizes *sizes)
+static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
 {
-    printf("layout         %s\n", set->layout);
-    printf("size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
-    printf("samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
+    fprintf(out, "layout         %s\n", set->layout);
+    fprintf(out, "size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
+    fprintf(out, "samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
     if (set->denoised)
-        printf("denoised       yes\n");
+        fprintf(out, "denoised       yes\n");
     else
-        printf("denoise data   %s\n", retex_denoise_has_data(set) ? "yes" : "no");
-    printf("orders         %d%s\n", set->orders, set->strict_paper ? " (strict)" : "");
-    printf("folded         %.4f%% of the light", 100 * set->folded);
+        fprintf(out, "denoise data   %s\n", retex_denoise_has_data(set) ? "yes" : "no");
+    fprintf(out, "orders         %d%s\n", set->orders, set->strict_paper ? " (strict)" : "");
+    fprintf(out, "folded         %.4f%% of the light", 100 * set->folded);
     if (set->folded_white > 0)
-        printf(", %.4f%% were the targets white", 100 * set->folded_white);
-    printf("\n");
-    print_clusters(set);
-    printf("max depth      %d segments\n", set->max_depth);
+        fprintf(out, ", %.4f%% were the targets white", 100 * set->folded_white);
+    fprintf(out, "\n");
+    print_clusters(out, set);
+    fprintf(out, "max depth      %d segments\n", set->max_depth);
     if (set->scene[0])
-        printf("scene          %s\n", set->scene);
+        fprintf(out, "scene          %s\n", set->scene);
     if (set->generator[0])
-        printf("generator      %s\n", set->generator);
+        fprintf(out, "generator      %s\n", set->generator);
     for (int i = 0; i < set->ntargets; i++)
-        print_target(set, &set->targets[i]);
-    printf("AOVs           %d: %d radiance, %d UV, %d spread\n",
-           sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance_aovs, sizes->uv_aovs,
-           sizes->spread_aovs);
+        print_target(out, set, &set->targets[i]);
+    fprintf(out, "AOVs           %d: %d radiance, %d UV, %d spread\n",
+            sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance_aovs, sizes->uv_aovs,
+            sizes->spread_aovs);
 }
 
-static void print_samples(const RetexSamples *samples)
+static void print_samples(FILE *out, const RetexSamples *samples)
 {
     int count = 0;
 
     for (int i = 0; i < samples->nimages; i++)
         count += retex_samples_have(samples, i);
-    printf("samples of     %d footprints out of %d, %d x %d pixels\n", count, samples->nimages, samples->width,
-           samples->height);
+    fprintf(out, "samples of     %d footprints out of %d, %d x %d pixels\n", count, samples->nimages, samples->width,
+            samples->height);
     for (int i = 0; i < samples->ntargets; i++)
         if (samples->textures[i][0])
-            printf("  %-12s %s\n", samples->target_names[i], samples->textures[i]);
+            fprintf(out, "  %-12s %s\n", samples->target_names[i], samples->textures[i]);
 }
 
 /* For a pack: print the sizes of its parts in the file. */
-static void print_packed(const RetexSet *set)
+static void print_packed(FILE *out, const RetexSet *set)
 {
     uint64_t bytes[RETEX_PACK_GROUPS];
 
     if (!set || !retex_pack_bytes(bytes, set))
         return;
-    printf("bytes in the pack\n");
+    fprintf(out, "bytes in the pack\n");
     for (int i = 0; i < RETEX_PACK_GROUPS; i++)
         if (bytes[i] > 0)
-            printf("  %-12s %10llu\n", retex_pack_group_names[i], (unsigned long long)bytes[i]);
+            fprintf(out, "  %-12s %10llu\n", retex_pack_group_names[i], (unsigned long long)bytes[i]);
 }
 
-static void print_text(const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
+static void print_text(FILE *out, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
     if (set)
-        print_set(set, sizes);
+        print_set(out, set, sizes);
     if (samples)
-        print_samples(samples);
-    printf("bytes\n");
-    print_bytes("radiance", sizes->radiance);
-    print_bytes("UV", sizes->uv);
-    print_bytes("spread", sizes->spread);
-    print_bytes("albedo", sizes->albedo);
-    print_bytes("originals", sizes->originals);
-    print_bytes("other", sizes->other);
-    print_bytes("samples", sizes->samples);
-    print_bytes("file", sizes->file);
-    print_packed(set);
+        print_samples(out, samples);
+    fprintf(out, "bytes\n");
+    print_bytes(out, "radiance", sizes->radiance);
+    print_bytes(out, "UV", sizes->uv);
+    print_bytes(out, "spread", sizes->spread);
+    print_bytes(out, "albedo", sizes->albedo);
+    print_bytes(out, "originals", sizes->originals);
+    print_bytes(out, "other", sizes->other);
+    print_bytes(out, "samples", sizes->samples);
+    print_bytes(out, "file", sizes->file);
+    print_packed(out, set);
 }
 
 /* Print the manifest, with the sizes before its first key. */
 static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
+    FILE *out = cli->answer;
     RetexError error = {0};
     char *manifest;
 
@@ -211,23 +212,24 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
         cli_error(cli, &error);
         return CLI_FAIL;
     }
-    printf("{\"file_bytes\":");
+    fprintf(out, "{\"file_bytes\":");
     if (sizes->file >= 0)
-        printf("%lld", sizes->file);
+        fprintf(out, "%lld", sizes->file);
     else
-        printf("null");
-    printf(",\"aovs\":%d,\"bytes\":{\"radiance\":%lld,\"uv\":%lld,\"spread\":%lld,\"albedo\":%lld,\"originals\":%lld,"
-           "\"other\":%lld,\"samples\":%lld},",
-           sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
-           sizes->albedo, sizes->originals, sizes->other, sizes->samples);
+        fprintf(out, "null");
+    fprintf(out,
+            ",\"aovs\":%d,\"bytes\":{\"radiance\":%lld,\"uv\":%lld,\"spread\":%lld,\"albedo\":%lld,\"originals\":%lld,"
+            "\"other\":%lld,\"samples\":%lld},",
+            sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
+            sizes->albedo, sizes->originals, sizes->other, sizes->samples);
     uint64_t bytes[RETEX_PACK_GROUPS];
     if (set && retex_pack_bytes(bytes, set)) {
-        printf("\"packed_bytes\":");
+        fprintf(out, "\"packed_bytes\":");
         for (int i = 0; i < RETEX_PACK_GROUPS; i++)
-            printf("%c\"%s\":%llu", i ? ',' : '{', retex_pack_group_names[i], (unsigned long long)bytes[i]);
-        printf("},");
+            fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_group_names[i], (unsigned long long)bytes[i]);
+        fprintf(out, "},");
     }
-    printf("\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
+    fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
     free(manifest);
     return CLI_OK;
 }
@@ -258,7 +260,7 @@ static int print_info(const Cli *cli, const char *path, int json)
         status = print_json(cli, set, samples, &sizes);
     } else {
         make_plain(set, samples);
-        print_text(set, samples, &sizes);
+        print_text(cli->answer, set, samples, &sizes);
     }
     if (set)
         warn_folded(cli, set);
@@ -280,19 +282,18 @@ static int check(const Cli *cli, const char *path)
     if (code < 0)
         cli_fail(cli, &error);
     if (!cli->quiet)
-        printf("%s: ok%s\n", strcmp(path, "-") == 0 ? "standard input" : path,
-               code == RETEX_CHECKED_IN_PART ? ", but for the manifest, which has no checksum: it is of an old version"
-                                             : "");
+        fprintf(cli->answer, "%s: ok%s\n", strcmp(path, "-") == 0 ? "standard input" : path,
+                code == RETEX_CHECKED_IN_PART ? ", but for the manifest, which has no checksum: it is of an old version"
+                                              : "");
     return CLI_OK;
 }
 
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-info",
-               .usage = "SET [--json] [--check]",
+               .usage = "SET [--json] [--check] [-o FILE]",
                .about = "Describe a set, samples or a pack, or check that it is whole.",
                .options = options,
-               .no_output = 1,
                .argc = argc,
                .argv = argv,
                .next = 1};
@@ -317,6 +318,6 @@ int main(int argc, char **argv)
         cli_die(&cli, "--json and --check exclude each other");
     cli_input(&cli, path, "a set, as from retex-render");
     cli_reads(&cli, "the set", path);
-    cli_writes(&cli, "the answer", "-");
+    cli_answer(&cli);
     return cli_close(&cli, checking ? check(&cli, path) : print_info(&cli, path, json));
 }

@@ -134,6 +134,20 @@ $ retex-diff - -
 $ retex-diff a.exr b.exr --fail-psnr nan
 ! retex-diff: error: --fail-psnr: expected a number from 0 to 120, not 'nan'
 = 2
-$ retex-diff a.exr b.exr -o x
-! retex-diff: error: the answer goes to standard output: no -o
-= 2
+
+# -o: the file has what standard output would have, also where the pictures differ; after an error it is as before.
+$ for o in '' --json '-q' '--all-parts --fail-abs 1'; do retex-diff a.exr noisy.exr $o >out; s=$?; echo old >x; retex-diff a.exr noisy.exr $o -o x; echo "$s $?"; cmp out x; retex-diff $o --output=- a.exr noisy.exr | cmp out -; done
+> 1 1
+> 1 1
+> 1 1
+> 0 0
+$ echo old >x; retex-diff a.exr text.exr -o x 2>&1 | head -c 25; retex-diff a.exr noisy.exr --part none -o x; retex-diff a.exr noisy.exr -o none/x; retex-diff a.exr noisy.exr -o /dev/full; cat x; ls -A | grep tmp
+> retex-diff: error: text.eold
+! retex-diff: error: neither file has a part 'none'
+! retex-diff: error: cannot write none/x: No such file or directory
+! retex-diff: error: cannot write /dev/full: No space left on device
+= 1
+$ ln -s x link; mkdir folder; for o in folder ''; do retex-diff a.exr a.exr -o "$o"; done; retex-diff a.exr a.exr -o link; ls -l link | grep -c 'link -> x'; cmp x link; retex-diff a.exr a.exr | cmp - x
+> 1
+! retex-diff: error: cannot write folder: Is a directory
+! retex-diff: error: --output: the name is empty

@@ -79,10 +79,15 @@ $ sh try 'retex-pack s.exr -o set.retex' 'retex-pack s.exr -o x.retex --stats s.
 ! retex-pack: error: x.retex: the output and --stats are the same file
 ! retex-pack: error: ./sub/../x.retex: the output and --stats are the same file
 ! retex-pack: error: unpacked.exr: the output would replace the pack, s.retex
-$ sh try 'retex-info s.exr >>s.exr' 'retex-diff s.exr c.exr >>c.exr' 'retex-diff - - <s.exr'
+$ sh try 'retex-info s.exr >>s.exr' 'retex-diff s.exr c.exr >>c.exr' 'retex-diff - - <s.exr' 'retex-info s.exr -o s.exr' 'retex-info --check soft.jpg -o t.jpg' 'retex-info - -o s.exr <s.exr' 'retex-diff s.exr c.exr -o ./sub/../c.exr' 'retex-diff s.exr - -o s.retex <s.retex'
 ! retex-info: error: standard output: the answer would replace the set, s.exr
 ! retex-diff: error: standard output: the answer would replace B, c.exr
 ! retex-diff: error: A and B cannot both be standard input
+! retex-info: error: s.exr: the answer would replace the set
+! retex-info: error: t.jpg: the answer would replace the set, soft.jpg
+! retex-info: error: s.exr: the answer would replace the set, standard input
+! retex-diff: error: ./sub/../c.exr: the answer would replace B, c.exr
+! retex-diff: error: s.retex: the answer would replace B, standard input
 
 # Standard input and output can be one thing each.
 $ sh try '$r room.pov -o - --stats - >/dev/null' '$c - - -o x.png <s.exr' '$c s.exr - --batch - </dev/null' '$c - --batch - <s.exr'

@@ -26,11 +26,6 @@ $ for t in diff pack sample combine denoise info render; do retex-$t --help >lon
 > retex-denoise 0.1.0
 > retex-info 0.1.0
 > retex-render 0.1.0
-$ retex-info -o x s.exr; retex-diff --output=x a b
-! retex-info: error: the answer goes to standard output: no -o
-! retex-diff: error: the answer goes to standard output: no -o
-= 2
-
 # Targets, layouts, AOVs and options of textures.
 $ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" t.jpg; printf 'camera { location -4*z }\nlight_source { -9*z rgb 1 }\n#declare Floor = texture { pigment { rgb 1 } }\n#declare White = pigment { rgb 1 }\nplane { y, -1 texture { Floor } }\nsphere { 0, 1 pigment { White } }\n' >box.pov; for x in 'flor=t.jpg' 'Wal=t.jpg' 'Sofa=t.jpg'; do retex-combine s.exr --texture $x -o x.png; retex-sample s.exr --texture $x -o x.exr; done
 ! retex-combine: error: no target is called 'flor'; the set has Floor, Wall; is Floor meant?

@@ -45,7 +45,7 @@ for page in "$pages"/retex-*.1; do
     while read -r option; do
         "$tool" "$option" >"$work/out" 2>&1 </dev/null
         ! grep -q 'needs an argument' "$work/out" || "$tool" "$option" 1 >"$work/out" 2>&1 </dev/null
-        grep 'error: .*\(unknown option\|no -o\|takes no\)' "$work/out" | sed "s/^/$tool --help lists $option, but: /"
+        grep 'error: .*\(unknown option\|takes no\)' "$work/out" | sed "s/^/$tool --help lists $option, but: /"
     done <"$work/$tool.help"
 done
 
