@@ -8,7 +8,7 @@
 typedef enum PatternArguments {
     ARGUMENTS_NONE,
     ARGUMENTS_FLOAT,  /* Pattern.number */
-    ARGUMENTS_VECTOR, /* Pattern.vector, which is not zero */
+    ARGUMENTS_VECTOR, /* Pattern.vector, a direction of any length */
     /* read over so far */
     ARGUMENTS_AVERAGE,
     ARGUMENTS_BLOCK,

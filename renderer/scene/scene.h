@@ -58,7 +58,7 @@ typedef struct PatternOps PatternOps; /* pattern/pattern.h */
 /* A function of space, with its arguments. */
 typedef struct Pattern {
     const PatternOps *ops;
-    Vec3 vector;             /* what is written after the keyword, as the pattern's file says */
+    Vec3 vector;             /* the direction written after the keyword, unit length */
     double number;
     WaveKind wave;           /* of patterns that make a value 0..1 */
     double frequency, phase, wave_exponent;

@@ -49,7 +49,7 @@ static void gradients_are_povray(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
         Pigment p = pigment(&pattern_gradient);
-        p.pattern.vector = cases[i].gradient;
+        p.pattern.vector = vec_normalize(cases[i].gradient);
         p.pattern.frequency = cases[i].frequency;
         p.pattern.phase = cases[i].phase;
         p.pattern.wave = cases[i].wave;

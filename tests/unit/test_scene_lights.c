@@ -102,7 +102,7 @@ static void test_names_of_insides(void **state)
 static void test_sky(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "sky_sphere{pigment{gradient y color_map{[0 rgb 1][1 rgb <0,0,1>]}} pigment{rgbt 1}"
+    Scene *scene = parse(V37 "sky_sphere{pigment{gradient 3*y color_map{[0 rgb 1][1 rgb <0,0,1>]}} pigment{rgbt 1}"
                              " rotate 90*z emission .5}");
     assert_int_equal(scene->sky->npigments, 2);
     assert_near(scene->sky->emission.r, 0.5);

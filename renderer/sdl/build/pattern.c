@@ -94,6 +94,7 @@ static void pattern_arguments(Sdl *sdl, Pattern *pattern)
         pattern->vector = sdl_vector(sdl);
         if (vec_length(pattern->vector) == 0)
             sdl_error(sdl, "%s needs a direction, not the zero vector", pattern->ops->keyword);
+        pattern->vector = vec_normalize(pattern->vector);
         break;
     case ARGUMENTS_BLOCK:
         sdl_skip_block(sdl);
