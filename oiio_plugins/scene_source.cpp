@@ -78,6 +78,7 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     std::vector<const char *> targets = pointers(options.targets), includes = pointers(options.includes),
                               declares = pointers(options.declares);
     SdlOptions sdl = options.sdl;
+    sdl.nthreads = options.render.nthreads;
     sdl.include_paths = includes.data(), sdl.ninclude_paths = int(includes.size());
     sdl.declares = declares.data(), sdl.ndeclares = int(declares.size());
     sdl.message = keep_warning, sdl.message_context = warnings;

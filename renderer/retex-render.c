@@ -146,17 +146,17 @@ static void write_result(Arguments *a, RetexSet *set, const char *output)
     RetexError err;
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexPackParams pack = RETEX_PACK_INIT;
+    const int threads = a->cli->threads;
     int code = 0;
-    store.nthreads = pack.nthreads = a->cli->threads;
     switch (output_kind(a, output)) {
     case OUTPUT_PACK:
-        code = retex_pack_write(set, output, &pack, NULL, &err);
+        code = retex_pack_write(set, output, &pack, NULL, threads, &err);
         break;
     case OUTPUT_SET:
-        code = retex_set_write(set, NULL, output, &store, &err);
+        code = retex_set_write(set, NULL, output, &store, threads, &err);
         break;
     case OUTPUT_PICTURE:
-        code = retex_image_write(&set->parts[0].image, output, NULL, a->cli->threads, &err);
+        code = retex_image_write(&set->parts[0].image, output, NULL, threads, &err);
         break;
     }
     if (code)

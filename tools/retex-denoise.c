@@ -60,9 +60,8 @@ static int write_set(const Cli *cli, RetexSet *set, const char *output, RetexErr
 {
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexPackParams pack = RETEX_PACK_INIT;
-    store.nthreads = pack.nthreads = cli->threads;
-    return cli_ends_with(output, ".retex") ? retex_pack_write(set, output, &pack, NULL, err)
-                                           : retex_set_write(set, NULL, output, &store, err);
+    return cli_ends_with(output, ".retex") ? retex_pack_write(set, output, &pack, NULL, cli->threads, err)
+                                           : retex_set_write(set, NULL, output, &store, cli->threads, err);
 }
 
 int main(int argc, char **argv)

@@ -55,7 +55,6 @@ static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *name
         cli_die(cli, "two files are needed; try --help");
     if (params->part && params->all_parts)
         cli_die(cli, "--part and --all-parts exclude each other");
-    params->nthreads = cli->threads;
 }
 
 /* Print a figure, or null if it is not defined: the part has no colours. */
@@ -157,7 +156,7 @@ int main(int argc, char **argv)
     cli_answer(&cli);
     params.access = &cli.access;
     params.budget = cli.budget;
-    if (retex_diff(&diff, names[0], names[1], &params, &err))
+    if (retex_diff(&diff, names[0], names[1], &params, cli.threads, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;
     if (json)

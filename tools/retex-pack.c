@@ -22,6 +22,7 @@ typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given;
     long memory; /* megabytes */
+    int threads;
     const char *input, *stats;
 } Job;
 
@@ -57,7 +58,7 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
-    job->params.nthreads = cli->threads;
+    job->threads = cli->threads;
 }
 
 static void report(const Cli *cli, const char *set_path, double set_bytes, const char *pack_path, double pack_bytes)
@@ -80,9 +81,9 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     RetexPackKept kept;
     uint64_t bytes[RETEX_PACK_GROUPS];
     char text[2048], quality[16] = "null";
-    int code = retex_set_open(pack_path, &pack, NULL, job->params.nthreads, err);
+    int code = retex_set_open(pack_path, &pack, NULL, job->threads, err);
     if (!code)
-        code = retex_pack_loss(psnr, pack, set, job->params.nthreads, err);
+        code = retex_pack_loss(psnr, pack, set, job->threads, err);
     if (!code) {
         double rest = pack_bytes;
         retex_pack_bytes(bytes, pack);
@@ -162,10 +163,9 @@ int main(int argc, char **argv)
     cli_check_pixels(&cli, set, job.input);
     if (job.unpack) {
         RetexStoreParams store = RETEX_STORE_INIT;
-        store.nthreads = cli.threads;
-        code = retex_set_write(set, NULL, output, &store, &err);
+        code = retex_set_write(set, NULL, output, &store, cli.threads, &err);
     } else {
-        code = retex_pack_write(set, output, &job.params, &bytes, &err);
+        code = retex_pack_write(set, output, &job.params, &bytes, cli.threads, &err);
         if (!code && job.stats)
             code = write_stats(&job, set, output, (double)bytes, &err);
     }

@@ -69,16 +69,15 @@ int main(int argc, char **argv)
     if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
     if (earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
-        if (retex_samples_merge(earlier, samples, &err))
+        if (retex_samples_merge(earlier, samples, cli.threads, &err))
             cli_fail(&cli, &err);
         retex_samples_close(&samples);
         samples = earlier;
     }
     double sampled = retex_clock_seconds();
     RetexStoreParams store = RETEX_STORE_INIT;
-    store.nthreads = cli.threads;
     int to_pipe = strcmp(output, "-") == 0;
-    if (retex_set_write(to_pipe ? set : NULL, samples, output, &store, &err))
+    if (retex_set_write(to_pipe ? set : NULL, samples, output, &store, cli.threads, &err))
         cli_fail(&cli, &err);
     double written = retex_clock_seconds();
 

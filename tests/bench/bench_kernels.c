@@ -187,7 +187,7 @@ static void bench_rows(void)
     RetexError err = {0};
     char name[96];
     test_random_image(&image, 2048, 2048, 3, 1, 0, 1);
-    test_must(retex_texture_create(&rows.texture, &image, NULL, &err), &err);
+    test_must(retex_texture_create(&rows.texture, &image, NULL, 0, &err), &err);
     retex_image_free(&image);
     bench_section("Rows of footprints, times as fast as one by one");
     for (int shape = 0; shape < 2; shape++)
@@ -235,7 +235,7 @@ void bench_kernels(void)
     static const double sizes[][2] = {{0.5, 0.5}, {1.5, 1}, {8, 2}, {30, 30}};
     Filter filter;
     test_random_image(&image, 1024, 1024, 3, 1, 0, 1);
-    test_must(retex_texture_create(&filter.texture, &image, NULL, &err), &err);
+    test_must(retex_texture_create(&filter.texture, &image, NULL, 0, &err), &err);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         filter.longer = sizes[i][0] / 1024;
         filter.shorter = sizes[i][1] / 1024;

@@ -137,10 +137,10 @@ static void make_files(Room *room, const char *folder)
     snprintf(room->files[0], sizeof room->files[0], "%s/set.exr", folder);
     snprintf(room->files[1], sizeof room->files[1], "%s/plain.exr", folder);
     snprintf(room->files[2], sizeof room->files[2], "%s/set.retex", folder);
-    test_must(retex_set_write(set, NULL, room->files[0], NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, room->files[0], NULL, 0, &err), &err);
     store.compress = 0;
-    test_must(retex_set_write(set, NULL, room->files[1], &store, &err), &err);
-    test_must(retex_pack_write(set, room->files[2], NULL, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, room->files[1], &store, 0, &err), &err);
+    test_must(retex_pack_write(set, room->files[2], NULL, NULL, 0, &err), &err);
     retex_set_close(&set);
 }
 

@@ -54,8 +54,7 @@ static void give(const RetexSet *set, int lossless, int quality)
     snprintf(name, sizeof name, "fuzz_pack-%d.tmp.retex", (int)getpid());
     params.lossless = lossless;
     params.quality = quality;
-    params.nthreads = 1;
-    test_must(retex_pack_write(set, name, &params, NULL, &err), &err);
+    test_must(retex_pack_write(set, name, &params, NULL, 1, &err), &err);
     FILE *in = fopen(name, "rb");
     if (!in || !bytes || !list)
         abort();

@@ -29,8 +29,7 @@ static void give(RetexSet *set, const RetexSamples *samples, int compress)
     char name[64];
     snprintf(name, sizeof name, "fuzz_set-%d.tmp.exr", (int)getpid());
     params.compress = compress;
-    params.nthreads = 1;
-    test_must(retex_set_write(set, samples, name, &params, &err), &err);
+    test_must(retex_set_write(set, samples, name, &params, 1, &err), &err);
     FILE *in = fopen(name, "rb");
     unsigned char *bytes = malloc(FUZZ_LARGEST);
     if (in && bytes)
@@ -207,8 +206,8 @@ static void use_open(void)
     if (set && set->ntargets)
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
     if (set && retex_sample_to_store(&more, set, &spec, 1, "-", 1, NULL) == 0)
-        if (!samples || retex_samples_merge(samples, more, NULL) == 0)
-            retex_set_write(set, samples ? samples : more, "/dev/null", NULL, NULL);
+        if (!samples || retex_samples_merge(samples, more, 0, NULL) == 0)
+            retex_set_write(set, samples ? samples : more, "/dev/null", NULL, 0, NULL);
     if (samples)
         retex_samples_load(samples, 1, NULL);
     retex_samples_close(&samples);

@@ -39,7 +39,7 @@ static void look_up(const RetexTextureSpec *spec)
     RetexTexture *texture, *square;
     float rgba[4];
     if (spec->constant ? retex_texture_load(&texture, spec, 1, NULL)
-                       : retex_texture_create(&texture, &image, spec, NULL))
+                       : retex_texture_create(&texture, &image, spec, 0, NULL))
         return;
     for (int i = 0; i < 16; i++) {
         const double *covariance = (double[3]){widths[i % 4], widths[i % 4] / 3, widths[i % 4]};
@@ -52,7 +52,7 @@ static void look_up(const RetexTextureSpec *spec)
         retex_texture_nearest(texture, places[i / 4], places[i % 4], rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a texel is finite");
     }
-    if (!retex_texture_square(&square, texture, NULL)) {
+    if (!retex_texture_square(&square, texture, 0, NULL)) {
         retex_texture_disc(square, 0.1, 0.2, (double[3]){0.1, 0, 0.1}, rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a square is finite");
         retex_texture_close(&square);

@@ -78,9 +78,9 @@ void damage_write(RetexSet *set, DamageFile kind, const char *path)
     if (kind == FILE_STREAM)
         test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     if (kind == FILE_PACK || kind == FILE_LOSSLESS)
-        test_must(retex_pack_write(set, path, &packing, NULL, &err), &err);
+        test_must(retex_pack_write(set, path, &packing, NULL, 0, &err), &err);
     else
-        test_must(retex_set_write(set, samples, path, &store, &err), &err);
+        test_must(retex_set_write(set, samples, path, &store, 0, &err), &err);
     retex_samples_close(&samples);
 }
 
@@ -179,10 +179,10 @@ static int go_sample(RetexSet *set, RetexSamples *there, int stream, uint32_t *s
         code = retex_sample_to_store(&samples, set, &spec, 1, output_path, 1, err);
     }
     if (!code && there)
-        code = retex_samples_merge(there, samples, err);
+        code = retex_samples_merge(there, samples, 1, err);
     const RetexSamples *all = there ? there : samples;
     if (!code)
-        code = stream ? retex_set_write(set, all, output_path, NULL, err) : go_combine(set, all, sum, err);
+        code = stream ? retex_set_write(set, all, output_path, NULL, 0, err) : go_combine(set, all, sum, err);
     if (!code && stream)
         *sum = sum_of_output();
     retex_samples_close(&samples);
@@ -191,7 +191,7 @@ static int go_sample(RetexSet *set, RetexSamples *there, int stream, uint32_t *s
 
 static int go_write(RetexSet *set, const RetexSamples *samples, uint32_t *sum, RetexError *err)
 {
-    const int code = retex_set_write(set, samples, output_path, NULL, err);
+    const int code = retex_set_write(set, samples, output_path, NULL, 0, err);
     if (!code)
         *sum = sum_of_output();
     return code;
@@ -203,7 +203,7 @@ static int go_pack(RetexSet *set, uint32_t *sum, RetexError *err)
     params.lossless = 1;
     int code = retex_set_load(set, 1, err);
     if (!code)
-        code = retex_pack_write(set, output_path, &params, NULL, err);
+        code = retex_pack_write(set, output_path, &params, NULL, 0, err);
     if (!code)
         *sum = sum_of_output();
     return code;

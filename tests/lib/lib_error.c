@@ -44,7 +44,7 @@ RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs,
         if (!textures[t])
             continue;
         if (!squares[t])
-            test_must(retex_texture_square(&squares[t], textures[t], &err), &err);
+            test_must(retex_texture_square(&squares[t], textures[t], 0, &err), &err);
         for (int y = 0; y < image->height; y++) {
             RetexFootprintRow row;
             test_must(retex_footprint_row_read(&row, reader, set, f, y, 0, &err), &err);

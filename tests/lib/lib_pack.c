@@ -8,14 +8,14 @@
 
 #include <cmocka.h>
 
-unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes)
+unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes, int nthreads)
 {
     char path[] = "/tmp/test_pack_XXXXXX";
     RetexError err = {0};
     int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
-    test_must(retex_pack_write(set, path, params, bytes, &err), &err);
+    test_must(retex_pack_write(set, path, params, bytes, nthreads, &err), &err);
     FILE *file = fopen(path, "rb");
     unsigned char *data = malloc(*bytes);
     assert_int_equal(fread(data, 1, *bytes, file), *bytes);

@@ -5,7 +5,7 @@
 #include "lib_test.h"
 
 /* Pack a set into memory. */
-unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes);
+unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes, int nthreads);
 RetexPackParams lossless(void);
 RetexSet *unpack(const unsigned char *data, size_t bytes);
 

@@ -5,7 +5,7 @@
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
-#   - each public header compiles alone, as C11 and as C++17
+#   - each public header compiles alone, as C11 and as C++17; its calls take nthreads in the same place
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
@@ -144,6 +144,15 @@ for header in tools/libretex/include/retex/*.h; do
     ${CXX:-g++} -std=c++17 -Wall -Wextra -Werror -fsyntax-only -Itools/libretex/include "$probe/a.cpp" ||
         complain "$name does not compile alone as C++17"
 done
+
+# Public calls take the number of threads as their last argument before the error.
+found=$(for header in tools/libretex/include/retex/*.h; do
+    [ "${header##*/}" = parallel.h ] || sed 's|/\*.*\*/||' "$header" | tr -s '\n ' ' ' |
+        grep -oE 'int nthreads.{0,20}' |
+        grep -vE '^int nthreads ?, RetexError \*err\)' | sed "s|^|$header: |"
+done)
+[ -z "$found" ] || complain "nthreads is the last argument before err, and no field:
+$found"
 
 for page in man/*.[1-9]; do
     [ -e "$page" ] || continue

@@ -15,7 +15,7 @@ int main(int argc, char **argv)
     RetexImage *beauty = &set->parts[0].image;
     memset(beauty->pixels, 0,
            (size_t)beauty->width * (size_t)beauty->height * (size_t)beauty->channels * sizeof(float));
-    if (retex_set_write(set, NULL, argv[2], NULL, &err))
+    if (retex_set_write(set, NULL, argv[2], NULL, 0, &err))
         goto failed;
     retex_set_close(&set);
     return 0;

@@ -38,7 +38,7 @@ int main(int argc, char **argv)
     }
     test_must(retex_set_read(argv[1], &set, NULL, 0, &err), &err);
     test_must(retex_set_compact(&compact, set, &params, 0, &err), &err);
-    test_must(retex_set_write(compact, NULL, argv[2], NULL, &err), &err);
+    test_must(retex_set_write(compact, NULL, argv[2], NULL, 0, &err), &err);
     retex_set_close(&set);
     retex_set_close(&compact);
     return 0;

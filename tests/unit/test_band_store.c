@@ -118,9 +118,9 @@ static void a_set_in_a_band_store_is_written_as_one_in_memory(void **state)
         test_make_footprints(set);
         darken(set);
         store.compress = compress;
-        test_must(retex_set_write(set, NULL, path, &store, &err), &err);
+        test_must(retex_set_write(set, NULL, path, &store, 0, &err), &err);
         store_parts(set);
-        test_must(retex_set_write(set, NULL, other, &store, &err), &err);
+        test_must(retex_set_write(set, NULL, other, &store, 0, &err), &err);
         expect_same_file();
         retex_set_close(&set);
     }
@@ -131,7 +131,7 @@ static void a_loaded_set_is_what_a_file_gives(void **state)
     (void)state;
     RetexError err;
     RetexSet *set = test_set(WIDTH, HEIGHT, 8), *read = NULL;
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_read(path, &read, NULL, 2, &err), &err);
     store_parts(set);
     test_must(retex_set_load(set, 2, &err), &err);
@@ -211,13 +211,13 @@ static void what_is_damaged_is_not_read_back(void **state)
             if (!chunk->bytes)
                 continue;
             flip(set->store, at);
-            assert_int_equal(retex_set_write(set, NULL, path, &store, &err), RETEX_EFORMAT);
+            assert_int_equal(retex_set_write(set, NULL, path, &store, 0, &err), RETEX_EFORMAT);
             assert_non_null(strstr(err.message, "is damaged: a checksum is wrong"));
             assert_int_equal(access(path, F_OK), -1);
             assert_int_equal(retex_set_load(set, 1, &err), RETEX_EFORMAT);
             flip(set->store, at);
         }
-        test_must(retex_set_write(set, NULL, path, &store, &err), &err);
+        test_must(retex_set_write(set, NULL, path, &store, 0, &err), &err);
         unlink(path);
         retex_set_close(&set);
     }

@@ -274,8 +274,8 @@ static void test_merge(void **state)
     RetexTextureSpec specs[2] = {constant_spec("Floor", 1, 0.5f, 0), constant_spec("Wall", 0, 0.5f, 1)};
     RetexSamples *floor_only = sample(set, specs, 1, 1), *wall_only = sample(set, specs + 1, 1, 1);
     RetexSamples *both = sample(set, specs, 2, 1), *foreign = sample(other, specs, 1, 1);
-    assert_int_equal(retex_samples_merge(floor_only, foreign, &err), RETEX_EINVAL);
-    test_must(retex_samples_merge(floor_only, wall_only, &err), &err);
+    assert_int_equal(retex_samples_merge(floor_only, foreign, 0, &err), RETEX_EINVAL);
+    test_must(retex_samples_merge(floor_only, wall_only, 0, &err), &err);
     for (int i = 0; i < both->nimages; i++) {
         assert_non_null(floor_only->images[i].pixels);
         assert_memory_equal(floor_only->images[i].pixels, both->images[i].pixels, 12 * 8 * 3 * sizeof(float));

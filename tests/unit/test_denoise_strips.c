@@ -15,9 +15,9 @@ static void write_noisy(const char *path, const char *layout, int width, int hei
     if (strstr(path, ".retex")) {
         RetexPackParams params = RETEX_PACK_INIT;
         params.lossless = 1;
-        test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
+        test_must(retex_pack_write(set, path, &params, NULL, 0, &err), &err);
     } else {
-        test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+        test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     }
     retex_set_close(&set);
 }
@@ -36,7 +36,7 @@ static void denoise_file(const char *from, const char *to, int in_memory, int nt
     assert_int_equal(!in_memory, set->store != NULL);
     assert_null(set->source);
     assert_int_equal(set->denoised, 1);
-    test_must(retex_set_write(set, NULL, to, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, to, NULL, 0, &err), &err);
     retex_set_close(&set);
 }
 
@@ -88,7 +88,7 @@ static void test_what_comes_out_is_a_set(void **state)
         snprintf(name, sizeof name, "%d.retex", k);
         test_must(retex_denoise(sets[k], NULL, NULL, 2, &err), &err);
         test_must(retex_combine(&pictures[k], sets[k], NULL, NULL, NULL, 2, &err), &err);
-        test_must(retex_pack_write(sets[k], test_in_folder(name), &params, NULL, &err), &err);
+        test_must(retex_pack_write(sets[k], test_in_folder(name), &params, NULL, 0, &err), &err);
     }
     assert_memory_equal(pictures[0].pixels, pictures[1].pixels, sizeof(float) * 3 * 50 * 150);
     assert_same_file(test_in_folder("0.retex"), test_in_folder("1.retex"));

@@ -430,8 +430,8 @@ static void files_change_nothing(void **state)
     RetexTextureSpec wall = store_texture("Wall", 0.4f, 0.1f, 0.5f);
     RetexTextureSpec specs[2] = {constant_spec("Floor", 0.2f, 0.7f, 0), wall};
     test_must(retex_sample(&in_memory, set, specs, 2, 2, &err), &err);
-    test_must(retex_set_write(set, NULL, set_path, NULL, &err), &err);
-    test_must(retex_set_write(NULL, in_memory, samples_path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, set_path, NULL, 0, &err), &err);
+    test_must(retex_set_write(NULL, in_memory, samples_path, NULL, 0, &err), &err);
     retex_samples_close(&in_memory);
     test_must(retex_set_read(set_path, &read, NULL, 1, &err), &err);
     test_must(retex_set_read(samples_path, NULL, &in_memory, 1, &err), &err);

@@ -221,7 +221,7 @@ static void test_most_shares(void **state)
     assert_int_equal(retex_set_add_mixture(set, &mixture, NULL, &err), RETEX_ELIMIT);
     assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
     add_term(set, 16, 1, RETEX_MIXTURE(index), 0, 0);
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     retex_set_close(&set);
     test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
     assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
@@ -255,7 +255,7 @@ static void test_file(void **state)
     (void)state;
     RetexSet *set = make_set(), *back;
     RetexError err = {0};
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 1, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
     for (int k = 0; k < RETEXTURES; k++) {
@@ -276,7 +276,7 @@ static void test_stream(void **state)
         RetexSamples *samples = make_samples(set, &retextures[k]), *samples_back;
         RetexSet *back;
         RetexError err = {0};
-        test_must(retex_set_write(set, samples, path, NULL, &err), &err);
+        test_must(retex_set_write(set, samples, path, NULL, 0, &err), &err);
         test_must(retex_set_read(path, &back, &samples_back, 1, &err), &err);
         assert_true(back->nparts < set->nparts);
         assert_int_equal(back->footprints[FLOOR_LATER].albedo < 0, retextures[k].white_floor);
@@ -296,7 +296,7 @@ static void test_pack(void **state)
     RetexSet *set = make_set(), *back;
     RetexError err = {0};
     for (params.lossless = 0; params.lossless < 2; params.lossless++) {
-        test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
+        test_must(retex_pack_write(set, path, &params, NULL, 0, &err), &err);
         test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
         assert_int_equal(back->nmixtures, 2);
         for (int m = 0; m < 2; m++) /* shares keep every bit, or stay within half a 64th of the largest */

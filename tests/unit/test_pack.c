@@ -23,7 +23,7 @@ static void test_lossless_keeps_every_bit(void **state)
     int depth = retex_set_find_part(set, "depth");
     set->parts[depth].image.pixels[1] = 1e-42f;
     set->parts[depth].image.pixels[2] = INFINITY;
-    unsigned char *data = pack(set, &params, &bytes);
+    unsigned char *data = pack(set, &params, &bytes, 0);
     RetexSet *back = unpack(data, bytes);
     assert_int_equal(back->nparts, set->nparts);
     for (int i = 0; i < set->nparts; i++) {
@@ -35,7 +35,7 @@ static void test_lossless_keeps_every_bit(void **state)
     }
     assert_int_equal(back->nterms, set->nterms);
     assert_memory_equal(back->footprints, set->footprints, (size_t)set->nfootprints * sizeof *set->footprints);
-    unsigned char *again = pack(back, &params, &again_bytes); /* and the same bytes come out again */
+    unsigned char *again = pack(back, &params, &again_bytes, 0); /* and the same bytes come out again */
     assert_int_equal(again_bytes, bytes);
     assert_memory_equal(again, data, bytes);
     free(again);
@@ -76,7 +76,7 @@ static void test_rounded_means_are_small(void **state)
                          odd ? RETEX_PACK_PLANES : RETEX_PACK_MODEL); /* these end in zeros all the same */
         assert_int_equal(plan[uv].maps[1].kind, odd ? RETEX_PACK_MAP_BITS : RETEX_PACK_MAP_LATTICE);
         free(plan);
-        unsigned char *data = pack(set, &params, &bytes[odd]);
+        unsigned char *data = pack(set, &params, &bytes[odd], 0);
         RetexSet *back = unpack(data, bytes[odd]);
         for (int i = 0; i < set->nparts; i++) {
             const RetexImage *im = &set->parts[i].image;
@@ -97,8 +97,8 @@ static void test_default_is_close_and_smaller(void **state)
     size_t bytes, lossless_bytes;
     RetexPackParams params = lossless();
     RetexSet *set = test_set(200, 150, 4);
-    free(pack(set, &params, &lossless_bytes));
-    unsigned char *data = pack(set, NULL, &bytes);
+    free(pack(set, &params, &lossless_bytes, 0));
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     RetexSet *back = unpack(data, bytes);
     assert_true(bytes * 2 < lossless_bytes);
     for (int i = 0; i < set->nterms; i++) {
@@ -144,7 +144,7 @@ static void test_nothing_is_zero(void **state)
     size_t bytes;
     RetexSet *set = test_set(75, 70, 3);
     test_make_footprints(set);
-    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     RetexSet *back = unpack(data, bytes);
     size_t uncovered = 0, correlated = 0;
     for (int i = 0; i < back->nfootprints; i++) {
@@ -182,10 +182,10 @@ static void test_denoise_data_is_dropped(void **state)
         set->denoised = 1; /* or the noise would be made use of */
         strcpy(set->parts[set->terms[2].radiance].name, "guide_light");
         const int nparts = set->nparts;
-        unsigned char *without = pack(set, &params, &bytes);
+        unsigned char *without = pack(set, &params, &bytes, 0);
         test_add_denoise_data(set);
         const int all = set->nparts;
-        unsigned char *with = pack(set, &params, &data_bytes);
+        unsigned char *with = pack(set, &params, &data_bytes, 0);
         assert_int_equal(set->nparts, all);
         assert_true(retex_denoise_has_data(set));
         RetexSet *back = unpack(with, data_bytes);
@@ -214,14 +214,14 @@ static void test_quality_trades_size(void **state)
         RetexPackParams params = RETEX_PACK_INIT;
         size_t bytes;
         params.quality = quality;
-        free(pack(set, &params, &bytes));
+        free(pack(set, &params, &bytes, 0));
         assert_true(bytes > before);
         before = bytes;
     }
     RetexPackParams params = RETEX_PACK_INIT;
     RetexError err = {0};
     params.quality = 101;
-    assert_int_equal(retex_pack_write(set, "/tmp/never", &params, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_pack_write(set, "/tmp/never", &params, NULL, 0, &err), RETEX_EINVAL);
     retex_set_close(&set);
 }
 
@@ -338,7 +338,7 @@ static void test_rows_are_those_of_the_whole(void **state)
                 spread->pixels[spread->channels * k + c] *= scale;
         }
     }
-    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     RetexSet *whole = unpack(data, bytes);
     RetexError err = {0};
     RetexInput *input = NULL;
@@ -386,8 +386,7 @@ static void test_threads_do_not_change_bytes(void **state)
     const int threads[3] = {1, 2, 7};
     for (int i = 0; i < 3; i++) {
         RetexPackParams params = RETEX_PACK_INIT;
-        params.nthreads = threads[i];
-        data[i] = pack(set, &params, &bytes[i]);
+        data[i] = pack(set, &params, &bytes[i], threads[i]);
         assert_int_equal(bytes[i], bytes[0]);
         assert_memory_equal(data[i], data[0], bytes[0]);
     }
@@ -404,7 +403,7 @@ static void test_recombination_from_a_pack_is_close(void **state)
     size_t bytes;
     RetexError err = {0};
     RetexSet *set = test_set(200, 150, 8);
-    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     RetexSet *back = unpack(data, bytes);
     RetexTextureSpec spec;
     RetexImage pictures[2] = {{0}};

@@ -17,8 +17,7 @@ static void write_lossless(const RetexSet *set, int nthreads, size_t *bytes)
     RetexPackParams params = RETEX_PACK_INIT;
     RetexError err = {0};
     params.lossless = 1;
-    params.nthreads = nthreads;
-    test_must(retex_pack_write(set, test_own_file, &params, bytes, &err), &err);
+    test_must(retex_pack_write(set, test_own_file, &params, bytes, nthreads, &err), &err);
 }
 
 static RetexSet *open_pack(void)

@@ -21,7 +21,7 @@ static void assert_refused(const void *data, size_t bytes)
     int code = retex_pack_read(data, bytes, &set, 1, &err);
     assert_true(code < 0 && err.code == code && err.message[0]);
     assert_null(set);
-    assert_true(retex_pack_check(data, bytes, NULL) < 0);
+    assert_true(retex_pack_check(data, bytes, 0, NULL) < 0);
 }
 
 static int sets_equal(const RetexSet *a, const RetexSet *b)
@@ -68,7 +68,7 @@ static void test_every_flipped_byte_is_seen(void **state)
         const RetexPackParams params = lossless();
         size_t bytes;
         RetexSet *set = test_set(16, 8, 7);
-        unsigned char *data = pack(set, exact ? &params : NULL, &bytes);
+        unsigned char *data = pack(set, exact ? &params : NULL, &bytes, 0);
         flip_bytes(data, bytes, exact ? 64 : 2048, exact ? 31 : 7);
         free(data);
         retex_set_close(&set);
@@ -80,7 +80,7 @@ static void test_truncated_packs_are_refused(void **state)
     (void)state;
     size_t bytes;
     RetexSet *set = test_set(16, 8, 7);
-    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     for (size_t cut = 0; cut < bytes; cut += cut < 64 || cut + 64 > bytes ? 1 : 97)
         assert_refused(data, cut);
     free(data);
@@ -130,7 +130,7 @@ static void refuse_change(const char *add, const char *find, const char *put, co
     size_t bytes, changed_bytes;
     RetexSet *set = test_set(16, 8, 7), *back = NULL;
     RetexError err = {0};
-    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *data = pack(set, NULL, &bytes, 0);
     unsigned char *changed = changed_pack(data, bytes, add, find, put, &changed_bytes);
     assert_refused(changed, changed_bytes);
     retex_pack_read(changed, changed_bytes, &back, 1, &err);

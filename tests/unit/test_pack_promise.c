@@ -100,7 +100,7 @@ static double untried(const RetexSet *pack, const RetexSet *set, int pattern)
     RetexMetrics metrics;
     RetexError err = {0};
     paint(&texels, pattern);
-    test_must(retex_texture_create(&textures[0], &texels, NULL, &err), &err);
+    test_must(retex_texture_create(&textures[0], &texels, NULL, 0, &err), &err);
     for (int i = 0; i < 2; i++) {
         test_must(retex_image_alloc(&images[i], WIDE, HIGH, 3, &err), &err);
         test_must(retex_retexture(sets[i], NULL, textures, NULL, take_rows, &images[i], 1, &err), &err);
@@ -126,8 +126,7 @@ static RetexSet *packed(const RetexSet *set, int quality, int nthreads, size_t *
     assert_true(file >= 0);
     close(file);
     params.quality = quality;
-    params.nthreads = nthreads;
-    test_must(retex_pack_write(set, path, &params, bytes, &err), &err);
+    test_must(retex_pack_write(set, path, &params, bytes, nthreads, &err), &err);
     test_must(retex_set_open(path, &pack, NULL, 1, &err), &err);
     unlink(path);
     return pack;

@@ -120,7 +120,7 @@ static ImageMap image_map(MapType type)
         float texel[4] = {(float)(i % WIDTH) / WIDTH, (float)(i / WIDTH) / HEIGHT, 0.5f, i % WIDTH < 2 ? 1 : 0.25f};
         memcpy(pixels + 4 * i, texel, sizeof(texel));
     }
-    assert_int_equal(retex_texture_create(&map.texture, &image, NULL, NULL), 0);
+    assert_int_equal(retex_texture_create(&map.texture, &image, NULL, 0, NULL), 0);
     return map;
 }
 

@@ -83,7 +83,7 @@ static void write_to(RetexSet *set, const RetexSamples *samples, const char *pat
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexError err = {0};
     store.compress = compress;
-    test_must(retex_set_write(set, samples, path, &store, &err), &err);
+    test_must(retex_set_write(set, samples, path, &store, 0, &err), &err);
 }
 
 /* Files of samples and of streams, whichever way the band store keeps its bands. */
@@ -155,18 +155,18 @@ static void streams_stay_in_their_files(void **state)
     assert_memory_equal(picture.pixels, other.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
 
     test_must(retex_sample(&more, set, &wall, 1, 2, &err), &err);
-    test_must(retex_samples_merge(samples, more, &err), &err);
+    test_must(retex_samples_merge(samples, more, 0, &err), &err);
     write_to(set, samples, test_in_folder("a.exr"), 0);
     retex_samples_close(&more);
     test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
-    test_must(retex_samples_merge(stored, more, &err), &err);
+    test_must(retex_samples_merge(stored, more, 0, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);
     expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
 
     /* a second band store has no place beside the first: its images are loaded */
     test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
-    test_must(retex_samples_merge(stored, more, &err), &err);
+    test_must(retex_samples_merge(stored, more, 0, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);
     expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));

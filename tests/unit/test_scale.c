@@ -233,7 +233,7 @@ static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
         RetexStoreParams store = RETEX_STORE_INIT;
         RetexSet *open;
         store.compress = compress;
-        test_must(retex_set_write(set, NULL, "open.exr", &store, &err), &err);
+        test_must(retex_set_write(set, NULL, "open.exr", &store, 0, &err), &err);
         test_must(retex_set_open("open.exr", &open, NULL, 0, &err), &err);
         assert_null(open->parts[3].image.pixels);
         test_must(retex_textures_load(textures, open, spec, 1, 0, &err), &err);
@@ -276,7 +276,7 @@ static void test_doors(void **state)
     }
     retex_textures_close(textures);
     for (int stream = 0; stream < 2; stream++) {
-        test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, &err), &err);
+        test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, 0, &err), &err);
         test_must(retex_set_read("scale.exr", &back, &again, 0, &err), &err);
         retex_image_free(&other);
         test_must(retex_combine(&other, back, stream ? again : samples, NULL, NULL, 0, &err), &err);
@@ -285,7 +285,7 @@ static void test_doors(void **state)
         retex_set_close(&back);
         retex_samples_close(&again);
     }
-    test_must(retex_set_write(set, NULL, "scale.exr", NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, "scale.exr", NULL, 0, &err), &err);
     expect_open(&spec, &picture);
     retex_image_free(&other);
     retex_image_free(&picture);

@@ -21,14 +21,13 @@ static void test_set_there_and_back(void **state)
         RetexStoreParams params = RETEX_STORE_INIT;
         RetexError err = {0};
         params.compress = compress;
-        params.nthreads = 3;
         set->seed = 4000000000u;
         retex_set_identify(set);
         assert_int_not_equal(set->id, 0);
         set->folded = 1.0 / 3;
         strcpy(set->scene, "k\xc3\xbc"
                            "che.pov");
-        test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+        test_must(retex_set_write(set, NULL, path, &params, 3, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
         test_must(retex_set_read(path, &back, &none, 2, &err), &err);
         assert_null(none);
@@ -36,7 +35,7 @@ static void test_set_there_and_back(void **state)
         /* what was read can be added to and written again */
         test_must(retex_set_add_part(back, "more", "A", RETEX_FLOAT, 0, 0, NULL, &err), &err);
         test_must(retex_set_add_part(back, "and-more", "A", RETEX_FLOAT, 3, 2, NULL, &err), &err);
-        test_must(retex_set_write(back, NULL, path, &params, &err), &err);
+        test_must(retex_set_write(back, NULL, path, &params, 3, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
         assert_int_equal(retex_set_read(path, NULL, &none, 2, &err), RETEX_EFORMAT);
         retex_set_close(&set);
@@ -54,7 +53,7 @@ static void test_footprints_there_and_back(void **state)
     RetexSet *set = test_set(30, 20, 7), *back;
     RetexError err = {0};
     test_make_footprints(set);
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 0, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
     expect_equal_sets(set, back);
@@ -70,7 +69,7 @@ static void test_samples_there_and_back(void **state)
     for (int every = 0; every < 3; every++) {
         RetexSamples *samples = make_samples(set, every), *back;
         test_must(retex_samples_check(samples, set, &err), &err);
-        test_must(retex_set_write(NULL, samples, path, NULL, &err), &err);
+        test_must(retex_set_write(NULL, samples, path, NULL, 0, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
         test_must(retex_set_read(path, &none, &back, 0, &err), &err);
         assert_null(none);
@@ -113,14 +112,14 @@ static void test_stream_through_a_pipe(void **state)
     RetexError err = {0};
     int ends[2], status = 1;
     /* checksums of all parts, to compare with */
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     assert_int_equal(pipe(ends), 0);
     const pid_t child = fork();
     if (child == 0) {
         dup2(ends[1], 1);
         close(ends[0]);
         close(ends[1]);
-        _exit(retex_set_write(set, samples, "-", NULL, &err) != 0);
+        _exit(retex_set_write(set, samples, "-", NULL, 0, &err) != 0);
     }
     const int kept = dup(0);
     dup2(ends[0], 0);
@@ -231,7 +230,7 @@ static void test_references_follow_when_parts_go(void **state)
         assert_memory_equal(before, after, sizeof before);
     }
     assert_int_equal(set->targets[1].original, retex_set_find_part(set, "last"));
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err); /* and it is a set that can be read */
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err); /* and it is a set that can be read */
     retex_set_close(&set);
     test_must(retex_set_read(path, &set, NULL, 0, &err), &err);
     assert_int_equal(list_references(set, after), count);
@@ -270,7 +269,7 @@ static void test_stored_rows(void **state)
     (void)state;
     RetexError err = {0};
     RetexSet *set = test_set(37, 19, 5), *read;
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_read(path, &read, NULL, 0, &err), &err);
     int part = 0;
     while (set->parts[part].type != RETEX_HALF)

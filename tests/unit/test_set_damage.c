@@ -279,23 +279,23 @@ static void test_mixtures_that_are_wrong(void **state)
     const int weights[] = {-1, set->nparts}, footprints[] = {-1, set->nfootprints};
     for (int k = 0; k < 2; k++) {
         mixture->shares[2].weight = weights[k];
-        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, 0, &err), RETEX_EINVAL);
         *mixture = kept;
         mixture->shares[2].footprint = footprints[k];
-        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, 0, &err), RETEX_EINVAL);
         *mixture = kept;
         set->nmixtures = nmixtures[k];
-        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, 0, &err), RETEX_EINVAL);
         set->nmixtures = 2;
     }
     for (int k = 0; k < 3; k++) {
         mixture->nshares = nshares[k];
-        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, 0, &err), RETEX_EINVAL);
     }
     *mixture = kept;
-    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     set->terms[1].nfactors = RETEX_MAX_FACTORS + 1;
-    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, 0, &err), RETEX_EINVAL);
     retex_set_close(&set);
 }
 
@@ -352,7 +352,7 @@ static void test_damaged_files(void **state)
         uint32_t seed = 11;
         size_t bytes;
         params.compress = compress;
-        test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+        test_must(retex_set_write(set, NULL, path, &params, 0, &err), &err);
         unsigned char *data = test_read_file(path, &bytes);
         for (size_t length = 0; length < bytes; length += 1 + length / 40) {
             store(data, length);
@@ -401,7 +401,7 @@ static void test_what_is_no_set(void **state)
     assert_int_equal(retex_set_read("/nowhere.exr", &set, NULL, 0, &err), RETEX_EIO);
     assert_int_equal(retex_set_read("/tmp", &set, NULL, 0, &err), RETEX_EIO);
     assert_int_equal(retex_set_read(path, NULL, NULL, 0, &err), RETEX_EINVAL);
-    assert_int_equal(retex_set_write(NULL, NULL, path, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_write(NULL, NULL, path, NULL, 0, &err), RETEX_EINVAL);
     retex_image_free(&image);
 }
 

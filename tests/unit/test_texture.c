@@ -18,7 +18,7 @@ static RetexTexture *make_texture(const RetexImage *im, RetexWrap wrap_u, RetexW
     RetexError err = {0};
     spec.wrap[0] = wrap_u;
     spec.wrap[1] = wrap_v;
-    test_must(retex_texture_create(&texture, im, &spec, &err), &err);
+    test_must(retex_texture_create(&texture, im, &spec, 0, &err), &err);
     return texture;
 }
 
@@ -111,8 +111,8 @@ static void test_transform(void **state)
     spec.offset[0] = 0.1;
     spec.offset[1] = 0.7;
     RetexTexture *plain, *turned;
-    test_must(retex_texture_create(&plain, &im, NULL, &err), &err);
-    test_must(retex_texture_create(&turned, &im, &spec, &err), &err);
+    test_must(retex_texture_create(&plain, &im, NULL, 0, &err), &err);
+    test_must(retex_texture_create(&turned, &im, &spec, 0, &err), &err);
     uint32_t seed = 5;
     for (int i = 0; i < 200; i++) {
         double u = 4 * test_random(&seed) - 2, v = 4 * test_random(&seed) - 2, c = cos(M_PI / 6), s = sin(M_PI / 6);

@@ -60,7 +60,7 @@ static RetexTexture *make_cut_texture(RetexImage *im, RetexWrap wrap_u, RetexWra
         spec.uv_min[axis] = ends[axis][0];
         spec.uv_max[axis] = ends[axis][1];
     }
-    test_must(retex_texture_create(&texture, im, &spec, &err), &err);
+    test_must(retex_texture_create(&texture, im, &spec, 0, &err), &err);
     retex_image_free(im);
     return texture;
 }
@@ -301,7 +301,7 @@ static void test_cut_alike(void **state)
             spec.uv_min[axis] = ends[axis][0];
             spec.uv_max[axis] = ends[axis][1];
         }
-        test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+        test_must(retex_texture_create(&texture, &im, &spec, 0, &err), &err);
         scatter(size[0], size[1], 0.2, size[0], 4, (uint32_t)n);
         for (int i = 0; i < 3 * COUNT; i++) /* a mean of places on the surface is one too */
             if (i % 3 < 2)

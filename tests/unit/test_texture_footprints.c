@@ -20,7 +20,7 @@ static RetexTexture *random_texture(int width, int height, uint32_t seed, int wr
     spec.wrap[0] = (RetexWrap)wrap_u;
     spec.wrap[1] = (RetexWrap)wrap_v;
     test_random_image(&im, width, height, 4, seed, 0, 1);
-    test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+    test_must(retex_texture_create(&texture, &im, &spec, 0, &err), &err);
     retex_image_free(&im);
     return texture;
 }
@@ -54,8 +54,8 @@ static void make_moments(Moments *m, int width, int height)
         }
     m->width = width;
     m->height = height;
-    test_must(retex_texture_create(&m->first, &first, NULL, &err), &err);
-    test_must(retex_texture_create(&m->second, &second, NULL, &err), &err);
+    test_must(retex_texture_create(&m->first, &first, NULL, 0, &err), &err);
+    test_must(retex_texture_create(&m->second, &second, NULL, 0, &err), &err);
     retex_image_free(&first);
     retex_image_free(&second);
 }
@@ -284,8 +284,8 @@ static void test_extremes(void **state)
         test_random_image(&im, size[0], size[1], 4, 3, 0, (double)largest);
         for (int i = 0; i < size[0] * size[1]; i++)
             im.pixels[4 * i + 3] = kind == 2 ? 0 : kind == 1 && i % 5 == 0 ? 1e-38f : 1;
-        test_must(retex_texture_create(&textures[0], &im, &spec, &err), &err);
-        test_must(retex_texture_square(&textures[1], textures[0], &err), &err);
+        test_must(retex_texture_create(&textures[0], &im, &spec, 0, &err), &err);
+        test_must(retex_texture_square(&textures[1], textures[0], 0, &err), &err);
         for (int i = 0; i < 9 * 20 * 4; i++) {
             Filter *filter = i & 1 ? retex_texture_disc : retex_texture_gaussian;
             float p[4], limit = (i & 2 ? largest * largest : largest) * 1.001f;
@@ -313,7 +313,7 @@ static RetexTexture *quadrants(int size, const RetexTextureSpec *spec)
     for (int y = 0; y < size; y++)
         for (int x = 0; x < size; x++)
             memcpy(im.pixels + retex_image_index(&im, x, y), colors[2 * y < size][2 * x >= size], sizeof colors[0][0]);
-    test_must(retex_texture_create(&texture, &im, spec, &err), &err);
+    test_must(retex_texture_create(&texture, &im, spec, 0, &err), &err);
     retex_image_free(&im);
     return texture;
 }
@@ -389,7 +389,7 @@ static void test_rest_of_a_footprint(void **state)
             p[0] = ((float)x + 0.5f) / SIZE;
             p[1] = 1 - ((float)y + 0.5f) / SIZE;
         }
-    test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+    test_must(retex_texture_create(&texture, &im, &spec, 0, &err), &err);
     double worst = 0;
     for (int i = 0; i < 4000; i++) {
         double su = 0.004 + 0.05 * test_random(&seed), sv = 0.004 + 0.05 * test_random(&seed);
@@ -426,8 +426,8 @@ static void test_uncut(void **state)
         for (int axis = 0; axis < 2; axis++)
             cut.uv_min[axis] = -0.25, cut.uv_max[axis] = 1.5;
         test_random_image(&im, 48, 37, 4, 3, 0, 1);
-        test_must(retex_texture_create(&a, &im, &whole, &err), &err);
-        test_must(retex_texture_create(&b, &im, &cut, &err), &err);
+        test_must(retex_texture_create(&a, &im, &whole, 0, &err), &err);
+        test_must(retex_texture_create(&b, &im, &cut, 0, &err), &err);
         int turned = fmod(whole.rotate, 90) != 0, others = 0;
         int repeats = n % 4 <= RETEX_WRAP_MIRROR && n / 4 % 4 <= RETEX_WRAP_MIRROR;
         for (int i = 0; i < 200; i++) {

@@ -15,7 +15,7 @@ static RetexTexture *create(const RetexImage *im, const RetexTextureSpec *spec)
 {
     RetexTexture *texture;
     RetexError err = {0};
-    test_must(retex_texture_create(&texture, im, spec, &err), &err);
+    test_must(retex_texture_create(&texture, im, spec, 0, &err), &err);
     return texture;
 }
 
@@ -259,7 +259,7 @@ static void test_square(void **state)
         spec.flip[1] = 1;
         texture = create(&im, &spec);
         b = create(&squared, &spec);
-        test_must(retex_texture_square(&a, texture, &err), &err);
+        test_must(retex_texture_square(&a, texture, 0, &err), &err);
         compare(a, b, &same, 0.005, 1, 1e-5, 3);
         int size[4];
         retex_texture_size(a, &size[0], &size[1]);
@@ -278,7 +278,7 @@ static void test_square(void **state)
     spec.color[0] = 0.5f;
     spec.color[1] = 1e30f; /* becomes 65504 */
     test_must(retex_texture_load(&texture, &spec, 1, &err), &err);
-    test_must(retex_texture_square(&a, texture, &err), &err);
+    test_must(retex_texture_square(&a, texture, 0, &err), &err);
     retex_texture_disc(a, 3, 4, (double[3]){1, 0, 1}, p);
     assert_memory_equal(p, ((float[4]){0.25f, 65504.0f * 65504.0f, 0, 1}), sizeof p);
     retex_texture_close(&texture);
@@ -289,7 +289,7 @@ static void must_fail(const RetexImage *im, const RetexTextureSpec *spec, const 
 {
     RetexTexture *texture;
     RetexError err = {0};
-    assert_int_equal(retex_texture_create(&texture, im, spec, &err), RETEX_EINVAL);
+    assert_int_equal(retex_texture_create(&texture, im, spec, 0, &err), RETEX_EINVAL);
     assert_null(texture);
     if (!strstr(err.message, says))
         fail_msg("'%s' does not say '%s'", err.message, says);

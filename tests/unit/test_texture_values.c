@@ -29,7 +29,7 @@ static RetexTexture *create(const RetexImage *im, int is_light, Heard *heard)
     spec.warn = hear;
     spec.warn_context = heard;
     spec.is_light = is_light;
-    test_must(retex_texture_create(&texture, im, &spec, &err), &err);
+    test_must(retex_texture_create(&texture, im, &spec, 0, &err), &err);
     return texture;
 }
 
@@ -184,8 +184,8 @@ static void test_no_result_overflows(void **state)
         test_random_image(&im, 8, 8, 3, 1, 1e38, 3e38);
         for (int i = 0; i < 3 * 64 && sign; i++)
             im.pixels[i] = i / 3 % 2 ? -3e38f : 3e38f;
-        test_must(retex_texture_create(&textures[0], &im, NULL, &err), &err);
-        test_must(retex_texture_create(&textures[1], &im, NULL, &err), &err);
+        test_must(retex_texture_create(&textures[0], &im, NULL, 0, &err), &err);
+        test_must(retex_texture_create(&textures[1], &im, NULL, 0, &err), &err);
         test_must(retex_retexture(set, NULL, textures, NULL, keep, rows, 2, &err), &err);
         for (int i = 0; i < 3 * 24 * 20; i++) {
             assert_true(isfinite(rows[i]));

@@ -155,10 +155,10 @@ static void test_sets(void **state)
             float *value = part->image.pixels + retex_image_index(&part->image, x + 1, y) - 1, kept = *value;
             snprintf(place, sizeof place, "at %d,%d in channel %c", x, y, part->letters[strlen(part->letters) - 1]);
             *value = strcmp(part->name, "depth") == 0 ? NAN : bad[i % 3];
-            test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+            test_must(retex_set_write(set, NULL, path, &params, 0, &err), &err);
             must_refuse(path, part->name, place);
             *value = strcmp(part->name, "depth") == 0 ? INFINITY : -65504;
-            test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+            test_must(retex_set_write(set, NULL, path, &params, 0, &err), &err);
             for (int k = 0; k < READERS; k++)
                 test_must(readers[k](path, &err), &err);
             *value = kept;
@@ -181,9 +181,9 @@ static void test_streams(void **state)
     while (!samples->images[i].pixels)
         i++;
     samples->images[i].pixels[retex_image_index(&samples->images[i], 3, 7)] = NAN;
-    test_must(retex_set_write(NULL, samples, path, NULL, &err), &err);
+    test_must(retex_set_write(NULL, samples, path, NULL, 0, &err), &err);
     must_refuse(path, "sample_Floor_1", "at 3,7 in channel R");
-    test_must(retex_set_write(set, samples, path, NULL, &err), &err);
+    test_must(retex_set_write(set, samples, path, NULL, 0, &err), &err);
     must_refuse(path, "sample_Floor_1", "at 3,7 in channel R");
     retex_samples_close(&samples);
     retex_set_close(&set);
@@ -203,7 +203,7 @@ static void test_packs(void **state)
         float *value = part->image.pixels + retex_image_index(&part->image, x, y), kept = *value;
         snprintf(place, sizeof place, "at %d,%d in channel %c", x, y, part->letters[0]);
         *value = strcmp(part->name, "depth") == 0 ? NAN : bad[i % 3];
-        test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
+        test_must(retex_pack_write(set, path, &params, NULL, 0, &err), &err);
         must_refuse(path, part->name, place);
         *value = kept;
     }

@@ -169,7 +169,7 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
                                     .budget = options->budget,
                                     .pixel_bytes = IMAGE_PEAK_BYTES};
     sdl_step(sdl, 1);
-    if (retex_image_read(&pixels, map->path, &params, 0, &err) == 0) {
+    if (retex_image_read(&pixels, map->path, &params, options->nthreads, &err) == 0) {
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
         map->height = pixels.height;
@@ -179,7 +179,7 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
         spec.warn = warn_of_image;
         spec.warn_context = &warning;
         spec.is_light = is_light;
-        retex_texture_create(&map->texture, &pixels, &spec, &err);
+        retex_texture_create(&map->texture, &pixels, &spec, options->nthreads, &err);
         retex_image_free(&pixels);
     }
     if (!map->texture)

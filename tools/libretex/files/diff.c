@@ -15,9 +15,18 @@
 
 typedef struct Pair {
     const RetexDiffParams *params;
+    int nthreads;
     RetexLayer a, b;
     int exact; /* 1: retex_layers_is_exact is 1 for both files */
 } Pair;
+
+/* Two open files, and what has been found out about them. */
+typedef struct Comparison {
+    RetexDiff *diff;
+    RetexLayers *a, *b;
+    const RetexDiffParams *params;
+    int nthreads;
+} Comparison;
 
 static int is_color(const char *channel)
 {
@@ -66,7 +75,7 @@ static int compare_color(RetexDiffPart *part, const Pair *pair, RetexError *err)
         code = extract_color(&b, &pair->b, err);
     if (code == 1) {
         part->has_color = 1;
-        code = retex_metrics(&part->metrics, &a, &b, pair->params->nthreads, err);
+        code = retex_metrics(&part->metrics, &a, &b, pair->nthreads, err);
     }
     retex_image_free(&a);
     retex_image_free(&b);
@@ -166,15 +175,17 @@ static int compare_pair(RetexDiffPart *part, const Pair *pair, RetexError *err)
 }
 
 /* Read and compare part ia of a with part ib of b. */
-static int compare_parts(RetexDiff *diff, RetexLayers *a, int ia, RetexLayers *b, int ib, const RetexDiffParams *params,
-                         RetexError *err)
+static int compare_parts(const Comparison *files, int ia, int ib, RetexError *err)
 {
+    RetexDiff *diff = files->diff;
     RetexDiffPart *part = &diff->parts[diff->nparts++];
-    Pair pair = {.params = params, .exact = retex_layers_is_exact(a) && retex_layers_is_exact(b)};
-    snprintf(part->name, sizeof part->name, "%s", retex_layers_name(a, ia));
-    int code = retex_layers_read(&pair.a, a, ia, err);
+    Pair pair = {.params = files->params,
+                 .nthreads = files->nthreads,
+                 .exact = retex_layers_is_exact(files->a) && retex_layers_is_exact(files->b)};
+    snprintf(part->name, sizeof part->name, "%s", retex_layers_name(files->a, ia));
+    int code = retex_layers_read(&pair.a, files->a, ia, err);
     if (!code)
-        code = retex_layers_read(&pair.b, b, ib, err);
+        code = retex_layers_read(&pair.b, files->b, ib, err);
     if (!code)
         code = compare_pair(part, &pair, err);
     retex_layer_free(&pair.a);
@@ -187,13 +198,15 @@ static int compare_parts(RetexDiff *diff, RetexLayers *a, int ia, RetexLayers *b
     return code;
 }
 
-static int compare_all(RetexDiff *diff, RetexLayers *a, RetexLayers *b, const RetexDiffParams *params, RetexError *err)
+static int compare_all(const Comparison *files, RetexError *err)
 {
+    RetexDiff *diff = files->diff;
+    RetexLayers *a = files->a, *b = files->b;
     int code = 0;
     for (int i = 0; !code && i < retex_layers_count(a); i++) {
         int twin = retex_layers_find(b, retex_layers_name(a, i));
         if (twin >= 0)
-            code = compare_parts(diff, a, i, b, twin, params, err);
+            code = compare_parts(files, i, twin, err);
         else
             REASON(diff, "part '%s' is missing in the second", retex_layers_name(a, i));
     }
@@ -216,42 +229,44 @@ static int fail_part(const RetexLayers *a, const RetexLayers *b, const char *par
 }
 
 /* Compare only the part that the parameters name. */
-static int compare_one(RetexDiff *diff, RetexLayers *a, RetexLayers *b, const RetexDiffParams *params, RetexError *err)
+static int compare_one(const Comparison *files, RetexError *err)
 {
-    int ia = params->part ? retex_layers_find(a, params->part) : 0;
-    int ib = params->part ? retex_layers_find(b, params->part) : 0;
+    const char *part = files->params->part;
+    int ia = part ? retex_layers_find(files->a, part) : 0;
+    int ib = part ? retex_layers_find(files->b, part) : 0;
     if (ia < 0 && ib < 0)
-        return fail_part(a, b, params->part, err);
+        return fail_part(files->a, files->b, part, err);
     if (ia < 0 || ib < 0) {
-        diff->differs = 1;
-        REASON(diff, "part '%s' is missing in the %s", params->part, ia < 0 ? "first" : "second");
+        files->diff->differs = 1;
+        REASON(files->diff, "part '%s' is missing in the %s", part, ia < 0 ? "first" : "second");
         return 0;
     }
-    return compare_parts(diff, a, ia, b, ib, params, err);
+    return compare_parts(files, ia, ib, err);
 }
 
-int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiffParams *params, RetexError *err)
+int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiffParams *params, int nthreads,
+               RetexError *err)
 {
     static const RetexDiffParams defaults = RETEX_DIFF_INIT;
-    RetexLayers *la = NULL, *lb = NULL;
     *result = NULL;
     if (!params)
         params = &defaults;
     if (strcmp(a, "-") == 0 && strcmp(b, "-") == 0)
         return retex_fail(err, RETEX_EINVAL, "only one of the two files can be standard input");
     RetexDiff *diff = calloc(1, sizeof *diff);
-    int code = diff ? retex_layers_open(&la, a, params->access, params->budget, params->nthreads, err)
+    Comparison files = {.diff = diff, .params = params, .nthreads = nthreads};
+    int code = diff ? retex_layers_open(&files.a, a, params->access, params->budget, nthreads, err)
                     : retex_fail(err, RETEX_ENOMEM, "no memory");
     if (!code)
-        code = retex_layers_open(&lb, b, params->access, params->budget, params->nthreads, err);
+        code = retex_layers_open(&files.b, b, params->access, params->budget, nthreads, err);
     if (!code) {
-        diff->parts = calloc((size_t)retex_layers_count(la), sizeof *diff->parts);
+        diff->parts = calloc((size_t)retex_layers_count(files.a), sizeof *diff->parts);
         code = !diff->parts        ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)
-               : params->all_parts ? compare_all(diff, la, lb, params, err)
-                                   : compare_one(diff, la, lb, params, err);
+               : params->all_parts ? compare_all(&files, err)
+                                   : compare_one(&files, err);
     }
-    retex_layers_close(&la);
-    retex_layers_close(&lb);
+    retex_layers_close(&files.a);
+    retex_layers_close(&files.b);
     if (code)
         retex_diff_close(&diff);
     *result = diff;

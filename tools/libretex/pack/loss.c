@@ -163,7 +163,7 @@ static int take(const Shot *shot, int picture, int nthreads, RetexError *err)
         code = retex_image_alloc(&painted, side, side, 3, err);
         if (!code) {
             paint(&painted, picture);
-            code = retex_texture_create(&texture, &painted, NULL, err);
+            code = retex_texture_create(&texture, &painted, NULL, nthreads, err);
         }
     }
     for (int i = 0; i < shot->set->ntargets; i++)

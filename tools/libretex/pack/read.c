@@ -22,7 +22,7 @@ int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads
     return code;
 }
 
-int retex_pack_check(const void *data, size_t bytes, RetexError *err)
+int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
     RetexSet *set = NULL;
@@ -30,7 +30,7 @@ int retex_pack_check(const void *data, size_t bytes, RetexError *err)
     if (!code)
         code = retex_pack_open(&set, &input, err);
     if (!code)
-        code = retex_pack_verify(set, 0, err);
+        code = retex_pack_verify(set, nthreads, err);
     retex_set_close(&set);
     return code;
 }

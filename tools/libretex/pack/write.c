@@ -243,7 +243,7 @@ static int is_comparable(const RetexSet *set, RetexError *err)
     return sound;
 }
 
-int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
+int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes, int nthreads,
                      RetexError *err)
 {
     static const RetexPackParams defaults = RETEX_PACK_INIT;
@@ -254,7 +254,7 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
     RetexPackKept kept = {.quality = params->quality};
-    const int comparable = params->lossless ? 0 : is_comparable(set, err), nthreads = params->nthreads;
+    const int comparable = params->lossless ? 0 : is_comparable(set, err);
     if (comparable < 0)
         return comparable;
     int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;

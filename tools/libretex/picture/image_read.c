@@ -141,7 +141,7 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const Rete
         status = retex_image_alloc(&image, width, height, 4, err);
     if (!status) {
         request.image = &image;
-        status = retex_exr_read(exr, &request, 1, 0, err);
+        status = retex_exr_read(exr, &request, 1, file->nthreads, err);
     }
     if (status) {
         retex_image_free(&image);

@@ -104,7 +104,7 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
     int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 1, nthreads, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
-            code = retex_texture_square(&estimate.squares[t], textures[t], err);
+            code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);
     if (!code)
         code =
             retex_polynomial_bands(&polynomial, 0, set->height, estimate_band, &estimate, sink, context, nthreads, err);

@@ -193,7 +193,7 @@ static void move_stores(RetexSamples *samples, RetexSamples *more)
     }
 }
 
-int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err)
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads, RetexError *err)
 {
     int same = samples->width == more->width && samples->height == more->height && samples->nimages == more->nimages &&
                samples->ntargets == more->ntargets;
@@ -204,7 +204,7 @@ int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *e
     if (!same)
         return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
     if ((samples->store && more->store) || (samples->source && more->source)) { /* samples have one of each only */
-        int code = retex_samples_load(more, 0, err);
+        int code = retex_samples_load(more, nthreads, err);
         if (code)
             return code;
     }

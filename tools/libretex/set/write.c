@@ -237,7 +237,7 @@ static void close_writing(Writing *w)
 }
 
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,
-                    RetexError *err)
+                    int nthreads, RetexError *err)
 {
     static const RetexStoreParams defaults = RETEX_STORE_INIT;
     int status = check_written(set, samples, err);
@@ -246,7 +246,7 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
         return status;
     if (!params)
         params = &defaults;
-    Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = params->nthreads};
+    Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = nthreads};
     w.compress = params->compress && strcmp(path, "-") != 0;
     w.width = set ? set->width : samples->width;
     w.height = set ? set->height : samples->height;

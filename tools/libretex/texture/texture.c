@@ -331,7 +331,8 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     return RETEX_OK;
 }
 
-int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, RetexError *err)
+int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, int nthreads,
+                         RetexError *err)
 {
     static const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
     RetexError why = {0};
@@ -349,7 +350,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             for (int c = 0; c < 4; c++)
                 to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
         }
-        code = take_pixels(texture, &copy, 0, &why);
+        code = take_pixels(texture, &copy, nthreads, &why);
         retex_image_free(&copy);
     }
     if (code) {
@@ -362,7 +363,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
     return RETEX_OK;
 }
 
-int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexError *err)
+int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nthreads, RetexError *err)
 {
     *out = NULL;
     RetexTexture *square = calloc(1, sizeof *square);
@@ -388,7 +389,7 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexE
                 to[c] = p[3] > 0 ? p[c] / p[3] * (p[c] / p[3]) * p[3] : 0;
             to[3] = p[3];
         }
-        if (!code && retex_texture_build_pyramid(square, &texels, 0))
+        if (!code && retex_texture_build_pyramid(square, &texels, nthreads))
             code = no_memory(texture, from->width, from->height, err);
         free(texels.texels);
     }

@@ -18,11 +18,10 @@ typedef struct RetexDiffParams {
     int allow_inf;     /* 1: infinities of the same sign in the same place are equal; 0: no infinity is accepted */
     double fail_psnr;  /* differs when psnr is below; < 0 = no limit, as for all that follow */
     double fail_relmse, fail_flip, fail_abs, fail_rel; /* when relmse, flip_mean, max_abs, max_rel is above */
-    int nthreads;      /* 0 = all cores */
     const RetexAccess *access; /* which files may be read; sets and packs are, as pictures go; NULL = any */
     const RetexBudget *budget; /* what pictures may take; NULL = what there is */
 } RetexDiffParams;
-#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, 0, NULL, NULL }
+#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, NULL, NULL }
 
 typedef struct RetexDiffPart {
     char name[192];          /* "" where the file's part has none */
@@ -44,7 +43,7 @@ typedef struct RetexDiff {
 /* Compare two files: EXR (sets and samples too), packs, or any picture OpenImageIO reads, as R,G,B,A. b is the
  * reference. That they differ is not an error: see (*diff)->differs. */
 int retex_diff(RetexDiff **diff, const char *a, const char *b, const RetexDiffParams *params /* NULL = defaults */,
-               RetexError *err);
+               int nthreads /* 0 = all cores */, RetexError *err);
 void retex_diff_close(RetexDiff **diff); /* NULL and pointers to NULL are fine */
 
 #ifdef __cplusplus

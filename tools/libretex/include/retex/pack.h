@@ -14,21 +14,20 @@ typedef struct RetexPackParams {
     size_t size;
     int quality;   /* 1..100, default 90: what pictures made of the pack lose at most, see retex-pack(1) */
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
-    int nthreads;  /* 0 = all cores */
 } RetexPackParams;
-#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, 0 }
+#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0 }
 
 /* Write set as a pack; "-" is standard output. Unless lossless it is compacted (see compact.h), and is without what
  * only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ more than
  * the quality promises it is packed anew, finer. *bytes (may be NULL) gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
-                     size_t *bytes, RetexError *err);
+                     size_t *bytes, int nthreads /* 0 = all cores */, RetexError *err);
 /* Read a pack from memory (the whole file). retex_set_read calls it when it finds a pack. */
 int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads, RetexError *err);
 /* 1 if the bytes begin like a pack (a zip's first local header). */
 int retex_pack_probe(const void *data, size_t bytes);
 /* Compare the checksums inside a pack with its data. */
-int retex_pack_check(const void *data, size_t bytes, RetexError *err);
+int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err);
 
 /* Bytes of a pack's parts by what they are for; a zip's directory, the manifest and the like are not among them.
  * 1, or 0 where the set is not that of a pack which retex_set_open opened. */

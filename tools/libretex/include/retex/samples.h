@@ -51,7 +51,7 @@ int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const Ret
 
 /* Move the images of `more` into samples, where they replace those of the same footprints; both must be of the same
  * set. `more` keeps no image and is still the caller's to close. On failure both are as they were. */
-int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err);
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads, RetexError *err);
 
 /* 1 if there is an image for that footprint: in memory, in the band store or in the source. */
 int retex_samples_have(const RetexSamples *samples, int footprint);

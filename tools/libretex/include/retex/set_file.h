@@ -12,9 +12,8 @@ extern "C" {
 typedef struct RetexStoreParams {
     size_t size;
     int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
-    int nthreads; /* 0 = all cores */
 } RetexStoreParams;
-#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1, 0 }
+#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1 }
 
 /* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
  * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
@@ -45,7 +44,8 @@ int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */, uint64
  * written when samples are given: beauty, terms, and the footprints that have no sample. Pixels that are still in an
  * open file go through a temporary file near path. */
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
-                    const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
+                    const RetexStoreParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
+                    RetexError *err);
 
 /* Check that a set, samples or a pack can be written to path, as far as that is known without writing: to be called
  * before the work that makes them. */

@@ -91,10 +91,10 @@ typedef struct RetexTexture RetexTexture;
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
-                         const RetexTextureSpec *spec /* NULL = plain */, RetexError *err);
+                         const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
 /* A texture of the same placement whose colours are the squares of the (unassociated) colours, with the same alpha:
  * E[a^2] - E[a]^2 is a texture's variance within a footprint. */
-int retex_texture_square(RetexTexture **square, const RetexTexture *texture, RetexError *err);
+int retex_texture_square(RetexTexture **square, const RetexTexture *texture, int nthreads, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
 int retex_texture_size(const RetexTexture *texture, int *width, int *height);
