@@ -9,13 +9,15 @@
 #   make asan, tsan   run the unit and command-line tests with the sanitizers
 #   make fuzz         run mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
 #   make bench        print ratios of speed: kernels against references, sets against plain renders
-#   make bench-render speed and error of rendering, compared with Cycles and with Embree's rays alone
+#   make bench-render speed and error of rendering, compared with Cycles and with Embree's rays alone; docs/speed.md
 #   make bench-overhead   time of sets over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
 #   make bench-post   time of retextures and size of sets, as in the paper; BENCH_DOCS=1: docs/post.md
 #   make bench-storage    size and loss of sets and packs; BENCH_DOCS=1: docs/storage.md
 #   make bench-scale  time per path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
-#   make fidelity     compare retextures with new renders: docs/fidelity.md, docs/denoise.md; takes hours
-#   make fidelity-denoise   docs/denoise.md alone
+#   make fidelity     compare retextures with new renders; BENCH_DOCS=1: docs/fidelity.md; takes hours
+#   make fidelity-denoise   compare denoised sets with new renders; BENCH_DOCS=1: docs/denoise.md; takes hours
+#   make figures      the pages of measured figures in docs/, and those figures in README and man pages;
+#                     PAGES='post speed' FIGURES=small
 #   make pictures     make the README's pictures in docs/pictures; takes long
 #   make compare-external DIR=FOLDER   score another method's pictures against the references; sheets in build/external
 #   make lint         check the project's rules that a script can check

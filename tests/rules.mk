@@ -124,14 +124,18 @@ bench-post: all $(POST_PROGRAMS)
 bench-storage: all fidelity-textures
 	@BUILD=$(BUILD) tests/bench/post/storage.sh
 
-# Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes
-# hours; FIDELITY_… and DENOISE_… of the scripts choose less.
+# Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
+# the scripts choose less.
 .PHONY: fidelity fidelity-denoise
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
-	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
 fidelity-denoise: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
+
+# The pages with measured figures in docs/, and the figures of README and man pages from them. PAGES='…' chooses.
+.PHONY: figures
+figures: all
+	@BUILD=$(BUILD) PAGES='$(PAGES)' FIGURES='$(FIGURES)' tests/figures/run.sh
 
 # How another method fares: DIR holds its pictures SCENE-TEXTURE.png; the truths are the fidelity run's.
 .PHONY: compare-external

@@ -9,6 +9,7 @@
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
+#   - figures that README and man pages quote are those of docs/*.csv
 # --tap: as one test of make check.
 set -u
 status=0
@@ -173,6 +174,7 @@ done
 for script in $(git ls-files '*.sh') .ci/run; do
     sh -n "$script" || complain "$script"
 done
+quoted=$(/usr/bin/python3 -B tests/figures/quote.py --check) || complain "$quoted"
 if [ "${1-}" = --tap ]; then
     [ "$status" = 0 ] && echo "ok 1 - rules of the house" || echo "not ok 1 - rules of the house"
     exit 0

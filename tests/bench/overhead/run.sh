@@ -12,6 +12,7 @@
 # BENCH_SCENES='living-room artist' and BENCH_ROWS (some of the rows below, without `plain') choose less.
 set -eu
 export LC_ALL=C
+. tests/figures/head.sh
 build=${BUILD:-build} here=tests/bench/overhead
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH
@@ -99,7 +100,7 @@ for row in footprints paper; do
     measure memory living-room 1 "$memory_size" 2 $row Floor Wall
 done
 rm -f "$work"/*.exr
-"$python" $here/table.py "$records" "$build/bench/overhead.csv" "$(nproc)" "$size" "$spp" "$memory_size" |
+"$python" $here/table.py "$records" "$build/bench/overhead.csv" "$(figures_head bench-overhead)" "$size" "$spp" "$memory_size" |
     tee "$build/bench/overhead.md"
 if [ "${BENCH_DOCS:-}" = 1 ]; then
     cp "$build/bench/overhead.md" "$build/bench/overhead.csv" docs/

@@ -1,4 +1,4 @@
-"""The page of make bench-overhead: table.py RECORDS OUT.csv CORES SIZE SPP MEMORY_SIZE
+"""The page of make bench-overhead: table.py RECORDS OUT.csv HEAD SIZE SPP MEMORY_SIZE
 
 Prints what measure.py wrote as Markdown, and writes the figures as CSV.
 """
@@ -26,8 +26,8 @@ SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living ro
 INTRODUCTION = """# What a set costs
 
 This page shows how much more time a render takes if it writes a set and not only the plain picture, as tables 1 to 3 of
-the paper do. `make bench-overhead` made this page on {cores} cores. [overhead.csv](overhead.csv) has the same figures,
-with their least and largest values.
+the paper do. [overhead.csv](overhead.csv) has the same figures, with their least and largest values.
+{head}
 
 Pictures are {size} with {spp} samples per pixel. A figure is that of a whole process, from reading the scene to the
 written OpenEXR file. Sets have denoising data unless stated otherwise.
@@ -120,9 +120,9 @@ def memory(found, size):
         print(f"| {ROWS[name]} | {targets} | {run['peak_memory_bytes'] / 1e6:.0f} | {run['bytes'] / 1e6:.1f} |")
 
 
-def main(records, table, cores, size, spp, memory_size):
+def main(records, table, head, size, spp, memory_size):
     found = read(records)
-    print(INTRODUCTION.format(cores=cores, size=size, spp=spp), end="")
+    print(INTRODUCTION.format(head=head, size=size, spp=spp), end="")
     if any(key[3].startswith(("initial", "again")) for key in found):
         print(RIVALS, end="")
     with open(table, "w", encoding="ascii", newline="") as file:

@@ -3,6 +3,7 @@
 # What measuring retextures and sizes share; sourced from the top of the repository. Sets are rendered once and kept in
 # $sets; what is made of them is made anew where the tools are newer.
 export LC_ALL=C
+. tests/figures/head.sh
 build=${BUILD:-build} here=tests/bench/post
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH

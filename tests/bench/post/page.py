@@ -1,4 +1,4 @@
-"""The page of make bench-post: page.py RECORDS OUT.csv CORES TABLE_SIZE TABLE_SPP CONTROL_SPP
+"""The page of make bench-post: page.py RECORDS OUT.csv HEAD TABLE_SIZE TABLE_SPP CONTROL_SPP
 
 Prints what run.sh measured as Markdown, and writes the figures as CSV.
 """
@@ -53,8 +53,8 @@ STORED = {
 INTRODUCTION = """# How long retexturing takes
 
 This page has the time from a set on disk to the written picture, as table 6 of the paper, and the sizes of
-sets, as its tables 4 and 5. `make bench-post` made this page on {cores} cores. [post.csv](post.csv) has all
-figures, with their least and largest values.
+sets, as its tables 4 and 5. [post.csv](post.csv) has all figures, with their least and largest values.
+{head}
 
 A time is that of a whole process, or of all processes of a pipe, from the start until the file is written. It
 includes reading the set, and loading and filtering the textures. All files were read once before and are in the
@@ -313,11 +313,11 @@ def write_csv(path, cases, stored, size):
                               for group, bytes_ in of["groups"].items())
 
 
-def main(records, table, cores, size, spp, control_spp):
+def main(records, table, head, size, spp, control_spp):
     cases, stored = read(records)
     turns = max((len(runs) for c in cases.values() for runs in c.runs.values()), default=0)
     turns = f"{turns} times, every other turn backwards" if turns > 1 else "once"
-    print(INTRODUCTION.format(cores=cores, turns=turns), end="")
+    print(INTRODUCTION.format(head=head, turns=turns), end="")
     goals(cases)
     size_goals(stored)
     against_paper(cases)

@@ -210,7 +210,7 @@ for scene in $scenes; do
     [ "$table_size" = no ] || measure_control
 done
 rm -rf "$work/out" "$work"/*.json
-"$python" $here/page.py "$records" "$out/post.csv" "$(nproc)" "$table_size" "$table_spp" "$control_spp" |
+"$python" $here/page.py "$records" "$out/post.csv" "$(figures_head bench-post)" "$table_size" "$table_spp" "$control_spp" |
     tee "$out/post.md"
 if [ "${BENCH_DOCS:-}" = 1 ]; then
     cp "$out/post.md" "$out/post.csv" docs/

@@ -103,7 +103,7 @@ measure_denoised() {
 
 for scene in $scenes; do
     # shellcheck disable=SC2086
-    [ -z "${BENCH_TRUTH_SPP:-}" ] || rendered "$scene" "$work/truth" '' "$BENCH_TRUTH_SPP" 1000 $looks
+    [ -z "${BENCH_TRUTH_SPP:-}" ] || truth "$scene" "$BENCH_TRUTH_SPP" $looks
     for layout in $layouts; do
         echo "bench-storage: rendering $scene, $layout" >&2
         measure_rendered
@@ -111,7 +111,7 @@ for scene in $scenes; do
     done
 done
 rm -rf "$work/retextured" "$work"/stored.* "$work"/*.json "$work"/batch*.csv
-"$python" $post/storage_page.py "$records" "$out/storage.csv" "$size" "$set_spp" | tee "$out/storage.md"
+"$python" $post/storage_page.py "$records" "$out/storage.csv" "$(figures_head bench-storage)" "$size" "$set_spp" | tee "$out/storage.md"
 if "$python" -c 'import matplotlib' 2>/dev/null; then
     "$python" $post/storage_plot.py "$out/storage.csv" "$out/storage.png"
 else

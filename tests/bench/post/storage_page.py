@@ -1,4 +1,4 @@
-"""The page of make bench-storage: storage_page.py RECORDS OUT.csv SIZE SPP
+"""The page of make bench-storage: storage_page.py RECORDS OUT.csv HEAD SIZE SPP
 
 Prints what storage.sh measured as Markdown, and writes the figures as CSV.
 """
@@ -19,8 +19,11 @@ COLUMNS = ["scene", "layout", "set", "method", "level", "bytes", "bytes_without_
 
 INTRODUCTION = """# Size of stored sets, and what they lose
 
-A set can be stored without loss or with loss. `make bench-storage` made this page from sets of {size} pixels
-and {spp} samples, denoised unless stated otherwise. [storage.csv](storage.csv) has the same figures. Every
+{head}
+[storage.csv](storage.csv) has the same figures.
+
+A set can be stored without loss or with loss. The sets here have {size} pixels
+and {spp} samples, and are denoised unless stated otherwise. Every
 stored form is read again and retextured with {textures}. They are laid on the scenes' targets
 as `make fidelity` does.
 
@@ -46,18 +49,6 @@ The stored forms are:
 - *EXR, radiance as plain JPEG* stores each radiance image as a JPEG of the quality in its name, scaled to its
   largest value and sRGB-encoded, and the other parts as the set does. In layout `paper` this is the method of
   the paper.
-
-JPEG XL (libjxl 0.7, effort 7) was tried and is not used. The test image is the light of the living room that no
-texture multiplies, at 960x540 and 128 samples:
-
-- With loss, in the levels that JPEGs have here, it takes 380 KB for a PSNR of 54.8 dB, where JPEG takes 332 KB.
-  As rendered, with noise, it takes 586 KB for 49.7 dB, where JPEG takes 530 KB. The JPEG is coded for equal
-  errors at all frequencies, JPEG XL for the eye.
-- It decodes 12 to 35 million pixels a second on two cores.
-- JPEGs that are transcoded to JPEG XL without loss are 11 percent smaller, noisy ones 6 percent, and decode no
-  faster.
-- In lossless packs it takes 0.98 to 1.06 times the bytes of their model for light and albedo, and 0.8 times for
-  original textures. It decodes a fourth as fast.
 
 ![](pictures/storage.png)
 """
@@ -126,12 +117,12 @@ def rendered(rows, pixels):
         print(f"| {row['scene']} | {row['layout']} | {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
 
 
-def main(records, table, size, spp):
+def main(records, table, head, size, spp):
     found = read(records)
     pixels = int(size.partition("x")[0]) * int(size.partition("x")[2])
     textures = max((len(r) for r in found.values()), default=0)
-    print(INTRODUCTION.format(size=size, spp=spp, textures=f"{textures} textures" if textures > 1 else "one texture"),
-          end="")
+    print(INTRODUCTION.format(head=head, size=size, spp=spp,
+                              textures=f"{textures} textures" if textures > 1 else "one texture"), end="")
     rows = [figures(key, of, pixels) for key, of in found.items()]
     with open(table, "w", encoding="ascii", newline="") as file:
         out = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")

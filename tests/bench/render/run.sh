@@ -1,5 +1,6 @@
 #!/bin/sh
-# How fast retex renders: make bench-render. Prints a table, also to $BUILD/bench/render.txt.
+# How fast retex renders: make bench-render. Prints tables, also to $BUILD/bench/render.txt, with figures in render.csv.
+# With BENCH_DOCS=1 they become docs/speed.md and docs/speed.csv.
 #
 # Two scenes of scenes.py, a Cornell box with a glass ball and an interior of 300,000 triangles, are rendered in turn by
 # retex-render and, where there is a blender, by Cycles, with two threads; and embree_rays traces rays in them with
@@ -11,6 +12,7 @@
 # BENCH_REFERENCE_SPP choose less, or more.
 set -eu
 export LC_ALL=C
+. tests/figures/head.sh
 build=${BUILD:-build} here=tests/bench/render
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH
@@ -66,7 +68,7 @@ measure() {
         turn cornell "$spp" "$n"
         turn interior "$interior_spp" "$n"
     done
-    "$python" $here/speed.py "$work/runs"
+    "$python" $here/speed.py "$work/runs" "${out%.txt}.csv"
 
     pictures=$work/pictures-$spp-$key
     mkdir -p "$pictures"
@@ -87,3 +89,12 @@ measure() {
 rm -f "$work/done"
 { measure; touch "$work/done"; } | tee "$out"
 [ -e "$work/done" ]
+if [ "${BENCH_DOCS:-}" = 1 ]; then
+    cp "${out%.txt}.csv" docs/speed.csv
+    {
+        sed "s|@head@|$(figures_head bench-render)|" $here/page.md
+        printf '\n```\n'
+        cat "$out"
+        printf '```\n'
+    } >docs/speed.md
+fi

@@ -1,4 +1,8 @@
-"""How fast retex renders: speed.py RUNS. Beside Cycles, and beside what Embree needs for the same number of rays."""
+"""How fast retex renders: speed.py RUNS OUT.csv. Beside Cycles, and beside what Embree needs for the same number of rays.
+
+The table has one row for each scene and turn.
+"""
+import csv
 import sys
 from statistics import median
 
@@ -43,8 +47,20 @@ def against_embree(turns):
               runs.middle(r.cpu / limit(e, "cpu") for r, e in pairs))
 
 
-def main(path):
-    for scene, turns in runs.read(path).items():
+def write_table(path, scenes):
+    with open(path, "w", encoding="ascii", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(["scene", "turn", "mpaths_per_s", "paths_over_cycles"])
+        for scene, turns in scenes.items():
+            cycles = turns.get("cycles", [None] * len(turns["retex"]))
+            for number, (r, c) in enumerate(zip(turns["retex"], cycles), 1):
+                out.writerow([scene, number, f"{r.paths / r.wall / 1e6:.4f}", f"{c.wall / r.wall:.4f}" if c else ""])
+
+
+def main(path, table):
+    scenes = runs.read(path)
+    write_table(table, scenes)
+    for scene, turns in scenes.items():
         first = turns["retex"][0]
         print(f"\n{scene}: {first.paths / 1e6:.1f} million paths, {first.samples:.0f} samples a pixel, "
               f"median of {len(turns['retex'])} turns")

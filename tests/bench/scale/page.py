@@ -1,4 +1,4 @@
-"""The page of make bench-scale: page.py RECORDS OUT.csv CORES SIZE SPP SIZES_SPP
+"""The page of make bench-scale: page.py RECORDS OUT.csv HEAD SIZE SPP SIZES_SPP
 
 Prints what measure.py of bench-overhead wrote as Markdown, and writes the figures as CSV.
 """
@@ -24,7 +24,7 @@ LIMIT = 8e9
 INTRODUCTION = """# How costs grow
 
 This page shows how the cost of a path grows with a scene or picture, for the plain picture and for a set. The cost is
-processor time in microseconds. `make bench-scale` made this page on {cores} cores.
+processor time in microseconds. {head}
 Each figure is the median of {turns}, with the least and largest in brackets.
 [scale.csv](scale.csv) has the same figures.
 
@@ -104,12 +104,12 @@ def large(found):
               f"small machine. The file has {run['bytes'] / 1e9:.2f} GB.")
 
 
-def main(records, table, cores, size, spp, sizes_spp):
+def main(records, table, head, size, spp, sizes_spp):
     found = read(records)
     rows = list(points(found))
     turns = max((r["turns"] for r in rows), default=1)
     turns = f"{turns} turns" if turns > 1 else "one turn"
-    print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=turns), end="")
+    print(INTRODUCTION.format(head=head, size=size, spp=spp, turns=turns), end="")
     with open(table, "w", encoding="ascii", newline="") as file:
         out = csv.DictWriter(file, COLUMNS, extrasaction="ignore", lineterminator="\n")
         out.writeheader()

@@ -12,6 +12,7 @@
 # `no') choose less.
 set -eu
 export LC_ALL=C
+. tests/figures/head.sh
 build=${BUILD:-build} here=tests/bench/scale
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH
@@ -83,7 +84,7 @@ done
     --spp 4 || echo "bench-scale: the large set was not rendered" >&2
 
 rm -f "$work"/*.exr "$work"/*.pov
-"$python" $here/page.py "$records" "$out/scale.csv" "$(nproc)" "$size" "$spp" "$sizes_spp" | tee "$out/scale.md"
+"$python" $here/page.py "$records" "$out/scale.csv" "$(figures_head bench-scale)" "$size" "$spp" "$sizes_spp" | tee "$out/scale.md"
 if "$python" -c 'import matplotlib' 2>/dev/null; then
     "$python" $here/plot.py "$out/scale.csv" "$out/scale.png"
 else

@@ -1,4 +1,4 @@
-"""The table of `make fidelity-denoise` as Markdown, and its pictures: denoise-report.py WORK SIZE TRUTH-SPP NOTES >MD
+"""The table of `make fidelity-denoise` as Markdown, and its pictures: denoise-report.py WORK HEAD SIZE TRUTH-SPP NOTES >MD
 
 Reads WORK/denoise.csv and writes WORK/pictures/denoise-SCENE.jpg. NOTES is a file of Markdown, put where the rival is
 compared, if it is there: what figures do not say.
@@ -197,7 +197,7 @@ def strip(work, scene, texture):
                    ("Compression", "jpeg:92"))
 
 
-def main(work, size, truth_samples, notes):
+def main(work, head, size, truth_samples, notes):
     t = Table(f"{work}/denoise.csv")
     print(f"""# Denoised sets compared with rendering again
 
@@ -212,8 +212,8 @@ of {truth_samples} samples, {size}. The rows are:
 
 Sets of 128 samples have {len(t.seeds[SET])} seeds, everything else has one. Means are over all scenes, textures and seeds.
 Scenes and textures are those of [fidelity.md](fidelity.md). The converged pictures have a little noise too: they make
-gains at 1024 samples look smaller than they are. `make fidelity-denoise` made this page; [denoise.csv](denoise.csv) has all
-figures.""")
+gains at 1024 samples look smaller than they are. [denoise.csv](denoise.csv) has all figures.
+{head}""")
     asked(t)
     print("## Means")
     summary(t)

@@ -2,18 +2,17 @@
 # How much denoising a set gains: retextures of sets as rendered and denoised, against the scene rendered again, with
 # four times as many samples too, and rendered again and denoised by the same filter, its fair rival.
 #
-#   make fidelity-denoise    some hours on two cores, into docs/denoise.csv, docs/denoise.md, docs/pictures/denoise-*;
-#                            `make fidelity` does it too
+#   make fidelity-denoise    some hours on two cores, into $BUILD/fidelity-denoise; with BENCH_DOCS=1 page, figures and
+#                            pictures go to docs/ and docs/pictures/ too
 #
 # Seven scenes times eight textures, as in run.sh, but what denoising can do depends on how many pixels an edge or a
-# shadow has: so these are parts, 144x112 pixels, of pictures of 512x384. Sets of layout footprints at 128 samples have five seeds; all else,
-# and 1024 samples and layout paper, has one. The figures are PSNR of the whole picture and of its regions
+# shadow has: so these are parts, 144x112 pixels, of pictures of 512x384. Sets of layout footprints at 128 samples have
+# five seeds; all else, and 1024 samples and layout paper, has one. The figures are PSNR of the whole picture and of its regions
 # (regions.py), and FLIP. Everything is kept in $BUILD/fidelity-denoise and not made twice: what is there from an
 # earlier run, or was copied there, counts. DENOISE_FRESH=1 makes anew what the filter has touched.
 #
-# DENOISE_SCENES, DENOISE_SIZE (of whole pictures), DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more; then docs/
-# is left alone and the report is in $BUILD/fidelity-denoise alone. DENOISE_FLAGS are options of retex-denoise for sets, to try them out:
-# the rival does not have them.
+# DENOISE_SCENES, DENOISE_SIZE (of whole pictures), DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more.
+# DENOISE_FLAGS are options of retex-denoise for sets, to try them out; the rival does not have them.
 set -eu
 . tests/fidelity/table/lib.sh
 size=${DENOISE_SIZE:-512x384} truth_spp=${DENOISE_TRUTH_SPP:-4096} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
@@ -104,7 +103,7 @@ run() { # SCENE
     # shellcheck disable=SC2086
     {
         guides "$place"
-        rendered "$place" "$work/truth" '' "$truth_spp" 1000 $textures
+        truth "$place" "$truth_spp" $textures
         rendered "$place" "$work/again" "-$few" "$few" 1 $textures
         rendered "$place" "$work/again" "-$more" "$more" 1 $textures
         for picture in $textures; do rival "$place" "$few" "$picture"; done
@@ -140,10 +139,10 @@ done
 awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
 shown="parts of 144x112 pixels of pictures of $size"
 [ -z "${DENOISE_SIZE:-}" ] || shown="$size pixels"
-"$python" "$here/table/denoise-report.py" "$work" "$shown" "$truth_spp" "$here/table/denoise-notes.md" \
+"$python" "$here/table/denoise-report.py" "$work" "$(figures_head fidelity-denoise)" "$shown" "$truth_spp" "$here/table/denoise-notes.md" \
     >"$work/denoise.new"
 mv "$work/denoise.new" "$work/denoise.md"
-if [ -z "${DENOISE_SCENES:-}${DENOISE_SIZE:-}${DENOISE_TRUTH_SPP:-}${DENOISE_SEEDS:-}${DENOISE_FLAGS:-}" ]; then
+if [ "${BENCH_DOCS:-}" = 1 ]; then
     mkdir -p docs/pictures
     cp "$work/denoise.csv" "$work/denoise.md" docs/
     cp "$work"/pictures/denoise-*.jpg docs/pictures/

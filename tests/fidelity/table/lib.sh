@@ -2,6 +2,7 @@
 # shellcheck disable=SC2034,SC2154 # who sources it uses the former and gives the latter
 # What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are $size pixels,
 # or the part of so large a picture that view says, and are not made again where they are there.
+. tests/figures/head.sh
 build=${BUILD:-build} here=tests/fidelity
 all_scenes='cornell-box glass-caustics living-room kitchen globe glossy-pair horizon'
 textures='checker wood grout text saturated constant dark photo'
@@ -66,6 +67,34 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
     # shellcheck disable=SC2046 # words wanted
     retex-render -q $(view "$scene") --spp "$spp" --seed "$seed" $(target_flags "$scene") \
         --variants "$work/batch-$scene.csv" "$(scene_file "$scene")"
+}
+
+# Converged pictures: $work/truth/SCENE-TEXTURE.exr, links into $build/truth, where they outlive builds. A name there has
+# a digest of the view, the samples and a small picture of the same textures. Whatever changes pictures, in renderer,
+# scene or texture, changes the small picture too, and the truth is rendered again.
+truth() { # SCENE SPP TEXTURE…
+    scene=$1 spp=$2
+    shift 2
+    mkdir -p "$work/key" "$work/truth" "$build/truth"
+    for texture; do rm -f "$work/key/$scene-$texture.exr"; done
+    (
+        view() { echo '--size 24x16'; }
+        rendered "$scene" "$work/key" '' 16 1000 "$@"
+    )
+    for texture; do
+        shift
+        key=$({ echo "$(view "$scene") $spp"; cat "$work/key/$scene-$texture.exr"; } | sha256sum | cut -c1-16)
+        kept=$PWD/$build/truth/$scene-$texture-$key.exr
+        case $build in /*) kept=$build/truth/$scene-$texture-$key.exr ;; esac
+        ln -sfn "$kept" "$work/truth/$scene-$texture.exr"
+        [ -e "$kept" ] || set -- "$@" "$texture"
+    done
+    [ $# -gt 0 ] || return 0
+    rm -rf "$work/truth.new"
+    mkdir "$work/truth.new"
+    rendered "$scene" "$work/truth.new" '' "$spp" 1000 "$@"
+    for texture; do mv "$work/truth.new/$scene-$texture.exr" "$(readlink "$work/truth/$scene-$texture.exr")"; done
+    rmdir "$work/truth.new"
 }
 
 # A set of layout footprints, footprints-8 or paper: $work/sets/SCENE-SPP-NAME.exr, of seed 1, or of another that ends

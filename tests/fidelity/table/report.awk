@@ -1,4 +1,4 @@
-# The table of `make fidelity` as Markdown: awk -f report.awk -v size=WxH -v truth=SAMPLES fidelity.csv
+# The table of `make fidelity` as Markdown: awk -f report.awk -v head=TEXT -v size=WxH -v truth=SAMPLES fidelity.csv
 BEGIN { FS = "," }
 NR == 1 { next }
 {
@@ -18,7 +18,8 @@ END {
     print "the better picture, because it filters textures where rendering samples them."
     print ""
     print "In scenes with two targets both change. The scenes are in `scenes/` and `tests/fidelity/scenes/`. The textures are those"
-    print "of `make fidelity-textures`. `make fidelity` made this page; [fidelity.csv](fidelity.csv) has the same figures."
+    print "of `make fidelity-textures`. [fidelity.csv](fidelity.csv) has the same figures."
+    print head
     print ""
     print "| samples | set | mean gap | worst gap | where |"
     print "|---|---|---|---|---|"

@@ -1,15 +1,16 @@
 #!/bin/sh
 # How near retextures come to rendering again: seven scenes times eight textures, against converged pictures.
 #
-#   make fidelity            all of it, some hours on two cores, into docs/fidelity.csv and docs/fidelity.md
+#   make fidelity            all of it, some hours on two cores, into $BUILD/fidelity; with BENCH_DOCS=1 the page and its
+#                            figures go to docs/ too
 #
 # For each scene and texture (of two targets both change: the second takes the texture three further down the list) a
 # converged picture is rendered, then at 128 and at 1024 samples and another seed: the picture rendered again, and sets
 # of both layouts, retextured. The figure is PSNR against the converged picture (retex-diff: sRGB-encoded, clipped).
 # In two scenes textures are also turned by 30 degrees. Everything is kept in $BUILD/fidelity and not made twice: what is
-# there from an earlier run counts.
+# there from an earlier run counts (make figures removes what another build made).
 #
-# FIDELITY_SCENES, FIDELITY_SPP, FIDELITY_SIZE and FIDELITY_TRUTH_SPP choose less, or more; then docs/ is left alone.
+# FIDELITY_SCENES, FIDELITY_SPP, FIDELITY_SIZE and FIDELITY_TRUTH_SPP choose less, or more.
 set -eu
 . tests/fidelity/table/lib.sh
 size=${FIDELITY_SIZE:-128x96} truth_spp=${FIDELITY_TRUTH_SPP:-8192} samples=${FIDELITY_SPP-128 1024}
@@ -32,7 +33,7 @@ score() { # SCENE TEXTURE SPP METHOD FILE
 run() { # SCENE TEXTURE…: everything about some textures in a scene
     place=$1
     shift
-    rendered "$place" "$work/truth" '' "$truth_spp" 1000 "$@"
+    truth "$place" "$truth_spp" "$@"
     for count in $samples; do
         rendered "$place" "$work/again" "-$count" "$count" 1 "$@"
         for name in $sets; do make_set "$place" "$count" "$name"; done
@@ -62,7 +63,6 @@ table=$work/fidelity.csv
     done
 } >"$table.new"
 mv "$table.new" "$table"
-if [ -z "${FIDELITY_SCENES:-}${FIDELITY_SPP:-}${FIDELITY_SIZE:-}${FIDELITY_TRUTH_SPP:-}" ]; then
-    cp "$table" docs/fidelity.csv
-    awk -f "$here/table/report.awk" -v size="$size" -v truth="$truth_spp" "$table" >docs/fidelity.md
-fi
+awk -f "$here/table/report.awk" -v head="$(figures_head fidelity)" -v size="$size" -v truth="$truth_spp" "$table" \
+    >"$work/fidelity.md"
+[ "${BENCH_DOCS:-}" != 1 ] || cp "$work/fidelity.csv" "$work/fidelity.md" docs/

@@ -1,0 +1,171 @@
+"""Figures in texts are those of the pages: quote.py --check | --update [FILE...]
+
+A text marks a figure with the name that FIGURES gives it here. In Markdown the figure stands between comments:
+<!--= NAME -->+0.55 dB<!--/-->. In a man page the line before has .\\"= NAME = 0.55, and the next line has that text.
+--check prints one line for each figure that differs from docs/*.csv, and exits with 1; --update writes it.
+"""
+import csv
+import glob
+import os
+import re
+import sys
+from statistics import mean, median
+
+DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs")
+
+
+def rows(page, **which):
+    with open(os.path.join(DOCS, page + ".csv"), encoding="utf-8") as file:
+        found = [row for row in csv.DictReader(file) if all(row[name] == value for name, value in which.items())]
+    if not found:
+        raise KeyError(f"docs/{page}.csv has no row with {which}")
+    return found
+
+
+def one(page, column, **which):
+    found = rows(page, **which)
+    if len(found) > 1:
+        raise KeyError(f"docs/{page}.csv has {len(found)} rows with {which}")
+    return float(found[0][column])
+
+
+# ---- fidelity and denoising ----
+
+def gaps(method, samples):
+    psnr = {(r["scene"], r["texture"], r["method"]): float(r["psnr"]) for r in rows("fidelity", samples=samples)}
+    return [value - psnr[scene, texture, "again"] for (scene, texture, name), value in psnr.items() if name == method]
+
+
+def decibels(value, digits):
+    return f"{value:+.{digits}f} dB"
+
+
+def fidelity_mean(method, samples, digits):
+    return decibels(mean(gaps(method, samples)), int(digits))
+
+
+def fidelity_worst(method, samples, digits):
+    return decibels(min(gaps(method, samples)), int(digits))
+
+
+def fidelity_again(scene, texture, samples):
+    """Of rendering again."""
+    return f"{one('fidelity', 'psnr', scene=scene, texture=texture, samples=samples, method='again'):.0f} dB"
+
+
+def denoise_gain(method, samples):
+    """Over the set with 128 samples as rendered, whole pictures: mean of scenes and textures."""
+    def cells(which, count):
+        found = {}
+        for r in rows("denoise", method=which, samples=count, region="all"):
+            found.setdefault((r["scene"], r["texture"]), []).append(float(r["psnr"]))
+        return {key: mean(values) for key, values in found.items()}
+    these, base = cells(method, samples), cells("set", "128")
+    return decibels(mean(these[key] - base[key] for key in these), 1)
+
+
+# ---- times and sizes ----
+
+def post_size(targets, what):
+    return megabytes(one("post", "file_bytes", kind="size", scene="living-room", targets=targets, what=what))
+
+
+def megabytes(count):
+    return f"{count / 1e6:.{0 if count >= 2e7 else 1}f} MB"
+
+
+def post(column, size, what, scene="living-room", targets="Floor"):
+    return one("post", column, kind="time", scene=scene, targets=targets, size=size, what=what)
+
+
+def post_seconds(size, what):
+    return f"{post('wall_s', size, what):.2f} s"
+
+
+def post_memory(size, what):
+    return f"{post('peak_memory_bytes', size, what) / 1e6:.0f} MB"
+
+
+def post_variants(size):
+    """Pictures a minute; a row of post.csv makes 12."""
+    return f"{12 * 60 / post('wall_s', size, 'batch'):.0f}"
+
+
+def overhead(count):
+    """Least and largest of the edits of so many targets, processor time of sets over plain pictures."""
+    found = [float(r["over_cpu_percent"]) for r in rows("overhead", part="time", row="footprints")
+             if r["targets"].count("+") == int(count) - 1]
+    low, high = f"{min(found):.0f}", f"{max(found):.0f}"
+    return f"{low} %" if low == high else f"{low} to {high} %"
+
+
+def speed_over_cycles():
+    """Least and largest of the turns of both scenes."""
+    found = [float(r["paths_over_cycles"]) for r in rows("speed")]
+    return f"{min(found):.1f} to {max(found):.1f} times"
+
+
+def page_command(page):
+    """The command that made it, as the page's head says."""
+    with open(os.path.join(DOCS, page + ".md"), encoding="utf-8") as file:
+        made = re.search(r"`(make figures [^`]*)`", file.read())
+    if not made:
+        raise KeyError(f"docs/{page}.md does not say which command made it")
+    return f"`{made[1]}`"
+
+
+FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size,
+                                   post_seconds, post_memory, post_variants, overhead, speed_over_cycles, page_command)}
+
+
+def figure(name):
+    function, *arguments = name.split()
+    return FIGURES[function](*arguments)
+
+
+MARKDOWN = re.compile(r"<!--= ([^>]*?) -->(.*?)<!--/-->")
+MAN = re.compile(r'^\.\\"= (.*?) = (.*)\n(.*)$', re.M)
+
+
+def main(mode, *files):
+    status = 0
+    files = files or ["README.md", *sorted(glob.glob("docs/*.md")), *sorted(glob.glob("man/*.[1-9]"))]
+    for path in files:
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+
+        def quoted(match, path=path):
+            nonlocal status
+            name, value = match[1], match[2]
+            try:
+                now = figure(name)
+            except (KeyError, TypeError, ValueError, OSError) as why:
+                print(f"{path}: {name}: {why}")
+                status = 1
+                return match[0]
+            if match.re is MAN and value not in match[3]:
+                print(f"{path}: {name}: the next line does not have {value}")
+                status = 1
+                return match[0]
+            if now != value and mode == "--check":
+                print(f"{path}: {name}: the text has {value}, the page {now}")
+                status = 1
+            whole, begin = match[0], match.start()
+            spans = [match.span(2)]
+            if match.re is MAN:
+                at = match.start(3) + match[3].index(value)
+                spans.append((at, at + len(value)))
+            for low, high in reversed(spans):
+                whole = whole[:low - begin] + now + whole[high - begin:]
+            return whole
+        new = MAN.sub(quoted, MARKDOWN.sub(quoted, text))
+        if mode == "--update" and new != text:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(new)
+    return status
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] not in ("--check", "--update"):
+        sys.exit(__doc__)
+    sys.exit(main(*sys.argv[1:]))
