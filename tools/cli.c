@@ -355,7 +355,7 @@ void cli_limit(Cli *cli, const CliOption *option)
 long cli_megabytes(const Cli *cli, const CliOption *option)
 {
     uint64_t bytes;
-    if (!retex_size_parse(cli->value, &bytes) || bytes > (uint64_t)1 << 40)
+    if (retex_size_parse(cli->value, &bytes, NULL) || bytes > (uint64_t)1 << 40)
         cli_die(cli, "--%s: expected a size such as 512M, 2G or a number of MB, not '%s'", option->name, cli->value);
     return (long)(bytes >> 20);
 }

@@ -175,7 +175,7 @@ static void print_packed(FILE *out, const RetexSet *set)
 {
     uint64_t bytes[RETEX_PACK_GROUPS];
 
-    if (!set || !retex_pack_bytes(bytes, set))
+    if (!set || retex_pack_bytes(bytes, set, NULL))
         return;
     fprintf(out, "bytes in the pack\n");
     for (int i = 0; i < RETEX_PACK_GROUPS; i++)
@@ -223,7 +223,7 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
             sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
             sizes->albedo, sizes->originals, sizes->other, sizes->samples);
     uint64_t bytes[RETEX_PACK_GROUPS];
-    if (set && retex_pack_bytes(bytes, set)) {
+    if (set && !retex_pack_bytes(bytes, set, NULL)) {
         fprintf(out, "\"packed_bytes\":");
         for (int i = 0; i < RETEX_PACK_GROUPS; i++)
             fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_group_names[i], (unsigned long long)bytes[i]);
@@ -273,18 +273,18 @@ static int print_info(const Cli *cli, const char *path, int json)
 static int check(const Cli *cli, const char *path)
 {
     RetexError error = {0};
-    const int code = retex_set_check(path, cli->threads, &error);
+    int manifest_checked;
+    const int code = retex_set_check(path, &manifest_checked, cli->threads, &error);
 
     if (code == RETEX_EFORMAT && !strstr(error.message, "not a set")) {
         cli_error(cli, &error);
         return CLI_NO;
     }
-    if (code < 0)
+    if (code)
         cli_fail(cli, &error);
     if (!cli->quiet)
         fprintf(cli->answer, "%s: ok%s\n", strcmp(path, "-") == 0 ? "standard input" : path,
-                code == RETEX_CHECKED_IN_PART ? ", but for the manifest, which has no checksum: it is of an old version"
-                                              : "");
+                manifest_checked ? "" : ", but for the manifest, which has no checksum: it is of an old version");
     return CLI_OK;
 }
 

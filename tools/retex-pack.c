@@ -78,7 +78,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     static const char *const names[RETEX_PACK_LOSSES] = {"original", "white", "waves", "squares"};
     RetexSet *pack = NULL;
     double psnr[RETEX_PACK_LOSSES];
-    RetexPackKept kept;
+    RetexPackPromise promise;
     uint64_t bytes[RETEX_PACK_GROUPS];
     char text[2048], quality[16] = "null";
     int code = retex_set_open(pack_path, &pack, NULL, job->threads, err);
@@ -86,7 +86,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
         code = retex_pack_loss(psnr, pack, set, job->threads, err);
     if (!code) {
         double rest = pack_bytes;
-        retex_pack_bytes(bytes, pack);
+        retex_pack_bytes(bytes, pack, NULL);
         for (int i = 0; i < RETEX_PACK_GROUPS; i++)
             rest -= (double)bytes[i];
         bytes[RETEX_PACK_OTHER] += (uint64_t)rest;
@@ -103,9 +103,9 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
         for (int i = 0; i < RETEX_PACK_LOSSES; i++)
             n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %.2f", i ? ", " : "", names[i], psnr[i]);
         n += snprintf(text + n, sizeof text - (size_t)n, "}");
-        if (retex_pack_kept(&kept, pack))
+        if (!retex_pack_promise(&promise, pack, NULL))
             n += snprintf(text + n, sizeof text - (size_t)n, ",\n  \"promised\": %.2f,\n  \"measured\": %.2f",
-                          kept.promised, kept.measured);
+                          promise.promised, promise.measured);
         n += snprintf(text + n, sizeof text - (size_t)n, "\n}\n");
         code = retex_file_write(job->stats, text, (size_t)n, err);
     }

@@ -5,7 +5,7 @@
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
-#   - each public header compiles alone, as C11 and as C++17; its calls take nthreads in the same place
+#   - each public header compiles alone, as C11 and as C++17; its calls fail in the same way
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
@@ -146,13 +146,15 @@ for header in tools/libretex/include/retex/*.h; do
         complain "$name does not compile alone as C++17"
 done
 
-# Public calls take the number of threads as their last argument before the error.
+# Public calls that can fail return int, and take the error last, and the number of threads, if any, before it.
 found=$(for header in tools/libretex/include/retex/*.h; do
-    [ "${header##*/}" = parallel.h ] || sed 's|/\*.*\*/||' "$header" | tr -s '\n ' ' ' |
-        grep -oE 'int nthreads.{0,20}' |
-        grep -vE '^int nthreads ?, RetexError \*err\)' | sed "s|^|$header: |"
+    case ${header##*/} in error.h | parallel.h) continue ;; esac
+    sed -z 's|/\*[^*]*\*\+\([^/*][^*]*\*\+\)*/||g' "$header" | grep -v '^#' | tr -s '\n ' ' ' | tr ';{}' '\n\n\n' |
+        sed "s/ , /, /g; s|^ *|$header: |" | awk '
+            /RetexError|nthreads/ && !/: (typedef )?int Retex[A-Za-z]*\(|: int retex_[a-z_]*\(/ ||
+            /RetexError/ && !/RetexError \*err\)$/ || /nthreads/ && !/, int nthreads, RetexError \*err\)$/'
 done)
-[ -z "$found" ] || complain "nthreads is the last argument before err, and no field:
+[ -z "$found" ] || complain "public calls that can fail: int retex_…(…[, int nthreads], RetexError *err):
 $found"
 
 for page in man/*.[1-9]; do

@@ -139,17 +139,17 @@ static void promises_are_kept(void **state)
         RetexSet *set = make_set(smooth);
         for (int i = 0; i < QUALITIES; i++) {
             double psnr[RETEX_PACK_LOSSES];
-            RetexPackKept kept;
+            RetexPackPromise promise;
             RetexError err = {0};
             RetexSet *pack = packed(set, qualities[i], 2, NULL);
-            assert_true(retex_pack_kept(&kept, pack));
-            assert_int_equal(kept.quality, qualities[i]);
-            assert_float_equal(kept.promised, retex_pack_promised_psnr(qualities[i], 32, 0), 1e-9);
-            assert_true(kept.measured >= kept.promised);
+            assert_int_equal(retex_pack_promise(&promise, pack, NULL), RETEX_OK);
+            assert_int_equal(promise.quality, qualities[i]);
+            assert_float_equal(promise.promised, retex_pack_promised_psnr(qualities[i], 32, 0), 1e-9);
+            assert_true(promise.measured >= promise.promised);
             test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
-            assert_float_equal(fmin(fmin(psnr[0], psnr[1]), psnr[RETEX_PACK_LOSS_SQUARES]), kept.measured, 1e-9);
+            assert_float_equal(fmin(fmin(psnr[0], psnr[1]), psnr[RETEX_PACK_LOSS_SQUARES]), promise.measured, 1e-9);
             for (int k = 0; k < PATTERNS; k++)
-                assert_true(untried(pack, set, k) >= kept.promised - SLACK);
+                assert_true(untried(pack, set, k) >= promise.promised - SLACK);
             retex_set_close(&pack);
         }
         retex_set_close(&set);
@@ -194,10 +194,10 @@ static void bits_are_kept_where_nothing_else_does(void **state)
     for (int smooth = 0; smooth < 2; smooth++) {
         RetexSet *set = make_set(smooth);
         for (int i = 0; i < 2; i++) {
-            RetexPackKept kept;
+            RetexPackPromise promise;
             RetexSet *pack = packed(set, i ? 100 : 30, 1, &bytes[smooth][i]);
-            assert_true(retex_pack_kept(&kept, pack));
-            assert_true(kept.measured < 60 || (smooth && i && kept.measured == 120));
+            assert_int_equal(retex_pack_promise(&promise, pack, NULL), RETEX_OK);
+            assert_true(promise.measured < 60 || (smooth && i && promise.measured == 120));
             retex_set_close(&pack);
         }
         assert_true(bytes[smooth][0] < bytes[smooth][1]);
@@ -212,7 +212,7 @@ static void noise_lowers_the_promise(void **state)
     (void)state;
     for (int i = 0; i < 3; i++) {
         RetexSet *set = make_set(1);
-        RetexPackKept kept;
+        RetexPackPromise promise;
         RetexError err = {0};
         int noise;
         if (i > 0)
@@ -221,8 +221,8 @@ static void noise_lowers_the_promise(void **state)
             set->parts[noise].image.pixels[k] = k / 3 % 2 ? 0.15f : -0.15f;
         set->denoised = i == 2;
         RetexSet *pack = packed(set, 90, 1, NULL);
-        assert_true(retex_pack_kept(&kept, pack));
-        promised[i] = kept.promised;
+        assert_int_equal(retex_pack_promise(&promise, pack, NULL), RETEX_OK);
+        promised[i] = promise.promised;
         retex_set_close(&pack);
         retex_set_close(&set);
     }
@@ -234,20 +234,20 @@ static void noise_lowers_the_promise(void **state)
 static void others_promise_nothing(void **state)
 {
     RetexSet *set = make_set(1);
-    RetexPackKept kept;
+    RetexPackPromise promise;
     (void)state;
-    assert_false(retex_pack_kept(&kept, set));
+    assert_int_equal(retex_pack_promise(&promise, set, NULL), RETEX_ENOTFOUND);
     retex_set_close(&set);
 }
 
 static void threads_do_not_matter(void **state)
 {
     RetexSet *set = make_set(0);
-    RetexPackKept one, many;
+    RetexPackPromise one, many;
     size_t bytes[2];
     (void)state;
     RetexSet *pack = packed(set, 100, 1, &bytes[0]), *other = packed(set, 100, 7, &bytes[1]);
-    assert_true(retex_pack_kept(&one, pack) && retex_pack_kept(&many, other));
+    assert_true(!retex_pack_promise(&one, pack, NULL) && !retex_pack_promise(&many, other, NULL));
     assert_int_equal(bytes[0], bytes[1]);
     assert_true(one.measured == many.measured);
     retex_set_close(&pack);

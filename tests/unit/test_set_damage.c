@@ -357,7 +357,7 @@ static void test_damaged_files(void **state)
         for (size_t length = 0; length < bytes; length += 1 + length / 40) {
             store(data, length);
             assert_int_equal(read_anything(&err), RETEX_EFORMAT);
-            assert_int_equal(retex_set_check(path, 1, &err), RETEX_EFORMAT);
+            assert_int_equal(retex_set_check(path, NULL, 1, &err), RETEX_EFORMAT);
         }
         RetexSet *whole = NULL;
         store(data, bytes);
@@ -370,7 +370,7 @@ static void test_damaged_files(void **state)
             data[place] ^= (unsigned char)(1 << i % 8);
             store(data, bytes);
             unnoticed += read_anything(&err) == 0;
-            if (retex_set_check(path, 1, &err) == 0 && place > bytes / 2)
+            if (retex_set_check(path, NULL, 1, &err) == 0 && place > bytes / 2)
                 assert_pixels_survive(whole);
             data[place] = old;
         }

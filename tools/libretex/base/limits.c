@@ -10,14 +10,19 @@
 
 static const char *const names[] = {"max-memory", "max-time", "max-pixels", "max-steps"};
 
-int retex_size_parse(const char *text, uint64_t *bytes)
+static int fail_size(const char *text, RetexError *err)
+{
+    return retex_fail(err, RETEX_EPARSE, "expected a size such as 512M, 4G or a number of MB, not '%s'", text);
+}
+
+int retex_size_parse(const char *text, uint64_t *bytes, RetexError *err)
 {
     char *end;
     const double number = isdigit((unsigned char)text[0]) ? strtod(text, &end) : -1;
     int shift = 20;
 
     if (number < 0)
-        return 0;
+        return fail_size(text, err);
     if (*end && strchr("kKmMgGtT", *end))
         shift = *end == 'k' || *end == 'K'   ? 10
                 : *end == 'm' || *end == 'M' ? 20
@@ -26,9 +31,9 @@ int retex_size_parse(const char *text, uint64_t *bytes)
     end += *end != 0 && strchr("kKmMgGtT", *end);
     const double size = ldexp(number, shift);
     if (*end || !(size < 1e18))
-        return 0;
+        return fail_size(text, err);
     *bytes = (uint64_t)size;
-    return 1;
+    return 0;
 }
 
 static int parse_seconds(const char *text, double *seconds)
@@ -59,7 +64,7 @@ int retex_limits_set(RetexLimits *limits, const char *name, const char *value, R
     uint64_t bytes = 0;
 
     if (strcmp(name, "max-memory") == 0) {
-        if (!retex_size_parse(value, &bytes) || bytes == 0)
+        if (retex_size_parse(value, &bytes, NULL) || bytes == 0)
             return retex_fail(err, RETEX_EPARSE, "%s: expected a size such as 512M, 4G or a number of MB, not '%s'",
                               name, value);
         limits->memory = bytes;

@@ -152,16 +152,16 @@ static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart 
 }
 
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
-                          const RetexPackKept *kept)
+                          const RetexPackPromise *promise)
 {
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
         retex_json_add(&parts, describe_part(set, i, &packed[i]));
     json_t *pack = json_pack("{s:i, s:o}", "version", RETEX_PACK_VERSION, "parts", parts);
-    if (kept) {
-        retex_json_put(&pack, "quality", json_integer(kept->quality));
-        retex_json_put(&pack, "promised", json_real(kept->promised));
-        retex_json_put(&pack, "measured", json_real(kept->measured));
+    if (promise) {
+        retex_json_put(&pack, "quality", json_integer(promise->quality));
+        retex_json_put(&pack, "promised", json_real(promise->promised));
+        retex_json_put(&pack, "measured", json_real(promise->measured));
     }
     retex_json_put(&root, "pack", pack);
     char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
@@ -197,13 +197,13 @@ static int get_integer(const json_t *value, int least, int most, int *out)
     return json_is_integer(value) && v >= least && v <= most;
 }
 
-int retex_pack_kept_of(RetexPackKept *kept, const char *manifest)
+int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest)
 {
     json_t *root = json_loads(manifest, 0, NULL);
     const json_t *pack = json_object_get(root, "pack");
-    const int sound = get_integer(json_object_get(pack, "quality"), 1, 100, &kept->quality) &&
-                      get_positive(json_object_get(pack, "promised"), &kept->promised) &&
-                      get_positive(json_object_get(pack, "measured"), &kept->measured);
+    const int sound = get_integer(json_object_get(pack, "quality"), 1, 100, &promise->quality) &&
+                      get_positive(json_object_get(pack, "promised"), &promise->promised) &&
+                      get_positive(json_object_get(pack, "measured"), &promise->measured);
     json_decref(root);
     return sound;
 }

@@ -66,13 +66,13 @@ void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part
 /* CRC-32 of a part's samples in their stored type: see RetexPart. */
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
 
-/* Write packed[set->nparts] as the key "pack" into the manifest's text, and parse it. kept: figures of the loss, or
+/* Write packed[set->nparts] as the key "pack" into the manifest's text, and parse it. promise: figures of the loss, or
  * NULL. */
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
-                          const RetexPackKept *kept);
+                          const RetexPackPromise *promise);
 int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err);
 /* Read the figures of the loss from the manifest. Returns 1, or 0 if they are missing or invalid. */
-int retex_pack_kept_of(RetexPackKept *kept, const char *manifest);
+int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest);
 /* The format's version by the manifest, or 0. */
 int retex_pack_version_of(const char *manifest);
 

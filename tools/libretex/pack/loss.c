@@ -47,17 +47,17 @@ static void assign_all(RetexPackGroup *groups, const RetexSet *set)
         assign(groups, set->targets[i].original, RETEX_PACK_ORIGINALS);
 }
 
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set)
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, RetexError *err)
 {
     const RetexPack *pack = retex_pack_of(set);
     RetexPackGroup groups[RETEX_SET_PARTS_MAX];
     memset(bytes, 0, RETEX_PACK_GROUPS * sizeof *bytes);
     if (!pack)
-        return 0;
+        return retex_fail(err, RETEX_ENOTFOUND, "the set is not that of an open pack");
     assign_all(groups, set);
     for (int i = 0; i < set->nparts; i++)
         bytes[groups[i]] += retex_pack_part_bytes(pack, i);
-    return 1;
+    return 0;
 }
 
 /* --- loss --- */

@@ -173,18 +173,18 @@ static int open_pack(RetexPack *pack, RetexSet **set, RetexError *err)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
     if (!code)
         code = open_parts(pack, *set, (char *)manifest, err);
-    pack->says_kept = !code && retex_pack_kept_of(&pack->kept, (char *)manifest);
+    pack->has_promise = !code && retex_pack_promise_of(&pack->promise, (char *)manifest);
     free(manifest);
     return code;
 }
 
-int retex_pack_kept(RetexPackKept *kept, const RetexSet *set)
+int retex_pack_promise(RetexPackPromise *promise, const RetexSet *set, RetexError *err)
 {
     const RetexPack *pack = retex_pack_of(set);
-    if (!pack || !pack->says_kept)
-        return 0;
-    *kept = pack->kept;
-    return 1;
+    if (!pack || !pack->has_promise)
+        return retex_fail(err, RETEX_ENOTFOUND, "the set is not that of an open pack that says what it promises");
+    *promise = pack->promise;
+    return 0;
 }
 
 /* --- as the source of a set's parts --- */

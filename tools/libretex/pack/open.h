@@ -14,8 +14,8 @@ struct RetexPack {
     RetexPackPart *parts;
     const RetexSet *set; /* that owns it */
     int nparts;
-    int says_kept;
-    RetexPackKept kept;
+    int has_promise;
+    RetexPackPromise promise;
 };
 
 int retex_pack_damaged(RetexError *err, const char *what, const char *name);

@@ -33,7 +33,7 @@ static int no_memory(RetexError *err)
 
 /* --- the file --- */
 
-static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPackKept *kept, RetexError *err)
+static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPackPromise *promise, RetexError *err)
 {
     RetexSet described = *w->set;
     char *json = NULL;
@@ -46,7 +46,7 @@ static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPac
     }
     int code = retex_set_manifest(&described, NULL, &json, err);
     free(described.parts);
-    if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, kept)))
+    if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, promise)))
         code = no_memory(err);
     free(json);
     return code;
@@ -111,14 +111,14 @@ static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPac
     return code ? code : retex_zip_directory_write(output, list, written, err);
 }
 
-/* kept: what the manifest says of the loss, or NULL. */
-static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackKept *kept, uint64_t *written,
+/* promise: what the manifest says of the loss, or NULL. */
+static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackPromise *promise, uint64_t *written,
                      RetexError *err)
 {
     RetexZipList list = {0};
     char *manifest = NULL;
     *written = 0;
-    int code = write_manifest(&manifest, w, kept, err);
+    int code = write_manifest(&manifest, w, promise, err);
     if (!code)
         code = write_entries(output, &list, w, manifest, written, err);
     retex_zip_list_free(&list);
@@ -126,14 +126,14 @@ static int write_all(RetexOutput *output, const RetexPackEncoded *w, const Retex
     return code;
 }
 
-static int write_file(const RetexPackEncoded *w, const RetexPackKept *kept, const char *path, size_t *bytes,
+static int write_file(const RetexPackEncoded *w, const RetexPackPromise *promise, const char *path, size_t *bytes,
                       RetexError *err)
 {
     RetexOutput *output = NULL;
     uint64_t written = 0;
     int code = retex_output_open(&output, path, err);
     if (!code)
-        code = write_all(output, w, kept, &written, err);
+        code = write_all(output, w, promise, &written, err);
     if (!code)
         code = retex_output_commit(&output, err);
     retex_output_abandon(&output);
@@ -215,18 +215,18 @@ static double next_aim(double least)
 }
 
 /* Attempts, each finer than the last, until what is promised holds; without loss it does. */
-static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *set, const RetexPackReference *reference,
-                        int nthreads, RetexError *err)
+static int keep_promise(Attempt *attempt, RetexPackPromise *promise, const RetexSet *set,
+                        const RetexPackReference *reference, int nthreads, RetexError *err)
 {
-    double aim = kept->quality;
+    double aim = promise->quality;
     for (;;) {
         int code = attempt_make(attempt, set, aim, nthreads, err);
         if (!code)
-            code = attempt_measure(&kept->measured, attempt, reference, nthreads, err);
-        if (code || kept->measured >= kept->promised || isinf(aim))
+            code = attempt_measure(&promise->measured, attempt, reference, nthreads, err);
+        if (code || promise->measured >= promise->promised || isinf(aim))
             return code;
         attempt_free(attempt);
-        aim = next_aim(aim + kept->promised - kept->measured);
+        aim = next_aim(aim + promise->promised - promise->measured);
     }
 }
 
@@ -253,20 +253,20 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
         params = &defaults;
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
-    RetexPackKept kept = {.quality = params->quality};
+    RetexPackPromise promise = {.quality = params->quality};
     const int comparable = params->lossless ? 0 : is_comparable(set, err);
     if (comparable < 0)
         return comparable;
     int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    kept.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
+    promise.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
     if (!code && params->lossless)
         code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
     else if (!code && comparable)
-        code = keep_promise(&attempt, &kept, set, &reference, nthreads, err);
+        code = keep_promise(&attempt, &promise, set, &reference, nthreads, err);
     else if (!code)
         code = attempt_make(&attempt, set, params->quality, nthreads, err);
     if (!code)
-        code = write_file(&attempt.encoded, comparable ? &kept : NULL, path, bytes, err);
+        code = write_file(&attempt.encoded, comparable ? &promise : NULL, path, bytes, err);
     attempt_free(&attempt);
     retex_pack_reference_close(&reference);
     return code;

@@ -399,11 +399,10 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
     return code;
 }
 
-int retex_texture_size(const RetexTexture *texture, int *width, int *height)
+void retex_texture_size(const RetexTexture *texture, int *width, int *height)
 {
     *width = texture->nlevels ? texture->levels[0].width / texture->repeats[0] : 1;
     *height = texture->nlevels ? texture->levels[0].height / texture->repeats[1] : 1;
-    return RETEX_OK;
 }
 
 /* ---- from surface UV to texels ---- */

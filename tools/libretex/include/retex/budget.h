@@ -54,8 +54,8 @@ int retex_limits_environment(RetexLimits *limits, RetexError *err);
 /* Apply limits to a budget: memory, pixels and, from now on, seconds. */
 void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *limits);
 
-/* Parse a size: 512M, 1.5G, or a number of MB, each of 2^20 bytes. Returns 1 where text is a size. */
-int retex_size_parse(const char *text, uint64_t *bytes);
+/* Parse a size: 512M, 1.5G, or a number of MB, each of 2^20 bytes. RETEX_EPARSE. */
+int retex_size_parse(const char *text, uint64_t *bytes, RetexError *err);
 
 /* ---- stopping ---- */
 

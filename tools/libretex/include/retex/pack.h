@@ -30,22 +30,22 @@ int retex_pack_probe(const void *data, size_t bytes);
 int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err);
 
 /* Bytes of a pack's parts by what they are for; a zip's directory, the manifest and the like are not among them.
- * 1, or 0 where the set is not that of a pack which retex_set_open opened. */
+ * RETEX_ENOTFOUND where the set is not that of a pack which retex_set_open opened. */
 typedef enum RetexPackGroup {
     RETEX_PACK_PICTURE, RETEX_PACK_RADIANCE, RETEX_PACK_GAINS, RETEX_PACK_UV, RETEX_PACK_SPREAD, RETEX_PACK_WEIGHTS,
     RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_GROUPS
 } RetexPackGroup;
 extern const char *const retex_pack_group_names[RETEX_PACK_GROUPS];
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set);
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, RetexError *err);
 
 /* What a pack with losses says of them: quality, and of the worst picture of those of retex_pack_loss, when it was
  * packed, the PSNR that was promised and what it was. */
-typedef struct RetexPackKept {
+typedef struct RetexPackPromise {
     int quality;
     double promised, measured; /* dB */
-} RetexPackKept;
-/* 1, or 0 where the set is not that of such a pack which retex_set_open opened, or it does not say. */
-int retex_pack_kept(RetexPackKept *kept, const RetexSet *set);
+} RetexPackPromise;
+/* RETEX_ENOTFOUND where the set is not that of such a pack which retex_set_open opened, or it does not say. */
+int retex_pack_promise(RetexPackPromise *promise, const RetexSet *set, RetexError *err);
 
 /* PSNR (see metrics.h), to 16 bits, of pictures made from a pack against those from the set it was made of: with the
  * original textures, and with all targets white, of smooth waves, and of a black and white chequerboard. */

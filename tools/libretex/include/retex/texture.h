@@ -97,7 +97,7 @@ int retex_texture_create(RetexTexture **texture, const RetexImage *image,
 int retex_texture_square(RetexTexture **square, const RetexTexture *texture, int nthreads, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
-int retex_texture_size(const RetexTexture *texture, int *width, int *height);
+void retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
 /* 1: nothing shows through it anywhere. */
 int retex_texture_is_opaque(const RetexTexture *texture);
