@@ -271,7 +271,7 @@ static void check_noise(const Arguments *a)
                         "samples per pixel");
 }
 
-/* --resume, --shard and --merge: only pictures and sets in layout footprints can be rendered in pieces of rows. */
+/* --resume, --shard and --merge: pictures and sets in pieces of rows. */
 static void check_pieces(const Arguments *a)
 {
     const RenderParams *r = &a->render;
@@ -281,8 +281,6 @@ static void check_pieces(const Arguments *a)
     if (a->list || a->tracing || a->variants || a->control || r->control_data)
         cli_die(a->cli, "--%s cannot be combined with %s", option,
                 "--list-targets, --trace-pixel, --variants, --control or --control-data");
-    if (r->paper)
-        cli_die(a->cli, "--%s: layout paper cannot be rendered in pieces", option);
     if (a->nmerged && (r->resume || r->nshards))
         cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))

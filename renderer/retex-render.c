@@ -80,7 +80,7 @@ static void name_checkpoint(Arguments *a, const char *output)
     struct stat old;
     RenderParams *r = &a->render;
     if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
-        (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->paper || r->control_data)
+        (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->control_data)
         return;
     if (snprintf(a->checkpoint, sizeof a->checkpoint, "%s.partial", output) >= (int)sizeof a->checkpoint)
         cli_die(a->cli, "the output's name is too long");

@@ -316,10 +316,23 @@ int film_bands_done(const Film *film)
     return done;
 }
 
+/* Make the images that only the band store has, as far as they are the layout's. */
+static int resume_images(Film *film, const RetexBandStore *store, RetexError *err)
+{
+    const char *name;
+    int code = RETEX_OK;
+    if (!film->layout || !film->layout->resume_image)
+        return RETEX_OK;
+    for (int k = 0; !code && (name = retex_band_store_image_name(store, k)); k++)
+        if (bands_find(film->bands, name) < 0)
+            code = film->layout->resume_image(film->layout_film, name, err);
+    return code;
+}
+
 int film_resume(Film *film, RetexError *err)
 {
     RetexBandStore *store = bands_store(film->bands);
-    int code = RETEX_OK;
+    int code = resume_images(film, store, err);
     for (int k = 0; k < film_bands(film) && !code; k++) {
         const RetexBandStats *stats = retex_band_store_committed(store, k);
         if (!stats)

@@ -39,6 +39,9 @@ typedef struct FilmLayout {
     /* One for the film. bands is borrowed. On failure it is closed by the caller. */
     int (*create)(void **layout, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err);
     void (*close)(void **layout);
+    /* Where paths make images, NULL elsewhere: make the image of this name, which an earlier render left in the band
+     * store, if it is one that paths make. */
+    int (*resume_image)(void *layout, const char *name, RetexError *err);
     /* One thread's sums of the current pixel. light and range are borrowed: light gets the light with white targets,
      * range the UV of hits. */
     int (*pixel_create)(void **pixel, void *layout, LightSums *light, UvRange *range, RetexError *err);

@@ -80,6 +80,33 @@ $ retex-combine s1 -o x.png
 = 2
 $ for k in 1 2; do ./render --plain --shard $k/2 -o t$k; ./render --denoise --shard $k/2 -o u$k; done; ./render --plain -o ref.png; ./render --plain --merge t1 --merge t2 -o t.png; cmp t.png ref.png; ./render --denoise -o v.exr; ./render --denoise --merge u1 --merge u2 -o u.exr; cmp u.exr v.exr
 
+# Layout paper. With several targets, paths make the images of their terms, and no shard has all of them.
+$ echo 'exec retex-render -q --layout paper --size 64x112 --spp 4 "$@"' >paper; chmod +x paper; printf 'camera{location<0,0,-5> look_at 0}\nlight_source{<4,6,-6>,1}\n#declare F=texture{pigment{rgb<.7,.6,.5>}finish{#ifdef(Retex) roughness .1 specular .3 #end}}\n#declare G=texture{pigment{rgb<.5,.8,.4>}}\nplane{y,-1 texture{F}}\nplane{z,3 texture{G}}\nsphere{<1,0,0>,1 pigment{rgb .8} finish{reflection .8}}' >two.pov; for s in "-t floor cornell-box/cornell-box.pov" "-t floor -t white cornell-box/cornell-box.pov" "-t F -t G two.pov" "-t F -t G --strict-paper two.pov" "-t F -t G --denoise two.pov"; do ./paper $s -o w.exr; for k in 1 2 3; do ./paper $s --shard $k/3 -o p$k; done; ./paper $s --merge p3 --merge p1 --merge p2 -o m.exr; cmp w.exr m.exr; for k in 1 3; do cp p$k r.exr.partial; rm -f r.exr; ./paper $s --resume --threads 1 -o r.exr; cmp w.exr r.exr; done; retex-info --json w.exr | grep -o '"radiance":"[a-z0-9_]*"' | wc -l; done; retex-info --check m.exr
+> 21
+> 36
+> 42
+> 39
+> 42
+> m.exr: ok
+$ rm m.exr; for s in "-t F" "-t F -t G --strict-paper" "-t F -t G --orders 5" "-t F -t G --layout footprints"; do ./paper $s two.pov --merge p1 --merge p2 -o m.exr; done; ls m.exr; ./paper -t F -t G --denoise two.pov --merge p1 --merge p2 -o none.exr; ls none.exr
+! retex-render: error: p1 is of another render: other options, another scene or version
+! retex-render: error: p1 is of another render: other options, another scene or version
+! retex-render: error: p1 is of another render: other options, another scene or version
+! retex-render: error: p1 is of another render: other options, another scene or version
+! ls: cannot access 'm.exr': No such file or directory
+! retex-render: error: --merge: 2 of 7 bands are in none of the files: a shard is missing or damaged
+! ls: cannot access 'none.exr': No such file or directory
+= 2
+$ sed 's/^exec.*-t floor/exec retex-render -q --threads 1 --layout paper --size 16x4096 --spp 8 -t floor -t white/' long >long2; chmod +x long2; ./long2 -o long2.exr; sed 's/long/long2/' stop >stop2; chmod +x stop2; for o in --resume ''; do ./stop2 TERM $o -o i.exr 2>err; echo $?; sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err; ls i.exr; ./long2 --resume -o i.exr; cmp i.exr long2.exr; rm i.exr; done; ls *.partial
+> 143
+> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> i.exr
+> 143
+> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+! ls: cannot access 'i.exr': No such file or directory
+! ls: cannot access '*.partial': No such file or directory
+= 2
+
 # A checkpoint may have lost its end, or more.
 $ cp s1 x.exr.partial; printf 'something' >>x.exr.partial; ./render --resume -o x.exr; cmp x.exr ref.exr
 $ for n in 10 40 47 48 100 5000 20000 60000; do head -c $n s1 >x.exr.partial; rm x.exr; ./render --resume -o x.exr; cmp x.exr ref.exr; done
@@ -107,9 +134,6 @@ $ ./render --shard 1 -o x
 = 2
 $ ./render --merge s1 --resume -o x.exr
 ! retex-render: error: --merge renders no rows: no --resume or --shard
-= 2
-$ ./render --resume --layout paper -o x.exr
-! retex-render: error: --resume: layout paper cannot be rendered in pieces
 = 2
 $ ./render --resume --list-targets
 ! retex-render: error: --resume cannot be combined with --list-targets, --trace-pixel, --variants, --control or --control-data

@@ -371,11 +371,17 @@ static void bands_are_copied(void **state)
     make_checkpoint();
     test_must(retex_band_store_open(&from, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
     test_must(retex_band_store_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
-    assert_int_equal(retex_band_store_copy_band(to, from, 1, &err), RETEX_EFORMAT); /* it has no such images */
-    add_images(to);
+    test_must(retex_band_store_add(to, "second", "RGB", RETEX_HALF, &number, &err), &err); /* it is of floats there */
+    assert_int_equal(retex_band_store_copy_band(to, from, 1, &err), RETEX_EFORMAT);
+    retex_band_store_close(&to);
+    test_must(retex_band_store_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
+    assert_null(retex_band_store_image_name(to, 0));
     for (int band = 0; band < 2; band++)
         test_must(retex_band_store_copy_band(to, from, band, &err), &err);
     assert_int_equal(check_bands(to), 2);
+    assert_string_equal(retex_band_store_image_name(to, 1), "second");
+    assert_null(retex_band_store_image_name(to, 2));
+    add_images(to); /* they are there */
     test_must(retex_band_store_add(to, "third", "R", RETEX_HALF, &number, &err), &err);
     assert_true(retex_band_store_is_empty(to, number) && !retex_band_store_is_empty(to, 0));
     retex_band_store_close(&from);

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "film/paper/paper.h"
+#include "film/paper/terms.h"
 #include "lib_film.h"
 
 static const Rgb LIGHT = {4, 2, 3};
@@ -170,11 +171,83 @@ static void two_targets_are_named_by_their_hits(void **state)
     end_film(&f);
 }
 
+/* The term of a random subset of the hits of a random path. */
+static TermKey random_key(unsigned *seed, int ntargets, int orders)
+{
+    int indices[RETEX_MAX_TARGETS] = {0}, nhits = 0;
+    const int most = 1 + (int)(test_random(seed) * 7);
+    HitMask hits = 0;
+    for (int tries = 0; tries < most; tries++) {
+        const int target = (int)(test_random(seed) * ntargets);
+        if (indices[target] == orders)
+            continue;
+        if (test_random(seed) < 0.6)
+            hits |= hit_bit(target, indices[target]);
+        indices[target]++, nhits++;
+    }
+    return term_key(nhits, hits, 0);
+}
+
+/* Images of terms that another render left in a band store become the same terms again, whatever paths made them. */
+static void terms_are_found_again_by_the_names_of_their_images(void **state)
+{
+    (void)state;
+    static const int orders[] = {6, 3};
+    unsigned seed = 1;
+    for (int k = 0; k < 2 * (RETEX_MAX_TARGETS - 1); k++) {
+        const int ntargets = 2 + k / 2;
+        RetexError err = {0};
+        RetexBandStore *store = NULL;
+        Bands *bands = NULL;
+        TermTable made = {0}, again = {0};
+        TermCache cache = {{0}, {0}};
+        const char *name;
+        test_must(retex_band_store_create(&store, 1, 1, 0, NULL, &err), &err);
+        test_must(bands_create(&bands, 1, 1, store, 0, &err), &err);
+        test_must(terms_create(&made, bands, ntargets, orders[k % 2], &err), &err);
+        for (int i = 0; i < 2000 && made.count < 900; i++)
+            assert_true(terms_find(&made, &cache, random_key(&seed, ntargets, orders[k % 2])) >= 0);
+        assert_true(made.count > 30);
+        test_must(terms_create(&again, bands, ntargets, orders[k % 2], &err), &err);
+        for (int i = 1; (name = retex_band_store_image_name(store, i)); i++)
+            test_must(terms_resume(&again, name, &err), &err);
+        assert_int_equal(again.count, made.count);
+        assert_memory_equal(again.keys, made.keys, (size_t)made.count * sizeof *made.keys);
+        terms_close(&again);
+        terms_close(&made);
+        bands_close(&bands);
+    }
+}
+
+/* Names of other images, and of terms that this render cannot have. */
+static void no_terms_have_other_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"beauty",     "depth",     "dep_",       "dep_a",    "dep_a4",
+                                        "dep_c1",     "dep_b1a1",  "dep_a0",     "dep_a1x",  "dep_1",
+                                        "indep_",     "indep_2x",  "indep_1001", "cross2_3", "cross3_a21",
+                                        "cross2_a1b", "cross4_a1", "uv_dep_a1",  "full_0",   ""};
+    RetexError err = {0};
+    Bands *bands = NULL;
+    TermTable table = {0};
+    test_must(bands_create(&bands, 1, 1, NULL, 1, &err), &err);
+    test_must(terms_create(&table, bands, 2, 3, &err), &err);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        test_must(terms_resume(&table, names[k], &err), &err);
+        if (table.count != 1)
+            fail_msg("%s is a term", names[k]);
+    }
+    terms_close(&table);
+    bands_close(&bands);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_hit_has_two_parts),
                                        cmocka_unit_test(two_hits_have_the_supplements_cross_terms),
                                        cmocka_unit_test(three_hits_have_them_in_the_supplements_order),
-                                       cmocka_unit_test(two_targets_are_named_by_their_hits)};
+                                       cmocka_unit_test(two_targets_are_named_by_their_hits),
+                                       cmocka_unit_test(terms_are_found_again_by_the_names_of_their_images),
+                                       cmocka_unit_test(no_terms_have_other_names)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

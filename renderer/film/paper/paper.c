@@ -94,6 +94,12 @@ static void close_film(void **layout)
     *layout = NULL;
 }
 
+static int resume_image(void *layout, const char *name, RetexError *err)
+{
+    PaperFilm *film = layout;
+    return terms_resume(&film->terms, name, err);
+}
+
 static void close_pixel(void **pixel)
 {
     PaperPixel *p = *pixel;
@@ -360,6 +366,7 @@ const FilmLayout paper_layout = {.name = "paper",
                                  .floats = count_floats,
                                  .create = create_film,
                                  .close = close_film,
+                                 .resume_image = resume_image,
                                  .pixel_create = create_pixel,
                                  .pixel_close = close_pixel,
                                  .path_end = end_path,

@@ -96,6 +96,41 @@ static void term_name(char *out, size_t size, TermKey key, int ntargets)
     }
 }
 
+/* The term of several targets that term_name calls so; TERM_DROPPED if there is none. */
+static TermKey key_of_name(const char *name, int ntargets, int orders)
+{
+    static const struct {
+        const char *start;
+        RetexTermKind kind;
+    } kinds[] = {{"indep_", RETEX_TERM_INDEP},
+                 {"dep_", RETEX_TERM_DEP},
+                 {"cross2_", RETEX_TERM_CROSS2},
+                 {"cross3_", RETEX_TERM_CROSS3}};
+    char back[RETEX_NAME_MAX];
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        const RetexTermKind kind = kinds[k].kind;
+        const size_t length = strlen(kinds[k].start);
+        HitMask hits = 0;
+        int target = 0;
+        if (strncmp(name, kinds[k].start, length) != 0)
+            continue;
+        for (const char *at = name + length; *at; at++) {
+            const int digit = *at - '0';
+            if (*at >= 'a' && *at < 'a' + ntargets)
+                target = *at - 'a';
+            else if (kind == RETEX_TERM_INDEP && digit >= 0 && digit <= 9)
+                hits = (10 * hits + (HitMask)digit) % 1000;
+            else if (digit >= 1 && digit <= orders)
+                hits |=
+                    kind == RETEX_TERM_DEP ? hit_bit(target, digit) - hit_bit(target, 0) : hit_bit(target, digit - 1);
+        }
+        term_name(back, sizeof back, KEY(kind, hits), ntargets);
+        if (hits && strcmp(back, name) == 0)
+            return KEY(kind, hits);
+    }
+    return TERM_DROPPED;
+}
+
 static int add_term(TermTable *table, TermKey key, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
@@ -125,7 +160,7 @@ static int add_paper_terms(TermTable *table, int orders, RetexError *err)
 
 int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, RetexError *err)
 {
-    table->bands = bands, table->ntargets = ntargets;
+    table->bands = bands, table->ntargets = ntargets, table->orders = orders;
     pthread_mutex_init(&table->lock, NULL);
     table->ready = 1;
     return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_TERM_FULL, 0), err);
@@ -160,6 +195,12 @@ int terms_find(TermTable *table, TermCache *cache, TermKey key)
     if (term >= 0)
         cache->keys[slot] = key, cache->terms[slot] = term + 1;
     return term;
+}
+
+int terms_resume(TermTable *table, const char *name, RetexError *err)
+{
+    const TermKey key = table->ntargets > 1 ? key_of_name(name, table->ntargets, table->orders) : TERM_DROPPED;
+    return key == TERM_DROPPED ? RETEX_OK : add_term(table, key, err);
 }
 
 int terms_place(const TermTable *table, int term, int *nfactors)

@@ -18,7 +18,7 @@ TermKey term_key(int nhits, HitMask hits, int strict);
 
 typedef struct TermTable {
     Bands *bands;           /* borrowed */
-    int ntargets;
+    int ntargets, orders;
     int count;
     TermKey keys[TERMS_MAX];
     int images[TERMS_MAX];  /* of the bands, made as terms come */
@@ -36,6 +36,8 @@ int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, Retex
 void terms_close(TermTable *table);
 /* Number of the term, made on first use; -1 where memory or TERMS_MAX is exhausted. */
 int terms_find(TermTable *table, TermCache *cache, TermKey key);
+/* Make the term whose image has this name, if it is one of several targets' terms and not there yet. */
+int terms_resume(TermTable *table, const char *name, RetexError *err);
 /* The target of a term's first factor, or -1, and how many factors it has. */
 int terms_place(const TermTable *table, int term, int *nfactors);
 /* Make all terms the set's, in an order that does not depend on when they came; footprints must be there already. */

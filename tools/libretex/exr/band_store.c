@@ -232,6 +232,11 @@ int retex_band_store_add(RetexBandStore *store, const char *name, const char *le
     return status;
 }
 
+const char *retex_band_store_image_name(const RetexBandStore *store, int image)
+{
+    return image < store->nimages ? store->images[image]->name : NULL;
+}
+
 /* --- bands --------------------------------------------------------------------------------------------------- */
 
 static RetexBandStoreScratch *take_scratch(RetexBandStore *store)
@@ -341,22 +346,18 @@ static int copy_chunk(RetexBandStore *store, const RetexBandStore *from, int num
 {
     const RetexBandStoreImage *image = from->images[number];
     const RetexBandStoreChunk *chunk = &image->chunks[band];
-    const int to = find_image(store, image->name);
-    RetexBandStoreRecord record = {.kind = BAND_STORE_CHUNK,
-                                   .band = (uint32_t)band,
-                                   .bytes = chunk->bytes,
-                                   .nonzero = chunk->nonzero,
-                                   .image = (uint32_t)to};
+    RetexBandStoreRecord record = {
+        .kind = BAND_STORE_CHUNK, .band = (uint32_t)band, .bytes = chunk->bytes, .nonzero = chunk->nonzero};
+    int to, status = retex_band_store_add(store, image->name, image->letters, image->type, &to, err);
 
-    if (!chunk->bytes && !chunk->nonzero)
-        return 0;
-    if (to < 0 || store->images[to]->type != image->type || strcmp(store->images[to]->letters, image->letters) != 0)
-        return retex_fail(err, RETEX_EFORMAT, "%s has an image %s that this render has not", from->shown, image->name);
+    if (status || (!chunk->bytes && !chunk->nonzero))
+        return status;
     unsigned char *packed = malloc((size_t)chunk->bytes + 1);
     if (!packed)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
+    record.image = (uint32_t)to;
     memcpy(record.crc, chunk->crc, sizeof record.crc);
-    int status = retex_band_store_read(from, chunk, packed, err);
+    status = retex_band_store_read(from, chunk, packed, err);
     if (!status)
         status = retex_band_store_append_chunk(store, &record, packed, err);
     free(packed);

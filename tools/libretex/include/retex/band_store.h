@@ -42,6 +42,8 @@ int retex_band_store_keep(RetexBandStore *store, const char *path, int replace, 
  * checkpoint has an image of that name already, *image is the number of that image. */
 int retex_band_store_add(RetexBandStore *store, const char *name, const char *letters, RetexPixelType type, int *image,
                          RetexError *err);
+/* The name of an image, for instance of one that only a checkpoint has; NULL after the last. The store owns it. */
+const char *retex_band_store_image_name(const RetexBandStore *store, int image);
 
 /* Write a band of an image: its rows, interleaved. From any thread; no band of an image twice. */
 int retex_band_store_put(RetexBandStore *store, int image, int band, const float *pixels, RetexError *err);
@@ -50,7 +52,7 @@ int retex_band_store_put(RetexBandStore *store, int image, int band, const float
 int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStats *stats, RetexError *err);
 /* The stats that a band was committed with; NULL where the band is not committed. */
 const RetexBandStats *retex_band_store_committed(const RetexBandStore *store, int band);
-/* Copy a band from another band store, which must have all images of this one, and commit it. */
+/* Copy a band from another band store, and commit it. Images that only the other one has are added. */
 int retex_band_store_copy_band(RetexBandStore *store, const RetexBandStore *from, int band, RetexError *err);
 
 /* 1 if all pixels of the image that were put are 0. */
