@@ -12,6 +12,7 @@
 #   make bench-render speed and error of rendering, compared with Cycles and with Embree's rays alone; docs/speed.md
 #   make bench-overhead   time of sets over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
 #   make bench-post   time of retextures and size of sets, as in the paper; BENCH_DOCS=1: docs/post.md
+#   make bench-paper  size of the paper's AOVs and of ours; BENCH_DOCS=1: docs/paper-sizes.md
 #   make bench-storage    size and loss of sets and packs; BENCH_DOCS=1: docs/storage.md
 #   make bench-scale  time per path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
 #   make fidelity     compare retextures with new renders; BENCH_DOCS=1: docs/fidelity.md; takes hours

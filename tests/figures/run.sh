@@ -17,7 +17,7 @@ case $size in whole | small) ;; *)
     exit 2
     ;;
 esac
-pages=${PAGES:-$(sed -n 's/^\([a-z]*\) |.*/\1/p' tests/figures/pages.txt)}
+pages=${PAGES:-$(sed -n 's/^\([a-z-]*\) |.*/\1/p' tests/figures/pages.txt)}
 work=$build/figures
 mkdir -p "$work"
 

@@ -12,6 +12,7 @@ import json
 import os
 import subprocess
 import sys
+import zlib
 
 import numpy as np
 import OpenImageIO as oiio
@@ -39,6 +40,28 @@ def write(path, parts, compressions):
         good = good and (number == 0 or file.open(path, spec, "AppendSubimage")) and file.write_image(pixels)
     if not file.close() or not good:
         sys.exit(f"coded.py: {path}: {file.geterror()}")
+
+
+def checksum(data):
+    return f"{zlib.crc32(data):08x}"
+
+
+def sign(parts):
+    """The manifest with the checksums of these parts' values, as retex-set(5) says."""
+    manifest = json.loads(parts[0][0].get_string_attribute("retex"))
+    for about, (spec, pixels) in zip(manifest["parts"], parts):
+        planes = pixels.reshape(spec.height, spec.width, spec.nchannels)
+        about["crc32"] = checksum(b"".join(np.ascontiguousarray(planes[..., k]).tobytes()
+                                           for k in (list(spec.channelnames).index(c) for c in channels(about, spec))))
+        about.pop("bands", None)
+    manifest["crc32"] = "00000000"
+    text = json.dumps(manifest, separators=(",", ":"), ensure_ascii=False)
+    parts[0][0].attribute("retex", text.replace("00000000", checksum(text.encode()), 1))
+
+
+def channels(about, spec):
+    """Names in the file of a part's channels, in the order of its checksum."""
+    return [next(n for n in spec.channelnames if n.rpartition(".")[2] == letter) for letter in about["letters"]]
 
 
 def srgb(x):
@@ -83,6 +106,7 @@ def main(path, out, method, level):
         write(out, parts, [f"dwaa:{level}" if light or method == "dwaa-all" else "zip" for light in is_light])
         parts, sizes = read(out), exr_parts(out)
         other = os.path.getsize(out) - sum(sizes)
+    sign(parts)
     write(out, parts, ["zip"] * len(parts))
     total = dict.fromkeys(GROUPS, 0)
     for name, size in zip(names, sizes):
