@@ -99,23 +99,90 @@ def overhead(count):
     return f"{low} %" if low == high else f"{low} to {high} %"
 
 
+def overhead_of(row, *targets):
+    """Of one edit of the living room: processor time over the plain picture."""
+    return f"{one('overhead', 'over_cpu_percent', part='time', scene='living-room', targets='+'.join(targets), row=row):+.1f} %"
+
+
+def paper_size(what, scene, *targets):
+    return megabytes(one("paper-sizes", "bytes", scene=scene, targets=" ".join(targets) or "none", what=what))
+
+
+def paper_psnr(what, scene, *targets):
+    return f"{one('paper-sizes', 'psnr', scene=scene, targets=' '.join(targets), what=what):.1f} dB"
+
+
+def paper_at():
+    """Size and samples of docs/paper-sizes.md."""
+    with open(os.path.join(DOCS, "paper-sizes.md"), encoding="utf-8") as file:
+        found = re.search(r"pictures of (\S+) with (\S+) samples", file.read())
+    return f"{found[1]} with {found[2]} samples"
+
+
+def storage_loss(method, level, layout):
+    """The worst of scenes and textures, denoised sets, against converged pictures."""
+    found = [float(r["truth_loss_worst"]) for r in rows("storage", method=method, level=level, layout=layout,
+                                                        set="denoised") if r["truth_loss_worst"]]
+    return f"{max(found):.1f} dB"
+
+
+def stored(which, quality):
+    return [r for r in rows("storage", set=which, method="pack-jpeg", level=quality)]
+
+
+def pack_differs(which, quality):
+    """PSNR against the set's own pictures: the worst texture of the worst scene, and the best scene's mean."""
+    found = stored(which, quality)
+    return f"{min(float(r['psnr_worst']) for r in found):.0f} to {max(float(r['psnr']) for r in found):.0f} dB"
+
+
+def pack_loses(which, quality):
+    """Against converged pictures, mean of textures: the most of all scenes."""
+    return f"{max(float(r['truth_loss']) for r in stored(which, quality) if r['truth_loss']):.2f} dB"
+
+
+def pack_gains(which, quality):
+    return f"{-min(float(r['truth_loss']) for r in stored(which, quality) if r['truth_loss']):.1f} dB"
+
+
+def pack_grows(quality, base):
+    """Bytes of packs of denoised sets over those of another quality, without originals."""
+    sizes = {(r["scene"], r["layout"]): int(r["bytes_without_originals"]) for r in stored("denoised", base)}
+    found = [int(r["bytes_without_originals"]) / sizes[r["scene"], r["layout"]] for r in stored("denoised", quality)]
+    return f"{min(found):.1f} to {max(found):.1f} times"
+
+
+def lossless_shares():
+    """Of the EXR set, without originals."""
+    def sizes(method):
+        return {(r["scene"], r["layout"]): int(r["bytes_without_originals"])
+                for r in rows("storage", set="denoised", method=method)}
+    sets = sizes("exr")
+    found = [100 * size / sets[key] for key, size in sizes("lossless").items()]
+    return f"{min(found):.0f} to {max(found):.0f} percent"
+
+
+def denoise_psnr(method, samples):
+    return f"{mean(float(r['psnr']) for r in rows('denoise', method=method, samples=samples, region='all')):.0f} dB"
+
+
+def overhead_memory(*targets):
+    """Of writing a set over the plain picture."""
+    def peak(row, edit):
+        return one("overhead", "peak_memory_bytes", part="memory", row=row, targets=edit)
+    return f"{(peak('footprints', '+'.join(targets)) - peak('plain', 'Floor')) / 1e6:.0f} MB"
+
+
 def speed_over_cycles():
     """Least and largest of the turns of both scenes."""
     found = [float(r["paths_over_cycles"]) for r in rows("speed")]
     return f"{min(found):.1f} to {max(found):.1f} times"
 
 
-def page_command(page):
-    """The command that made it, as the page's head says."""
-    with open(os.path.join(DOCS, page + ".md"), encoding="utf-8") as file:
-        made = re.search(r"`(make figures [^`]*)`", file.read())
-    if not made:
-        raise KeyError(f"docs/{page}.md does not say which command made it")
-    return f"`{made[1]}`"
-
-
 FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size,
-                                   post_seconds, post_memory, post_variants, overhead, speed_over_cycles, page_command)}
+                                   post_seconds, post_memory, post_variants, overhead, overhead_of, paper_size, paper_psnr,
+                                   paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
+                                   lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles)}
 
 
 def figure(name):
