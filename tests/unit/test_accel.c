@@ -88,6 +88,33 @@ static Accel *create(Scene *scene, Primitive *primitives, int count)
     return accel;
 }
 
+/* Of spheres, and of cones, at the same place the first in the scene is hit, whatever order the tree has them in. */
+static void the_first_of_equals_wins(void **state)
+{
+    enum { COPIES = 5 };
+    const ShapeOps *const ops[] = {&shape_sphere, &shape_cone};
+    Primitive primitives[2 * COPIES];
+    Scene scene;
+
+    (void)state;
+    for (int kind = 0; kind < 2; kind++)
+        for (int far_first = 0; far_first < 2; far_first++) {
+            /* copies that lie apart come between, so that the equal ones are not neighbours in the tree */
+            for (int k = 0; k < 2 * COPIES; k++)
+                primitives[k] =
+                    shape(ops[kind], k % 2 == far_first ? transform_identity()
+                                                        : transform_translate(vec3(0, 0, far_first ? -9 - k : 9 + k)));
+            Accel *accel = create(&scene, primitives, 2 * COPIES);
+            for (int i = 0; i < 50; i++) {
+                Ray ray = {vec3(0.8 + 0.1 * uniform(), 0.1 * uniform(), -5), {0, 0, 1}, 0, INFINITY};
+                Hit hit;
+                assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit));
+                assert_int_equal(hit.primitive, far_first);
+            }
+            accel_close(&accel);
+        }
+}
+
 /* ---- against every triangle ---- */
 
 /* Distance, or infinity; *edge: how near the ray passes to the triangle's edge, in barycentrics. */
@@ -447,6 +474,7 @@ static void packets_are_single_rays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_first_of_equals_wins),
         cmocka_unit_test(agrees_with_every_triangle),
         cmocka_unit_test(closed_meshes_are_tight),
         cmocka_unit_test(no_self_intersection),

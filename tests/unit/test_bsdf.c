@@ -284,6 +284,58 @@ static void edges_of_smooth_meshes_are_not_black(void **state)
         }
 }
 
+/* `diffuse albedo A` reflects A whatever the brilliance; `diffuse A` gives (cos theta)^brilliance, as POV-Ray does. */
+static void brilliance_keeps_an_albedo(void **state)
+{
+    (void)state;
+    for (double brilliance = 0.5; brilliance < 9; brilliance *= 2)
+        for (int albedo = 0; albedo < 2; albedo++) {
+            Case c;
+            case_begin(&c, 0);
+            c.finish.diffuse = 0.6, c.finish.diffuse_albedo = albedo, c.finish.brilliance = brilliance;
+            Bsdf b = make(&c, 0.7, 0, 0);
+            close_to(sampled_albedo(&b, 1 << 14), 0.6 * (albedo ? 1 : 2 / (brilliance + 1)), 0.003, "albedo");
+        }
+}
+
+/* POV-Ray's reflection{MIN, MAX falloff F}: from the minimum head-on to the maximum by (1 - cos theta)^F. */
+static void mirrors_rise_by_their_falloff(void **state)
+{
+    (void)state;
+    for (double falloff = 1; falloff < 4; falloff++)
+        for (double theta = 0; theta < 1.5; theta += 0.3) {
+            Case c;
+            case_begin(&c, 0);
+            c.finish.reflection_min = rgb(0.1f, 0.2f, 0.3f), c.finish.reflection_max = rgb(0.9f, 0.6f, 0.4f);
+            c.finish.reflection_falloff = falloff;
+            Bsdf b = make(&c, theta, 0, 0);
+            const double rise = pow(1 - cos(theta), falloff);
+            close_to(b.mirror.i.r, 0.1 + 0.8 * rise, 1e-5, "red");
+            close_to(b.mirror.i.g, 0.2 + 0.4 * rise, 1e-5, "green");
+            close_to(b.mirror.i.b, 0.3 + 0.1 * rise, 1e-5, "blue");
+        }
+}
+
+/* Phong's (R.V)^n is as wide as Blinn's (N.H)^(4n): the half vector's angle is half of the mirrored one's. */
+static void phong_is_four_times_as_wide_as_blinn(void **state)
+{
+    (void)state;
+    for (double size = 10; size < 200; size *= 2) {
+        Case c;
+        case_begin(&c, 0);
+        c.finish.phong = 0.5, c.finish.phong_size = size;
+        Bsdf phong = make(&c, 0.4, 0, 0);
+        c.finish.phong = 0, c.finish.specular = 0.5, c.finish.roughness = 1 / (4 * size);
+        Bsdf blinn = make(&c, 0.4, 0, 0);
+        for (double theta = 0.1; theta < 1.4; theta += 0.2) {
+            float pdf;
+            const Vec3 wi = direction(theta, 0.3 + PI);
+            const double is = bsdf_eval(&phong, wi, 1, &pdf).i.r, should = bsdf_eval(&blinn, wi, 1, &pdf).i.r;
+            close_to(is, should, 1e-5 * (1 + should), "highlight");
+        }
+    }
+}
+
 static void povray_highlight_peak(void **state)
 {
     (void)state;
@@ -306,6 +358,9 @@ int main(void)
                                        cmocka_unit_test(refraction_bends_by_snell),
                                        cmocka_unit_test(cutouts_pass_straight),
                                        cmocka_unit_test(povray_highlight_peak),
+                                       cmocka_unit_test(brilliance_keeps_an_albedo),
+                                       cmocka_unit_test(mirrors_rise_by_their_falloff),
+                                       cmocka_unit_test(phong_is_four_times_as_wide_as_blinn),
                                        cmocka_unit_test(holes_have_no_coat),
                                        cmocka_unit_test(tint_of_metals_wears_off),
                                        cmocka_unit_test(highlights_sample_as_they_evaluate),

@@ -7,6 +7,7 @@
 #include <string.h>
 #include "path/sampler.h"
 #include "light/lights.h"
+#include "shade/split.h"
 
 static uint32_t state_of_random = 1;
 
@@ -200,6 +201,55 @@ static void densities_agree(void **state)
     }
 }
 
+/* A sphere is sampled by the cone in which it is seen: evenly where a path meets its front, never behind. */
+static void spheres_are_sampled_where_they_are_seen(void **state)
+{
+    (void)state;
+    Scene *scene = test_scene(HEAD "sphere { 0, 1 texture { Shine } }");
+    Lights *lights;
+    LightSampleContext from = {{0, 0, -4}, {0, 0, 0}};
+    Surface s = {.primitive = &scene->primitives[0]};
+    const double whole = 2 * PI * (1 - sqrt(1 - 1.0 / 16)); /* the cone's solid angle */
+    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    for (int k = 0; k < 10; k++) {
+        double angle = 0.13 * k; /* seen up to acos(1/4) = 1.318 */
+        s.position = vec3(sin(angle), 0, -cos(angle)), s.geometric_normal = s.position;
+        assert_true(fabs(lights_emitter_pdf(lights, &from, 0, &s) * whole - 1) < 1e-4);
+        s.position.z = cos(angle), s.geometric_normal = s.position;
+        assert_true(lights_emitter_pdf(lights, &from, 0, &s) == 0);
+    }
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
+/* Photons carry the light of all emitters together, each its share: radiance times area. */
+static void photons_carry_all_light(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 1 << 14 };
+    Scene *scene = test_scene(HEAD SHEET(3) "sphere { -5*y, .5 texture { Blue } }"
+                                            "disc { 5*x, x, 1 texture { Shine } } sphere { 9, 2 texture { Dark } }");
+    Lights *lights;
+    double sum = 0, of_sphere = 0;
+    Sampler sampler = sampler_start(1, 0, 0, 0);
+    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        EmissionPoint p;
+        float u[4];
+        sampler.sample = k;
+        sampler_pair(&sampler, 0, &u[0], &u[1]);
+        sampler_pair(&sampler, 1, &u[2], &u[3]);
+        assert_int_equal(lights_emission(lights, u[0], u[1], u[2], u[3], &p), 1);
+        sum += (double)p.power / SAMPLES;
+        of_sphere += p.position.y < -4 ? (double)p.power / SAMPLES : 0;
+    }
+    const double blue = 3 * 0.0722 * PI * NEUTRAL_ALBEDO, shine = 2 * (4 + PI) * NEUTRAL_ALBEDO;
+    if (fabs(sum - blue - shine) > 0.01 * (blue + shine) || fabs(of_sphere - blue) > 0.02 * blue)
+        fail_msg("%g and %g of the sphere, should be %g and %g", sum, of_sphere, blue + shine, blue);
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
 /* Irradiance that all samples together find at a point. */
 static double mean_irradiance(const char *text, LightSampleContext p)
 {
@@ -244,6 +294,8 @@ int main(void)
         cmocka_unit_test(tree_frequencies),
         cmocka_unit_test(tree_of_one_place),
         cmocka_unit_test(densities_agree),
+        cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
+        cmocka_unit_test(photons_carry_all_light),
         cmocka_unit_test(faces_give_what_their_sheet_gives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 #include "pattern/pattern.h"
 #include "shade/pigment.h"
+#include "shade/pigment_image.h"
 
 static const Vec2 nowhere = {0, 0};
 
@@ -90,6 +91,8 @@ static void checkers(void **state)
     (void)state;
     assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 &&
                 value(&p, -0.5, -0.5) == 1);
+    for (int z = -2; z < 3; z++)
+        assert_true(pigment_eval(&p, vec3(0.5, 0.5, z + 0.5), nowhere).r == (z % 2 == 0));
     /* a hair below a boundary counts as beyond it, so that a plane through one does not speckle */
     assert_true(value(&p, 1 - 0.5e-10, 0.5) == 0 && value(&p, 1 - 2e-10, 0.5) == 1);
     p.transform = transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(1, 0, 0)));
@@ -152,6 +155,12 @@ static void images_are_povray(void **state)
     map.once = 1;
     assert_true(pigment_eval(&p, vec3(1.1, 0.5, 0), nowhere).transmit == 1);
     assert_true(pigment_eval(&p, vec3(0.9, 0.5, 0), nowhere).transmit == 0.125f);
+    map.map_type = MAP_CYLINDRICAL; /* round about it is closed, above and below it ends */
+    assert_true(pigment_eval(&p, vec3(-1, 0.5, -1), nowhere).transmit == 0.125f);
+    assert_true(pigment_eval(&p, vec3(-1, 1.1, -1), nowhere).transmit == 1);
+    assert_true(image_is_outside(&map, (Vec2){1.5, 0.5}) == 0 && image_is_outside(&map, (Vec2){0.5, -0.1}) == 1);
+    map.map_type = MAP_SPHERICAL;
+    assert_true(pigment_eval(&p, vec3(-1, 7, -1), nowhere).transmit == 0.125f);
     retex_texture_close(&map.texture);
 }
 
@@ -204,11 +213,12 @@ static void bakes(void **state)
 {
     const double low[2] = {-1, 0.5}, high[2] = {3, 2.5};
     ImageMap map = image_map(MAP_PLANAR);
-    Pigment p = pigment(&pattern_checker);
+    Pigment p = pigment(&pattern_gradient); /* which looks the same from no two sides */
     RetexImage baked = {0};
 
     (void)state;
     p.image = &map;
+    p.pattern.vector = vec3(0.3, 0.8, 0.5), p.pattern.frequency = 0.1;
     p.transform = transform_rotate(vec3(0, 0, 90));
     for (int k = 0; k < 4; k++) {
         int axis = k < 3 ? k : 2;
@@ -221,7 +231,7 @@ static void bakes(void **state)
                 Vec3 world = transform_point(&p.transform, q);
                 normal = transform_normal(&p.transform, vec3(axis == 0, axis == 1, axis == 2));
                 assert_uv(target_uv(&p, world, normal, NULL, NULL), u, v);
-                assert_true(pigment_eval(&p, world, nowhere).r == baked.pixels[retex_image_index(&baked, x, y)]);
+                assert_near(pigment_eval(&p, world, nowhere).r, baked.pixels[retex_image_index(&baked, x, y)]);
             }
         retex_image_free(&baked);
     }

@@ -21,6 +21,16 @@ static void test_sphere_and_transforms(void **state)
     assert_vec(transform_point(&p->transform, vec3(0, 0, 0)), -1, 2, 3);
     assert_vec(transform_vector(&p->transform, vec3(1, 0, 0)), 0, 4, 0);
     scene_close(&scene);
+    /* A block of transforms is applied from first to last, declared ones in their place; `inverse` undoes it. */
+    scene = parse(V37 "#declare Turn = transform{rotate 90*z}"
+                      "sphere{0,1 transform{translate x Turn scale 2}} sphere{0,1 transform{translate x Turn inverse}}"
+                      "sphere{0,1 transform Turn translate x}");
+    assert_vec(transform_point(&scene->primitives[0].transform, vec3(0, 0, 0)), 0, 2, 0);
+    assert_vec(transform_point(&scene->primitives[0].transform, vec3(1, 0, 0)), 0, 4, 0);
+    assert_vec(transform_point(&scene->primitives[1].transform, vec3(0, 1, 0)), 0, 0, 0);
+    assert_vec(transform_point(&scene->primitives[1].transform, vec3(0, 0, 0)), -1, 0, 0);
+    assert_vec(transform_point(&scene->primitives[2].transform, vec3(1, 0, 0)), 1, 1, 0);
+    scene_close(&scene);
     assert_null(scene);
 }
 

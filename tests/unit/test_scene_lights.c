@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "light/lights.h"
 #include "shade/pigment.h"
 
 /* ---- camera, lights, sky ---- */
@@ -35,6 +36,7 @@ static void test_camera(void **state)
     scene = parse(V37 "camera{orthographic location -10*z look_at 0 angle 90}");
     assert_int_equal(scene->camera.kind, CAMERA_ORTHOGRAPHIC);
     assert_near(vec_length(scene->camera.right), 20);
+    assert_near(vec_length(scene->camera.up), 20 / 1.33);
     scene_close(&scene);
     scene = parse(V37 "camera{fisheye angle 200 location -z look_at 0}");
     assert_int_equal(scene->camera.kind, CAMERA_PERSPECTIVE);
@@ -107,6 +109,14 @@ static void test_sky(void **state)
     assert_int_equal(scene->sky->npigments, 2);
     assert_near(scene->sky->emission.r, 0.5);
     assert_color(pigment_eval(scene->sky->pigments[0], vec3(-0.5, 0, 0), (Vec2){0, 0}), 0.5, 0.5, 1);
+    scene_close(&scene);
+    /* A pigment lets through what lies behind it, its filter in its own colour. */
+    scene =
+        parse(V37 "background{rgb <1,.5,.25>} sky_sphere{pigment{rgb .5} pigment{rgbft <.2,.4,.8,.5,.3>} emission 2}");
+    Rgb seen = sky_radiance(scene, vec3(0, 1, 0));
+    assert_near(seen.r, (0.5 * 0.2 + 0.3) * 0.5 * 2 + 0.2 * 0.2 * 2);
+    assert_near(seen.g, (0.5 * 0.4 + 0.3) * 0.5 * 2 + 0.2 * 0.4 * 2);
+    assert_near(seen.b, (0.5 * 0.8 + 0.3) * 0.5 * 2 + 0.2 * 0.8 * 2);
     scene_close(&scene);
 }
 

@@ -207,6 +207,10 @@ static void test_functions(void **state)
         V
         "#declare S = spline{quadratic_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(2.2),\",\",0,2)",
         "0.04,-0.04,0.84");
+    /* POV-Ray 3.7's values: the parabola of a segment goes through the point before it too */
+    check(V "#declare S = spline{quadratic_spline 0,1 1,3 2.5,-2 3,4 5,0.5}"
+            "#for(I,0,3) #debug str(S(0.25+I).x,0,5) #debug \" \" #end",
+          "1.90000 2.83333 -0.50000 5.96875 ");
 }
 
 static void test_files(void **state)
@@ -219,6 +223,9 @@ static void test_files(void **state)
             "#fopen F \"t.tmp\" read #read(F, A, B, C) #debug concat(str(A,0,4), vstr(3,B,\",\",0,0), C)"
             "#ifdef(F) #debug \"open\" #end",
           "0.33331,2,3s");
+    check(V "#fopen F \"b.tmp\" write #write(F, uint16be 12594, \",\", sint16le 12594, \",\", uint8 <55,56>) #fclose F"
+            "#fopen F \"b.tmp\" read #read(F, A, B, C) #debug concat(str(A,0,0), \" \", str(B,0,0), \" \", str(C,0,0))",
+          "12 21 78");
     check(V "#macro Parse(S) #fopen F \"p.tmp\" write #write(F,S) #fclose F #include \"p.tmp\" #end"
             "#declare A = Parse(\"1+2*3\"); #debug str(A,0,0)",
           "7");

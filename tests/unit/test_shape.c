@@ -274,6 +274,53 @@ static void uv_is_povray(void **state)
     assert_uv(uv_of(surface_of(&disc, &ray, t, face)).natural, 0.625, 0.55);
 }
 
+/* Each face of the box is upright and unmirrored, seen from outside in left-handed coordinates, with y up; the bottom
+ * and the top unfold from the -z face. */
+static void box_faces_are_upright(void **state)
+{
+    (void)state;
+    for (int face = 0; face < 6; face++) {
+        Vec3 out = vec_scale(vec3(face / 2 == 0, face / 2 == 1, face / 2 == 2), face & 1 ? 1 : -1);
+        Vec3 up = face == 2 ? vec3(0, 0, -1) : face == 3 ? vec3(0, 0, 1) : vec3(0, 1, 0);
+        Vec3 right = vec_cross(up, vec_neg(out));
+        Vec3 at = vec_add(out, vec_add(vec_scale(right, -0.4), vec_scale(up, 0.7)));
+        assert_uv(uv_of(box_surface(face, at)).natural, 0.3, 0.85);
+    }
+}
+
+/* Caps have the unit square round their own circle; the side has its angle and its height. */
+static void cone_has_uv_on_all_faces(void **state)
+{
+    Primitive cone = shape(&shape_cone, 2, 1, transform_identity());
+    Ray up = {{0.5, -0.25, -5}, {0, 0, 1}, 0, INFINITY}, down = {{0.5, -0.25, 5}, {0, 0, -1}, 0, INFINITY},
+        side = {{0, 5, 0.25}, {0, -1, 0}, 0, INFINITY};
+    double t;
+    int face;
+
+    (void)state;
+    assert_true(shape_intersect(&cone, &up, &t, &face) && face == 1);
+    assert_uv(uv_of(surface_of(&cone, &up, t, face)).natural, 0.625, 0.4375);
+    assert_true(shape_intersect(&cone, &down, &t, &face) && face == 2);
+    assert_uv(uv_of(surface_of(&cone, &down, t, face)).natural, 0.75, 0.375);
+    assert_true(shape_intersect(&cone, &side, &t, &face) && face == 0);
+    assert_uv(uv_of(surface_of(&cone, &side, t, face)).natural, 0.25, 0.25);
+}
+
+/* From behind a surface has its interior texture and the target of that. */
+static void interior_has_its_own_target(void **state)
+{
+    Primitive sphere = shape(&shape_sphere, 0, 0, transform_identity());
+    Texture inner = {0};
+    Ray in = {{0, 0, -5}, {0, 0, 1}, 0, INFINITY}, out = {{0, 0, 0}, {0, 0, 1}, 0, INFINITY};
+
+    (void)state;
+    sphere.interior_texture = &inner;
+    sphere.interior_target = 7;
+    Surface front = surface_of(&sphere, &in, 4, 0), back = surface_of(&sphere, &out, 1, 0);
+    assert_true(!front.backside && front.texture == sphere.texture && front.target == 3);
+    assert_true(back.backside && back.texture == &inner && back.target == 7);
+}
+
 static void box_points_lie_on_faces(void **state)
 {
     Surface s = box_surface(1, vec3(1, 0.4, 0.5));
@@ -349,6 +396,54 @@ static void mesh_normals(void **state)
     assert_int_equal(mesh_winds_inward(&mesh), 0);
 }
 
+/* Inside a face, normals and UVs are means of the corners' by barycentric coordinates; a normal that would lie behind
+ * the face is turned round. */
+static void mesh_corners_are_interpolated(void **state)
+{
+    Vec3 vertices[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, normals[3] = {{0, 0, 1}, {0.6, 0, 0.8}, {0, 0.6, -0.8}};
+    Vec2 uvs[3] = {{0.1, 0.2}, {1.1, 0.7}, {0.4, 3.2}};
+    MeshFace face = {.vertex = {0, 1, 2}, .normal = {0, 1, 2}, .uv = {0, 1, 2}, .texture = -1};
+    Mesh mesh = {.nvertices = 3, .nnormals = 3, .nuvs = 3, .nfaces = 1};
+    Primitive p = shape(&shape_mesh, 0, 0, transform_identity());
+    Ray ray = {{0.1, 0.8, 5}, {0, 0, -1}, 0, INFINITY};
+    Hit hit = {.t = 5, .face = 0, .b1 = 0.1f, .b2 = 0.8f};
+
+    (void)state;
+    mesh.vertices = vertices, mesh.normals = normals, mesh.uvs = uvs, mesh.faces = &face;
+    p.shape.mesh = &mesh;
+    Surface s = mesh_surface(&p, hit, &ray);
+    assert_true(s.geometric_normal.z == 1);
+    Vec3 mean = vec_neg(vec_normalize(vec3(0.06, 0.48, 0.1 + 0.08 - 0.64)));
+    assert_true(mean.z > 0.5 && vec_length(vec_sub(s.shading_normal, mean)) < 1e-6);
+    SurfaceUv uv = uv_of(s);
+    assert_uv(uv.uv, 0.1 * 0.1 + 0.1 * 1.1 + 0.8 * 0.4, 0.1 * 0.2 + 0.1 * 0.7 + 0.8 * 3.2);
+}
+
+/* A face has the texture and the target of its number, the first one too; without a number those of the mesh. */
+static void mesh_faces_have_their_targets(void **state)
+{
+    static const int8_t targets[2] = {5, -1};
+    Texture of_face[2] = {{0}, {0}};
+    const Texture *textures[2] = {&of_face[0], &of_face[1]};
+    Vec3 corners[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    Primitive p = shape(&shape_mesh, 0, 0, transform_identity());
+    ShapePoint point = {.normal = {0, 0, 1}};
+
+    (void)state;
+    for (int k = -1; k < 2; k++) {
+        MeshFace face = {.vertex = {0, 1, 2}, .normal = {-1, -1, -1}, .uv = {-1, -1, -1}, .texture = k};
+        Mesh mesh = {.vertices = corners, .nvertices = 3, .faces = &face, .nfaces = 1};
+        Surface s;
+        mesh.textures = textures, mesh.ntextures = 2;
+        p.shape.mesh = &mesh, p.face_targets = targets;
+        surface_from_point(&s, &p, 0, &point);
+        assert_true(s.texture == (k < 0 ? p.texture : &of_face[k]) && s.target == (k < 0 ? 3 : targets[k]));
+        p.face_targets = NULL;
+        surface_from_point(&s, &p, 0, &point);
+        assert_int_equal(s.target, 3);
+    }
+}
+
 /* ---- sampling ---- */
 
 static void check_sampling(Primitive p, double known_area)
@@ -398,6 +493,78 @@ static void sampling_has_its_density(void **state)
     assert_true(shape_area(&(Primitive){.shape.ops = &shape_plane, .transform = twice}) == 0);
     Primitive spindle = shape(&shape_torus, 1, 1.5, twice);
     assert_true(shape_area(&spindle) == 0);
+}
+
+/* Means over the surface of a function of a point of the shape, from samples weighed by their density. */
+static double surface_mean(const Primitive *p, double (*of)(Vec3 at))
+{
+    const int n = 40000;
+    double sum = 0, weights = 0;
+
+    for (int i = 0; i < n; i++) {
+        Surface s;
+        double pdf;
+        shape_sample(p, p->shape.mesh ? 0 : -1, uniform(), uniform(), &s, &pdf);
+        sum += of(transform_inverse_point(&p->transform, s.position)) / pdf;
+        weights += 1 / pdf;
+    }
+    return sum / weights;
+}
+
+static double x_squared(Vec3 p)
+{
+    return p.x * p.x;
+}
+
+static double y_squared(Vec3 p)
+{
+    return p.y * p.y;
+}
+
+static double height(Vec3 p)
+{
+    return p.z;
+}
+
+static void assert_mean(const Primitive *p, double (*of)(Vec3 at), double expected)
+{
+    assert_true(fabs(surface_mean(p, of) - expected) < 0.02 * (1 + expected));
+}
+
+/* Samples lie where the area is: means over the surface, by integration. */
+static void samples_follow_the_area(void **state)
+{
+    Transform turned = transform_then(transform_scale(vec3(2, 2, 2)), transform_rotate(vec3(10, 20, 30)));
+    Primitive sphere = shape(&shape_sphere, 0, 0, turned), box = shape(&shape_box, 0, 0, turned),
+              disc = shape(&shape_disc, 2, 1, turned), torus = shape(&shape_torus, 2, 0.5, turned),
+              cone = shape(&shape_cone, 2, 0, turned), cylinder = shape(&shape_cone, 1, 1, turned);
+
+    (void)state;
+    assert_mean(&sphere, x_squared, 1.0 / 3);
+    assert_mean(&sphere, height, 0);
+    assert_mean(&box, x_squared, 7.0 / 18);
+    assert_mean(&box, y_squared, 7.0 / 18);
+    assert_mean(&box, height, 0.5);
+    assert_mean(&disc, x_squared, 1.25);
+    assert_mean(&disc, y_squared, 1.25);
+    assert_mean(&torus, x_squared, (4 + 1.5 * 0.25) / 2);
+    assert_mean(&torus, y_squared, 0.125);
+    assert_mean(&cylinder, height, 0.5);
+    assert_mean(&cylinder, x_squared, (0.5 * 2 + 0.25 * 2) / 4);
+    cone.shape.open = cylinder.shape.open = 1;
+    assert_mean(&cone, height, 1.0 / 3);
+    assert_mean(&cone, x_squared, 1);
+    assert_mean(&cylinder, x_squared, 0.5);
+    assert_true(fabs(shape_area(&cone) / (4 * 2 * PI * sqrt(5)) - 1) < 1e-9);
+    assert_true(fabs(shape_area(&cylinder) / (4 * 2 * PI) - 1) < 1e-9);
+
+    Vec3 corners[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    MeshFace face = {.vertex = {0, 1, 2}, .normal = {-1, -1, -1}, .uv = {-1, -1, -1}, .texture = -1};
+    Mesh mesh = {.vertices = corners, .nvertices = 3, .faces = &face, .nfaces = 1};
+    Primitive triangle = shape(&shape_mesh, 0, 0, turned);
+    triangle.shape.mesh = &mesh;
+    assert_mean(&triangle, x_squared, 1.0 / 6);
+    assert_mean(&triangle, y_squared, 1.0 / 6);
 }
 
 /* The density over a grid of the surface, its patches measured by differences, adds up to 1. */
@@ -474,9 +641,15 @@ int main(void)
         cmocka_unit_test(discs_and_open_cones),
         cmocka_unit_test(uv_is_povray),
         cmocka_unit_test(rows_are_whole),
+        cmocka_unit_test(box_faces_are_upright),
+        cmocka_unit_test(cone_has_uv_on_all_faces),
+        cmocka_unit_test(interior_has_its_own_target),
         cmocka_unit_test(box_points_lie_on_faces),
         cmocka_unit_test(mesh_normals),
+        cmocka_unit_test(mesh_corners_are_interpolated),
+        cmocka_unit_test(mesh_faces_have_their_targets),
         cmocka_unit_test(sampling_has_its_density),
+        cmocka_unit_test(samples_follow_the_area),
         cmocka_unit_test(densities_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
