@@ -223,6 +223,35 @@ static void what_is_damaged_is_not_read_back(void **state)
     }
 }
 
+/* What bands counted becomes what the set says: means by pixel, coverage and light, the union of ranges. */
+static void statistics_of_bands_add_up(void **state)
+{
+    RetexSet *set = test_set(8, 10, 1);
+    RetexBandStats bands[2];
+
+    (void)state;
+    for (int b = 0; b < 2; b++)
+        retex_band_stats_reset(&bands[b]);
+    bands[0].samples = 300, bands[1].samples = 241; /* of 80 pixels: 6.76 */
+    bands[0].total = 3, bands[1].total = 5, bands[0].folded = 0.5, bands[1].folded = 1.5;
+    bands[0].total_white = 12, bands[1].total_white = 4, bands[0].folded_white = 1, bands[1].folded_white = 3;
+    bands[0].coverage[1] = 1, bands[1].coverage[1] = 3;
+    bands[0].albedo[1][0] = 0.5, bands[1].albedo[1][0] = 0.5, bands[1].albedo[1][2] = 3;
+    bands[0].uv_low[1][0] = -2, bands[0].uv_high[1][0] = 1, bands[1].uv_low[1][0] = -1, bands[1].uv_high[1][0] = 4;
+    bands[1].uv_low[1][1] = 0.25, bands[1].uv_high[1][1] = 0.5;
+    retex_band_stats_finish(set, bands, 2);
+    assert_int_equal(set->spp, 7);
+    assert_true(set->folded == 0.25 && set->folded_white == 0.25);
+    const RetexTarget *t = &set->targets[1], *unseen = &set->targets[0];
+    assert_true(t->mean_albedo[0] == 0.25f && t->mean_albedo[1] == 0 && t->mean_albedo[2] == 0.75f);
+    assert_true(t->uv_min[0] == -2 && t->uv_max[0] == 4 && t->uv_min[1] == 0.25 && t->uv_max[1] == 0.5);
+    assert_true(unseen->uv_min[0] == 0 && unseen->uv_max[1] == 1 && unseen->mean_albedo[0] == 0);
+    bands[1].total_white = 8;
+    retex_band_stats_finish(set, bands, 2);
+    assert_true(set->folded == 0.25 && set->folded_white == 0.2);
+    retex_set_close(&set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +259,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_loaded_set_is_what_a_file_gives, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_damaged_is_not_read_back, make_folder, remove_folder),
         cmocka_unit_test(what_is_empty_is_known),
+        cmocka_unit_test(statistics_of_bands_add_up),
         cmocka_unit_test(a_band_store_needs_no_folder_of_the_output),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -59,8 +59,33 @@ static void threads_share_a_band(void **state)
     }
 }
 
+/* An image is filled by any one number, the very first and the very last of a band too. */
+static void one_number_fills_an_image(void **state)
+{
+    RetexError err = {0};
+
+    (void)state;
+    for (int last = 0; last < 2; last++)
+        for (int band = 0; band < 3; band++) {
+            Bands *bands;
+            int none, one, y = band * BAND_LINES, end = y + BAND_LINES < HEIGHT ? y + BAND_LINES : HEIGHT;
+            test_must(bands_create(&bands, WIDTH, HEIGHT, NULL, 1, &err), &err);
+            test_must(bands_add(bands, "none", "RGB", RETEX_FLOAT, &none, &err), &err);
+            test_must(bands_add(bands, "one", "RGB", RETEX_FLOAT, &one, &err), &err);
+            BandRows *rows = bands_open(bands, band);
+            float *zero = bands_pixel(rows, none, 0, y),
+                  *pixel = last ? bands_pixel(rows, one, WIDTH - 1, end - 1) : bands_pixel(rows, one, 0, y);
+            zero[0] = 0, pixel[last ? 2 : 0] = 1;
+            test_must(bands_finish(rows, &err), &err);
+            assert_int_equal(bands_is_empty(bands, none), 1);
+            assert_int_equal(bands_is_empty(bands, one), 0);
+            bands_close(&bands);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_share_a_band)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_share_a_band),
+                                       cmocka_unit_test(one_number_fills_an_image)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <cmocka.h>
+#include <math.h>
 #include <string.h>
 #include "render/control_variate.h"
 #include "lib_test.h"
@@ -164,11 +165,48 @@ static void stored_data_is_used(void **state)
     expect(mean[1], mean[0], 4e-3, "variance of two halves");
 }
 
+static RetexImage constant(float value)
+{
+    RetexImage im = {0};
+    assert_int_equal(retex_image_alloc(&im, WIDTH, HEIGHT, 3, NULL), 0);
+    for (size_t i = 0; i < WIDTH * HEIGHT * 3; i++)
+        im.pixels[i] = value;
+    return im;
+}
+
+/* The sum of the difference over its standard deviation, for numbers that are the same everywhere: the set has noise
+ * too, as much as its samples are fewer, and the three channels are counted as one. */
+static void the_distance_is_in_standard_deviations(void **state)
+{
+    (void)state;
+    for (int nhalves = 1; nhalves < 3; nhalves++) {
+        ControlMoments halves[2] = {{{{0}}, {{0}}}, {{{0}}, {{0}}}}, *moments[2] = {&halves[0], &halves[1]};
+        const int samples[2] = {12, 4}, total = nhalves > 1 ? 16 : 12;
+        RetexSet *set = make_set(8); /* of 0.5 */
+        for (int h = 0; h < nhalves; h++) {
+            halves[h].mean[1] = constant(h ? 0.7f : 0.6f);
+            halves[h].covariance[control_pair(1, 1)] = constant(h ? 0.05f : 0.02f);
+        }
+        const double count = WIDTH * HEIGHT * 3, share = (double)samples[0] / total;
+        const double difference = 0.6 * share + 0.7 * (1 - share) - 0.5;
+        const double variance = (0.02 * share * share + 0.05 * (1 - share) * (1 - share)) * (1 + total / 8.0);
+        expect(control_distance(moments, samples, nhalves, set), count * difference / sqrt(3 * count * variance), 1e-4,
+               "distance");
+        for (int h = 0; h < nhalves; h++) {
+            retex_image_free(&halves[h].mean[1]);
+            retex_image_free(&halves[h].covariance[control_pair(1, 1)]);
+        }
+        retex_set_close(&set);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moments_are_those_of_the_samples), cmocka_unit_test(not_finite_is_left_out),
-        cmocka_unit_test(what_is_known_is_found), cmocka_unit_test(the_better_control_is_taken),
-        cmocka_unit_test(stored_data_is_used)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(moments_are_those_of_the_samples),
+                                       cmocka_unit_test(not_finite_is_left_out),
+                                       cmocka_unit_test(what_is_known_is_found),
+                                       cmocka_unit_test(the_better_control_is_taken),
+                                       cmocka_unit_test(stored_data_is_used),
+                                       cmocka_unit_test(the_distance_is_in_standard_deviations)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

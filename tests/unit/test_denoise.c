@@ -330,6 +330,46 @@ static void test_light_of_all_sizes(void **state)
         }
 }
 
+/* Scale one channel of all light and of its noise, in every third column by more. */
+static void stain(RetexSet *set, int channel, float by)
+{
+    for (int part = 0; part < set->nparts; part++)
+        for (int i = channel; i < 3 * set->width * set->height; i += 3)
+            if (strncmp(set->parts[part].name, "term", 4) == 0 || strncmp(set->parts[part].name, "noise_", 6) == 0)
+                set->parts[part].image.pixels[i] *= i / 3 % set->width % 3 ? by : 3 * by;
+}
+
+/* Each channel of each signal has the mean that it had, whatever the others have; and coefficients are rounded by the
+ * largest channel, whichever it is. */
+static void test_channels_are_on_their_own(void **state)
+{
+    (void)state;
+    enum { WIDTH = 40, HEIGHT = 30 };
+    for (int bright = 0; bright < 3; bright++) {
+        RetexSet *before = noisy_set("footprints", WIDTH, HEIGHT), *set = noisy_set("footprints", WIDTH, HEIGHT);
+        stain(before, bright, 20);
+        stain(set, bright, 20);
+        denoise_all(set, NULL, 2);
+        RetexSignals signals = denoise_signals(before);
+        for (int s = 0; s < signals.count; s++)
+            for (int c = 0; c < 3; c++) {
+                const double a = denoise_mean(before, &signals.of[s], c), b = denoise_mean(set, &signals.of[s], c);
+                if (fabs(a - b) > 2e-3 * a)
+                    fail_msg("channel %d of signal %d: mean %.6g instead of %.6g", c, s, b, a);
+            }
+        for (int t = 0; t < set->nterms; t++)
+            for (int i = 0; i < 3 * WIDTH * HEIGHT && set->terms[t].nfactors; i++) {
+                const double is = (double)set->parts[set->terms[t].radiance].image.pixels[i];
+                const double step = exp2(floor(log2(2 * denoise_half_step(set, i / 3 % WIDTH, i / 3 / WIDTH))));
+                if (is != 0.5 * step * rint(2 * is / step))
+                    fail_msg("term %d: %.9g is no multiple of %.9g", t, is, step);
+            }
+        retex_signals_close(&signals);
+        retex_set_close(&before);
+        retex_set_close(&set);
+    }
+}
+
 /* ---- invalid sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
@@ -395,6 +435,7 @@ int main(void)
         cmocka_unit_test(test_shorter_params),
         cmocka_unit_test(test_missing_parts),
         cmocka_unit_test(test_rare_light_is_kept),
+        cmocka_unit_test(test_channels_are_on_their_own),
         cmocka_unit_test(test_light_of_all_sizes),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_sizes),

@@ -425,6 +425,27 @@ static double beside_ball(int x, int y)
     return (double)outside / (STEPS * STEPS);
 }
 
+/* A target that is seen again in a mirror of its own covers a pixel once. */
+static void covers_count_a_target_once(void **state)
+{
+    static const char *const targets[] = {"Floor", "Mirror"};
+    (void)state;
+    Scene *scene = read_scene("camera { location 0 look_at z } #declare Floor = texture { pigment { rgb 1 } }\n"
+                              "#declare Mirror = texture { pigment { rgb 0 } finish { diffuse 0 reflection { 1 } } }\n"
+                              "plane { z, 3 texture { Mirror } } plane { z, -2 texture { Mirror } }\n"
+                              "plane { y, -1e6 texture { Floor } }\n",
+                              NULL, targets, 2);
+    RenderParams p = small(4);
+    RetexSet *set = render(scene, &p);
+    for (int y = 0; y < 30; y++)
+        for (int x = 0; x < 40; x++) {
+            expect(pixel(set, "guide_cover_Mirror", x, y)[0], 1, 1e-3, "a mirror in itself");
+            expect(pixel(set, "guide_specular", x, y)[0], 1, 0, "mirror");
+        }
+    retex_set_close(&set);
+    scene_close(&scene);
+}
+
 static void cover_is_the_share_of_the_pixel(void **state)
 {
     (void)state;
@@ -532,6 +553,7 @@ int main(void)
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(guides_tell_what_lies_where),
         cmocka_unit_test(guides_of_the_sky),
+        cmocka_unit_test(covers_count_a_target_once),
         cmocka_unit_test(cover_is_the_share_of_the_pixel),
         cmocka_unit_test(plain_guides_show_all_colours),
         cmocka_unit_test(more_samples_change_no_guide),

@@ -203,6 +203,30 @@ static void test_parts_there_and_back(void **state)
         retex_image_free(&images[i]);
 }
 
+/* Compressed parts take less room than they hold, and less than without; what does not shrink is kept as it is. */
+static void test_files_are_smaller_when_compressed(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    size_t bytes[2], pixels = 0;
+    make_parts(parts, images);
+    for (int i = 0; i < PARTS; i++) {
+        RetexImage *im = &images[i];
+        for (size_t k = 0; k < retex_image_index(im, 0, im->height); k++)
+            im->pixels[k] = (float)(k / (size_t)im->channels % 8);
+        pixels += retex_image_index(im, 0, im->height) * (parts[i].type == RETEX_HALF ? 2 : 4);
+    }
+    for (int compress = 0; compress < 2; compress++) {
+        write_parts(parts, PARTS, compress, 2);
+        free(test_read_file(path, &bytes[compress]));
+    }
+    assert_true(bytes[0] > pixels && bytes[0] < pixels + 8192);
+    assert_true(bytes[1] < pixels / 8 + 4096);
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
 static void test_files_are_equal_for_every_thread_count(void **state)
 {
     (void)state;
@@ -425,6 +449,7 @@ int main(void)
         cmocka_unit_test(test_rounding_to_half),
         cmocka_unit_test(test_vector_equals_scalar),
         cmocka_unit_test(test_parts_there_and_back),
+        cmocka_unit_test(test_files_are_smaller_when_compressed),
         cmocka_unit_test(test_files_are_equal_for_every_thread_count),
         cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_foreign_files_of_every_compression),

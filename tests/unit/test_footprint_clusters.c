@@ -123,6 +123,49 @@ static void expect_same(const Clusters *clusters, const Places *places)
         assert_memory_equal(&clusters->of[k].uv, &places->of[k], sizeof places->of[k]);
 }
 
+/* What clusters of one kind or of both keep of their hits' light, whatever merges. */
+typedef struct Kept {
+    double squares, light, interreflected, reflected;
+} Kept;
+
+static void add_kept(Kept *sum, const Clusters *clusters)
+{
+    for (int k = 0; k < clusters->count; k++) {
+        const Cluster *c = &clusters->of[k];
+        sum->squares += c->squares, sum->light += c->c[1], sum->interreflected += c->interreflected[1];
+        sum->reflected += c->albedo.reflected[1];
+    }
+}
+
+static void nothing_is_lost_by_merging(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < 20; round++) {
+        TargetClusters target = {.interreflections_bound = 0};
+        FilmParams params = {.sharp = 2, .broad = 2, .clusters = 3};
+        Kept all = {0, 0, 0, 0}, kept = {0, 0, 0, 0};
+        uint32_t seed = round + 1;
+        Vec2 last = {0, 0};
+        for (int n = 0; n < PLACES; n++) {
+            last = any_place(&seed, last);
+            const float own = (float)test_random(&seed), further = (float)test_random(&seed);
+            HitLight light = {.original = {0, further, 0, 0}};
+            light.c[0] = (Float4){0, own, 0, 0};
+            FirstHit q = {.uv = {last.u, last.v}, .light = &light, .albedo = {0.5f, 0.25f, 1, 0}};
+            q.sharp = test_random(&seed) < 0.4, q.weight = 0.1 + test_random(&seed);
+            clusters_add(&target, &q, &params);
+            all.squares += q.weight * q.weight, all.light += own, all.interreflected += further;
+            all.reflected += 0.25 * (own + 1e-3 * further); /* interreflected light says little of the albedo */
+        }
+        add_kept(&kept, &target.sharp);
+        add_kept(&kept, &target.broad);
+        assert_true(fabs(kept.squares / all.squares - 1) < 1e-9);
+        assert_true(fabs(kept.light / all.light - 1) < 1e-4);
+        assert_true(fabs(kept.interreflected / all.interreflected - 1) < 1e-4);
+        assert_true(fabs(kept.reflected / all.reflected - 1) < 1e-4);
+    }
+}
+
 static void clusters_are_those_of_all_pairs(void **state)
 {
     (void)state;
@@ -171,6 +214,7 @@ static void further_hits_are_pooled_alike(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(clusters_are_those_of_all_pairs),
+                                       cmocka_unit_test(nothing_is_lost_by_merging),
                                        cmocka_unit_test(further_hits_are_pooled_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -166,6 +166,28 @@ static void terms_go_without_light(void **state)
     retex_set_close(&f.set);
 }
 
+/* A term needs its gain too; radiance that another term uses stays. */
+static void terms_go_without_their_gain(void **state)
+{
+    (void)state;
+    for (int empty = 0; empty < 2; empty++) {
+        Fixture f;
+        RetexError err;
+        begin(&f);
+        const int light = retex_set_find_part(f.set, "dep_sharp1"), parts = f.set->nparts;
+        RetexTerm term = {.kind = RETEX_TERM_DEP, .radiance = light, .nfactors = 1, .factors = {1}};
+        term.gain = add_part(&f, "gain", "R");
+        test_must(retex_set_add_term(f.set, &term, NULL, &err), &err);
+        if (empty)
+            make_empty(&f, "gain");
+        retex_set_prune(f.set, f.empty);
+        assert_int_equal(f.set->nterms, empty ? 5 : 6);
+        assert_int_equal(has(&f, "gain"), !empty);
+        assert_true(has(&f, "dep_sharp1") && f.set->nparts == parts - empty);
+        retex_set_close(&f.set);
+    }
+}
+
 static void a_target_that_no_pixel_has_leaves_nothing(void **state)
 {
     (void)state;
@@ -188,6 +210,7 @@ int main(void)
         cmocka_unit_test(a_full_set_stays),
         cmocka_unit_test(footprints_take_along_what_hangs_on_them),
         cmocka_unit_test(terms_go_without_light),
+        cmocka_unit_test(terms_go_without_their_gain),
         cmocka_unit_test(a_target_that_no_pixel_has_leaves_nothing),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

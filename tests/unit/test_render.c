@@ -234,6 +234,66 @@ static void bits_do_not_depend_on_threads(void **state)
     stage_close(&s);
 }
 
+/* A crop has the pixels of the whole picture, in the beauty, the AOVs and what denoising reads. */
+static void crops_are_cut_from_the_whole(void **state)
+{
+    enum { X = 19, Y = 13, W = 30, H = 24 };
+    RenderParams p = RENDER_PARAMS_INIT;
+    RetexSet *whole = NULL, *crop = NULL;
+    int compared = 0;
+    Stage s;
+
+    (void)state;
+    target_stage(&s);
+    s.scene->width = 64, s.scene->height = 48;
+    p.spp = 4, p.nthreads = 2, p.denoise_data = 1;
+    p.aovs = RETEX_AOV_BIT(DEPTH) | RETEX_AOV_BIT(POSITION) | RETEX_AOV_BIT(NORMAL) | RETEX_AOV_BIT(IRRADIANCE);
+    assert_int_equal(render_scene(&whole, s.scene, &p, NULL, NULL), 0);
+    p.crop[0] = X, p.crop[1] = Y, p.crop[2] = W, p.crop[3] = H;
+    assert_int_equal(render_scene(&crop, s.scene, &p, NULL, NULL), 0);
+    for (int k = 0; k < crop->nparts; k++) {
+        const RetexImage *part = &crop->parts[k].image;
+        const int of = retex_set_find_part(whole, crop->parts[k].name);
+        if (part->width != W || part->height != H) /* an original */
+            continue;
+        assert_true(of >= 0);
+        for (int y = 0; y < H; y++)
+            assert_memory_equal(part->pixels + retex_image_index(part, 0, y),
+                                whole->parts[of].image.pixels + retex_image_index(&whole->parts[of].image, X, Y + y),
+                                (size_t)(W * part->channels) * sizeof(float));
+        compared++;
+    }
+    assert_true(compared > 20);
+    retex_set_close(&whole);
+    retex_set_close(&crop);
+    stage_close(&s);
+}
+
+/* The edge of a bright half, between two columns of pixels: a box sees it sharply, a Gaussian of half a pixel by its
+ * error function. */
+static void filters_have_their_width(void **state)
+{
+    (void)state;
+    for (int gaussian = 0; gaussian < 2; gaussian++) {
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *set = NULL;
+        Stage s;
+        stage_open(&s);
+        s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 0, -5}, {0, 0, 1}, {16, 0, 0}, {0, 12, 0}};
+        stage_add(&s, &shape_box,
+                  transform_then(transform_scale(vec3(20, 40, 1)), transform_translate(vec3(0, -20, 0))), 1, 1, 1);
+        s.finishes[0].diffuse = 0, s.finishes[0].emission = rgb_grey(1);
+        p.plain = 1, p.spp = 1024, p.gaussian = gaussian;
+        assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
+        for (int x = 4; x < 12; x++) {
+            const double distance = x + 0.5 - 8, sharp = distance > 0;
+            expect(pixel(set, x, 6)[0], gaussian ? 0.5 * (1 + erf(distance / 0.5 / sqrt(2))) : sharp, 0.01, "an edge");
+        }
+        retex_set_close(&set);
+        stage_close(&s);
+    }
+}
+
 static void compare(const RetexImage *a, const RetexImage *b, double tolerance, const char *what)
 {
     for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * 3; i++)
@@ -517,6 +577,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace_is_invisible),           cmocka_unit_test(point_light_over_a_plane),
         cmocka_unit_test(sphere_emitter_irradiance),      cmocka_unit_test(slab_reflects_by_fresnel),
+        cmocka_unit_test(crops_are_cut_from_the_whole),   cmocka_unit_test(filters_have_their_width),
         cmocka_unit_test(bits_do_not_depend_on_threads),  cmocka_unit_test(paper_recombines),
         cmocka_unit_test(paper_recombines_shiny_targets), cmocka_unit_test(footprints_recombine_shiny_targets),
         cmocka_unit_test(footprints_recombine),           cmocka_unit_test(the_inside_is_another_surface),

@@ -417,12 +417,36 @@ static void test_speed(void **state)
     retex_texture_close(&t);
 }
 
+/* A texture lets the original show through where it has alpha, or where it ends: on either axis. */
+static void test_opaque(void **state)
+{
+    (void)state;
+    RetexImage im = {0};
+    RetexError err = {0};
+    test_must(retex_image_alloc(&im, 4, 4, 4, &err), &err);
+    for (int k = 0; k < 64; k++)
+        im.pixels[k] = 1;
+    for (int clear = 0; clear < 2; clear++)
+        for (int u = 0; u < 4; u++)
+            for (int v = 0; v < 4; v++) {
+                RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+                RetexTexture *texture;
+                im.pixels[63] = clear ? 0.5f : 1;
+                spec.wrap[0] = (RetexWrap)u, spec.wrap[1] = (RetexWrap)v;
+                test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+                assert_int_equal(retex_texture_is_opaque(texture),
+                                 !clear && u != RETEX_WRAP_BLACK && v != RETEX_WRAP_BLACK);
+                retex_texture_close(&texture);
+            }
+    retex_image_free(&im);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_point),      cmocka_unit_test(test_transform), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_integral),   cmocka_unit_test(test_variance),  cmocka_unit_test(test_alpha),
-        cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_point),    cmocka_unit_test(test_transform),  cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_integral), cmocka_unit_test(test_variance),   cmocka_unit_test(test_alpha),
+        cmocka_unit_test(test_opaque),   cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

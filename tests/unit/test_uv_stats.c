@@ -156,6 +156,29 @@ static void a_cloud_may_lie_across_a_seam(void **state)
     }
 }
 
+/* What is stored comes back: each axis to a 32nd of its own deviation, deviations to a 128th, and the correlation with
+ * its sign. */
+static void what_is_stored_comes_back(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 64; k++) {
+        const double deviation[2] = {k & 1 ? 0.4 : 0.004, k & 2 ? 0.3 : 0.003}, sign = k & 4 ? -1 : 1;
+        const double correlation = sign * (k >> 3) / 8.0, weight = 1.5;
+        RetexUvStats from = {weight, {0.123456 + k, 7.654321}, {0, 0, 0}}, to;
+        float mean[2], spread[3];
+        from.m2[0] = weight * deviation[0] * deviation[0], from.m2[2] = weight * deviation[1] * deviation[1];
+        from.m2[1] = weight * correlation * deviation[0] * deviation[1];
+        retex_uv_stats_store(&from, mean, spread);
+        retex_uv_stats_load(&to, weight, mean, spread);
+        for (int axis = 0; axis < 2; axis++) {
+            assert_true(fabs((double)mean[axis] - from.mean[axis]) <= deviation[axis] / 64 + 1e-6 * from.mean[axis]);
+            assert_true(fabs((double)spread[axis] / deviation[axis] - 1) <= 1.0 / 128);
+        }
+        assert_true(fabs(to.m2[0] / from.m2[0] - 1) < 0.02 && fabs(to.m2[2] / from.m2[2] - 1) < 0.02);
+        assert_true(fabs(to.m2[1] - from.m2[1]) < 0.04 * sqrt(from.m2[0] * from.m2[2]));
+    }
+}
+
 /* A place below 0 by less than a double can tell from 1 is no 1 either. */
 static void the_end_of_a_period_is_its_beginning(void **state)
 {
@@ -293,6 +316,7 @@ int main(void)
         cmocka_unit_test(merging_is_adding_all),
         cmocka_unit_test(a_seam_is_no_distance),
         cmocka_unit_test(a_cloud_may_lie_across_a_seam),
+        cmocka_unit_test(what_is_stored_comes_back),
         cmocka_unit_test(the_end_of_a_period_is_its_beginning),
         cmocka_unit_test(the_cost_is_what_merging_adds),
         cmocka_unit_test(a_point_costs_what_its_cluster_does),
