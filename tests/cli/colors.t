@@ -53,3 +53,11 @@ $ for f in b d; do retex-diff -q --part uv a.exr $f.exr || echo $f; done; retex-
 $ oiiotool a.exr --subimage uv --ch uv.U,uv.V,uv.A --printstats | sed -n 's/ *Stats \(Min\|Max\)/\1/p'
 > Min: -0.996351 -0.853927 1.000000 (float)
 > Max: 0.996351 1.992549 1.000000 (float)
+
+# $OCIO's displays and views, by name: two displays, of which each has two views.
+$ printf 'ocio_profile_version: 2\nroles: {default: lin, scene_linear: lin, data: lin}\nfile_rules:\n  - !<Rule> {name: Default, colorspace: default}\ndisplays:\n  One:\n    - !<View> {name: Plain, colorspace: lin}\n    - !<View> {name: Half, colorspace: half}\n  Two:\n    - !<View> {name: Plain, colorspace: quarter}\n    - !<View> {name: Half, colorspace: eighth}\ncolorspaces:\n  - !<ColorSpace> {name: lin}\n' >two.ocio; for c in 'half 2' 'quarter 4' 'eighth 8'; do set -- $c; printf '  - !<ColorSpace>\n    name: %s\n    to_scene_reference: !<MatrixTransform> {matrix: [%s, 0, 0, 0, 0, %s, 0, 0, 0, 0, %s, 0, 0, 0, 0, 1]}\n' $1 $2 $2 $2 >>two.ocio; done
+$ show() { OCIO=two.ocio retex-combine -q s.exr --texture 'floor=rgb(0.2,0.1,0.05)' --texture 'wall=rgb(0.05,0.1,0.2)' "$@" -o shown.tif; oiiotool shown.tif --printstats | sed -n 's/ *Stats Avg: \([0-9.]*\).*/\1/p'; }; for o in '' '--display Two' '--view Half' '--display Two --view Half'; do show $o; done | awk 'NR == 1 { whole = $1 } { printf "%.3f\n", $1 / whole }'
+> 1.000
+> 0.250
+> 0.500
+> 0.125

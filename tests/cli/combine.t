@@ -6,6 +6,9 @@ $ retex-combine -q s.exr --texture floor=brick.jpg >out.exr; retex-diff -q out.e
 $ retex-combine -q s.exr -o original.exr; retex-diff -q original.exr fused.exr --fail-psnr 60
 = 1
 $ for f in x.png x.jpg x.tif x.hdr x.exr; do retex-combine -q s.exr --texture floor=brick.jpg -o $f && retex-diff -q $f fused.exr --fail-psnr 20 || echo $f; done
+# --quality is that of the JPEG: smaller files, farther from the picture; 95 where it is not given.
+$ for q in 20 60 95; do retex-combine -q s.exr --texture floor=brick.jpg --quality $q -o q$q.jpg; done; cmp q95.jpg x.jpg; test $(stat -c %s q20.jpg) -lt $(stat -c %s q60.jpg) && test $(stat -c %s q60.jpg) -lt $(stat -c %s q95.jpg) && echo larger; rm q*.jpg
+> larger
 $ retex-pack -q --lossless s.exr -o s.retex; retex-combine -q s.retex --texture floor=brick.jpg -o pack.exr; cmp pack.exr fused.exr
 
 # JPEG, PNG and EXR need no OpenImageIO; the others say so.

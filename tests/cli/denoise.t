@@ -54,6 +54,12 @@ $ for o in '--strength 0.1' '--strength 10' '--radius 1' '--radius 10' --no-foot
 > x.exr: ok
 > x.exr: ok
 > x.exr: ok
+# Each option changes what it says, and its default is what --help says.
+$ for o in '--strength 0.5' '--strength 1' '--strength 2' '--radius 2' '--radius 5' '--radius 6'; do retex-denoise -q s.exr $o -o x.exr; cmp -s d.exr x.exr && echo "$o is the default"; done; rm x.exr
+> --strength 1 is the default
+> --radius 5 is the default
+$ for p in t1_uv1 t1_albedo1 t1_uv2 t1_spread2 t1_albedo2; do retex-diff -q --part $p kept.exr f.exr || echo $p; retex-diff -q --part $p fd.exr f.exr && echo "$p is not pooled"; done
+= 1
 $ retex-denoise s.exr -o x.exr --strength 0
 ! retex-denoise: error: --strength: expected a number from 0.1 to 10, not '0'
 = 2

@@ -18,6 +18,10 @@ $ retex-diff -q noisy.exr a.exr --fail-abs 0.001
 = 1
 $ retex-diff -q noisy.exr a.exr --fail-rel 0.001
 = 1
+# A limit of one kind is none of another: the largest difference is 0.0044, the largest relative one 0.038.
+$ retex-diff noisy.exr a.exr --fail-abs 0.03 --fail-rel 0.03 | sed 's/.*: //'
+> the largest relative difference, 0.0379092, is above 0.03
+$ retex-diff -q noisy.exr a.exr --fail-rel 0.04
 $ retex-diff noisy.exr a.exr --fail-abs 0.001 | sed 's/.*: //; s/[0-9.e-]*, is/X, is/'
 > the largest difference, X, is above 0.001
 
@@ -104,6 +108,9 @@ $ retex-diff --all-parts a.exr s.exr --fail-psnr 1 | tail -n 1
 # JSON.
 $ retex-diff --json a.exr b.exr
 > {"differs": false, "part": "picture", "width": 64, "height": 40, "channels": 3, "psnr": 120, "relmse": 0, "mae": 0, "flip_mean": 0, "flip_p99": 0, "max_abs": 0, "max_rel": 0, "nonfinite": 0, "worst": {"x": 0, "y": 0, "channel": "B"}, "reason": "", "why": ""}
+$ retex-diff --json noisy.exr a.exr | grep -o '"flip[^,]*' | cut -c1-17
+> "flip_mean": 0.01
+> "flip_p99": 0.022
 $ retex-diff --json wide.exr a.exr
 > {"differs": true, "part": "picture", "width": 65, "height": 40, "channels": 3, "psnr": null, "relmse": null, "mae": null, "flip_mean": null, "flip_p99": null, "max_abs": null, "max_rel": null, "nonfinite": 0, "worst": null, "reason": "sizes differ: 65 x 40 and 64 x 40", "why": "sizes differ: 65 x 40 and 64 x 40"}
 = 1

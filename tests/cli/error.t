@@ -75,3 +75,8 @@ $ retex-combine -q s.exr --texture floor=brick.jpg --error full.exr -o - >/dev/f
 ! retex-combine: error: cannot write standard output: No space left on device
 ! ls: cannot access 'full.exr': No such file or directory
 = 2
+
+# The error that is told is the root mean square of all numbers of the picture of it.
+$ skip-without oiiotool openimageio-tools
+$ retex-combine s.exr --texture floor=brick.jpg --error e.exr -o y.exr 2>&1 | sed -n 's/.*error \([0-9.e-]*\) rms.*/\1/p' >told; oiiotool e.exr --printstats | awk '$2 == "Avg:" { for (c = 3; c < 6; c++) sum += $c * $c } $2 == "StdDev:" { for (c = 3; c < 6; c++) sum += $c * $c } END { printf "%g\n", sqrt(sum / 3) }' | paste - told | awk '{ print ($1 / $2 > 0.99 && $1 / $2 < 1.01) ? "same" : $0 }'
+> same

@@ -1,6 +1,14 @@
 # retex-sample: errors, and that neither a partial file nor a changed old one stays behind.
 $ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-info a.exr | head -n 1
 > samples of     3 footprints out of 6, 48 x 32 pixels
+$ retex-info --json a.exr | grep -o '"samples":[0-9]\+' # 3 images of 48 x 32 pixels of three floats
+> "samples":55296
+$ retex-info s.exr | grep share; retex-info --json s.exr | grep -o '"share":[0-9.]*'
+>   share        40.00% of the picture
+>   share        40.00% of the picture
+> "share":0.40000000000000002
+> "share":0.40000000000000002
+$ make_set big.exr 320 240; retex-info --json big.exr | grep -o '"radiance":[0-9]\+' | tr -d 'a-z":' | awk '{ printf "%.2f MB\n", $1 / 1e6 }' >json; retex-info big.exr | awk '$1 == "radiance" { print $2, $3 }' | cmp - json; rm big.exr json
 $ retex-sample -q - --texture floor=brick.jpg <s.exr >stream.exr; retex-info stream.exr | head -n 1
 > layout         paper
 
