@@ -58,10 +58,11 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests check check-all check-faults check-mutants check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
+.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
-tests: $(TEST_PROGRAMS) $(FAULTS) unit-tests all
+test-programs: $(TEST_PROGRAMS) all
+tests: test-programs $(FAULTS) unit-tests
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
 SUITES ?= lint unit cli oiio man golden faults fidelity
@@ -69,7 +70,7 @@ RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
-	@RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long
+	@MUTANTS=all RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long mutants
 # Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
 check-mutants: tests
 	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants

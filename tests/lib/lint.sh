@@ -10,6 +10,7 @@
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
 #   - figures that README and man pages quote are those of docs/*.csv
+#   - mutants: the text of each is in its file, and its tests exist
 # --tap: as one test of make check.
 set -u
 status=0
@@ -177,6 +178,7 @@ for script in $(git ls-files '*.sh') .ci/run; do
     sh -n "$script" || complain "$script"
 done
 quoted=$(/usr/bin/python3 -B tests/figures/quote.py --check) || complain "$quoted"
+complaints=$(tests/mutants/run.py --lint) || complain "$complaints"
 if [ "${1-}" = --tap ]; then
     [ "$status" = 0 ] && echo "ok 1 - rules of the house" || echo "not ok 1 - rules of the house"
     exit 0

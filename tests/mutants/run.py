@@ -2,9 +2,12 @@
 """Mutation testing: each small wrongness of list.txt is built, and a test must notice. Prints TAP.
 
 A mutant that no named test notices fails, and so does one that does not compile or whose text is not in its file once.
-MUTANTS chooses: `all`; `tenth`, the default, those that the commit's hash picks; or names. Trees with builds of their
-own lie in $BUILD/mutants, JOBS of them side by side. $BUILD/mutants/results keeps what was found, so that a run that was
-stopped goes on; it counts as long as the sources are the same."""
+MUTANTS chooses: `all`; `tenth`, the default, those that the commit's hash picks; or names. A test counts only if it
+passes without a mutant, which is tried once a test; with `tenth` it is taken as known from `make check`. Trees with
+builds of their own lie in $BUILD/mutants, JOBS of them side by side. $BUILD/mutants/results keeps what was found, so
+that a run that was stopped goes on; it counts as long as the sources are the same.
+
+run.py --lint checks the list alone, and prints what is wrong with it."""
 
 import concurrent.futures
 import hashlib
@@ -13,6 +16,7 @@ import queue
 import shutil
 import subprocess
 import sys
+import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -50,6 +54,40 @@ def read_list():
             else:
                 sys.exit(f"list.txt:{number}: a line begins with @ - + = ~ or #")
     return mutants
+
+
+def test_file(test):
+    """Where a test is, or the folder of a suite."""
+    suite, _, name = test.partition("/")
+    ending = {"unit": ".c", "cli": ".t", "oiio": ".t", "golden": "/command", "fidelity": ".sh"}
+    if suite not in ending:
+        return None
+    return os.path.join("tests", suite, name + ending[suite]) if name else os.path.join("tests", suite)
+
+
+def mistakes(mutants):
+    """Whatever is wrong with the list, as it can be seen without building."""
+    names = set()
+    for mutant in mutants:
+        if mutant.name in names:
+            yield f"{mutant.name}: there are two"
+        names.add(mutant.name)
+        try:
+            with open(os.path.join(ROOT, mutant.path), encoding="utf-8") as file:
+                count = file.read().count(mutant.old) if mutant.old else 0
+        except OSError:
+            yield f"{mutant.name}: there is no {mutant.path}"
+            continue
+        if count != 1:
+            yield f"{mutant.name}: its text is {count} times in {mutant.path}"
+        if mutant.old == mutant.new:
+            yield f"{mutant.name}: changes nothing"
+        if bool(mutant.tests) == bool(mutant.equivalent):
+            yield f"{mutant.name}: either tests or a reason why nothing can notice"
+        for test in mutant.tests:
+            file = test_file(test)
+            if not file or not os.path.exists(os.path.join(ROOT, file)):
+                yield f"{mutant.name}: there is no test {test}"
 
 
 def run(tree, *command):
@@ -97,11 +135,47 @@ def make_tree(number, names):
 def target_of(test):
     """What make has to build for a test."""
     suite, _, name = test.partition("/")
-    return [f"build/tests/unit/{name}"] if suite == "unit" and name else ["tests"]
+    if suite == "unit" and name:
+        return [f"build/tests/unit/{name}"]
+    return ["tests"] if suite in ("unit", "faults") else ["test-programs"]
 
 
-def judge(tree, mutant):
+def build(tree, test, built):
+    """What kept a test from being built, or None; `built` has what is built already."""
+    for target in target_of(test):
+        if target not in built:
+            built.add(target)
+            status, output = run(tree, "make", "JOBS=1", target)
+            if status != 0:
+                return "does not compile: " + output.strip().split("\n")[-1]
+    return None
+
+
+def passes(tree, test):
+    """Whether a test passes in a tree."""
+    return run(tree, "tests/lib/check.sh", test)[0] == 0
+
+
+class Sound:
+    """Tests that pass where nothing is wrong, each tried once."""
+
+    def __init__(self):
+        self.lock, self.known = threading.Lock(), {}
+
+    def is_sound(self, tree, test):
+        with self.lock:
+            lock = self.known.setdefault(test, [threading.Lock(), None])
+        with lock[0]:
+            if lock[1] is None:
+                lock[1] = build(tree, test, set()) is None and passes(tree, test)
+            return lock[1]
+
+
+def judge(tree, mutant, sound=None):
     """(passed, what became of it)."""
+    for test in mutant.tests:
+        if sound and not sound.is_sound(tree, test):
+            return False, f"{test} fails without any mutant"
     path = os.path.join(tree, mutant.path)
     with open(path, encoding="utf-8") as file:
         text = file.read()
@@ -113,13 +187,10 @@ def judge(tree, mutant):
     try:
         built = set()
         for test in mutant.tests:
-            for target in target_of(test):
-                if target not in built:
-                    built.add(target)
-                    status, output = run(tree, "make", "JOBS=1", target)
-                    if status != 0:
-                        return False, "does not compile: " + output.strip().split("\n")[-1]
-            if run(tree, "tests/lib/check.sh", test)[0] != 0:
+            why = build(tree, test, built)
+            if why:
+                return False, why
+            if not passes(tree, test):
                 return True, f"noticed by {test}"
         return False, "survives " + " ".join(mutant.tests)
     finally:
@@ -145,9 +216,12 @@ def choose(mutants):
 
 def main():
     mutants = read_list()
-    if len({m.name for m in mutants}) != len(mutants):
-        sys.exit("list.txt: two mutants have one name")
+    if sys.argv[1:] == ["--lint"]:
+        found = [f"tests/mutants/list.txt: {mistake}" for mistake in mistakes(mutants)]
+        print("\n".join(found), end="\n" if found else "")
+        return 1 if found else 0
     chosen = choose(mutants)
+    sound = None if os.environ.get("MUTANTS", "tenth") == "tenth" else Sound()
     key, names = source_key()
     os.makedirs(os.path.join(BUILD, "mutants"), exist_ok=True)
     results = os.path.join(BUILD, "mutants", "results")
@@ -170,7 +244,7 @@ def main():
             return True, known[mutant.name]
         tree = trees.get()
         try:
-            passed, told = judge(tree, mutant)
+            passed, told = judge(tree, mutant, sound)
         finally:
             trees.put(tree)
         if passed:
