@@ -433,7 +433,7 @@ static void test_opaque(void **state)
                 RetexTexture *texture;
                 im.pixels[63] = clear ? 0.5f : 1;
                 spec.wrap[0] = (RetexWrap)u, spec.wrap[1] = (RetexWrap)v;
-                test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+                test_must(retex_texture_create(&texture, &im, &spec, 1, &err), &err);
                 assert_int_equal(retex_texture_is_opaque(texture),
                                  !clear && u != RETEX_WRAP_BLACK && v != RETEX_WRAP_BLACK);
                 retex_texture_close(&texture);
