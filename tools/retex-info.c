@@ -273,8 +273,7 @@ static int print_info(const Cli *cli, const char *path, int json)
 static int check(const Cli *cli, const char *path)
 {
     RetexError error = {0};
-    int manifest_checked;
-    const int code = retex_set_check(path, &manifest_checked, cli->threads, &error);
+    const int code = retex_set_check(path, cli->threads, &error);
 
     if (code == RETEX_EFORMAT && !strstr(error.message, "not a set")) {
         cli_error(cli, &error);
@@ -283,8 +282,7 @@ static int check(const Cli *cli, const char *path)
     if (code)
         cli_fail(cli, &error);
     if (!cli->quiet)
-        fprintf(cli->answer, "%s: ok%s\n", strcmp(path, "-") == 0 ? "standard input" : path,
-                manifest_checked ? "" : ", but for the manifest, which has no checksum: it is of an old version");
+        fprintf(cli->answer, "%s: ok\n", strcmp(path, "-") == 0 ? "standard input" : path);
     return CLI_OK;
 }
 

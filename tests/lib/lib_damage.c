@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "io/checksum.h"
+#include "set/manifest.h"
 
 const char *const damage_road_names[ROADS] = {"rows",  "read", "estimate", "sample", "stream",
                                               "write", "pack", "strips",   "denoise"};
@@ -92,13 +93,38 @@ static void exchange(unsigned char *bytes, size_t size, const char *from, const 
         memcpy(at, to, length);
 }
 
-void damage_make_old(const char *path)
+/* The manifest of an EXR file: the value of its attribute, with the length before it. */
+static unsigned char *find_manifest(unsigned char *bytes, size_t size, size_t *length)
+{
+    static const char begin[] = "{\"retex\":";
+    unsigned char *at = memmem(bytes, size, begin, sizeof begin - 1);
+    if (!at || at - bytes < 4)
+        return NULL;
+    *length = at[-4] | (size_t)at[-3] << 8 | (size_t)at[-2] << 16 | (size_t)at[-1] << 24;
+    return *length <= size - (size_t)(at - bytes) ? at : NULL;
+}
+
+void damage_drop_bands(unsigned char *bytes, size_t size)
+{
+    size_t length;
+    unsigned char *manifest = find_manifest(bytes, size, &length);
+    if (!manifest)
+        return;
+    exchange(manifest, length, "\"bands\":", "\"other\":");
+    char *text = malloc(length + 1);
+    memcpy(text, manifest, length);
+    text[length] = 0;
+    retex_manifest_seal(text);
+    memcpy(manifest, text, length);
+    free(text);
+}
+
+void damage_drop_bands_of_file(const char *path)
 {
     unsigned char *bytes = malloc(1 << 24);
     FILE *file = fopen(path, "r+b");
     const size_t size = file && bytes ? fread(bytes, 1, 1 << 24, file) : 0;
-    exchange(bytes, size, "{\"retex\":3,\"crc32\"", "{\"retex\":2,\"older\"");
-    exchange(bytes, size, "\"bands\":", "\"older\":");
+    damage_drop_bands(bytes, size);
     if (!size || fseek(file, 0, SEEK_SET) || fwrite(bytes, 1, size, file) != size)
         abort();
     fclose(file);

@@ -31,8 +31,10 @@ RetexSet *damage_set(const char *layout, uint32_t seed);
 typedef enum DamageFile { FILE_SET, FILE_PLAIN, FILE_STREAM, FILE_PACK, FILE_LOSSLESS, DAMAGE_FILES } DamageFile;
 extern const char *const damage_file_names[DAMAGE_FILES];
 void damage_write(RetexSet *set, DamageFile kind, const char *path);
-/* Turn the file into one of an older version, without checksums of manifest and bands. A pack is not changed. */
-void damage_make_old(const char *path);
+/* Take the checksums of bands from the manifest of an EXR file, and compute its own checksum anew: retex-set(5) says
+ * that they may be missing. Other files are not changed. */
+void damage_drop_bands(unsigned char *bytes, size_t size);
+void damage_drop_bands_of_file(const char *path);
 
 /* Run one road. Returns 0, with the checksum of the result in *sum, or the code of the refusal. Removes the files that
  * it writes. */

@@ -256,7 +256,7 @@ static void test_file(void **state)
     RetexSet *set = make_set(), *back;
     RetexError err = {0};
     test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_check(path, NULL, 1, &err), &err);
+    test_must(retex_set_check(path, 1, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
     for (int k = 0; k < RETEXTURES; k++) {
         RetexSamples *samples = make_samples(back, &retextures[k]);

@@ -154,8 +154,8 @@ static void test_manifests_that_lie_are_refused(void **state)
     (void)state;
     refuse_change(NULL, "\"codec\":\"jpeg\"", "\"codec\":\"webp\"", "this version knows");
     refuse_change(NULL, "\"codec\":\"planes\"", "\"codec\":\"zero\"", "");
-    refuse_change(NULL, "\"pack\":{\"version\":2", "\"pack\":{\"version\":9", "version 9");
-    refuse_change(NULL, "\"pack\":{\"version\":2", "\"pack\":{\"version\":1", "version 1");
+    refuse_change(NULL, "\"pack\":{\"version\":1", "\"pack\":{\"version\":9", "version 9");
+    refuse_change(NULL, "\"pack\":{\"version\":1", "\"pack\":{\"version\":2", "version 2");
     refuse_change(NULL, "\"white\":", "\"white\":-", "not sound");
     refuse_change(NULL, "\"per_octave\":8", "\"per_octave\":0", "not sound");
     refuse_change(NULL, "\"map\":\"lattice\"", "\"map\":\"trellis\"", "not sound");

@@ -28,7 +28,7 @@ static void test_set_there_and_back(void **state)
         strcpy(set->scene, "k\xc3\xbc"
                            "che.pov");
         test_must(retex_set_write(set, NULL, path, &params, 3, &err), &err);
-        test_must(retex_set_check(path, NULL, 0, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
         test_must(retex_set_read(path, &back, &none, 2, &err), &err);
         assert_null(none);
         expect_equal_sets(set, back);
@@ -36,7 +36,7 @@ static void test_set_there_and_back(void **state)
         test_must(retex_set_add_part(back, "more", "A", RETEX_FLOAT, 0, 0, NULL, &err), &err);
         test_must(retex_set_add_part(back, "and-more", "A", RETEX_FLOAT, 3, 2, NULL, &err), &err);
         test_must(retex_set_write(back, NULL, path, &params, 3, &err), &err);
-        test_must(retex_set_check(path, NULL, 0, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
         assert_int_equal(retex_set_read(path, NULL, &none, 2, &err), RETEX_EFORMAT);
         retex_set_close(&set);
         retex_set_close(&back);
@@ -54,7 +54,7 @@ static void test_footprints_there_and_back(void **state)
     RetexError err = {0};
     test_make_footprints(set);
     test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
-    test_must(retex_set_check(path, NULL, 0, &err), &err);
+    test_must(retex_set_check(path, 0, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
     expect_equal_sets(set, back);
     retex_set_close(&set);
@@ -70,7 +70,7 @@ static void test_samples_there_and_back(void **state)
         RetexSamples *samples = make_samples(set, every), *back;
         test_must(retex_samples_check(samples, set, &err), &err);
         test_must(retex_set_write(NULL, samples, path, NULL, 0, &err), &err);
-        test_must(retex_set_check(path, NULL, 0, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
         test_must(retex_set_read(path, &none, &back, 0, &err), &err);
         assert_null(none);
         expect_equal_samples(samples, back);

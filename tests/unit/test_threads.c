@@ -162,7 +162,7 @@ static int preload(Room *room, int nthreads, RetexError *err)
 static int check_set(Room *room, int nthreads, RetexError *err)
 {
     (void)room;
-    return retex_set_check(test_in_folder("set.exr"), NULL, nthreads, err);
+    return retex_set_check(test_in_folder("set.exr"), nthreads, err);
 }
 
 static int sum_set(Room *room, int nthreads, RetexError *err)

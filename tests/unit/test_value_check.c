@@ -115,7 +115,7 @@ static int read_rows(const char *path, RetexError *err)
 
 static int check_sums(const char *path, RetexError *err)
 {
-    return retex_set_check(path, NULL, 2, err);
+    return retex_set_check(path, 2, err);
 }
 
 static Reader *const readers[] = {read_whole, open_and_load, read_rows, check_sums};

@@ -52,14 +52,14 @@ int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int
     return read_file(path, set, samples, 1, nthreads, err);
 }
 
-int retex_set_check(const char *path, int *manifest_checked, int nthreads, RetexError *err)
+int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
     RetexSet *set = NULL;
-    int checked = 1, status = retex_input_open(&input, path, err);
+    int status = retex_input_open(&input, path, err);
 
     if (!status && !is_pack(input)) {
-        status = retex_set_check_exr(input, &checked, nthreads, err);
+        status = retex_set_check_exr(input, nthreads, err);
     } else if (!status) {
         status = retex_pack_open(&set, &input, err);
         if (!status)
@@ -67,7 +67,5 @@ int retex_set_check(const char *path, int *manifest_checked, int nthreads, Retex
     }
     retex_set_close(&set);
     retex_input_close(&input);
-    if (manifest_checked)
-        *manifest_checked = checked;
     return status;
 }

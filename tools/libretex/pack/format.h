@@ -7,7 +7,7 @@
 #include "pack/jpeg.h"
 #include "pack/planes.h"
 
-#define RETEX_PACK_VERSION 2
+#define RETEX_PACK_VERSION 1
 #define RETEX_PACK_MANIFEST_NAME "manifest.json"
 #define RETEX_PACK_INDEX_NAME "index"
 #define RETEX_PACK_PICTURE_NAME "picture.jpg"

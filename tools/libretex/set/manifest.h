@@ -37,10 +37,9 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
 
 /* The manifest's checksum of itself. Its text begins {"retex":VERSION,"crc32":"DIGITS", and the eight hexadecimal
  * digits are the CRC-32 of all of it with 0s in their place. */
-enum { RETEX_MANIFEST_FIRST_WITH_SUM = 3 }; /* the first version of the manifest with a checksum */
-typedef enum RetexManifestSum { RETEX_MANIFEST_PLAIN, RETEX_MANIFEST_RIGHT, RETEX_MANIFEST_WRONG } RetexManifestSum;
+typedef enum RetexManifestSum { RETEX_MANIFEST_UNSEALED, RETEX_MANIFEST_RIGHT, RETEX_MANIFEST_WRONG } RetexManifestSum;
 
-RetexManifestSum retex_manifest_sum(const char *json); /* RETEX_MANIFEST_PLAIN: the manifest has no checksum */
+RetexManifestSum retex_manifest_sum(const char *json); /* RETEX_MANIFEST_UNSEALED: it has no checksum */
 void retex_manifest_seal(char *json);                  /* fill in the checksum, where the text has a place for it */
 
 /* Parse a manifest. *set and *samples are created without pixels: their parts, and those images of *samples that

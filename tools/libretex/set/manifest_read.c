@@ -485,9 +485,9 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
     if (!json_is_integer(version) || number < 1)
         bad(reading, RETEX_EFORMAT, "has no version");
     else if (number > RETEX_SET_VERSION)
-        bad(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows versions up to %d", (long long)number,
+        bad(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d", (long long)number,
             RETEX_SET_VERSION);
-    else if (sum == RETEX_MANIFEST_PLAIN && (number >= RETEX_MANIFEST_FIRST_WITH_SUM || json_object_get(root, "crc32")))
+    else if (sum == RETEX_MANIFEST_UNSEALED)
         bad(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }
 
@@ -511,10 +511,6 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
         read_set(reading, root, width, height, set);
     if (!reading->status && has_samples)
         read_samples(reading, json_object_get(root, "samples"), width, height, samples, sample_parts);
-    if (*set)
-        (*set)->version = (int)json_integer_value(json_object_get(root, "retex"));
-    if (*samples)
-        (*samples)->version = (int)json_integer_value(json_object_get(root, "retex"));
 }
 
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,

@@ -38,7 +38,7 @@ RetexManifestSum retex_manifest_sum(const char *json)
     char digits[DIGITS + 1];
 
     if (!place)
-        return RETEX_MANIFEST_PLAIN;
+        return RETEX_MANIFEST_UNSEALED;
     print_sum(digits, json, place);
     return memcmp(digits, place, DIGITS) == 0 ? RETEX_MANIFEST_RIGHT : RETEX_MANIFEST_WRONG;
 }

@@ -268,7 +268,7 @@ int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **sample
     return status;
 }
 
-static int check_described(Source *source, int *manifest_checked, int nthreads, RetexError *err)
+static int check_described(Source *source, int nthreads, RetexError *err)
 {
     int status = source_describe(source, err);
 
@@ -282,16 +282,13 @@ static int check_described(Source *source, int *manifest_checked, int nthreads, 
         return status;
     for (int i = 0; i < source->nrequests; i++)
         source->requests[i].image = NULL; /* only the checksum is wanted */
-    status = read_requests(source, nthreads, err);
-    const int version = source->set ? source->set->version : source->samples->version;
-    *manifest_checked = version >= RETEX_MANIFEST_FIRST_WITH_SUM;
-    return status;
+    return read_requests(source, nthreads, err);
 }
 
-int retex_set_check_exr(RetexInput *input, int *manifest_checked, int nthreads, RetexError *err)
+int retex_set_check_exr(RetexInput *input, int nthreads, RetexError *err)
 {
     Source source = {.input = input};
-    const int status = check_described(&source, manifest_checked, nthreads, err);
+    const int status = check_described(&source, nthreads, err);
 
     source.input = NULL;
     source_close(&source);

@@ -11,7 +11,7 @@
 int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
                        RetexError *err);
 
-/* As retex_set_check; manifest_checked is not NULL. */
-int retex_set_check_exr(RetexInput *input, int *manifest_checked, int nthreads, RetexError *err);
+/* As retex_set_check. */
+int retex_set_check_exr(RetexInput *input, int nthreads, RetexError *err);
 
 #endif

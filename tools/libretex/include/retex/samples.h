@@ -30,7 +30,6 @@ typedef struct RetexSamples {
     uint32_t set_id;                       /* id of the set; 0 = unknown */
     RetexBandStore *store;                 /* owned, or NULL */
     RetexSetSource *source;                /* owned, or NULL */
-    int version; /* of the manifest that the samples were read from, as RetexSet has it */
 } RetexSamples;
 
 /* Create samples of a set without any image: every target keeps its original. */

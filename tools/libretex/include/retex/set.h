@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 3   /* of the manifest: what is written, and the newest that is read */
+#define RETEX_SET_VERSION 1   /* of the manifest, see retex-set(5) */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
 #define RETEX_MAX_FACTORS 12  /* hits of all targets together */
@@ -134,8 +134,6 @@ typedef struct RetexSet {
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
     RetexBandStore *store;     /* owned; where parts with a store_image are, or NULL */
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
-    int version;           /* of the manifest that it was read from, 0 where from none: below 3 that has no checksum of
-                              its own, and damage to it may go unseen */
 } RetexSet;
 
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);

@@ -60,9 +60,8 @@ void retex_part_stored_row(const RetexPart *part, int y, void *samples);
 int retex_set_checksum(RetexSet *set, int nthreads /* 0 = all cores */, RetexError *err);
 
 /* Compare every part's stored CRC with its data, and the manifest's own CRC with its text: 0, or RETEX_EFORMAT naming
- * the first damaged part. *manifest_checked (may be NULL) is 0 where the manifest, of an old version, has no checksum;
- * else 1. */
-int retex_set_check(const char *path, int *manifest_checked, int nthreads, RetexError *err);
+ * the first damaged part. */
+int retex_set_check(const char *path, int nthreads, RetexError *err);
 
 /* The manifest as JSON text; the caller frees it with free(). */
 int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err);
