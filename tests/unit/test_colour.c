@@ -135,7 +135,7 @@ static void check_wrong_ocio(void)
     retex_image_free(&im);
 }
 
-/* A configuration that works in ACEScg and knows no Rec.709 of its own. */
+/* A configuration that works in ACEScg and knows no Rec.709 of its own, but for a name that ours has too. */
 static const char other_config[] =
     "ocio_profile_version: 2\n"
     "roles: {default: ap0, scene_linear: cg, aces_interchange: ap0, data: non}\n"
@@ -145,6 +145,8 @@ static const char other_config[] =
     "  - !<ColorSpace>\n    name: ap0\n"
     "  - !<ColorSpace>\n    name: cg\n    to_scene_reference: !<BuiltinTransform> {style: ACEScg_to_ACES2065-1}\n"
     "  - !<ColorSpace>\n    name: non\n    isdata: true\n"
+    "  - !<ColorSpace>\n    name: Rec709\n    to_scene_reference: !<MatrixTransform> {matrix: [3, 0, 0, 0, 0, 3, 0, 0, "
+    "0, 0, 3, 0, 0, 0, 0, 1]}\n"
     "  - !<ColorSpace>\n    name: out\n    to_scene_reference: !<GroupTransform>\n      children:\n"
     "        - !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055}\n"
     "        - !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_LINEAR-REC709_BFD, direction: inverse}\n"
@@ -152,7 +154,7 @@ static const char other_config[] =
 
 static void check_other_ocio(void)
 {
-    RetexImage im = {0}, back = {0};
+    RetexImage im = {0}, back = {0}, other = {0};
     RetexError err = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
     test_random_image(&im, 16, 16, 3, 1, 0, 1);
@@ -174,8 +176,39 @@ static void check_other_ocio(void)
         retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, "ACEScct", 0, "", 1}, &err) == 0,
         err.message);
     retex_image_free(&back);
+    /* Of a name that both have, its own meaning: thrice as bright. */
+    params.colorspace = "non";
+    must_child(bridge_write(&im, test_in_folder("o.tif"), &params, &err) == 0, err.message);
+    for (int own = 0; own < 2; own++) {
+        must_child(retex_bridge_read(
+                       &back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, own ? "Rec709" : "ap0", 0, "", 1},
+                       &err) == 0,
+                   err.message);
+        for (size_t i = 0; i < 256; i++)
+            for (size_t c = 0; c < 3 && own; c++)
+                must_child(fabsf(back.pixels[4 * i + c] - 3 * other.pixels[4 * i + c]) < 1e-3f, "its own space");
+        if (own)
+            retex_image_free(&back);
+        else
+            other = back, back = (RetexImage){0};
+    }
+    retex_image_free(&other);
+    params.colorspace = NULL;
+    /* Its other view is its working space: ACEScg, with its values unencoded. */
+    static const float ap1[3][3] = {
+        {0.61310f, 0.33952f, 0.04738f}, {0.07019f, 0.91635f, 0.01345f}, {0.02062f, 0.10957f, 0.86981f}};
     params.view = "same";
     must_child(bridge_write(&im, test_in_folder("o.png"), &params, &err) == 0, err.message);
+    must_child(retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.png"), NULL, -1, "non", 0, "", 1}, &err) ==
+                   0,
+               err.message);
+    for (size_t i = 0; i < 256; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const float *rgb = im.pixels + 3 * i, *m = ap1[c];
+            const float is = back.pixels[4 * i + c], should = m[0] * rgb[0] + m[1] * rgb[1] + m[2] * rgb[2];
+            must_child(fabsf(is - should) < 0.6f / 255, "the view that was asked for");
+        }
+    retex_image_free(&back);
     params.view = "Standard";
     must_child(bridge_write(&im, test_in_folder("o.png"), &params, &err) == RETEX_ENOTFOUND, "no such view");
     must_child(strstr(err.message, "Show, Same") != NULL, err.message);
@@ -303,6 +336,27 @@ static void test_unusual_files(void **state)
     assert_int_equal(back.width, 10);
     assert_int_equal(back.height, 8);
     assert_true(back.pixels[retex_image_index(&back, 2, 3)] == 1 && back.pixels[retex_image_index(&back, 1, 3)] == 0);
+    retex_image_free(&back);
+    /* and where what is shown does not begin at 0: only the part of it that has data */
+    oiiotool("--pattern constant:color=1,1,1 4x4 3 --origin +2+3 --fullsize 10x8+1+5 -d half", test_in_folder("w.exr"));
+    back = read_picture(test_in_folder("w.exr"), NULL);
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 10; x++)
+            assert_true(back.pixels[retex_image_index(&back, x, y)] == (x >= 1 && x < 5 && y < 2));
+    retex_image_free(&back);
+    /* PNG says how it is encoded: linear, or by a gamma */
+    oiiotool("--pattern constant:color=0.5,0.25,0.75 4x4 3 --attrib oiio:ColorSpace Linear -d uint16",
+             test_in_folder("linear.png"));
+    back = read_picture(test_in_folder("linear.png"), NULL);
+    assert_float_equal(back.pixels[0], 0.5, 1e-4);
+    assert_float_equal(back.pixels[1], 0.25, 1e-4);
+    retex_image_free(&back);
+    oiiotool("--pattern constant:color=0.5,0.25,0.75 4x4 3 --attrib oiio:ColorSpace GammaCorrected "
+             "--attrib oiio:Gamma 1.8 -d uint16",
+             test_in_folder("gamma.png"));
+    back = read_picture(test_in_folder("gamma.png"), NULL);
+    assert_float_equal(back.pixels[0], pow(0.5, 1.8), 1e-3);
+    assert_float_equal(back.pixels[2], pow(0.75, 1.8), 1e-3);
     retex_image_free(&back);
 }
 

@@ -245,7 +245,7 @@ Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *
             return {};
         // Only PNG states its encoding reliably.
         std::string said = spec.get_string_attribute("oiio:ColorSpace");
-        if (std::strcmp(format, "png") == 0 && said.compare(0, 3, "lin") == 0)
+        if (std::strcmp(format, "png") == 0 && strncasecmp(said.c_str(), "lin", 3) == 0)
             return {};
         float gamma = spec.get_float_attribute("oiio:Gamma", 0);
         if (std::strcmp(format, "png") == 0 && said.compare(0, 5, "Gamma") == 0 && gamma > 0 &&
