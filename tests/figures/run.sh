@@ -22,7 +22,8 @@ work=$build/figures
 mkdir -p "$work"
 
 # What the figures are of: the programs themselves.
-made_by=$(cat "$build"/bin/retex-* | sha256sum | cut -c1-16)
+programs() { cat "$build"/bin/retex-* | sha256sum | cut -c1-16; }
+made_by=$(programs)
 status=0
 for page in $pages; do
     row=$(grep "^$page |" tests/figures/pages.txt) || {
@@ -49,6 +50,10 @@ for page in $pages; do
     # shellcheck disable=SC2086 # the table quotes its words
     if eval env -u MAKEFLAGS -u MFLAGS $less FIGURES_COMMAND='"make figures $flags"' BENCH_DOCS=1 make BUILD="$build" "$target" \
         >"$work/$page.log" 2>&1; then
+        [ "$(programs)" = "$made_by" ] || {
+            echo "figures: the programs were built anew while docs/$page.md was made: it is of no single build" >&2
+            exit 1
+        }
         echo "$key" >"$work/$page"
     else
         echo "figures: $page failed; see $work/$page.log" >&2
