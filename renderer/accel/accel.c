@@ -52,7 +52,7 @@ static int code_of(enum RTCError error)
     }
 }
 
-static void complain(void *context, enum RTCError code, const char *text)
+static void record_error(void *context, enum RTCError code, const char *text)
 {
     Accel *accel = context;
 
@@ -62,13 +62,13 @@ static void complain(void *context, enum RTCError code, const char *text)
 
 /* ---- building ---- */
 
-static int lets_through(const Texture *texture)
+static int may_transmit(const Texture *texture)
 {
     return texture && ((texture->finish && finish_transmits(texture->finish)) || !pigment_is_opaque(texture->pigment));
 }
 
 /* Whether the primitive has one texture, which refracts what it lets through. */
-static int always_bends(const Primitive *primitive)
+static int always_refracts(const Primitive *primitive)
 {
     const Finish *finish = primitive->texture->finish;
     double ior = finish && finish_transmits(finish) ? finish->retex.ior
@@ -84,23 +84,23 @@ static unsigned char primitive_flags(const Primitive *primitive)
 {
     unsigned flags = (primitive->no_image ? 0u : RAY_CAMERA) | (primitive->no_shadow ? 0u : RAY_SHADOW) |
                      (primitive->no_reflection ? 0u : RAY_BOUNCE);
-    int through = lets_through(primitive->texture) || lets_through(primitive->interior_texture);
+    int through = may_transmit(primitive->texture) || may_transmit(primitive->interior_texture);
 
     for (int i = 0; primitive->shape.mesh && i < primitive->shape.mesh->ntextures; i++)
-        through |= lets_through(primitive->shape.mesh->textures[i]);
+        through |= may_transmit(primitive->shape.mesh->textures[i]);
     if (!through)
         return (unsigned char)flags;
-    return (unsigned char)(flags | TRANSPARENT | (always_bends(primitive) ? 0 : STRAIGHT));
+    return (unsigned char)(flags | TRANSPARENT | (always_refracts(primitive) ? 0 : STRAIGHT));
 }
 
-static void grow(Accel *accel, Vec3 low, Vec3 high)
+static void extend_bounds(Accel *accel, Vec3 low, Vec3 high)
 {
     accel->low = vec3(fmin(accel->low.x, low.x), fmin(accel->low.y, low.y), fmin(accel->low.z, low.z));
     accel->high = vec3(fmax(accel->high.x, high.x), fmax(accel->high.y, high.y), fmax(accel->high.z, high.z));
 }
 
 /* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
-static int survey(Accel *accel, RetexError *err)
+static int classify_primitives(Accel *accel, RetexError *err)
 {
     const Scene *scene = accel->source;
 
@@ -122,7 +122,7 @@ static int survey(Accel *accel, RetexError *err)
         if (!(largest(low) < LARGEST_COORDINATE && largest(high) < LARGEST_COORDINATE))
             return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
                                  "this object has coordinates that are not finite or beyond %g", LARGEST_COORDINATE);
-        grow(accel, low, high);
+        extend_bounds(accel, low, high);
         if (shape.ntriangles == 0)
             accel->curved[accel->ncurved++] = i;
         accel->nvertices += (size_t)shape.nvertices;
@@ -236,11 +236,11 @@ static bool charge_embree(void *context, ssize_t bytes, bool after)
     }
     if (!retex_budget_charge(accel->budget, (uint64_t)bytes, "", NULL))
         return true;
-    atomic_store(&accel->refused, 1);
+    atomic_store(&accel->over_budget, 1);
     return false;
 }
 
-static bool go_on(void *context, double done)
+static bool monitor_build(void *context, double done)
 {
     const Accel *accel = context;
 
@@ -249,11 +249,11 @@ static bool go_on(void *context, double done)
 }
 
 /* An error of Embree is one of the budget, if that is used up. */
-static int why_not_built(Accel *accel, RetexError *err)
+static int build_error(Accel *accel, RetexError *err)
 {
     int status = retex_budget_check(accel->budget, err);
 
-    if (!status && atomic_load(&accel->refused))
+    if (!status && atomic_load(&accel->over_budget))
         status = retex_budget_charge(accel->budget, UINT64_MAX, "the scene's geometry", err);
     return status ? status : retex_fail(err, accel->error.code, "%s", accel->error.message);
 }
@@ -267,7 +267,7 @@ static int build(Accel *accel, int nthreads, RetexError *err)
     accel->device = rtcNewDevice(config);
     if (!accel->device)
         return retex_fail(err, code_of(rtcGetDeviceError(NULL)), "Embree does not start");
-    rtcSetDeviceErrorFunction(accel->device, complain, accel);
+    rtcSetDeviceErrorFunction(accel->device, record_error, accel);
     if (accel->budget)
         rtcSetDeviceMemoryMonitorFunction(accel->device, charge_embree, accel);
     if (!rtcGetDeviceProperty(accel->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
@@ -285,12 +285,12 @@ static int build(Accel *accel, int nthreads, RetexError *err)
     if (accel->ncurved > 0)
         add_curved_geometry(accel);
     if (accel->budget)
-        rtcSetSceneProgressMonitorFunction(accel->scene, go_on, accel);
+        rtcSetSceneProgressMonitorFunction(accel->scene, monitor_build, accel);
     rtcCommitScene(accel->scene);
-    return accel->error.code ? why_not_built(accel, err) : 0;
+    return accel->error.code ? build_error(accel, err) : 0;
 }
 
-static int make_room(Accel *accel, RetexError *err)
+static int reserve_geometry(Accel *accel, RetexError *err)
 {
     const size_t vertices = (accel->nvertices + 1) * sizeof(Vec3),
                  corners = (accel->ntriangles + 1) * sizeof(*accel->corners),
@@ -330,9 +330,9 @@ int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudg
     if (!accel->flags || !accel->curved || !accel->planes)
         status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     if (status == 0)
-        status = survey(accel, err);
+        status = classify_primitives(accel, err);
     if (status == 0)
-        status = make_room(accel, err);
+        status = reserve_geometry(accel, err);
     if (status == 0)
         status = collect_triangles(accel, err);
     if (status == 0)

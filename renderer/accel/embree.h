@@ -35,12 +35,12 @@ struct Accel {
     int ncurved, nplanes;
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive */
-    double reach; /* the triangles' largest coordinate */
+    double reach;         /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error; /* Embree's first error */
     RetexBudget *budget;
-    uint64_t charged;   /* to the budget, of what is not Embree's */
-    atomic_int refused; /* Embree wanted more than the budget has */
+    uint64_t charged;       /* to the budget, of what is not Embree's */
+    atomic_int over_budget; /* Embree wanted more than the budget has */
 };
 
 /* query.c: what Embree calls back. */

@@ -24,8 +24,8 @@
 #include <string.h>
 #include "accel/embree.h"
 
-#define FLOAT_DOUBT 1e-3 /* bound of the relative error of a distance in float, for grazing triangles too */
-#define FLOAT_TRUST 1e-6 /* usual relative error of a distance in float */
+#define FLOAT_ERROR_BOUND 1e-3   /* bound of the relative error of a distance in float, for grazing triangles too */
+#define FLOAT_ERROR_TYPICAL 1e-6 /* usual relative error of a distance in float */
 
 /* A ray in double and its nearest hit so far. */
 typedef struct QueryRay {
@@ -47,17 +47,17 @@ typedef struct Query {
     QueryRay *rays;
 } Query;
 
-static inline int visible(const Accel *accel, const QueryRay *of, int primitive)
+static inline int is_visible(const Accel *accel, const QueryRay *query_ray, int primitive)
 {
-    return (accel->flags[primitive] & of->kind) != 0;
+    return (accel->flags[primitive] & query_ray->kind) != 0;
 }
 
 /* 1 if the primitive lets the ray pass. */
-static inline int pass(const Accel *accel, QueryRay *of, int primitive)
+static inline int passes_through(const Accel *accel, QueryRay *query_ray, int primitive)
 {
-    if (!(accel->flags[primitive] & of->passes))
+    if (!(accel->flags[primitive] & query_ray->passes))
         return 0;
-    of->passed = 1;
+    query_ray->passed = 1;
     return 1;
 }
 
@@ -65,13 +65,13 @@ static inline int pass(const Accel *accel, QueryRay *of, int primitive)
 
 /* Distance along the ray to the triangle's plane, if it is before the ray's end. 0 if the ray is parallel to the
  * plane or starts on it. */
-static inline int triangle_distance(const QueryRay *of, const Triangle *triangle, double end, double *t)
+static inline int triangle_distance(const QueryRay *query_ray, const Triangle *triangle, double end, double *t)
 {
-    const Ray *ray = &of->ray;
+    const Ray *ray = &query_ray->ray;
     Vec3 n = triangle->normal;
     double height = triangle->offset - vec_dot(n, ray->origin), fall = vec_dot(n, ray->direction), distance;
 
-    if (fabs(height) <= of->rounding || fall == 0)
+    if (fabs(height) <= query_ray->rounding || fall == 0)
         return 0;
     distance = height / fall;
     if (!(distance > ray->tmin && distance < end))
@@ -82,45 +82,46 @@ static inline int triangle_distance(const QueryRay *of, const Triangle *triangle
 
 /* Store a hit if it is the nearest. Of two hits at the same distance the primitive that comes first in the scene
  * wins, so the result does not depend on the order of traversal. */
-static inline int take(QueryRay *of, double t, int primitive, int face)
+static inline int record_hit(QueryRay *query_ray, double t, int primitive, int face)
 {
-    Hit *hit = of->hit;
+    Hit *hit = query_ray->hit;
 
     if (hit->primitive >= 0 && (t > hit->t || (t == hit->t && (primitive > hit->primitive ||
                                                                (primitive == hit->primitive && face >= hit->face)))))
         return 0;
     hit->t = t, hit->primitive = primitive, hit->face = face;
-    of->ray.tmax = t * (1 + DBL_EPSILON);
+    query_ray->ray.tmax = t * (1 + DBL_EPSILON);
     return 1;
 }
 
 /* Barycentric coordinates are in float, which is exact enough for interpolation. Embree keeps them in range. */
-static inline void take_triangle(QueryRay *of, const Triangle *triangle, double t, float b1, float b2)
+static inline void record_triangle_hit(QueryRay *query_ray, const Triangle *triangle, double t, float b1, float b2)
 {
-    if (!take(of, t, triangle->primitive, triangle->face))
+    if (!record_hit(query_ray, t, triangle->primitive, triangle->face))
         return;
-    of->hit->normal = triangle->normal;
-    of->hit->b1 = b1, of->hit->b2 = b2;
+    query_ray->hit->normal = triangle->normal;
+    query_ray->hit->b1 = b1, query_ray->hit->b2 = b2;
 }
 
 /* 1 if the ray intersects a curved shape or a plane. */
-static inline int meet_shape(const Accel *accel, const QueryRay *of, int primitive, double *t, int *face)
+static inline int intersect_shape(const Accel *accel, const QueryRay *query_ray, int primitive, double *t, int *face)
 {
-    return visible(accel, of, primitive) && shape_intersect(&accel->source->primitives[primitive], &of->ray, t, face);
+    return is_visible(accel, query_ray, primitive) &&
+           shape_intersect(&accel->source->primitives[primitive], &query_ray->ray, t, face);
 }
 
-static inline int take_shape(const Accel *accel, QueryRay *of, int primitive)
+static inline int test_shape(const Accel *accel, QueryRay *query_ray, int primitive)
 {
     double t;
     int face;
 
-    return meet_shape(accel, of, primitive, &t, &face) && take(of, t, primitive, face);
+    return intersect_shape(accel, query_ray, primitive, &t, &face) && record_hit(query_ray, t, primitive, face);
 }
 
 /* A distance for Embree, rounded outward so that Embree tests all candidates that may be as near. */
-static inline float outward(const QueryRay *of, double t)
+static inline float rounded_outward(const QueryRay *query_ray, double t)
 {
-    return (float)(t + FLOAT_DOUBT * (t + of->size));
+    return (float)(t + FLOAT_ERROR_BOUND * (t + query_ray->size));
 }
 
 /* ---- callbacks ---- */
@@ -153,15 +154,16 @@ void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
     for (unsigned i = 0; i < args->N; i++) {
         if (!args->valid[i])
             continue;
-        QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
+        QueryRay *query_ray = &query->rays[ray_id(args->ray, args->N, i)];
         const Triangle *triangle = &query->accel->triangles[*hit_field(args->hit, args->N, i, HIT_PRIMITIVE)];
-        if (!triangle_distance(of, triangle, of->ray.tmax, &t) || !visible(query->accel, of, triangle->primitive)) {
+        if (!triangle_distance(query_ray, triangle, query_ray->ray.tmax, &t) ||
+            !is_visible(query->accel, query_ray, triangle->primitive)) {
             args->valid[i] = 0;
-        } else if (of->hit) {
-            take_triangle(of, triangle, t, hit_number(args->hit, args->N, i, HIT_U),
-                          hit_number(args->hit, args->N, i, HIT_V));
+        } else if (query_ray->hit) {
+            record_triangle_hit(query_ray, triangle, t, hit_number(args->hit, args->N, i, HIT_U),
+                                hit_number(args->hit, args->N, i, HIT_V));
             args->valid[i] = 0;
-        } else if (pass(query->accel, of, triangle->primitive)) {
+        } else if (passes_through(query->accel, query_ray, triangle->primitive)) {
             args->valid[i] = 0;
         }
     }
@@ -174,12 +176,12 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
     int primitive = query->accel->curved[args->primID];
 
     for (unsigned i = 0; i < args->N; i++) {
-        QueryRay *of = &query->rays[ray_id(rays, args->N, i)];
-        if (!args->valid[i] || !take_shape(query->accel, of, primitive))
+        QueryRay *query_ray = &query->rays[ray_id(rays, args->N, i)];
+        if (!args->valid[i] || !test_shape(query->accel, query_ray, primitive))
             continue;
         /* A triangle at the same distance in float remains Embree's hit. The nearer one is chosen at the end, in
          * double. */
-        float end = outward(of, of->hit->t);
+        float end = rounded_outward(query_ray, query_ray->hit->t);
         if (!(end < *ray_tfar(rays, args->N, i)))
             continue;
         *ray_tfar(rays, args->N, i) = end;
@@ -196,12 +198,13 @@ void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
     double t;
 
     for (unsigned i = 0; i < args->N; i++) {
-        QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
+        QueryRay *query_ray = &query->rays[ray_id(args->ray, args->N, i)];
         if (!args->valid[i])
             continue;
-        if (of->hit)
-            take_shape(query->accel, of, primitive);
-        else if (meet_shape(query->accel, of, primitive, &t, &face) && !pass(query->accel, of, primitive))
+        if (query_ray->hit)
+            test_shape(query->accel, query_ray, primitive);
+        else if (intersect_shape(query->accel, query_ray, primitive, &t, &face) &&
+                 !passes_through(query->accel, query_ray, primitive))
             *ray_tfar(args->ray, args->N, i) = -INFINITY;
     }
 }
@@ -231,58 +234,59 @@ static inline void start_query(Query *query, const Accel *accel, int side_by_sid
 
 /* Embree gets the ray in float, with its range widened by the error of float. The ray in double decides. Returns 0
  * if the ray certainly has no hit. */
-static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Hit *hit,
-                            float *tnear, float *tfar)
+static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes,
+                            Hit *hit, float *tnear, float *tfar)
 {
     double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
-    double start = ray->tmin > 0 ? ray->tmin - FLOAT_DOUBT * (ray->tmin + size) : 0;
+    double start = ray->tmin > 0 ? ray->tmin - FLOAT_ERROR_BOUND * (ray->tmin + size) : 0;
 
-    of->ray = *ray;
-    of->size = size;
+    query_ray->ray = *ray;
+    query_ray->size = size;
     /* Each coordinate in the distance to the plane is at most reach + size. The normal's components sum to 1.8 at
      * most. */
-    of->rounding = 28 * DBL_EPSILON * (accel->reach + size);
-    of->hit = hit;
+    query_ray->rounding = 28 * DBL_EPSILON * (accel->reach + size);
+    query_ray->hit = hit;
     if (hit)
         hit->primitive = -1;
-    of->kind = (unsigned)kind;
-    of->passes = passes;
-    of->passed = 0;
+    query_ray->kind = (unsigned)kind;
+    query_ray->passes = passes;
+    query_ray->passed = 0;
     *tnear = start > 0 ? (float)start : 0;
-    *tfar = outward(of, ray->tmax);
+    *tfar = rounded_outward(query_ray, ray->tmax);
     return can_be_traced(ray, size);
 }
 
-static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
+static inline int start_single(QueryRay *query_ray, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
                                unsigned passes, Hit *hit)
 {
     to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
     to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
     to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
-    return start_ray(of, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
+    return start_ray(query_ray, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
 }
 
 /* 1 if an opaque plane occludes the ray. */
-static int plane_blocks(const Accel *accel, QueryRay *of)
+static int plane_blocks(const Accel *accel, QueryRay *query_ray)
 {
     double t;
     int face;
 
     for (int i = 0; i < accel->nplanes; i++)
-        if (meet_shape(accel, of, accel->planes[i], &t, &face) && !pass(accel, of, accel->planes[i]))
+        if (intersect_shape(accel, query_ray, accel->planes[i], &t, &face) &&
+            !passes_through(accel, query_ray, accel->planes[i]))
             return 1;
     return 0;
 }
 
-static inline void take_planes(const Accel *accel, QueryRay *of)
+static inline void test_planes(const Accel *accel, QueryRay *query_ray)
 {
     for (int i = 0; i < accel->nplanes; i++)
-        take_shape(accel, of, accel->planes[i]);
+        test_shape(accel, query_ray, accel->planes[i]);
 }
 
 /* ---- single rays ---- */
 
-static void trace(Query *query, struct RTCRayHit *rayhit)
+static void embree_intersect(Query *query, struct RTCRayHit *rayhit)
 {
 #if defined(RETEX_EMBREE4)
     struct RTCIntersectArguments args;
@@ -295,7 +299,7 @@ static void trace(Query *query, struct RTCRayHit *rayhit)
 #endif
 }
 
-static void trace_occluded(Query *query, struct RTCRay *ray)
+static void embree_occluded(Query *query, struct RTCRay *ray)
 {
 #if defined(RETEX_EMBREE4)
     struct RTCOccludedArguments args;
@@ -310,36 +314,37 @@ static void trace_occluded(Query *query, struct RTCRay *ray)
 
 /* Embree's hit, if it is a triangle, becomes the nearest hit unless a curved shape is nearer. Returns 0 if the ray
  * needs the second trace. */
-static inline int accept(const Accel *accel, QueryRay *of, const Ray *ray, unsigned geometry, unsigned index,
-                         float tfar, float u, float v)
+static inline int refine_triangle_hit(const Accel *accel, QueryRay *query_ray, const Ray *ray, unsigned geometry,
+                                      unsigned index, float tfar, float u, float v)
 {
-    double t, trust;
+    double t, tolerance;
 
     if (geometry == RTC_INVALID_GEOMETRY_ID || geometry == accel->curved_geometry)
         return 1;
     const Triangle *triangle = &accel->triangles[index];
-    if (!triangle_distance(of, triangle, ray->tmax, &t) || !visible(accel, of, triangle->primitive))
+    if (!triangle_distance(query_ray, triangle, ray->tmax, &t) || !is_visible(accel, query_ray, triangle->primitive))
         return 0;
-    trust = FLOAT_TRUST * (t + of->size);
+    tolerance = FLOAT_ERROR_TYPICAL * (t + query_ray->size);
     /* The distance is too inaccurate, or too near the origin, or too near a curved shape: other triangles may be
      * nearer. */
-    if (fabs(t - tfar) > trust || t < trust || (of->hit->primitive >= 0 && fabs(t - of->hit->t) <= trust))
+    if (fabs(t - tfar) > tolerance || t < tolerance ||
+        (query_ray->hit->primitive >= 0 && fabs(t - query_ray->hit->t) <= tolerance))
         return 0;
-    take_triangle(of, triangle, t, u, v);
+    record_triangle_hit(query_ray, triangle, t, u, v);
     return 1;
 }
 
 /* The second trace: the nearest of all triangles and curved shapes along the ray, in double. */
-static int look_closely(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
     Query query;
-    QueryRay of;
+    QueryRay query_ray;
     struct RTCRay along;
 
-    start_query(&query, accel, 0, &of);
-    if (start_single(&of, &along, accel, ray, kind, 0, hit)) {
-        trace_occluded(&query, &along);
-        take_planes(accel, &of);
+    start_query(&query, accel, 0, &query_ray);
+    if (start_single(&query_ray, &along, accel, ray, kind, 0, hit)) {
+        embree_occluded(&query, &along);
+        test_planes(accel, &query_ray);
     }
     return hit->primitive >= 0;
 }
@@ -347,44 +352,45 @@ static int look_closely(const Accel *accel, const Ray *ray, RayKind kind, Hit *h
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
     Query query;
-    QueryRay of;
+    QueryRay query_ray;
     struct RTCRayHit rayhit;
 
-    start_query(&query, accel, 0, &of);
-    if (!start_single(&of, &rayhit.ray, accel, ray, kind, 0, hit))
+    start_query(&query, accel, 0, &query_ray);
+    if (!start_single(&query_ray, &rayhit.ray, accel, ray, kind, 0, hit))
         return 0;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    trace(&query, &rayhit);
-    if (!accept(accel, &of, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v))
-        return look_closely(accel, ray, kind, hit);
-    take_planes(accel, &of);
+    embree_intersect(&query, &rayhit);
+    if (!refine_triangle_hit(accel, &query_ray, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar,
+                             rayhit.hit.u, rayhit.hit.v))
+        return intersect_in_double(accel, ray, kind, hit);
+    test_planes(accel, &query_ray);
     return hit->primitive >= 0;
 }
 
-static Visibility look_along(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
+static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
 {
     Query query;
-    QueryRay of;
+    QueryRay query_ray;
     struct RTCRay occluded;
 
-    start_query(&query, accel, 0, &of);
-    if (!start_single(&of, &occluded, accel, ray, kind, passes, NULL))
+    start_query(&query, accel, 0, &query_ray);
+    if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, NULL))
         return VISIBILITY_CLEAR;
-    if (plane_blocks(accel, &of))
+    if (plane_blocks(accel, &query_ray))
         return VISIBILITY_BLOCKED;
-    trace_occluded(&query, &occluded);
-    return occluded.tfar < 0 ? VISIBILITY_BLOCKED : of.passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
+    embree_occluded(&query, &occluded);
+    return occluded.tfar < 0 ? VISIBILITY_BLOCKED : query_ray.passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
 }
 
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
-    return look_along(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == VISIBILITY_BLOCKED;
+    return trace_visibility(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == VISIBILITY_BLOCKED;
 }
 
 Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source)
 {
-    return look_along(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT);
+    return trace_visibility(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT);
 }
 
 /* ---- packets ---- */
@@ -392,12 +398,12 @@ Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source
 typedef struct Packet {
     _Alignas(64) struct RTCRayHit16 rays;
     _Alignas(64) int valid[ACCEL_PACKET];
-    QueryRay of[ACCEL_PACKET];
+    QueryRay query_ray[ACCEL_PACKET];
 } Packet;
 
 /* Embree skips invalid lanes only if it has packets of this width. With narrower packets it traces every lane that
  * has a range, so invalid lanes get an empty range. */
-static void blank_lane(Packet *p, int i)
+static void disable_lane(Packet *p, int i)
 {
     struct RTCRay16 *to = &p->rays.ray;
 
@@ -410,8 +416,8 @@ static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, Ray
 {
     struct RTCRay16 *to = &p->rays.ray;
 
-    if (!start_ray(&p->of[i], accel, ray, kind, passes, hit, &to->tnear[i], &to->tfar[i])) {
-        blank_lane(p, i);
+    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, hit, &to->tnear[i], &to->tfar[i])) {
+        disable_lane(p, i);
         return;
     }
     to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
@@ -421,10 +427,10 @@ static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, Ray
     p->valid[i] = -1;
 }
 
-static void fill_up(Packet *p, int count)
+static void disable_lanes_from(Packet *p, int count)
 {
     for (int i = count; i < ACCEL_PACKET; i++)
-        blank_lane(p, i);
+        disable_lane(p, i);
 }
 
 void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
@@ -433,10 +439,10 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
     Packet p;
     Query query;
 
-    start_query(&query, accel, side_by_side, p.of);
+    start_query(&query, accel, side_by_side, p.query_ray);
     for (int i = 0; i < count; i++)
         start_lane(&p, i, accel, &rays[i], kinds[i], 0, &hits[i]);
-    fill_up(&p, count);
+    disable_lanes_from(&p, count);
     for (int i = 0; i < ACCEL_PACKET; i++)
         p.rays.hit.geomID[i] = p.rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 #if defined(RETEX_EMBREE4)
@@ -454,23 +460,24 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
     for (int i = 0; i < count; i++) {
         if (!p.valid[i])
             continue;
-        if (accept(accel, &p.of[i], &rays[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.ray.tfar[i],
-                   p.rays.hit.u[i], p.rays.hit.v[i]))
-            take_planes(accel, &p.of[i]);
+        if (refine_triangle_hit(accel, &p.query_ray[i], &rays[i], p.rays.hit.geomID[i], p.rays.hit.primID[i],
+                                p.rays.ray.tfar[i], p.rays.hit.u[i], p.rays.hit.v[i]))
+            test_planes(accel, &p.query_ray[i]);
         else
-            look_closely(accel, &rays[i], kinds[i], &hits[i]);
+            intersect_in_double(accel, &rays[i], kinds[i], &hits[i]);
     }
 }
 
-void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, Visibility *ways)
+void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count,
+                             Visibility *visibilities)
 {
     Packet p;
     Query query;
 
-    start_query(&query, accel, 1, p.of);
+    start_query(&query, accel, 1, p.query_ray);
     for (int i = 0; i < count; i++)
         start_lane(&p, i, accel, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT, NULL);
-    fill_up(&p, count);
+    disable_lanes_from(&p, count);
 #if defined(RETEX_EMBREE4)
     struct RTCOccludedArguments args;
     rtcInitOccludedArguments(&args);
@@ -481,7 +488,9 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
     rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
 #endif
     for (int i = 0; i < count; i++) {
-        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.of[i]));
-        ways[i] = blocked ? VISIBILITY_BLOCKED : p.of[i].passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
+        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.query_ray[i]));
+        visibilities[i] = blocked                 ? VISIBILITY_BLOCKED
+                          : p.query_ray[i].passed ? VISIBILITY_TRANSPARENT
+                                                  : VISIBILITY_CLEAR;
     }
 }
