@@ -35,18 +35,18 @@ static void test_jpeg_keeps_levels(void **state)
             RetexError err = {0};
             test_must(retex_pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
             test_must(retex_pack_jpeg_decoder_create(&decoder, &err), &err);
-            assert_int_equal(jpeg.npieces, 4);
-            size_t at = jpeg.pieces[0];
+            assert_int_equal(jpeg.nchunks, 4);
+            size_t at = jpeg.chunk_bytes[0];
             double sum = 0;
             for (int band = 0; band < 3; band++) {
                 const int rows = band < 2 ? 64 : height - 128;
-                const size_t piece = jpeg.pieces[1 + band];
-                unsigned char *file = malloc(jpeg.pieces[0] + piece);
-                memcpy(file, jpeg.data, jpeg.pieces[0]);
-                memcpy(file + jpeg.pieces[0], jpeg.data + at, piece);
+                const size_t piece = jpeg.chunk_bytes[1 + band];
+                unsigned char *file = malloc(jpeg.chunk_bytes[0] + piece);
+                memcpy(file, jpeg.data, jpeg.chunk_bytes[0]);
+                memcpy(file + jpeg.chunk_bytes[0], jpeg.data + at, piece);
                 at += piece;
-                test_must(retex_pack_jpeg_open_band(decoder, file, jpeg.pieces[0], jpeg.pieces[0] + piece, width, rows,
-                                                    channels, &curve, &err),
+                test_must(retex_pack_jpeg_open_band(decoder, file, jpeg.chunk_bytes[0], jpeg.chunk_bytes[0] + piece,
+                                                    width, rows, channels, &curve, &err),
                           &err);
                 free(file);
                 for (int row = 0; 8 * row < rows; row++)

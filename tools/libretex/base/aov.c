@@ -37,7 +37,7 @@ int retex_aov_channels(unsigned aovs)
     return (int)sum;
 }
 
-static int refuse(const char *option, const char *name, size_t length, RetexError *err)
+static int fail_unknown(const char *option, const char *name, size_t length, RetexError *err)
 {
     char word[RETEX_NEAREST_MAX + 1], meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {word, NULL, 0};
@@ -58,7 +58,7 @@ int retex_aov_parse(unsigned *aovs, const char *list, const char *option, RetexE
         const size_t length = strcspn(name, ",");
         const int aov = find(name, length), is_beauty = length == 6 && strncmp(name, "beauty", 6) == 0;
         if (aov < 0 && !is_beauty)
-            return refuse(option, name, length, err);
+            return fail_unknown(option, name, length, err);
         found |= is_beauty ? 0 : 1u << aov;
         name += length;
         if (!*name)

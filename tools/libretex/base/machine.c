@@ -32,7 +32,7 @@ static uint64_t limit_of(const char *folder, const char *file)
 
 /* The lowest limit of a control group and all groups above it, up to the mount point. In a container the path may be
  * that of the host, of which only the root is visible. */
-static uint64_t least_on_path(const char *mount, const char *group, const char *file)
+static uint64_t lowest_limit(const char *mount, const char *group, const char *file)
 {
     char folder[PATH_MAX];
     uint64_t least = limit_of(mount, file);
@@ -63,7 +63,7 @@ uint64_t retex_machine_group_memory(const char *groups, const char *root)
         if (!unified && strcmp(kinds + 1, "memory") != 0)
             continue;
         snprintf(mount, sizeof mount, "%.*s%s", PATH_MAX - 16, root, unified ? "" : "/memory");
-        const uint64_t limit = least_on_path(mount, group, unified ? "memory.max" : "memory.limit_in_bytes");
+        const uint64_t limit = lowest_limit(mount, group, unified ? "memory.max" : "memory.limit_in_bytes");
         least = limit < least ? limit : least;
     }
     return least;

@@ -37,7 +37,7 @@ int retex_threads(int nthreads)
 }
 
 /* Runs jobs until no index is left. The counter cannot overflow: each thread goes beyond count at most once. */
-static void work_through(Work *work, int thread)
+static void run_jobs(Work *work, int thread)
 {
     for (;;) {
         const int index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
@@ -51,7 +51,7 @@ static void *worker_main(void *argument)
 {
     const Worker *worker = argument;
 
-    work_through(worker->work, worker->number);
+    run_jobs(worker->work, worker->number);
     return NULL;
 }
 
@@ -72,7 +72,7 @@ void retex_parallel(int nthreads, int count, void (*job)(void *context, int inde
             break; /* the threads that run already, and this one, do all jobs */
         started++;
     }
-    work_through(&work, 0);
+    run_jobs(&work, 0);
     for (int i = 0; i < started; i++)
         pthread_join(workers[i].thread, NULL);
 }

@@ -166,7 +166,7 @@ static int make_clusters(RetexCompactClusters *clusters, const Compaction *work,
     return code;
 }
 
-static int take_image(RetexImage *image, const Compaction *work, RetexImage *kept, RetexError *err)
+static int move_or_copy_image(RetexImage *image, const Compaction *work, RetexImage *kept, RetexError *err)
 {
     if (work->trial)
         return retex_image_copy(image, kept, err);
@@ -181,7 +181,7 @@ static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexEr
     int code = RETEX_OK;
     if (!kept->pixels)
         code = retex_compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
-    return code ? code : take_image(sum, work, kept, err);
+    return code ? code : move_or_copy_image(sum, work, kept, err);
 }
 
 /* A kind's gains in the cache: [0] of single-hit light, then one for each of the kind's interreflection terms. */
@@ -204,7 +204,7 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
     if (!kept->pixels)
         code = retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
                                        work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
-    return code ? code : take_image(gain, work, kept, err);
+    return code ? code : move_or_copy_image(gain, work, kept, err);
 }
 
 void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight *light)

@@ -118,7 +118,7 @@ static int are_same(const Shape *each, const Shape *merged, double more)
 }
 
 /* Whether two clusters are so alike that no texture shows whether they are merged. */
-static int are_one_place(const Pool *pool, int i, int j)
+static int are_indistinguishable(const Pool *pool, int i, int j)
 {
     const double more = 1 + pool->noise * MORE_VARIANCE;
     const RetexUvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
@@ -135,14 +135,14 @@ static void merge_places(Pool *pool)
 {
     for (int i = 1; i < pool->count; i++)
         for (int j = 0; j < i; j++)
-            if (are_one_place(pool, i, j)) {
+            if (are_indistinguishable(pool, i, j)) {
                 merge_pair(pool, j, i);
                 i = 0;
                 break;
             }
 }
 
-static void drop_faint(Pool *pool)
+static void remove_faint(Pool *pool)
 {
     double all = 0;
     for (int i = 0; i < pool->count; i++)
@@ -325,7 +325,7 @@ static void blocks_job(void *context, int by, int thread)
                      .noise = work->light->noise};
         Albedo albedo = {0};
         const double all = gather_block(work, bx, by, &pool, &albedo);
-        drop_faint(&pool);
+        remove_faint(&pool);
         while (pool.count > work->kind->count)
             merge_cheapest(&pool);
         merge_places(&pool);

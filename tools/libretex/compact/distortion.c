@@ -91,7 +91,7 @@ static int compare_tiles(const void *a, const void *b)
 
 /* Choose the tiles that represent the picture. Tiles are sorted by difficulty and divided into groups of equal sums of
  * half their share of the difficulty plus half their share of the number. The median tile represents its group. */
-static void take_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
+static void choose_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
 {
     double all = 0, sum = 0;
     int first = 0;
@@ -341,7 +341,7 @@ static int probe_band(void *context, const RetexCompactLight *light, int first, 
     return RETEX_OK;
 }
 
-static int take_mosaic(RetexCompactReference *reference, const RetexCompactLight *light, int nthreads, RetexError *err)
+static int set_mosaic(RetexCompactReference *reference, const RetexCompactLight *light, int nthreads, RetexError *err)
 {
     const RetexSet *set = light->set;
     Mosaic mosaic = {.columns = (set->width + TILE - 1) / TILE, .height = set->height};
@@ -355,7 +355,7 @@ static int take_mosaic(RetexCompactReference *reference, const RetexCompactLight
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for tiles");
     int code = retex_compact_bands(light, probe_band, &probing, nthreads, err);
     if (!code) {
-        take_tiles(&mosaic, reference->weights);
+        choose_tiles(&mosaic, reference->weights);
         code = make_mosaic(&reference->set, light, &mosaic, nthreads, err);
     }
     free(mosaic.tiles);
@@ -366,7 +366,7 @@ int retex_compact_reference_open(RetexCompactReference *reference, const RetexCo
                                  RetexError *err)
 {
     *reference = (RetexCompactReference){0};
-    int code = take_mosaic(reference, light, nthreads, err);
+    int code = set_mosaic(reference, light, nthreads, err);
     for (int i = 0; i < RETEX_COMPACT_TRIALS && !code; i++) {
         RetexImage *picture = &reference->pictures[i];
         code = make_picture(picture, reference->set, NULL, i, nthreads, err);

@@ -16,23 +16,23 @@
 #include "compact/distortion.h"
 
 #define STEPS RETEX_COMPACT_STEPS
-#define NOISE_COUNTS 0.025   /* distortion allowed, as a share of the set's own noise: 0.1 dB */
-#define NOISE_COUNTS_NOT 0.9 /* share of the noise estimate that is not counted as distortion, times params->noise */
-#define NOTHING 0.03         /* share of the bound below which only the coarsest scale of gains is measured */
-#define LETTING 0.25         /* share of the finest scales' distortion that may be added, if above the bound */
-#define GROWTH_MOST 4        /* largest factor by which a bound is scaled */
-#define MEASURED_MOST 8      /* combinations measured at most */
-#define GROUPS_MOST 64
-#define KINDS_APART 6 /* with more kinds than these, the kinds of all targets share their choices */
+#define NOISE_ALLOWED 0.025   /* distortion allowed, as a share of the set's own noise: 0.1 dB */
+#define NOISE_IGNORED 0.9     /* share of the noise estimate that is not counted as distortion, times params->noise */
+#define NEGLIGIBLE_SHARE 0.03 /* share of the bound below which only the coarsest scale of gains is measured */
+#define EXCESS_SHARE 0.25     /* share of the finest scales' distortion that may be added, if above the bound */
+#define BOUND_GROWTH_MAX 4    /* largest factor by which a bound is scaled */
+#define MEASURED_MAX 8        /* combinations measured at most */
+#define CHOICES_MAX 64
+#define SEPARATE_KINDS_MAX 6 /* with more kinds than these, the kinds of all targets share their choices */
 
 /* One choice: the scale of some kinds' footprints or gains, or whether terms of three and more interreflections use
  * one mixture for all targets. */
-typedef enum What { CLUSTERS, GAINS, MIXED } What;
+typedef enum ChoiceSubject { CLUSTERS, GAINS, MIXED } ChoiceSubject;
 
 typedef struct Choice {
-    What what;
+    ChoiceSubject subject;
     int kinds[RETEX_COMPACT_KINDS], nkinds;
-    int steps, at, before;                       /* at: current step, 0 is the finest; before: step last measured */
+    int steps, step, measured_step;              /* step: the current one, 0 is the finest */
     double squares[STEPS][RETEX_COMPACT_TRIALS]; /* by step and trial: distortion */
     double noise[RETEX_COMPACT_TRIALS];          /* by trial: noise that an infinite scale would remove */
     double numbers[STEPS];                       /* by step: rate, in numbers for each pixel */
@@ -48,9 +48,9 @@ typedef struct Search {
     const RetexCompactLight *light; /* of the reference's set */
     RetexCompactReference reference;
     RetexCompactCache *cache;
-    TrialPictures shown[RETEX_COMPACT_KINDS][2]; /* at the finest scales, and at those last measured */
-    RetexImage rest[RETEX_COMPACT_TRIALS];       /* pictures of terms without factors */
-    Choice choices[GROUPS_MOST];
+    TrialPictures trials[RETEX_COMPACT_KINDS][2]; /* at the finest scales, and at those last measured */
+    RetexImage rest[RETEX_COMPACT_TRIALS];        /* pictures of terms without factors */
+    Choice choices[CHOICES_MAX];
     int count, nthreads;
     double bound;
     double finest[RETEX_COMPACT_TRIALS]; /* distortion when all choices are at their finest */
@@ -62,9 +62,9 @@ static void apply(RetexCompactScales *scales, const Choice *choice, int step)
 {
     for (int i = 0; i < choice->nkinds; i++) {
         const int kind = choice->kinds[i];
-        if (choice->what == CLUSTERS)
+        if (choice->subject == CLUSTERS)
             scales->clusters[kind] = 1 << step;
-        else if (choice->what == GAINS)
+        else if (choice->subject == GAINS)
             scales->gains[kind] = 1 << step;
         else
             scales->mixed[kind] = step ? RETEX_COMPACT_MIXED : RETEX_COMPACT_APART;
@@ -76,9 +76,9 @@ static double numbers_of(const Search *work, const Choice *choice, int step)
     double numbers = 0;
     for (int i = 0; i < choice->nkinds; i++) {
         const RetexCompactKind *kind = &work->light->kinds[choice->kinds[i]];
-        if (choice->what == CLUSTERS)
+        if (choice->subject == CLUSTERS)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
-        else if (choice->what == GAINS)
+        else if (choice->subject == GAINS)
             numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + 1) / (1 << (2 * step));
         else if (!step)
             numbers +=
@@ -88,22 +88,22 @@ static double numbers_of(const Search *work, const Choice *choice, int step)
     return numbers;
 }
 
-static Choice *find_choice(Search *work, What what, const RetexCompactKind *kind)
+static Choice *find_choice(Search *work, ChoiceSubject subject, const RetexCompactKind *kind)
 {
     for (int i = 0; i < work->count; i++) {
         const RetexCompactKind *first = &work->light->kinds[work->choices[i].kinds[0]];
-        const int together = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || work->light->nkinds > KINDS_APART;
-        if (work->choices[i].what == what && first->kind == kind->kind && together)
+        const int together = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || work->light->nkinds > SEPARATE_KINDS_MAX;
+        if (work->choices[i].subject == subject && first->kind == kind->kind && together)
             return &work->choices[i];
     }
     Choice *choice = &work->choices[work->count++];
-    *choice = (Choice){.what = what, .steps = what == MIXED ? 2 : STEPS};
+    *choice = (Choice){.subject = subject, .steps = subject == MIXED ? 2 : STEPS};
     return choice;
 }
 
-static void add_choice(Search *work, What what, int kind)
+static void add_choice(Search *work, ChoiceSubject subject, int kind)
 {
-    Choice *choice = find_choice(work, what, &work->light->kinds[kind]);
+    Choice *choice = find_choice(work, subject, &work->light->kinds[kind]);
     choice->kinds[choice->nkinds++] = kind;
 }
 
@@ -128,10 +128,10 @@ static void list_choices(Search *work, RetexCompactScales *scales, const RetexCo
 
 /* ---- trials ---- */
 
-static void free_pictures(TrialPictures *shown)
+static void free_pictures(TrialPictures *trials)
 {
     for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
-        retex_image_free(&shown->pictures[t]);
+        retex_image_free(&trials->pictures[t]);
 }
 
 /* The scale of interreflection footprints, which all targets share. */
@@ -151,18 +151,18 @@ static int pictures_of_kind(Search *work, int kind, const RetexCompactScales *sc
                                   .mixed = (int)scales->mixed[kind],
                                   .interreflection = interreflection_scale(work->light, scales)};
     int place = 0;
-    for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
-        const TrialPictures *shown = &work->shown[kind][place];
-        *pictures = shown->pictures;
-        if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->mixed == wanted.mixed &&
-            shown->interreflection == wanted.interreflection)
+    for (; place < 2 && work->trials[kind][place].pictures[0].pixels; place++) {
+        const TrialPictures *trials = &work->trials[kind][place];
+        *pictures = trials->pictures;
+        if (trials->clusters == wanted.clusters && trials->gains == wanted.gains && trials->mixed == wanted.mixed &&
+            trials->interreflection == wanted.interreflection)
             return RETEX_OK;
     }
-    TrialPictures *shown = &work->shown[kind][place < 1 ? 0 : 1];
-    free_pictures(shown);
-    *shown = wanted;
-    *pictures = shown->pictures;
-    return retex_compact_trial_pictures(shown->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
+    TrialPictures *trials = &work->trials[kind][place < 1 ? 0 : 1];
+    free_pictures(trials);
+    *trials = wanted;
+    *pictures = trials->pictures;
+    return retex_compact_trial_pictures(trials->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
 }
 
 static int measure_scales(Search *work, const RetexCompactScales *scales, double squares[RETEX_COMPACT_TRIALS],
@@ -180,7 +180,7 @@ static int measure_scales(Search *work, const RetexCompactScales *scales, double
 
 static double noise_removed(const Search *work, int step)
 {
-    return work->light->noise * NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
+    return work->light->noise * NOISE_IGNORED * (1 - 1.0 / (1 << (2 * step)));
 }
 
 /* Subtract the noise that averaging removes. Gains of noisy sets are excepted: smooth gains move noise from one term
@@ -188,7 +188,7 @@ static double noise_removed(const Search *work, int step)
 static void separate_noise(const Search *work, Choice *choice)
 {
     const int denoised = work->light->set->denoised;
-    const int averages = choice->what == CLUSTERS || (choice->what == GAINS && denoised);
+    const int averages = choice->subject == CLUSTERS || (choice->subject == GAINS && denoised);
     for (int t = 0; t < RETEX_COMPACT_TRIALS && averages; t++) {
         const double *first = choice->squares[1], *second = choice->squares[2];
         const double noise = (2 * first[t] - second[t]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
@@ -226,13 +226,14 @@ static int measure(Search *work, const RetexCompactScales *fine, RetexError *err
         for (int step = 0; step <= last; step++)
             choice->numbers[step] = numbers_of(work, choice, step);
         code = measure_step(work, choice, last, fine, err);
-        const int nothing = choice->what == GAINS && worst(choice->squares[last]) < NOTHING * work->bound;
+        const int negligible =
+            choice->subject == GAINS && worst(choice->squares[last]) < NEGLIGIBLE_SHARE * work->bound;
         for (int step = 1; step < last && !code; step++)
-            if (nothing)
+            if (negligible)
                 memcpy(choice->squares[step], choice->squares[last], sizeof choice->squares[last]);
             else
                 code = measure_step(work, choice, step, fine, err);
-        if (!nothing)
+        if (!negligible)
             separate_noise(work, choice);
     }
     return code;
@@ -243,14 +244,14 @@ static int measure(Search *work, const RetexCompactScales *fine, RetexError *err
 /* Branch and bound over choices from `first` on: find the combination of lowest rate whose sums of distortion are
  * within bounds. best and *numbers change only if one has a lower rate than *numbers. */
 static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIALS],
-                   const double bounds[RETEX_COMPACT_TRIALS], double so_far, double *numbers, int best[GROUPS_MOST])
+                   const double bounds[RETEX_COMPACT_TRIALS], double so_far, double *numbers, int best[CHOICES_MAX])
 {
     if (so_far >= *numbers)
         return;
     if (first == work->count) {
         *numbers = so_far;
         for (int i = 0; i < work->count; i++)
-            best[i] = work->choices[i].at;
+            best[i] = work->choices[i].step;
         return;
     }
     Choice *choice = &work->choices[first];
@@ -261,7 +262,7 @@ static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIA
             with[t] = sums[t] + choice->squares[step][t];
             within &= with[t] <= bounds[t];
         }
-        choice->at = step;
+        choice->step = step;
         if (within)
             search(work, first + 1, with, bounds, so_far + choice->numbers[step], numbers, best);
     }
@@ -270,7 +271,7 @@ static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIA
 /* Most distortion of a trial: that of the finest scales, plus what choices may add. */
 static double bound_of(const Search *work, int trial)
 {
-    return work->finest[trial] + fmax(work->bound, LETTING * work->light->noise * work->finest[trial]);
+    return work->finest[trial] + fmax(work->bound, EXCESS_SHARE * work->light->noise * work->finest[trial]);
 }
 
 /* Search with bounds scaled by factors. Returns 1 if the combination differs from the last one. *numbers: in, the upper
@@ -278,16 +279,16 @@ static double bound_of(const Search *work, int trial)
 static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS], double *numbers)
 {
     double bounds[RETEX_COMPACT_TRIALS];
-    int best[GROUPS_MOST], others = 0;
+    int best[CHOICES_MAX], others = 0;
     for (int i = 0; i < work->count; i++)
-        best[i] = work->choices[i].before;
+        best[i] = work->choices[i].measured_step;
     for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         bounds[t] = fmax(factors[t] * bound_of(work, t), work->finest[t]);
     search(work, 0, work->finest, bounds, 0, numbers, best);
     for (int i = 0; i < work->count; i++) {
         Choice *choice = &work->choices[i];
-        others |= best[i] != choice->before;
-        choice->at = choice->before = best[i];
+        others |= best[i] != choice->measured_step;
+        choice->step = choice->measured_step = best[i];
     }
     return others;
 }
@@ -299,20 +300,20 @@ static int measure_all(Search *work, RetexCompactScales *scales, double factors[
 {
     double lost[RETEX_COMPACT_TRIALS];
     for (int i = 0; i < work->count; i++)
-        apply(scales, &work->choices[i], work->choices[i].at);
+        apply(scales, &work->choices[i], work->choices[i].step);
     int code = measure_scales(work, scales, lost, err);
     *within = 1;
     for (int t = 0; t < RETEX_COMPACT_TRIALS && !code; t++) {
         double sum = work->finest[t], most = work->finest[t];
         for (int i = 0; i < work->count; i++) {
             const Choice *choice = &work->choices[i];
-            lost[t] -= noise_removed(work, choice->at) * choice->noise[t];
-            most = fmax(most, choice->squares[choice->at][t]);
-            sum += choice->squares[choice->at][t];
+            lost[t] -= noise_removed(work, choice->step) * choice->noise[t];
+            most = fmax(most, choice->squares[choice->step][t]);
+            sum += choice->squares[choice->step][t];
         }
         lost[t] = fmax(lost[t], most);
         *within &= lost[t] <= bound_of(work, t);
-        factors[t] = lost[t] > 0 ? fmin(sum / lost[t], GROWTH_MOST) : 1;
+        factors[t] = lost[t] > 0 ? fmin(sum / lost[t], BOUND_GROWTH_MAX) : 1;
     }
     return code;
 }
@@ -323,10 +324,10 @@ static int search_measured(Search *work, RetexCompactScales *scales, RetexError 
     double factors[RETEX_COMPACT_TRIALS], fewest = INFINITY;
     int code = RETEX_OK;
     for (int i = 0; i < work->count; i++)
-        work->choices[i].before = -1;
+        work->choices[i].measured_step = -1;
     for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         factors[t] = 1;
-    for (int tried = 0; tried < MEASURED_MOST && !code; tried++) {
+    for (int tried = 0; tried < MEASURED_MAX && !code; tried++) {
         double numbers = fewest;
         int within;
         if (!search_within(work, factors, &numbers))
@@ -342,7 +343,7 @@ static int search_measured(Search *work, RetexCompactScales *scales, RetexError 
 static void search_close(Search *work)
 {
     for (int i = 0; i < 2 * RETEX_COMPACT_KINDS; i++)
-        free_pictures(&work->shown[i / 2][i % 2]);
+        free_pictures(&work->trials[i / 2][i % 2]);
     for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         retex_image_free(&work->rest[t]);
     if (work->cache)
@@ -365,7 +366,7 @@ int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *li
     if (!code)
         code = retex_compact_light_open(&small, work.reference.set, params->noise, &understood, err);
     work.light = &small;
-    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_COUNTS * work.reference.noise);
+    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_ALLOWED * work.reference.noise);
     work.cache = calloc(1, sizeof *work.cache);
     if (!code && !work.cache)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for trials");

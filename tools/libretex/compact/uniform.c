@@ -15,27 +15,30 @@
 
 #include <retex/parallel.h>
 
-#define TEXEL (1.0 / (1 << 26)) /* UV variance of a texel of a texture 8192 wide */
-#define OFF_TIMES 3             /* most distance of a mean from its map, in standard deviations, */
-#define OFF_MEDIAN 0.55       /* for independent samples: median squared distance from a map that is fitted to them, */
-                              /* relative to their mean squared distance from the true map */
-#define OFF_LEAST 0.02        /* plus this many pixels */
-#define VARIANCE_TIMES 3      /* most relative error of a variance, times the square root of the number of samples, */
-#define VARIANCE_LEAST 0.4    /* or this, if larger */
-#define CORRELATION_LEAST 0.3 /* the same for covariances, relative to the geometric mean of the variances */
-#define INSIDE 0.75           /* most distance of a cluster from the pixel's centre, in pixels along each side */
-#define ROUGH 9               /* factor on the squared limit of distances from the first, rough map */
-#define DEPTH_LEAST 0.04 /* least change of depth per pixel; a smaller one changes UV steps by only half a percent */
-#define DEPTH_MOST 0.4   /* most change of depth per pixel; the depth at a corner of the window is then a fifth */
-#define DEPTH_BEND 0.25  /* most curvature that remains with a depth, relative to the squared depth */
-#define QUARTERED 16     /* least samples of a pixel that is stored as quarters */
-#define NEAR_MAP 0.02    /* most squared distance of smoothed means from the last map, in pixels */
-enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* of fitting */ };
+#define TEXEL (1.0 / (1 << 26))   /* UV variance of a texel of a texture 8192 wide */
+#define DISTANCE_DEVIATIONS_MAX 3 /* largest distance of a mean from its map, in standard deviations, */
+#define DISTANCE_TOLERANCE 0.02   /* plus this many pixels */
+/* Of independent samples: the median squared distance from a map that is fitted to them, relative to their mean squared
+ * distance from the true map. */
+#define DISTANCE_MEDIAN 0.55
+#define VARIANCE_DEVIATIONS_MAX 3 /* largest relative error of a variance, times the root of the number of samples, */
+#define VARIANCE_TOLERANCE 0.4    /* or this, if larger */
+#define CORRELATION_TOLERANCE 0.3 /* the same for covariances, relative to the geometric mean of the variances */
+#define CLUSTER_DISTANCE_MAX 0.75 /* of a cluster from the pixel's centre, in pixels along each side */
+#define FIRST_FIT_FACTOR 9        /* by which the squared limit of distances is larger for the first map */
+/* Change of depth per pixel. A smaller one changes UV steps by only half a percent; with the largest one the depth at a
+ * corner of the window is a fifth. */
+#define DEPTH_SLOPE_MIN 0.04
+#define DEPTH_SLOPE_MAX 0.4
+#define DEPTH_CURVATURE_MAX 0.25   /* of the map that remains with a depth, relative to the squared depth */
+#define QUARTERS_SAMPLES_MIN 16    /* of a pixel that is stored as quarters */
+#define SMOOTHED_DISTANCE_MAX 0.02 /* largest squared distance of smoothed means from the last map, in pixels */
+enum { RADIUS = 2, SIDE = 2 * RADIUS + 1, FITTED_MIN = 12, PASSES = 3 /* of fitting */ };
 
 /* ---- the map ---- */
 
 /* UV around a pixel, relative to its own mean, times depth: coefficients of a quadratic in pixels for each axis. */
-enum { MIDDLE, RIGHT, DOWN, RIGHT_RIGHT, RIGHT_DOWN, DOWN_DOWN, TERMS };
+enum { CONSTANT, RIGHT, DOWN, RIGHT_RIGHT, RIGHT_DOWN, DOWN_DOWN, TERMS };
 typedef struct Map {
     double of[2][TERMS];
     double depth[2]; /* gradient of the depth, right and down; depth is 1 at the pixel's centre */
@@ -57,7 +60,7 @@ typedef struct SmoothWork {
     int pass;       /* -1: only distances are measured, for scatter */
     double noise;   /* share of the expected noise that may be removed */
     double scatter; /* variance of means about their maps, relative to that of independent samples */
-    float *offs;
+    float *distances;
 } SmoothWork;
 
 /* Squared UV step of an axis from a pixel to the next. */
@@ -67,10 +70,10 @@ static double step_of(const Map *map, int axis)
 }
 
 /* d: a pixel's UV relative to the centre's, times depth. Returns the squared distance from the map, in pixels. */
-static double off_map(const SmoothWork *work, const Map *map, const RetexUniformPixel *center,
-                      const RetexUniformPixel *each, const double terms[TERMS], double d[2])
+static double map_distance(const SmoothWork *work, const Map *map, const RetexUniformPixel *center,
+                           const RetexUniformPixel *each, const double terms[TERMS], double d[2])
 {
-    double off = 0;
+    double distance = 0;
     for (int a = 0; a < 2; a++) {
         double at = 0;
         d[a] = each->mean[a] - center->mean[a];
@@ -79,21 +82,23 @@ static double off_map(const SmoothWork *work, const Map *map, const RetexUniform
             at += map->of[a][k] * terms[k];
         d[a] *= map ? 1 + map->depth[0] * terms[RIGHT] + map->depth[1] * terms[DOWN] : 1;
         if (map)
-            off += (d[a] - at) * (d[a] - at) / (step_of(map, a) + TEXEL);
+            distance += (d[a] - at) * (d[a] - at) / (step_of(map, a) + TEXEL);
     }
-    return off;
+    return distance;
 }
 
 /* Expected squared distance of a mean from its map, in pixels: each variance of a parallelogram is a twelfth of its
  * squared side. Stratified samples come nearer than independent ones. */
-static double off_expected(const SmoothWork *work, const RetexUniformPixel *place)
+static double expected_distance(const SmoothWork *work, const RetexUniformPixel *place)
 {
     return work->scatter * 2 / (12 * (double)place->samples);
 }
 
-static double off_most(const SmoothWork *work, const RetexUniformPixel *place)
+static double distance_limit(const SmoothWork *work, const RetexUniformPixel *place)
 {
-    return work->noise * work->noise * (OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST);
+    return work->noise * work->noise *
+           (DISTANCE_DEVIATIONS_MAX * DISTANCE_DEVIATIONS_MAX * expected_distance(work, place) +
+            DISTANCE_TOLERANCE * DISTANCE_TOLERANCE);
 }
 
 /* Gaussian elimination. Returns 0 if there is no unique solution. */
@@ -146,7 +151,7 @@ static int fit_window(Map *map, const Window *window)
                 rows[k][TERMS + a] += (whole ? weights[k] : terms[k]) * window->d[i][a];
         }
     }
-    if (!whole && (window->count < FITTED_LEAST || !solve(rows)))
+    if (!whole && (window->count < FITTED_MIN || !solve(rows)))
         return 0;
     for (int k = 0; k < TERMS; k++)
         for (int a = 0; a < 2; a++)
@@ -163,63 +168,63 @@ static void change_depth(Map *map, const double depth[2])
         of[RIGHT_RIGHT] += right * of[RIGHT];
         of[RIGHT_DOWN] += right * of[DOWN] + down * of[RIGHT];
         of[DOWN_DOWN] += down * of[DOWN];
-        of[RIGHT] += right * of[MIDDLE];
-        of[DOWN] += down * of[MIDDLE];
+        of[RIGHT] += right * of[CONSTANT];
+        of[DOWN] += down * of[CONSTANT];
         map->depth[a] = depth[a];
     }
 }
 
 /* The curvature of a map, in squared pixels. */
-static double bend_of(const Map *map)
+static double map_curvature(const Map *map)
 {
-    double bend = 0;
+    double curvature = 0;
     for (int a = 0; a < 2; a++)
         for (int k = RIGHT_RIGHT; k < TERMS; k++)
-            bend += map->of[a][k] * map->of[a][k] / (step_of(map, a) + TEXEL);
-    return bend;
+            curvature += map->of[a][k] * map->of[a][k] / (step_of(map, a) + TEXEL);
+    return curvature;
 }
 
 /* Find the depth that minimizes the map's curvature. It is used only if it is large enough and leaves little
  * curvature. */
 static void find_depth(Map *map)
 {
-    double both = TEXEL, mixed = 0, bend[2] = {0}, depth[2];
+    double both = TEXEL, mixed = 0, curvature[2] = {0}, depth[2];
     for (int a = 0; a < 2; a++) {
         const double *of = map->of[a], step = step_of(map, a) + TEXEL;
         both += step_of(map, a) / step;
         mixed += of[RIGHT] * of[DOWN] / step;
-        bend[0] += (of[RIGHT] * of[RIGHT_RIGHT] + of[DOWN] * of[RIGHT_DOWN]) / step;
-        bend[1] += (of[RIGHT] * of[RIGHT_DOWN] + of[DOWN] * of[DOWN_DOWN]) / step;
+        curvature[0] += (of[RIGHT] * of[RIGHT_RIGHT] + of[DOWN] * of[RIGHT_DOWN]) / step;
+        curvature[1] += (of[RIGHT] * of[RIGHT_DOWN] + of[DOWN] * of[DOWN_DOWN]) / step;
     }
     for (int i = 0; i < 2; i++)
-        depth[i] = map->depth[i] - (both * bend[i] - mixed * bend[1 - i]) / (both * both - mixed * mixed);
+        depth[i] = map->depth[i] - (both * curvature[i] - mixed * curvature[1 - i]) / (both * both - mixed * mixed);
     const double size = depth[0] * depth[0] + depth[1] * depth[1];
     Map over = *map;
     change_depth(&over, depth);
-    if (size < DEPTH_LEAST * DEPTH_LEAST || fabs(depth[0]) + fabs(depth[1]) > DEPTH_MOST ||
-        bend_of(&over) > DEPTH_BEND * size)
+    if (size < DEPTH_SLOPE_MIN * DEPTH_SLOPE_MIN || fabs(depth[0]) + fabs(depth[1]) > DEPTH_SLOPE_MAX ||
+        map_curvature(&over) > DEPTH_CURVATURE_MAX * size)
         change_depth(map, (const double[2]){0});
     else
         *map = over;
 }
 
 /* Fit the map around a pixel, over the depth of the last map, if any. Outliers are left out: means farther from the
- * last map than `times` the limit or, in the smoothing passes, than NEAR_MAP. */
+ * last map than `times` the limit or, in the smoothing passes, than SMOOTHED_DISTANCE_MAX. */
 static int fit_map(Map *map, const SmoothWork *work, int x, int y, const Map *last, double times)
 {
     const RetexUniformPixel *center = &work->pixels[y * work->width + x];
     Window window;
     window.count = 0;
-    for (int j = y - REACH; j <= y + REACH; j++)
-        for (int i = x - REACH; i <= x + REACH; i++) {
+    for (int j = y - RADIUS; j <= y + RADIUS; j++)
+        for (int i = x - RADIUS; i <= x + RADIUS; i++) {
             if (i < 0 || j < 0 || i >= work->width || j >= work->height)
                 continue;
             const RetexUniformPixel *each = &work->pixels[j * work->width + i];
             const double dx = i - x, dy = j - y, terms[TERMS] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
             if (!(each->samples > 0))
                 continue;
-            const double off = off_map(work, last, center, each, terms, window.d[window.count]);
-            if (last && off > (work->pass > 0 ? NEAR_MAP : times * off_most(work, each)))
+            const double distance = map_distance(work, last, center, each, terms, window.d[window.count]);
+            if (last && distance > (work->pass > 0 ? SMOOTHED_DISTANCE_MAX : times * distance_limit(work, each)))
                 continue;
             window.dx[window.count] = dx;
             window.dy[window.count++] = dy;
@@ -233,18 +238,18 @@ static int fit_map(Map *map, const SmoothWork *work, int x, int y, const Map *la
 }
 
 /* Squared distance of a pixel's own mean from its map, in pixels. */
-static double off_middle(const Map *map)
+static double center_distance(const Map *map)
 {
-    double off = 0;
+    double distance = 0;
     for (int a = 0; a < 2; a++)
-        off += map->of[a][MIDDLE] * map->of[a][MIDDLE] / (step_of(map, a) + TEXEL);
-    return off;
+        distance += map->of[a][CONSTANT] * map->of[a][CONSTANT] / (step_of(map, a) + TEXEL);
+    return distance;
 }
 
 /* Whether a pixel's mean and variances agree with the map. */
-static int suits(const SmoothWork *work, const Map *map, const RetexUniformPixel *own)
+static int agrees_with_map(const SmoothWork *work, const Map *map, const RetexUniformPixel *own)
 {
-    const double few = VARIANCE_TIMES / sqrt((double)own->samples);
+    const double few = VARIANCE_DEVIATIONS_MAX / sqrt((double)own->samples);
     double variances[3];
     for (int k = 0; k < 3; k++) {
         const int a = k / 2, b = (k + 1) / 2;
@@ -252,12 +257,12 @@ static int suits(const SmoothWork *work, const Map *map, const RetexUniformPixel
     }
     for (int k = 0; k < 3; k += 2) {
         const double should = variances[k] + TEXEL, is = (double)own->variances[k] + TEXEL;
-        if (fabs(is - should) > fmax(few, VARIANCE_LEAST) * should)
+        if (fabs(is - should) > fmax(few, VARIANCE_TOLERANCE) * should)
             return 0;
     }
     const double difference = (double)own->variances[1] - variances[1];
-    return off_middle(map) <= off_most(work, own) &&
-           fabs(difference) <= fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
+    return center_distance(map) <= distance_limit(work, own) &&
+           fabs(difference) <= fmax(few, CORRELATION_TOLERANCE) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
 }
 
 /* Whether all clusters of a pixel lie in its parallelogram. */
@@ -273,10 +278,10 @@ static int are_inside(const SmoothWork *work, size_t pixel, const Map *map)
             continue;
         for (int axis = 0; axis < 2; axis++) {
             to[axis] = (double)uv[axis] - own->mean[axis];
-            to[axis] -= (work->periodic[axis] ? rint(to[axis]) : 0) + map->of[axis][MIDDLE];
+            to[axis] -= (work->periodic[axis] ? rint(to[axis]) : 0) + map->of[axis][CONSTANT];
         }
-        if (fabs(d * to[0] - b * to[1]) > INSIDE * fabs(area) + sqrt(TEXEL) * (fabs(b) + fabs(d)) ||
-            fabs(a * to[1] - c * to[0]) > INSIDE * fabs(area) + sqrt(TEXEL) * (fabs(a) + fabs(c)))
+        if (fabs(d * to[0] - b * to[1]) > CLUSTER_DISTANCE_MAX * fabs(area) + sqrt(TEXEL) * (fabs(b) + fabs(d)) ||
+            fabs(a * to[1] - c * to[0]) > CLUSTER_DISTANCE_MAX * fabs(area) + sqrt(TEXEL) * (fabs(a) + fabs(c)))
             return 0;
     }
     return 1;
@@ -284,29 +289,30 @@ static int are_inside(const SmoothWork *work, size_t pixel, const Map *map)
 
 /* ---- the picture ---- */
 
-static void keep_map(UvMap *to, const SmoothWork *work, size_t pixel, const Map *map)
+static void store_map(UvMap *to, const SmoothWork *work, size_t pixel, const Map *map)
 {
     for (int a = 0; a < 2; a++) {
-        to->mean[a] = work->pixels[pixel].mean[a] + map->of[a][MIDDLE];
+        to->mean[a] = work->pixels[pixel].mean[a] + map->of[a][CONSTANT];
         to->mean[a] -= work->periodic[a] ? floor(to->mean[a]) : 0;
-        to->right[a] = (float)(map->of[a][RIGHT] - map->depth[0] * map->of[a][MIDDLE]);
-        to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][MIDDLE]);
+        to->right[a] = (float)(map->of[a][RIGHT] - map->depth[0] * map->of[a][CONSTANT]);
+        to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][CONSTANT]);
         to->depth[a] = (float)map->depth[a];
     }
 }
 
 /* How many parts a uniform pixel is stored as: 4 quarters, if the kind has four clusters and most pixels around have
  * several clusters and enough samples; else 1. */
-static int parts_around(const SmoothWork *work, int x, int y)
+static int choose_parts(const SmoothWork *work, int x, int y)
 {
     const RetexCompactClusters *clusters = work->clusters;
     int several = 0;
-    for (int j = y - REACH; j <= y + REACH && clusters->count >= 4; j++)
-        for (int i = x - REACH; i <= x + REACH; i++) {
+    for (int j = y - RADIUS; j <= y + RADIUS && clusters->count >= 4; j++)
+        for (int i = x - RADIUS; i <= x + RADIUS; i++) {
             const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
             const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
             if (there && work->pixels[at].samples > 0)
-                several += clusters->uv[1].pixels[3 * at + 2] > 0 && work->pixels[at].samples >= QUARTERED ? 1 : -1;
+                several +=
+                    clusters->uv[1].pixels[3 * at + 2] > 0 && work->pixels[at].samples >= QUARTERS_SAMPLES_MIN ? 1 : -1;
         }
     return several > 0 ? 4 : 1;
 }
@@ -316,8 +322,8 @@ static int is_uniform(Map *map, const SmoothWork *work, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
     Map rough, better;
-    return fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
-           fit_map(map, work, x, y, &better, 1) && suits(work, map, &work->pixels[pixel]) &&
+    return fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, FIRST_FIT_FACTOR) &&
+           fit_map(map, work, x, y, &better, 1) && agrees_with_map(work, map, &work->pixels[pixel]) &&
            are_inside(work, pixel, map);
 }
 
@@ -329,7 +335,7 @@ static int is_smoothed(Map *map, const SmoothWork *work, int x, int y)
     const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
                        {0, (double)before->right[1], (double)before->down[1]}},
                       {(double)before->depth[0], (double)before->depth[1]}};
-    return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->pixels[pixel]);
+    return fit_map(map, work, x, y, &last, 0) && center_distance(map) <= expected_distance(work, &work->pixels[pixel]);
 }
 
 /* Pass 0 finds the uniform pixels; the passes after it smooth the noise that remains. */
@@ -344,18 +350,18 @@ static void fit_row(void *context, int y, int thread)
         if (!(own->samples > 0))
             continue;
         if (work->pass < 0 && fit_map(&map, work, x, y, NULL, 0))
-            work->offs[pixel] = (float)(off_middle(&map) / off_expected(work, own));
+            work->distances[pixel] = (float)(center_distance(&map) / expected_distance(work, own));
         else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_uniform(&map, work, x, y)))
-            keep_map(&work->maps[pixel], work, pixel, &map);
+            store_map(&work->maps[pixel], work, pixel, &map);
         else
             continue;
         if (work->pass == 0)
-            work->maps[pixel].parts = parts_around(work, x, y);
+            work->maps[pixel].parts = choose_parts(work, x, y);
     }
 }
 
 /* Copy the smoothed means, from which the next pass starts. */
-static void renew_row(void *context, int y, int thread)
+static void start_pass_row(void *context, int y, int thread)
 {
     const SmoothWork *work = context;
     (void)thread;
@@ -423,22 +429,22 @@ static int compare_floats(const void *a, const void *b)
 
 /* Measure how far means scatter about their maps. Most distances are noise; the few at edges of light are larger, so
  * the median is used. */
-static int find_scatter(SmoothWork *work, int nthreads, RetexError *err)
+static int measure_scatter(SmoothWork *work, int nthreads, RetexError *err)
 {
     const size_t all = (size_t)work->width * (size_t)work->height;
     size_t count = 0;
     work->scatter = 1, work->pass = -1;
-    work->offs = calloc(all, sizeof *work->offs);
-    if (!work->offs)
+    work->distances = calloc(all, sizeof *work->distances);
+    if (!work->distances)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
     retex_parallel(nthreads, work->height, fit_row, work);
     for (size_t i = 0; i < all; i++)
-        if (work->offs[i] > 0)
-            work->offs[count++] = work->offs[i];
-    qsort(work->offs, count, sizeof *work->offs, compare_floats);
+        if (work->distances[i] > 0)
+            work->distances[count++] = work->distances[i];
+    qsort(work->distances, count, sizeof *work->distances, compare_floats);
     if (count)
-        work->scatter = fmin((double)work->offs[count / 2] / OFF_MEDIAN, 1);
-    free(work->offs);
+        work->scatter = fmin((double)work->distances[count / 2] / DISTANCE_MEDIAN, 1);
+    free(work->distances);
     return RETEX_OK;
 }
 
@@ -447,7 +453,7 @@ int retex_compact_smooth_uniform(RetexCompactClusters *clusters, RetexUniformPix
 {
     SmoothWork work = {.clusters = clusters, .pixels = pixels, .periodic = periodic, .noise = noise};
     work.width = clusters->albedo.width, work.height = clusters->albedo.height;
-    int code = find_scatter(&work, nthreads, err);
+    int code = measure_scatter(&work, nthreads, err);
     if (code)
         return code;
     work.maps = calloc((size_t)work.width * (size_t)work.height, sizeof *work.maps);
@@ -455,7 +461,7 @@ int retex_compact_smooth_uniform(RetexCompactClusters *clusters, RetexUniformPix
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
     for (work.pass = 0; work.pass < PASSES; work.pass++) {
         retex_parallel(nthreads, work.height, fit_row, &work);
-        retex_parallel(nthreads, work.height, renew_row, &work);
+        retex_parallel(nthreads, work.height, start_pass_row, &work);
     }
     retex_parallel(nthreads, work.height, store_row, &work);
     free(work.maps);

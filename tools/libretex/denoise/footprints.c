@@ -101,8 +101,8 @@ static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const R
 }
 
 /* The neighbour with the largest weight that has clusters; else the pixel itself. */
-static size_t find_lender(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
-                          int count, size_t self)
+static size_t find_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
+                         int count, size_t self)
 {
     float best = 0;
     for (int n = 0; n < count; n++) {
@@ -127,7 +127,7 @@ static void repair_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
 }
 
 /* The coverage of a cluster in the pixel, if the cluster has light. */
-static float lit_cover(const RetexFootprintImages *place, size_t i)
+static float lit_coverage(const RetexFootprintImages *place, size_t i)
 {
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
@@ -135,13 +135,13 @@ static float lit_cover(const RetexFootprintImages *place, size_t i)
 /* How far the clusters' light is credible, 0..1, where its proportions differ from those of the coverage: in part the
  * brightness of a cluster is noise. The relative variance of a sum of n effective samples is 1/n; the part of the
  * squared difference beyond that is real (James and Stein 1961). */
-static double light_belief(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t from)
+static double light_confidence(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t from)
 {
-    double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
+    double cover = sum_over(g, from, lit_coverage), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
     if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
         return 1;
     for (int k = 0; k < g->nlit; k++) {
-        double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_cover(&g->of[k], from);
+        double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_coverage(&g->of[k], from);
         if (!(of_cover > 0))
             continue;
         chance += of_light * of_light / (of_cover * f->spp);
@@ -155,7 +155,7 @@ static double light_belief(const RetexDenoiseFootprints *f, const RetexPoolGroup
 static void share_cluster(const RetexPoolGroup *g, int k, const Pixel *p, size_t from, double belief,
                           const float light[3])
 {
-    double cover = sum_over(g, from, lit_cover), by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
+    double cover = sum_over(g, from, lit_coverage), by_cover = cover > 0 ? lit_coverage(&g->of[k], from) / cover : 0,
            by_light = cluster_light(&g->of[k], from) / sum_over(g, from, cluster_light);
     float *to = written(p, &g->of[k].light);
     for (int c = 0; c < 3; c++) {
@@ -176,13 +176,13 @@ static void keep_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup 
     double all = sum_over(g, from, cluster_light);
     if (!(all > 0) && g->movable && (light[0] > 0 || light[1] > 0 || light[2] > 0) &&
         !(sum_over(g, from, cluster_cover) > 0)) {
-        from = find_lender(f, g, neighbours, count, from);
+        from = find_donor(f, g, neighbours, count, from);
         all = sum_over(g, from, cluster_light);
     }
     float (*value)(const RetexFootprintImages *, size_t) = all > 0 ? cluster_light : cluster_cover;
     if (!(all > 0))
         all = sum_over(g, from, value);
-    double belief = value == cluster_light ? light_belief(f, g, from) : 0;
+    double belief = value == cluster_light ? light_confidence(f, g, from) : 0;
     for (int k = 0; k < g->nlit; k++)
         if (g->of[k].light.pixels && value == cluster_light)
             share_cluster(g, k, p, from, belief, light);

@@ -66,7 +66,7 @@ static float *take(Layout *l, size_t floats)
     return p;
 }
 
-static void lay_out_signal(SignalScratch *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
+static void plan_signal(SignalScratch *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
 {
     r->nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
@@ -95,7 +95,7 @@ static void lay_out_signal(SignalScratch *r, Layout *l, const RetexSet *set, con
     }
 }
 
-static void lay_out(RetexDenoiseScratch *work, Layout *l, const RetexDenoiser *d)
+static void plan_scratch(RetexDenoiseScratch *work, Layout *l, const RetexDenoiser *d)
 {
     l->used = l->npointers = 0;
     work->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
@@ -106,7 +106,7 @@ static void lay_out(RetexDenoiseScratch *work, Layout *l, const RetexDenoiser *d
         work->errors[k] = take(l, DENOISE_PIXELS);
     work->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
     for (int s = 0; s < d->signals.count; s++)
-        lay_out_signal(&work->signals[s], l, d->set, &d->signals.of[s]);
+        plan_signal(&work->signals[s], l, d->set, &d->signals.of[s]);
 }
 
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
@@ -121,14 +121,14 @@ int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser 
         layout.pointers = work->pointers = calloc(6 * members + 1, sizeof *work->pointers);
     }
     if (work && work->signals && work->pointers) {
-        lay_out(work, &layout, d);
+        plan_scratch(work, &layout, d);
         layout.memory = work->memory = calloc(layout.used, sizeof(float));
     }
     if (!work || !work->memory) {
         retex_denoise_scratch_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
-    lay_out(work, &layout, d);
+    plan_scratch(work, &layout, d);
     return RETEX_OK;
 }
 

@@ -239,7 +239,7 @@ const char *retex_band_store_image_name(const RetexBandStore *store, int image)
 
 /* --- bands --------------------------------------------------------------------------------------------------- */
 
-static RetexBandStoreScratch *take_scratch(RetexBandStore *store)
+static RetexBandStoreScratch *acquire_scratch(RetexBandStore *store)
 {
     pthread_mutex_lock(&store->lock);
     RetexBandStoreScratch *scratch = store->scratch;
@@ -249,7 +249,7 @@ static RetexBandStoreScratch *take_scratch(RetexBandStore *store)
     return scratch ? scratch : calloc(1, sizeof *scratch);
 }
 
-static void return_scratch(RetexBandStore *store, RetexBandStoreScratch *scratch)
+static void release_scratch(RetexBandStore *store, RetexBandStoreScratch *scratch)
 {
     if (!scratch)
         return;
@@ -308,7 +308,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     RetexBandStoreImage *image = store->images[number];
     const RetexChunkShape shape = retex_band_store_shape(store, image, band);
     const int nonzero = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
-    RetexBandStoreScratch *scratch = take_scratch(store);
+    RetexBandStoreScratch *scratch = acquire_scratch(store);
     int status = 0;
 
     if (prepare(scratch, &shape)) {
@@ -319,7 +319,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
-    return_scratch(store, scratch);
+    release_scratch(store, scratch);
     return status;
 }
 

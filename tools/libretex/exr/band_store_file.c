@@ -134,7 +134,7 @@ int retex_band_store_add_image(RetexBandStore *store, RetexBandStoreImage *image
     return status;
 }
 
-static void note_chunk(RetexBandStore *store, const RetexBandStoreRecord *record, uint64_t offset)
+static void index_chunk(RetexBandStore *store, const RetexBandStoreRecord *record, uint64_t offset)
 {
     RetexBandStoreChunk *chunk = &store->images[record->image]->chunks[record->band];
 
@@ -153,7 +153,7 @@ int retex_band_store_append_chunk(RetexBandStore *store, RetexBandStoreRecord *r
     pthread_mutex_lock(&store->lock);
     const int status = retex_band_store_append(store, record, bytes, &offset, err);
     if (!status) {
-        note_chunk(store, record, offset);
+        index_chunk(store, record, offset);
         if (record->nonzero)
             store->images[record->image]->filled = 1;
     }
@@ -199,7 +199,7 @@ static int chunk_is_sound(const RetexBandStore *store, const RetexBandStoreRecor
 }
 
 /* Applies a record whose bytes are complete; 0 where its values make no sense. */
-static int take_record(RetexBandStore *store, const RetexBandStoreRecord *record, const void *bytes, uint64_t offset)
+static int apply_record(RetexBandStore *store, const RetexBandStoreRecord *record, const void *bytes, uint64_t offset)
 {
     RetexBandStoreDescription description;
 
@@ -216,7 +216,7 @@ static int take_record(RetexBandStore *store, const RetexBandStoreRecord *record
     case BAND_STORE_CHUNK:
         if (!chunk_is_sound(store, record))
             return 0;
-        note_chunk(store, record, offset);
+        index_chunk(store, record, offset);
         return 1;
     case BAND_STORE_COMMIT:
         if (record->bytes != sizeof(RetexBandStats) || record->band >= (uint32_t)store->nbands)
@@ -249,7 +249,7 @@ static void read_records(RetexBandStore *store, const Header *header, int *image
             bytes = malloc(capacity);
         }
         if (!bytes || !read_at(store->descriptor, bytes, record.bytes, at + sizeof record) ||
-            crc_of(bytes, record.bytes) != record.bytes_crc || !take_record(store, &record, bytes, at + sizeof record))
+            crc_of(bytes, record.bytes) != record.bytes_crc || !apply_record(store, &record, bytes, at + sizeof record))
             break;
         at += sizeof record + record.bytes;
         last = record.record_crc;
@@ -263,7 +263,7 @@ static void read_records(RetexBandStore *store, const Header *header, int *image
 }
 
 /* Forgets chunks of bands that were not committed, and images added after the last commit. */
-static void drop_the_rest(RetexBandStore *store, int images)
+static void discard_uncommitted(RetexBandStore *store, int images)
 {
     while (store->nimages > images)
         free(store->images[--store->nimages]);
@@ -293,7 +293,7 @@ static int check_header(const RetexBandStore *store, const Header *header, Retex
 }
 
 /* 1 if the file ends before its header does. */
-static int is_begun_only(const RetexBandStore *store)
+static int has_header_only(const RetexBandStore *store)
 {
     const Header own = header_of(store);
     Header header;
@@ -310,7 +310,7 @@ int retex_band_store_recover(RetexBandStore *store, int make, RetexError *err)
 
     if (flock(store->descriptor, (make ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return retex_fail(err, RETEX_EIO, "%s is in use by another render", store->shown);
-    if (make && is_begun_only(store))
+    if (make && has_header_only(store))
         return retex_band_store_begin(store, err);
     if (!read_at(store->descriptor, &header, sizeof header, 0))
         memset(&header, 0, sizeof header);
@@ -318,7 +318,7 @@ int retex_band_store_recover(RetexBandStore *store, int make, RetexError *err)
     if (status)
         return status;
     read_records(store, &header, &images);
-    drop_the_rest(store, images);
+    discard_uncommitted(store, images);
     if (make && ftruncate(store->descriptor, (off_t)store->end) != 0)
         return fail_write(store, errno, err);
     return 0;

@@ -39,7 +39,7 @@ size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
     return channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4;
 }
 
-static int need(void **memory, size_t *have, size_t want, size_t unit)
+static int reserve(void **memory, size_t *have, size_t want, size_t unit)
 {
     if (*have >= want)
         return 1;
@@ -89,12 +89,12 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
     if (chunk->packed_size == 0 || chunk->packed_size > bytes || chunk->unpacked_size != bytes)
         return EXR_ERR_CORRUPT_CHUNK;
     if (plan->compression != EXR_COMPRESSION_NONE && !zipped) {
-        if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
+        if (!reserve((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
             return EXR_ERR_OUT_OF_MEMORY;
         *samples = scratch->raw;
         return decode_with_core(exr, part, chunk, scratch->raw, bytes);
     }
-    if (!need((void **)&scratch->packed, &scratch->packed_bytes, (size_t)chunk->packed_size, 1))
+    if (!reserve((void **)&scratch->packed, &scratch->packed_bytes, (size_t)chunk->packed_size, 1))
         return EXR_ERR_OUT_OF_MEMORY;
     const exr_result_t code = exr_read_chunk(exr->context, part, chunk, scratch->packed);
     if (code)
@@ -104,7 +104,7 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
         return EXR_ERR_SUCCESS;
     if (!zipped)
         return EXR_ERR_CORRUPT_CHUNK;
-    if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_need(&scratch->zip, bytes))
+    if (!reserve((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_reserve(&scratch->zip, bytes))
         return EXR_ERR_OUT_OF_MEMORY;
     *samples = scratch->raw;
     return retex_zip_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, (size_t)chunk->packed_size)
@@ -147,8 +147,8 @@ static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned cha
 
 /* Copies a chunk's samples to the image, whose first row is row top of the part, and updates the checksums. 0: a value
  * is not allowed. */
-static int deliver(const RetexExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
-                   int width, int height, RetexExrScratch *scratch, const RetexExrSums *sums)
+static int store_samples(const RetexExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x,
+                         int y, int width, int height, RetexExrScratch *scratch, const RetexExrSums *sums)
 {
     float *row = scratch->row;
 
@@ -195,9 +195,9 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
         code = EXR_ERR_BAD_CHUNK_LEADER;
     if (!code)
         code = chunk_samples(exr, plan, &chunk, scratch, &samples);
-    if (!code && !need((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
+    if (!code && !reserve((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
-    if (!code && !deliver(plan, image, top, samples, x, y, width, height, scratch, sums))
+    if (!code && !store_samples(plan, image, top, samples, x, y, width, height, scratch, sums))
         code = RETEX_EXR_NON_FINITE;
     return retex_exr_alloc_failed() ? EXR_ERR_OUT_OF_MEMORY : code;
 }

@@ -17,7 +17,7 @@
 
 enum { HEAD = 2, TAIL = 4 }; /* bytes of a zlib stream's header and of its checksum */
 
-int retex_zip_need(RetexZip *zip, size_t bytes)
+int retex_zip_reserve(RetexZip *zip, size_t bytes)
 {
     if (!zip->work && !(zip->work = malloc(retex_deflate_scratch_bytes())))
         return 0;

@@ -12,7 +12,7 @@ typedef struct RetexZip {
 } RetexZip;
 
 /* Allocate all scratch memory for chunks of up to so many bytes. 0 where memory is short. */
-int retex_zip_need(RetexZip *zip, size_t bytes);
+int retex_zip_reserve(RetexZip *zip, size_t bytes);
 
 /* Compress bytes into packed, which has the same capacity. Returns the compressed size, or 0 where compression gains
  * nothing and the chunk must be stored as it is. */

@@ -128,7 +128,7 @@ static void compare_channels(RetexDiffPart *part, const Pair *pair, RetexDiffPar
         part->metrics.mae = sum / n;
 }
 
-static void judge(RetexDiffPart *part, const RetexDiffPart *other, const RetexDiffParams *p)
+static void apply_limits(RetexDiffPart *part, const RetexDiffPart *other, const RetexDiffParams *p)
 {
     const RetexMetrics *m = &part->metrics;
     int any_color_limit = p->fail_psnr >= 0 || p->fail_relmse >= 0 || p->fail_flip >= 0;
@@ -170,7 +170,7 @@ static int compare_pair(RetexDiffPart *part, const Pair *pair, RetexError *err)
     if (code < 0)
         return code;
     compare_channels(part, pair, &other);
-    judge(part, &other, pair->params);
+    apply_limits(part, &other, pair->params);
     return 0;
 }
 

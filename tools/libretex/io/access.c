@@ -34,7 +34,7 @@ static int lies_inside(const RetexAccess *access, const char *resolved)
 
 /* Checks every folder of the path, for safe access: once the path is inside a root it must stay there; the answer does
  * not reveal which files exist outside. done: the length of the beginning of path that is one of the roots. */
-static RetexAccessResult follow(const RetexAccess *access, const char *path, size_t done)
+static RetexAccessResult check_folders(const RetexAccess *access, const char *path, size_t done)
 {
     char begin[PATH_MAX], resolved[PATH_MAX];
     struct stat info;
@@ -76,7 +76,8 @@ RetexAccessResult retex_access_check(const RetexAccess *access, const char *fold
         char from_here[PATH_MAX + 2] = "./"; /* so that at least one byte is the folder's */
         const int here = !before && name[0] != '/';
         strcat(from_here, path);
-        const RetexAccessResult answer = follow(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
+        const RetexAccessResult answer =
+            check_folders(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
         if (answer != RETEX_ACCESS_ALLOWED)
             return answer;
     }

@@ -48,7 +48,7 @@ static int read_some(const RetexInput *input, unsigned char *to, size_t capacity
 
 /* 1 if the first bytes are those of a known format: OpenEXR, JPEG, ZIP, a checkpoint. Of anything else no more is read:
  * it may have no end. */
-static int begins_well(const RetexInput *input)
+static int has_known_format(const RetexInput *input)
 {
     static const struct {
         const char *bytes;
@@ -69,7 +69,7 @@ static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
     size_t capacity = 0, got;
 
     for (*ended = 0; input->size < COPY_IN_MEMORY; input->size += got) {
-        if (input->size && !begins_well(input)) {
+        if (input->size && !has_known_format(input)) {
             *ended = 1;
             return 0;
         }
@@ -90,7 +90,7 @@ static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
 }
 
 /* Appends to the temporary file. */
-static int keep(RetexInput *input, int file, RetexTemporaryName shown, size_t bytes, RetexError *err)
+static int append_to_file(RetexInput *input, int file, RetexTemporaryName shown, size_t bytes, RetexError *err)
 {
     for (size_t done = 0; done < bytes;) {
         const ssize_t written = pwrite(file, input->data + done, bytes - done, (off_t)(input->size + done));
@@ -112,7 +112,7 @@ static int set_in_file(RetexInput *input, int file, RetexTemporaryName shown, Re
 
     input->size = 0;
     do {
-        status = keep(input, file, shown, got, err);
+        status = append_to_file(input, file, shown, got, err);
         if (!status)
             status = read_some(input, input->data, COPY_INITIAL, &got, err);
         if (!status && input->size + got > SIZE_LIMIT)

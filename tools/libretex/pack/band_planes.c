@@ -27,10 +27,10 @@ static int no_memory(RetexError *err)
 
 /* ---- numbers ---- */
 
-static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err);
+static int reserve_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err);
 
 /* Know where the numbers matter of the parts that this one says it of. */
-static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
+static int reserve_runs(int part, int band, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     RetexPackPlaneBand *own = &s->cached[part].planes;
@@ -44,7 +44,7 @@ static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
         own->runs.run = malloc(retex_pack_runs_bound(p->width, RETEX_PACK_BAND_ROWS) * sizeof *own->runs.run);
     if (!own->present || !own->runs.run)
         return no_memory(err);
-    int code = have_numbers(part, band, 2, s, err);
+    int code = reserve_numbers(part, band, 2, s, err);
     const int rows = retex_pack_band_rows(p, band);
     if (code)
         return code;
@@ -55,14 +55,14 @@ static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
 }
 
 /* What multiples the means of channel c are, into s->shift. */
-static int make_shift(int part, int band, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
+static int reserve_shift(int part, int band, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     const int per_octave = s->pack->parts[p->sigma].maps[c].per_octave;
     unsigned char shift[RETEX_PACK_CODES];
     for (int i = 0; i < RETEX_PACK_CODES; i++)
         shift[i] = (unsigned char)retex_pack_lattice_shift(p, i, per_octave);
-    int code = have_numbers(p->sigma, band, c, s, err);
+    int code = reserve_numbers(p->sigma, band, c, s, err);
     const unsigned char *codes = s->cached[p->sigma].planes.numbers[c];
     for (int y = 0; !code && y < retex_pack_band_rows(p, band); y++)
         for (int k = runs->first[y]; k < runs->first[y + 1]; k++) {
@@ -74,7 +74,7 @@ static int make_shift(int part, int band, int c, const RetexPackRuns *runs, Rete
 }
 
 /* Have those of one channel. */
-static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err)
+static int reserve_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     RetexPackPlaneBand *own = &s->cached[part].planes;
@@ -92,12 +92,12 @@ static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexErr
     plane.numbers = is_coded ? NULL : own->numbers[c];
     int code = retex_pack_scratch_reserve(s, p, err);
     if (!code && p->present >= 0 && (p->present != part || c != 2)) {
-        code = have_runs(p->present, band, s, err);
+        code = reserve_runs(p->present, band, s, err);
         plane.present = s->cached[p->present].planes.present;
         plane.runs = &s->cached[p->present].planes.runs;
     }
     if (!code && map->kind == RETEX_PACK_MAP_LATTICE) {
-        code = make_shift(part, band, c, plane.runs, s, err);
+        code = reserve_shift(part, band, c, plane.runs, s, err);
         plane.shift = s->shift;
     }
     if (!code)
@@ -109,7 +109,7 @@ static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexErr
 }
 
 /* The rows of a channel, all of which matters, that are not all 0. */
-static uint64_t find_lit(const RetexPackPart *p, int band, int c, const void *numbers)
+static uint64_t find_nonzero(const RetexPackPart *p, int band, int c, const void *numbers)
 {
     const size_t row = (size_t)p->width * (retex_pack_map_is_coded(&p->maps[c]) ? 1 : sizeof(int32_t));
     const int32_t none = 0;
@@ -127,16 +127,16 @@ int retex_pack_plane_band_decode(int part, int band, uint64_t *lit, RetexPackScr
 {
     const RetexPackPart *p = &s->pack->parts[part];
     RetexPackPlaneBand *own = &s->cached[part].planes;
-    int code = p->present >= 0 ? have_runs(p->present, band, s, err) : 0;
+    int code = p->present >= 0 ? reserve_runs(p->present, band, s, err) : 0;
     const RetexPackRuns *runs = p->present >= 0 ? &s->cached[p->present].planes.runs : NULL;
     own->line = -1;
     *lit = 0;
     for (int y = 0; !code && runs && y < retex_pack_band_rows(p, band); y++)
         *lit |= (uint64_t)(runs->first[y] < runs->first[y + 1]) << y;
     for (int c = 0; !code && (*lit || !runs) && c < p->channels; c++) {
-        code = have_numbers(part, band, c, s, err);
+        code = reserve_numbers(part, band, c, s, err);
         if (!code && !runs)
-            *lit |= find_lit(p, band, c, own->numbers[c]);
+            *lit |= find_nonzero(p, band, c, own->numbers[c]);
     }
     return code;
 }
@@ -195,9 +195,9 @@ int retex_pack_plane_band_row(int part, int band, int line, float *row, RetexRow
     if (own->line == line)
         return 0;
     for (int c = 0; !code && c < p->channels; c++) /* for other parts they may have moved on */
-        code = have_numbers(part, band, c, s, err);
+        code = reserve_numbers(part, band, c, s, err);
     if (!code && p->present >= 0)
-        code = have_runs(p->present, band, s, err);
+        code = reserve_runs(p->present, band, s, err);
     if (code)
         return code;
     clear_row(p, own, row);

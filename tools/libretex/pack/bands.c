@@ -104,7 +104,7 @@ int retex_pack_any_nonzero(const void *data, size_t bytes)
 }
 
 /* The rows of a band that are not all 0: bit y of row y. */
-static uint64_t find_lit(const RetexPackPart *p, int band, const float *rows)
+static uint64_t find_nonzero(const RetexPackPart *p, int band, const float *rows)
 {
     const size_t row = (size_t)p->width * (size_t)p->channels;
     uint64_t lit = 0;
@@ -274,7 +274,7 @@ static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
         code = retex_pack_plane_band_decode(part, band, &cached->lit, s, err);
     } else {
         code = decode_model(part, band, cached->rows, s, err);
-        cached->lit = code ? 0 : find_lit(p, band, cached->rows);
+        cached->lit = code ? 0 : find_nonzero(p, band, cached->rows);
     }
     cached->band = code ? -1 : band;
     return code;

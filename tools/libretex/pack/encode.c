@@ -11,8 +11,8 @@
 #include "pack/combine.h"
 #include "pack/model.h"
 
-static const int EFFORT = 8;              /* of blosc's zstd */
-static const uint32_t NEVER = UINT32_MAX; /* 'bytes' of a chunk that this codec cannot encode */
+static const int EFFORT = 8;                      /* of blosc's zstd */
+static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a chunk that this codec cannot encode */
 
 static int no_memory(RetexError *err)
 {
@@ -116,8 +116,8 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
     unsigned char *at = item->jpeg.data;
     for (int k = 0; !code && k < 1 + p->nbands; k++) {
         item->chunks[k] = at;
-        p->bytes[k] = (uint32_t)item->jpeg.pieces[k];
-        at += item->jpeg.pieces[k];
+        p->bytes[k] = (uint32_t)item->jpeg.chunk_bytes[k];
+        at += item->jpeg.chunk_bytes[k];
     }
     for (int band = 0; !code && p->masked && band < p->nbands; band++)
         code = encode_mask_band(item, band, err);
@@ -239,7 +239,7 @@ static int encode_model_band(const RetexPackEncoded *w, int part, int index)
         bytes = code ? -1 : retex_pack_model_encode(&item->chunks[index], &model);
     }
     retex_pack_model_free(&model);
-    p->bytes[index] = !finite ? NEVER : bytes > 0 ? (uint32_t)bytes : 0;
+    p->bytes[index] = !finite ? NOT_ENCODABLE : bytes > 0 ? (uint32_t)bytes : 0;
     return bytes >= 0;
 }
 

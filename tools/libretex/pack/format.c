@@ -208,7 +208,7 @@ int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest)
     return sound;
 }
 
-static int understand_map(RetexPackMap *map, const json_t *o)
+static int parse_map(RetexPackMap *map, const json_t *o)
 {
     const char *name = json_string_value(json_object_get(o, "map"));
     int kind = 0, ok = 1;
@@ -239,7 +239,7 @@ static int named_part(const json_t *o, const char *key, const RetexSet *set, con
     return part;
 }
 
-static int understand_part(RetexPackPart *packed, const RetexSet *set, const json_t *o, RetexError *err)
+static int parse_part(RetexPackPart *packed, const RetexSet *set, const json_t *o, RetexError *err)
 {
     const char *codec = json_string_value(json_object_get(o, "codec"));
     int c = 0, ok = 1;
@@ -265,7 +265,7 @@ static int understand_part(RetexPackPart *packed, const RetexSet *set, const jso
         const json_t *channels = json_object_get(o, "channels");
         ok = json_array_size(channels) == (size_t)packed->channels;
         for (int i = 0; ok && i < packed->channels; i++)
-            ok = understand_map(&packed->maps[i], json_array_get(channels, (size_t)i));
+            ok = parse_map(&packed->maps[i], json_array_get(channels, (size_t)i));
         packed->present = named_part(o, "present", set, packed, &ok);
         packed->sigma = named_part(o, "sigma", set, packed, &ok);
         if (packed->sigma >= 0 && packed->codec == RETEX_PACK_PLANES)
@@ -335,7 +335,7 @@ int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *man
         if (!name || strcmp(name, set->parts[i].name) != 0)
             code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its list of parts does not match");
         else
-            code = understand_part(&packed[i], set, o, err);
+            code = parse_part(&packed[i], set, o, err);
     }
     for (int i = 0; !code && i < set->nparts; i++)
         code = part_is_sound(i, set, packed, err);

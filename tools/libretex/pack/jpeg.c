@@ -54,45 +54,45 @@ static RetexPackLevels levels_of(const RetexPackCurve *curve)
 
 /* --- libjpeg's errors --- */
 
-typedef struct Trouble {
+typedef struct JpegErrors {
     struct jpeg_error_mgr manager;
-    jmp_buf out;
+    jmp_buf failed;
     char message[JMSG_LENGTH_MAX];
-} Trouble;
+} JpegErrors;
 
-static void leave(j_common_ptr jpeg)
+static void error_exit(j_common_ptr jpeg)
 {
-    Trouble *trouble = (Trouble *)jpeg->err;
-    jpeg->err->format_message(jpeg, trouble->message);
-    longjmp(trouble->out, 1);
+    JpegErrors *errors = (JpegErrors *)jpeg->err;
+    jpeg->err->format_message(jpeg, errors->message);
+    longjmp(errors->failed, 1);
 }
 
 /* Warnings count as errors: libjpeg would go on with made-up data. */
-static void warn(j_common_ptr jpeg, int level)
+static void exit_on_warning(j_common_ptr jpeg, int level)
 {
     if (level < 0)
-        leave(jpeg);
+        error_exit(jpeg);
 }
 
-static void stay_quiet(j_common_ptr jpeg)
+static void discard_message(j_common_ptr jpeg)
 {
     (void)jpeg;
 }
 
-static struct jpeg_error_mgr *catch_trouble(Trouble *trouble)
+static struct jpeg_error_mgr *jpeg_errors_init(JpegErrors *errors)
 {
-    jpeg_std_error(&trouble->manager);
-    trouble->manager.error_exit = leave;
-    trouble->manager.emit_message = warn;
-    trouble->manager.output_message = stay_quiet;
-    return &trouble->manager;
+    jpeg_std_error(&errors->manager);
+    errors->manager.error_exit = error_exit;
+    errors->manager.emit_message = exit_on_warning;
+    errors->manager.output_message = discard_message;
+    return &errors->manager;
 }
 
-static int fail_decoding(const Trouble *trouble, RetexError *err)
+static int fail_decoding(const JpegErrors *errors, RetexError *err)
 {
-    if (trouble->manager.msg_code == JERR_OUT_OF_MEMORY)
+    if (errors->manager.msg_code == JERR_OUT_OF_MEMORY)
         return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
-    return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", trouble->message);
+    return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", errors->message);
 }
 
 /* --- encoding --- */
@@ -100,7 +100,7 @@ static int fail_decoding(const Trouble *trouble, RetexError *err)
 void retex_pack_jpeg_free(RetexPackJpeg *jpeg)
 {
     free(jpeg->data);
-    free(jpeg->pieces);
+    free(jpeg->chunk_bytes);
     memset(jpeg, 0, sizeof *jpeg);
 }
 
@@ -172,23 +172,23 @@ static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_pt
         }
 }
 
-static int take_apart(RetexPackJpeg *jpeg, int bands)
+static int find_chunks(RetexPackJpeg *jpeg, int bands)
 {
     const unsigned char *p = jpeg->data;
-    jpeg->pieces = calloc((size_t)bands + 1, sizeof *jpeg->pieces);
-    if (!jpeg->pieces)
+    jpeg->chunk_bytes = calloc((size_t)bands + 1, sizeof *jpeg->chunk_bytes);
+    if (!jpeg->chunk_bytes)
         return 0;
     size_t at = 2, begin = 0;
     while (at + 4 <= jpeg->bytes && p[at + 1] != 0xda) /* SOS */
         at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
     at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
-    jpeg->pieces[jpeg->npieces++] = at;
-    for (begin = at; at + 1 < jpeg->bytes && jpeg->npieces <= bands; at++)
+    jpeg->chunk_bytes[jpeg->nchunks++] = at;
+    for (begin = at; at + 1 < jpeg->bytes && jpeg->nchunks <= bands; at++)
         if (p[at] == 0xff && p[at + 1] != 0) {
-            jpeg->pieces[jpeg->npieces++] = at + 2 - begin;
+            jpeg->chunk_bytes[jpeg->nchunks++] = at + 2 - begin;
             begin = at + 2;
         }
-    return begin == jpeg->bytes && jpeg->npieces == bands + 1;
+    return begin == jpeg->bytes && jpeg->nchunks == bands + 1;
 }
 
 static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, float *plane, int width, int height,
@@ -219,7 +219,7 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
                            RetexError *err)
 {
     struct jpeg_compress_struct jpeg;
-    Trouble trouble;
+    JpegErrors errors;
     unsigned char *volatile data = NULL;
     unsigned long bytes = 0;
     unsigned int steps[2][64];
@@ -231,12 +231,12 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
     find_largest(&largest, levels, plane, width, height, channels);
     for (int table = 0; table < 2; table++)
         choose_steps(steps[table], step, largest.size[table]);
-    jpeg.err = catch_trouble(&trouble);
-    if (setjmp(trouble.out)) {
+    jpeg.err = jpeg_errors_init(&errors);
+    if (setjmp(errors.failed)) {
         jpeg_destroy_compress(&jpeg);
         free(plane);
         free(data);
-        return retex_fail(err, RETEX_EINTERNAL, "cannot encode a JPEG: %s", trouble.message);
+        return retex_fail(err, RETEX_EINTERNAL, "cannot encode a JPEG: %s", errors.message);
     }
     jpeg_create_compress(&jpeg);
     jpeg_mem_dest(&jpeg, (unsigned char **)&data, &bytes);
@@ -245,7 +245,7 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
     free(plane);
     result->data = data;
     result->bytes = bytes;
-    if (take_apart(result, (height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS))
+    if (find_chunks(result, (height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS))
         return 0;
     retex_pack_jpeg_free(result);
     return retex_fail(err, RETEX_EINTERNAL, "cannot take a JPEG apart");
@@ -255,7 +255,7 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
 
 struct RetexPackJpegDecoder {
     struct jpeg_decompress_struct jpeg;
-    Trouble trouble;
+    JpegErrors errors;
     const RetexPackJpegKernels *kernels;
     jvirt_barray_ptr *arrays; /* coefficients of the open band, or NULL */
     int width, rows, channels;
@@ -270,8 +270,8 @@ int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **result, RetexError *er
     if (!decoder)
         return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
     decoder->kernels = &retex_pack_jpeg_kernels[retex_cpu_level()];
-    decoder->jpeg.err = catch_trouble(&decoder->trouble);
-    if (setjmp(decoder->trouble.out)) {
+    decoder->jpeg.err = jpeg_errors_init(&decoder->errors);
+    if (setjmp(decoder->errors.failed)) {
         jpeg_destroy_decompress(&decoder->jpeg);
         free(decoder);
         *result = NULL;
@@ -343,9 +343,9 @@ int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file
     decoder->rows = rows;
     decoder->channels = channels;
     decoder->levels = levels_of(curve);
-    if (setjmp(decoder->trouble.out)) {
+    if (setjmp(decoder->errors.failed)) {
         close_band(decoder);
-        return fail_decoding(&decoder->trouble, err);
+        return fail_decoding(&decoder->errors, err);
     }
     jpeg_mem_src(jpeg, file, bytes);
     jpeg_read_header(jpeg, TRUE);
@@ -370,9 +370,9 @@ int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float 
     float steps[64];
     if (!decoder->arrays || row < 0 || 8 * row >= decoder->rows)
         return retex_fail(err, RETEX_EINTERNAL, "no such blocks of a JPEG");
-    if (setjmp(decoder->trouble.out)) {
+    if (setjmp(decoder->errors.failed)) {
         close_band(decoder);
-        return fail_decoding(&decoder->trouble, err);
+        return fail_decoding(&decoder->errors, err);
     }
     for (int c = 0; c < channels; c++) {
         JBLOCKARRAY array =

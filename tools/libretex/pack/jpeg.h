@@ -32,13 +32,13 @@ typedef struct RetexPackCurve {
 double retex_pack_curve_level(const RetexPackCurve *curve, double value);
 double retex_pack_curve_value(const RetexPackCurve *curve, double level);
 
-/* A JPEG file and the sizes of its chunks in bytes: pieces[0] is the header, the others are the bands, each with the
+/* A JPEG file and the sizes of its chunks: chunk_bytes[0] is the header, the others are the bands, each with the
  * marker that ends it. */
 typedef struct RetexPackJpeg {
     unsigned char *data; /* malloc'ed */
     size_t bytes;
-    int npieces;
-    size_t *pieces; /* malloc'ed */
+    int nchunks;
+    size_t *chunk_bytes; /* malloc'ed */
 } RetexPackJpeg;
 
 void retex_pack_jpeg_free(RetexPackJpeg *jpeg);

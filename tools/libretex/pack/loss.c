@@ -64,20 +64,20 @@ int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, Ret
 
 /* For each picture its textures: none, white, smooth waves, and a chequerboard, which has the hardest edges. */
 enum { SIDE = 256, WAVES = 4, SQUARES = 16 };
-enum { ENOUGH_SAMPLES = 32 }; /* a pixel: of fewer less is promised */
+enum { SAMPLES_FULL_PROMISE = 32 }; /* a pixel: of fewer less is promised */
 
-static const double CODE_MOST = 65535;
-static const double PSNR_MOST = 120;
+static const double CODE_MAX = 65535;
+static const double PSNR_MAX = 120;
 
 /* One picture of a set being made. */
-typedef struct Shot {
+typedef struct PictureWork {
     const RetexSet *set;
     uint16_t *codes;   /* of all of it: to be filled in, or, with squares, to compare with */
     uint64_t *squares; /* by band; NULL: nothing to compare with */
     uint64_t *noise;   /* by band, of the set's own; NULL: not wanted */
-} Shot;
+} PictureWork;
 
-static void paint(RetexImage *image, int picture)
+static void fill_trial_texture(RetexImage *image, int picture)
 {
     const double turn = 2 * acos(-1) * WAVES / SIDE;
     for (int y = 0; y < image->height; y++)
@@ -92,7 +92,7 @@ static void paint(RetexImage *image, int picture)
         }
 }
 
-static uint64_t squares_between(const uint16_t *a, const uint16_t *b, size_t count)
+static uint64_t squared_error(const uint16_t *a, const uint16_t *b, size_t count)
 {
     uint64_t sum = 0;
     for (size_t i = 0; i < count; i++) {
@@ -125,53 +125,53 @@ static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexErro
     return code;
 }
 
-static int take_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+static int process_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
 {
-    const Shot *shot = context;
-    const size_t first = 3 * (size_t)shot->set->width * (size_t)y0;
-    const size_t count = 3 * (size_t)shot->set->width * (size_t)(y1 - y0);
+    const PictureWork *work = context;
+    const size_t first = 3 * (size_t)work->set->width * (size_t)y0;
+    const size_t count = 3 * (size_t)work->set->width * (size_t)(y1 - y0);
     const int band = y0 / RETEX_PICTURE_BAND;
-    if (!shot->squares)
-        retex_srgb_codes_16(shot->codes + first, rows, count);
-    if (!shot->squares && !shot->noise)
+    if (!work->squares)
+        retex_srgb_codes_16(work->codes + first, rows, count);
+    if (!work->squares && !work->noise)
         return RETEX_OK;
     uint16_t *codes = malloc(count * sizeof *codes);
-    float *noisy = shot->noise ? malloc(count * sizeof *noisy) : NULL;
-    int code = codes && (noisy || !shot->noise) ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to compare rows");
+    float *noisy = work->noise ? malloc(count * sizeof *noisy) : NULL;
+    int code = codes && (noisy || !work->noise) ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to compare rows");
     if (!code && noisy) {
         memcpy(noisy, rows, count * sizeof *noisy);
-        code = add_noise(noisy, shot->set, y0, y1, err);
+        code = add_noise(noisy, work->set, y0, y1, err);
     }
     if (!code)
         retex_srgb_codes_16(codes, noisy ? noisy : rows, count);
     if (!code)
-        (noisy ? shot->noise : shot->squares)[band] = squares_between(codes, shot->codes + first, count);
+        (noisy ? work->noise : work->squares)[band] = squared_error(codes, work->codes + first, count);
     free(codes);
     free(noisy);
     return code;
 }
 
 /* A picture of a set, with one of the trials' textures on all of its targets. */
-static int take(const Shot *shot, int picture, int nthreads, RetexError *err)
+static int measure_picture(const PictureWork *work, int picture, int nthreads, RetexError *err)
 {
     RetexTexture *texture = NULL, *textures[RETEX_MAX_TARGETS] = {NULL};
-    RetexImage painted = {0};
-    Shot own = *shot;
+    RetexImage texels = {0};
+    PictureWork own = *work;
     int code = RETEX_OK;
     if (picture != RETEX_PACK_LOSS_ORIGINAL) {
         const int side = picture == RETEX_PACK_LOSS_WHITE ? 1 : SIDE;
-        code = retex_image_alloc(&painted, side, side, 3, err);
+        code = retex_image_alloc(&texels, side, side, 3, err);
         if (!code) {
-            paint(&painted, picture);
-            code = retex_texture_create(&texture, &painted, NULL, nthreads, err);
+            fill_trial_texture(&texels, picture);
+            code = retex_texture_create(&texture, &texels, NULL, nthreads, err);
         }
     }
-    for (int i = 0; i < shot->set->ntargets; i++)
+    for (int i = 0; i < work->set->ntargets; i++)
         textures[i] = texture;
     if (!code)
-        code = retex_retexture(shot->set, NULL, textures, NULL, take_rows, &own, nthreads, err);
+        code = retex_retexture(work->set, NULL, textures, NULL, process_rows, &own, nthreads, err);
     retex_texture_close(&texture);
-    retex_image_free(&painted);
+    retex_image_free(&texels);
     return code;
 }
 
@@ -186,12 +186,12 @@ static double mean_of(const uint64_t *squares, const RetexSet *set)
     uint64_t sum = 0;
     for (int i = 0; i < bands_of(set); i++)
         sum += squares[i];
-    return (double)sum / (3.0 * set->width * set->height) / (CODE_MOST * CODE_MOST);
+    return (double)sum / (3.0 * set->width * set->height) / (CODE_MAX * CODE_MAX);
 }
 
 static double psnr_of(double square)
 {
-    return fmin(square > 0 ? -10 * log10(square) : PSNR_MOST, PSNR_MOST);
+    return fmin(square > 0 ? -10 * log10(square) : PSNR_MAX, PSNR_MAX);
 }
 
 void retex_pack_reference_close(RetexPackReference *reference)
@@ -216,8 +216,8 @@ int retex_pack_reference_open(RetexPackReference *reference, const RetexSet *set
         if (!(pictures & 1u << k))
             continue;
         reference->codes[k] = malloc(count * sizeof *reference->codes[k]);
-        const Shot shot = {set, reference->codes[k], NULL, noise ? reference->squares : NULL};
-        code = reference->codes[k] ? take(&shot, k, nthreads, err)
+        const PictureWork work = {set, reference->codes[k], NULL, noise ? reference->squares : NULL};
+        code = reference->codes[k] ? measure_picture(&work, k, nthreads, err)
                                    : retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
         if (!code && noise)
             reference->noise = mean_of(reference->squares, set);
@@ -234,11 +234,11 @@ int retex_pack_reference_psnr(double psnr[RETEX_PACK_LOSSES], const RetexPackRef
     if (pack->width != set->width || pack->height != set->height || pack->ntargets != set->ntargets)
         return retex_fail(err, RETEX_EINVAL, "the pack is of another set");
     for (int k = 0; k < RETEX_PACK_LOSSES; k++) {
-        const Shot shot = {pack, reference->codes[k], reference->squares, NULL};
-        psnr[k] = PSNR_MOST;
-        if (!shot.codes)
+        const PictureWork work = {pack, reference->codes[k], reference->squares, NULL};
+        psnr[k] = PSNR_MAX;
+        if (!work.codes)
             continue;
-        int code = take(&shot, k, nthreads, err);
+        int code = measure_picture(&work, k, nthreads, err);
         if (code)
             return code;
         psnr[k] = psnr_of(mean_of(reference->squares, set));
@@ -258,7 +258,7 @@ double retex_pack_worst_psnr(const double psnr[RETEX_PACK_LOSSES])
 
 double retex_pack_promised_psnr(int quality, int spp, double noise)
 {
-    const double few = spp > 0 ? fmax(10 * log10((double)ENOUGH_SAMPLES / spp), 0) : 0;
+    const double few = spp > 0 ? fmax(10 * log10((double)SAMPLES_FULL_PROMISE / spp), 0) : 0;
     const double psnr = 25 + 0.1 * quality + 1.5 * fmax(quality - 90, 0) - few * fmin((100 - quality) / 10.0, 1);
     return psnr_of(fmax(pow(10, -psnr / 10), (100 - quality) / 100.0 * noise));
 }

@@ -42,7 +42,7 @@ size_t retex_pack_plane_bound(const RetexPackPlane *plane)
 
 /* Round numbers to multiples of 2^shift, as the decoder will return them; absent ones become 0. Returns 1 if any number
  * is not 0. */
-static int settle(const RetexPackPlane *plane)
+static int quantize(const RetexPackPlane *plane)
 {
     int any = 0;
     for (size_t i = 0; i < (size_t)plane->width * (size_t)plane->rows; i++) {
@@ -107,7 +107,7 @@ static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, R
 
 long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort)
 {
-    if (!settle(plane))
+    if (!quantize(plane))
         return 0;
     double least = 0;
     RetexPackPredictor chosen = BY_NOTHING;

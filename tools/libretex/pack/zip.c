@@ -65,7 +65,7 @@ static void put(unsigned char **at, uint64_t value, int bytes)
         *(*at)++ = (unsigned char)(value & 255);
 }
 
-static uint64_t capped(uint64_t value)
+static uint64_t capped_32(uint64_t value)
 {
     return value < MOST_32 ? value : MOST_32;
 }
@@ -78,19 +78,19 @@ static void put_common(unsigned char **at, const RetexZipEntry *entry, int extra
     put(at, 0, 4); /* compression method 0: stored; time 0: midnight */
     put(at, FIRST_DAY, 2);
     put(at, entry->crc, 4);
-    put(at, capped(entry->bytes), 4);
-    put(at, capped(entry->bytes), 4);
+    put(at, capped_32(entry->bytes), 4);
+    put(at, capped_32(entry->bytes), 4);
     put(at, strlen(entry->name), 2);
     put(at, (uint64_t)extra_bytes, 2);
 }
 
-static int emit(RetexOutput *output, const void *data, size_t bytes, uint64_t *written, RetexError *err)
+static int write_counted(RetexOutput *output, const void *data, size_t bytes, uint64_t *written, RetexError *err)
 {
     *written += bytes;
     return retex_output_write(output, data, bytes, err);
 }
 
-int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *pieces,
+int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *chunks,
                           const size_t *bytes, int count, uint64_t *written, RetexError *err)
 {
     unsigned char header[LOCAL_BYTES + RETEX_PACK_NAME_MAX + 20], *at = header;
@@ -100,7 +100,7 @@ int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *n
     snprintf(entry->name, sizeof entry->name, "%s", name);
     entry->crc = CRC32_OF_NONE;
     for (int i = 0; i < count; i++) {
-        entry->crc = retex_crc32(entry->crc, pieces[i], bytes[i]);
+        entry->crc = retex_crc32(entry->crc, chunks[i], bytes[i]);
         entry->bytes += bytes[i];
     }
     const int wide = entry->bytes >= MOST_32;
@@ -115,9 +115,9 @@ int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *n
         put(&at, entry->bytes, 8);
     }
     entry->offset = *written + (uint64_t)(at - header);
-    int code = emit(output, header, (size_t)(at - header), written, err);
+    int code = write_counted(output, header, (size_t)(at - header), written, err);
     for (int i = 0; !code && i < count; i++)
-        code = emit(output, pieces[i], bytes[i], written, err);
+        code = write_counted(output, chunks[i], bytes[i], written, err);
     return code;
 }
 
@@ -136,7 +136,7 @@ static int write_central(RetexOutput *output, const RetexZipEntry *entry, uint64
     put(&at, wide || far ? 45 : 10, 2);
     put_common(&at, entry, extra ? extra + 4 : 0);
     put(&at, 0, 10); /* comment, disk, attributes */
-    put(&at, capped(place), 4);
+    put(&at, capped_32(place), 4);
     memcpy(at, entry->name, strlen(entry->name));
     at += strlen(entry->name);
     if (extra) {
@@ -147,7 +147,7 @@ static int write_central(RetexOutput *output, const RetexZipEntry *entry, uint64
         put(&at, entry->bytes, 8);
     if (far)
         put(&at, place, 8);
-    return emit(output, header, (size_t)(at - header), written, err);
+    return write_counted(output, header, (size_t)(at - header), written, err);
 }
 
 int retex_zip_directory_write(RetexOutput *output, const RetexZipList *list, uint64_t *written, RetexError *err)
@@ -179,10 +179,10 @@ int retex_zip_directory_write(RetexOutput *output, const RetexZipList *list, uin
     put(&at, 0, 4);
     put(&at, count, 2);
     put(&at, count, 2);
-    put(&at, capped(bytes), 4);
-    put(&at, capped(begin), 4);
+    put(&at, capped_32(bytes), 4);
+    put(&at, capped_32(begin), 4);
     put(&at, 0, 2);
-    return emit(output, end, (size_t)(at - end), written, err);
+    return write_counted(output, end, (size_t)(at - end), written, err);
 }
 
 /* --- reading --- */
@@ -267,7 +267,7 @@ static int check_local(RetexZipEntry *entry, const RetexInput *input, uint64_t e
     int ok = entry->offset < end && end - entry->offset >= LOCAL_BYTES + name &&
              read_all(input, header, LOCAL_BYTES + name, entry->offset) && get(header, 4) == LOCAL_MARK &&
              get(header + 6, 2) <= NAMES_ARE_UTF8 && get(header + 8, 2) == 0 && get(header + 14, 4) == entry->crc &&
-             get(header + 22, 4) == capped(entry->bytes) && get(header + 26, 2) == name &&
+             get(header + 22, 4) == capped_32(entry->bytes) && get(header + 26, 2) == name &&
              memcmp(header + LOCAL_BYTES, entry->name, name) == 0;
     if (ok) {
         entry->offset += LOCAL_BYTES + name + get(header + 28, 2);

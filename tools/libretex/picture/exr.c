@@ -117,28 +117,28 @@ static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, co
     return at;
 }
 
-/* Makes the piece of a band: its chunks, for the first band preceded by the header and the reserved table. */
-static unsigned char *make_piece(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
+/* Encodes a band: its chunks, for the first band preceded by the header and the reserved table. */
+static unsigned char *encode_band(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
 {
     const RetexChunkShape shape = {state->part.letters, RETEX_HALF, state->shape.width, y1 - y0};
     const size_t before = y0 == 0 ? state->header_bytes + ENTRY * (size_t)state->nchunks : 0;
     const size_t leaders = (size_t)((y1 - y0 + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES) * LEADER;
-    unsigned char *piece = malloc(before + leaders + retex_chunk_bytes(&shape));
+    unsigned char *encoded = malloc(before + leaders + retex_chunk_bytes(&shape));
 
-    if (!piece)
+    if (!encoded)
         return NULL;
     if (before) {
-        memcpy(piece, state->header, state->header_bytes);
-        memset(piece + state->header_bytes, 0, before - state->header_bytes);
+        memcpy(encoded, state->header, state->header_bytes);
+        memset(encoded + state->header_bytes, 0, before - state->header_bytes);
     }
-    *bytes = make_chunks(state, piece + before, y0, y1, rows);
+    *bytes = make_chunks(state, encoded + before, y0, y1, rows);
     if (!*bytes) {
-        free(piece);
+        free(encoded);
         return NULL;
     }
     *bytes += before;
-    unsigned char *less = realloc(piece, *bytes);
-    return less ? less : piece;
+    unsigned char *less = realloc(encoded, *bytes);
+    return less ? less : encoded;
 }
 
 static int exr_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
@@ -146,7 +146,7 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
     ExrState *state = picture->state;
     const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
     float *converted = NULL;
-    unsigned char *piece = NULL;
+    unsigned char *encoded = NULL;
     size_t bytes = 0;
 
     int status = picture->bridged ? retex_picture_plan(picture, err) : 0;
@@ -161,10 +161,10 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
     rows = converted ? converted : rows;
     if (state->encoding)
         status = retex_exr_encode_rows(state->encoding, y0, y0 + lines, rows, err);
-    else if (!(piece = make_piece(state, y0, y0 + lines, rows, &bytes)))
+    else if (!(encoded = encode_band(state, y0, y0 + lines, rows, &bytes)))
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(converted);
-    return status ? status : retex_picture_submit_band(picture, band, piece, bytes, err);
+    return status ? status : retex_picture_submit_band(picture, band, encoded, bytes, err);
 }
 
 /* Writes the table of chunk offsets. */

@@ -1,7 +1,7 @@
 /* Picture formats: the table of operations of a format, and the state of a picture that is being written; see
  * <retex/picture.h>.
  *
- * A file that is written band by band consists of pieces, one for each band, which any thread may submit at any
+ * A file that is written band by band is the encoded bands one after the other. Any thread may submit any band at any
  * time. */
 #ifndef RETEX_PICTURE_FORMAT_H
 #define RETEX_PICTURE_FORMAT_H
@@ -25,11 +25,14 @@ typedef struct RetexPictureFormat {
 
 extern const RetexPictureFormat retex_picture_jpeg, retex_picture_png, retex_picture_exr, retex_picture_stored;
 
-typedef struct RetexPicturePiece {
+typedef enum RetexBandState { RETEX_BAND_ABSENT, RETEX_BAND_SUBMITTED, RETEX_BAND_ENCODED } RetexBandState;
+
+/* The bytes of a band in the file; without data once they are written. */
+typedef struct RetexEncodedBand {
     unsigned char *data;
     size_t bytes;
-    int state; /* 0: not begun; 1: being encoded; 2: encoded, or already in the file */
-} RetexPicturePiece;
+    RetexBandState state;
+} RetexEncodedBand;
 
 struct RetexPicture {
     char *path;
@@ -38,11 +41,11 @@ struct RetexPicture {
     const RetexPictureFormat *format;
     void *state; /* state of the format between its calls */
 
-    pthread_mutex_t lock;      /* protects all members below */
-    RetexError error;          /* the first error of any thread */
-    RetexPicturePiece *pieces; /* one a band */
-    int nbands, next;          /* next: the first piece that is not in the file */
-    RetexOutput *output;       /* NULL until the first bytes are there */
+    pthread_mutex_t lock;    /* protects all members below */
+    RetexError error;        /* the first error of any thread */
+    RetexEncodedBand *bands; /* one a band */
+    int nbands, next;        /* next: the first band that is not in the file */
+    RetexOutput *output;     /* NULL until the first bytes are there */
 
     /* Only if OpenImageIO or OpenColorIO is used: */
     int bridged;

@@ -152,7 +152,7 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const Rete
     return 0;
 }
 
-static RetexReadParams understand(const RetexReadParams *given)
+static RetexReadParams complete_params(const RetexReadParams *given)
 {
     RetexReadParams params = RETEX_READ_INIT;
 
@@ -244,7 +244,7 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
 
 int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *given, int nthreads, RetexError *err)
 {
-    const RetexReadParams params = understand(given);
+    const RetexReadParams params = complete_params(given);
     RetexInput *input = NULL;
 
     if (dst->pixels)
@@ -300,7 +300,7 @@ static int check_open(RetexInput *input, const char *path, const RetexReadParams
 
 int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
 {
-    const RetexReadParams params = understand(given);
+    const RetexReadParams params = complete_params(given);
     const int safe = params.access && params.access->safe;
     RetexInput *input = NULL;
     struct stat info;
@@ -319,7 +319,7 @@ int retex_image_read_check(const char *path, const RetexReadParams *given, Retex
 int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, int nthreads,
                             RetexError *err)
 {
-    const RetexReadParams params = understand(given);
+    const RetexReadParams params = complete_params(given);
     RetexBridgeFile file;
     RetexInput *input = NULL;
 

@@ -26,12 +26,12 @@ typedef struct Compressor {
     char message[JMSG_LENGTH_MAX];
 } Compressor;
 
-static size_t written(const Compressor *c)
+static size_t bytes_written(const Compressor *c)
 {
     return c->capacity - c->to.free_in_buffer;
 }
 
-static void leave(j_common_ptr jpeg)
+static void error_exit(j_common_ptr jpeg)
 {
     Compressor *c = (Compressor *)(void *)jpeg;
 
@@ -39,7 +39,7 @@ static void leave(j_common_ptr jpeg)
     longjmp(c->failed, 1);
 }
 
-static void say_nothing(j_common_ptr jpeg)
+static void discard_message(j_common_ptr jpeg)
 {
     (void)jpeg;
 }
@@ -116,14 +116,14 @@ static int compress(Compressor *c, const RetexPicture *picture, const uint8_t *c
     const size_t row = (size_t)picture->width * (picture->channels == 1 ? 1 : 3);
 
     c->jpeg.err = jpeg_std_error(&c->errors);
-    c->errors.error_exit = leave;
-    c->errors.output_message = say_nothing;
+    c->errors.error_exit = error_exit;
+    c->errors.output_message = discard_message;
     c->to = (struct jpeg_destination_mgr){
         .init_destination = begin_output, .empty_output_buffer = grow_output, .term_destination = end_output};
     if (setjmp(c->failed))
         return 0;
     begin_file(c, picture, codes ? lines : picture->height);
-    *head = written(c);
+    *head = bytes_written(c);
     if (!codes)
         return 1;
     for (int y = 0; y < lines; y++) {
@@ -150,13 +150,13 @@ static int run_compressor(unsigned char **data, size_t *head, size_t *bytes, con
         return code;
     }
     *data = c->data;
-    *bytes = written(c);
+    *bytes = bytes_written(c);
     free(c);
     return 0;
 }
 
-/* Makes the piece of a band: the header or a restart marker, the coded data, and the end marker after the last band. */
-static int make_piece(RetexPicture *picture, int band, const uint8_t *codes, RetexError *err)
+/* Encodes a band: the header or a restart marker, the coded data, and the end marker after the last band. */
+static int encode_band(RetexPicture *picture, int band, const uint8_t *codes, RetexError *err)
 {
     unsigned char *data, *whole = NULL;
     size_t head, bytes, start = MARKER_BYTES, unused;
@@ -206,7 +206,7 @@ static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexEr
     if (!status)
         status = retex_picture_codes_8(picture, codes, channels, rows, lines, err);
     if (!status)
-        status = make_piece(picture, band, codes, err);
+        status = encode_band(picture, band, codes, err);
     free(codes);
     return status;
 }

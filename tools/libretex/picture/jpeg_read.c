@@ -22,7 +22,7 @@ typedef struct Decoder {
     unsigned char *lines;
 } Decoder;
 
-static void leave(j_common_ptr jpeg)
+static void error_exit(j_common_ptr jpeg)
 {
     Decoder *d = (Decoder *)(void *)jpeg;
 
@@ -33,7 +33,7 @@ static void leave(j_common_ptr jpeg)
 static void message(j_common_ptr jpeg, int level)
 {
     if (level < 0)
-        leave(jpeg);
+        error_exit(jpeg);
 }
 
 static unsigned get_number(const unsigned char *at, int bytes, int big)
@@ -149,7 +149,7 @@ int retex_jpeg_read_narrow(RetexNarrowImage *dst, RetexInput *input, long max_pi
     if (!d)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to read %s", retex_input_name(input));
     d->jpeg.err = jpeg_std_error(&d->errors);
-    d->errors.error_exit = leave;
+    d->errors.error_exit = error_exit;
     d->errors.emit_message = message;
     const int done = decode(d, data, bytes, max_pixels);
     if (done > 0) {

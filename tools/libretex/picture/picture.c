@@ -121,9 +121,9 @@ static void free_picture(RetexPicture *picture)
         picture->format->end(picture);
     retex_bridge_plan_free(&picture->plan);
     retex_output_abandon(&picture->output);
-    for (int i = 0; picture->pieces && i < picture->nbands; i++)
-        free(picture->pieces[i].data);
-    free(picture->pieces);
+    for (int i = 0; picture->bands && i < picture->nbands; i++)
+        free(picture->bands[i].data);
+    free(picture->bands);
     free((char *)picture->params.display);
     free((char *)picture->params.view);
     free((char *)picture->params.colorspace);
@@ -144,13 +144,13 @@ static RetexPicture *new_picture(const char *path, int width, int height, int ch
     picture->height = height;
     picture->channels = channels;
     picture->nbands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
-    picture->pieces = calloc((size_t)picture->nbands, sizeof *picture->pieces);
+    picture->bands = calloc((size_t)picture->nbands, sizeof *picture->bands);
     picture->params = *params;
     picture->params.display = copy_text(params->display, &failed);
     picture->params.view = copy_text(params->view, &failed);
     picture->params.colorspace = copy_text(params->colorspace, &failed);
     picture->path = strdup(path);
-    if (picture->pieces && picture->path && !failed)
+    if (picture->bands && picture->path && !failed)
         return picture;
     free_picture(picture);
     return NULL;
@@ -228,13 +228,13 @@ int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *da
     int status = 0;
 
     pthread_mutex_lock(&picture->lock);
-    picture->pieces[band] = (RetexPicturePiece){data, bytes, 2};
-    while (!status && picture->next < picture->nbands && picture->pieces[picture->next].state == 2) {
-        RetexPicturePiece *piece = &picture->pieces[picture->next++];
-        if (piece->data)
-            status = retex_picture_append(picture, piece->data, piece->bytes, err);
-        free(piece->data);
-        piece->data = NULL;
+    picture->bands[band] = (RetexEncodedBand){data, bytes, RETEX_BAND_ENCODED};
+    while (!status && picture->next < picture->nbands && picture->bands[picture->next].state == RETEX_BAND_ENCODED) {
+        RetexEncodedBand *encoded = &picture->bands[picture->next++];
+        if (encoded->data)
+            status = retex_picture_append(picture, encoded->data, encoded->bytes, err);
+        free(encoded->data);
+        encoded->data = NULL;
     }
     pthread_mutex_unlock(&picture->lock);
     return status;
@@ -242,7 +242,7 @@ int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *da
 
 /* Claims a band for this thread: it must be a whole band that no other thread has claimed. After a failure all calls
  * fail. */
-static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
+static int claim_band(RetexPicture *picture, int y0, int y1, RetexError *err)
 {
     const int band = y0 / RETEX_PICTURE_BAND;
     int is_band = y0 >= 0 && y0 < picture->height && y0 % RETEX_PICTURE_BAND == 0 &&
@@ -250,8 +250,8 @@ static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
 
     pthread_mutex_lock(&picture->lock);
     *err = picture->error;
-    if (is_band && picture->pieces[band].state == 0)
-        picture->pieces[band].state = 1;
+    if (is_band && picture->bands[band].state == RETEX_BAND_ABSENT)
+        picture->bands[band].state = RETEX_BAND_SUBMITTED;
     else
         is_band = 0;
     pthread_mutex_unlock(&picture->lock);
@@ -265,7 +265,7 @@ static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err)
 {
     RetexError error = {0};
-    int status = take_band(picture, y0, y1, &error);
+    int status = claim_band(picture, y0, y1, &error);
 
     if (!status)
         status = picture->format->band(picture, y0 / RETEX_PICTURE_BAND, rows, &error);

@@ -1,4 +1,4 @@
-/* PNG of 8 bits, band by band. Each band is filtered and deflated separately, as a piece of one zlib stream: it begins
+/* PNG of 8 bits, band by band. Each band is filtered and deflated separately, as a part of one zlib stream: it begins
  * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of the stream is combined
  * from those of the bands. Renders have noise in their low bits, where filters leave little to compress: with the best
  * of all filters ISA-L's fast level gives files as small as zlib's level 6, in much less time. */
@@ -101,9 +101,9 @@ static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes,
     return NULL;
 }
 
-/* Makes the piece of a band: an IDAT chunk, for the first band preceded by the header. */
-static unsigned char *make_piece(const RetexPicture *picture, int band, const unsigned char *filtered, size_t bytes,
-                                 size_t *piece_bytes)
+/* Encodes a band: an IDAT chunk, for the first band preceded by the header. */
+static unsigned char *encode_band(const RetexPicture *picture, int band, const unsigned char *filtered, size_t bytes,
+                                  size_t *encoded_bytes)
 {
     unsigned char header[HEADER_ROOM];
     const size_t before = band == 0 ? write_header(header, picture) : 0, prefix = band == 0 ? ZLIB_HEAD : 0;
@@ -116,8 +116,8 @@ static unsigned char *make_piece(const RetexPicture *picture, int band, const un
     memcpy(data, header, before);
     if (prefix)
         memcpy(data + before + CHUNK_HEAD, "\x78\x01", ZLIB_HEAD); /* deflate, 32 KB, fastest */
-    *piece_bytes = before + close_chunk(data + before, "IDAT", prefix + packed_bytes);
-    unsigned char *less = realloc(data, *piece_bytes);
+    *encoded_bytes = before + close_chunk(data + before, "IDAT", prefix + packed_bytes);
+    unsigned char *less = realloc(data, *encoded_bytes);
     return less ? less : data;
 }
 
@@ -132,8 +132,8 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
     const int lines = retex_picture_band_lines(picture, band);
     const size_t bytes = (line_bytes(picture) + 1) * (size_t)lines;
     uint8_t *codes = malloc(line_bytes(picture) * (size_t)lines);
-    unsigned char *filtered = malloc(bytes), *piece = NULL;
-    size_t piece_bytes;
+    unsigned char *filtered = malloc(bytes), *encoded = NULL;
+    size_t encoded_bytes;
     int status = codes && filtered ? 0 : RETEX_ENOMEM;
 
     if (!status) {
@@ -143,8 +143,8 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
     }
     if (!status) {
         ((Sum *)picture->state)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
-        piece = make_piece(picture, band, filtered, bytes, &piece_bytes);
-        status = piece ? retex_picture_submit_band(picture, band, piece, piece_bytes, err) : RETEX_ENOMEM;
+        encoded = encode_band(picture, band, filtered, bytes, &encoded_bytes);
+        status = encoded ? retex_picture_submit_band(picture, band, encoded, encoded_bytes, err) : RETEX_ENOMEM;
     }
     free(codes);
     free(filtered);

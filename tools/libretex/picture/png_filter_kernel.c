@@ -6,22 +6,22 @@
 
 enum { FILTER_NONE, FILTER_LEFT, FILTER_UP, FILTER_MEAN, FILTER_PAETH, FILTERS };
 
-static void take_left(unsigned char *restrict out, const unsigned char *restrict line, size_t bytes, size_t pixel)
+static void filter_left(unsigned char *restrict out, const unsigned char *restrict line, size_t bytes, size_t pixel)
 {
     memcpy(out, line, pixel);
     for (size_t i = pixel; i < bytes; i++)
         out[i] = (unsigned char)(line[i] - line[i - pixel]);
 }
 
-static void take_up(unsigned char *restrict out, const unsigned char *restrict line,
-                    const unsigned char *restrict above, size_t bytes)
+static void filter_up(unsigned char *restrict out, const unsigned char *restrict line,
+                      const unsigned char *restrict above, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++)
         out[i] = (unsigned char)(line[i] - above[i]);
 }
 
-static void take_mean(unsigned char *restrict out, const unsigned char *restrict line,
-                      const unsigned char *restrict above, size_t bytes, size_t pixel)
+static void filter_mean(unsigned char *restrict out, const unsigned char *restrict line,
+                        const unsigned char *restrict above, size_t bytes, size_t pixel)
 {
     for (size_t i = 0; i < pixel; i++)
         out[i] = (unsigned char)(line[i] - above[i] / 2);
@@ -36,10 +36,10 @@ static inline int16_t magnitude(int16_t value)
 
 /* The Paeth predictor: of left, above and above left the one nearest to left + above - above left; the first of
  * equals. */
-static void take_paeth(unsigned char *restrict out, const unsigned char *restrict line,
-                       const unsigned char *restrict above, size_t bytes, size_t pixel)
+static void filter_paeth(unsigned char *restrict out, const unsigned char *restrict line,
+                         const unsigned char *restrict above, size_t bytes, size_t pixel)
 {
-    take_up(out, line, above, pixel);
+    filter_up(out, line, above, pixel);
     for (size_t i = pixel; i < bytes; i++) {
         const int16_t a = line[i - pixel], b = above[i], c = above[i - pixel];
         const int16_t to_a = magnitude((int16_t)(b - c)), to_b = magnitude((int16_t)(a - c)),
@@ -69,13 +69,13 @@ void retex_png_filter(unsigned char *restrict out, unsigned char *restrict trial
     memcpy(out + 1, line, bytes);
     for (int filter = FILTER_LEFT; filter < (above ? FILTERS : FILTER_UP); filter++) {
         if (filter == FILTER_LEFT)
-            take_left(trial, line, bytes, pixel);
+            filter_left(trial, line, bytes, pixel);
         else if (filter == FILTER_UP)
-            take_up(trial, line, above, bytes);
+            filter_up(trial, line, above, bytes);
         else if (filter == FILTER_MEAN)
-            take_mean(trial, line, above, bytes, pixel);
+            filter_mean(trial, line, above, bytes, pixel);
         else
-            take_paeth(trial, line, above, bytes, pixel);
+            filter_paeth(trial, line, above, bytes, pixel);
         const uint32_t sum = sum_of_magnitudes(trial, bytes);
         if (sum < least) {
             least = sum;

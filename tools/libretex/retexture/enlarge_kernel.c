@@ -32,8 +32,8 @@ _Static_assert(NUMBERS >= 4 * RETEX_MAX_CHANNELS, "a few pixels fit");
 
 /* Writes the pixels between the centres of two neighbouring small pixels: scale pixels, or fewer where the row ends.
  * With three channels a fourth value is written where the next pixel will be, unless the row ends there. */
-static inline float *draw_out(float *restrict out, const float *left, int channels, int scale, int count,
-                              const float *end)
+static inline float *stretch_row(float *restrict out, const float *left, int channels, int scale, int count,
+                                 const float *end)
 {
     const float *right = left + channels;
     const float step = 1 / (float)scale;
@@ -86,8 +86,8 @@ static inline void enlarge_row(const float *restrict upper, const float *restric
         for (int k = 0; k < intervals && x < width; k++) {
             const int wanted = i + k ? scale : scale / 2, rest = width - x, count = wanted < rest ? wanted : rest;
             const float *left = mixed + (size_t)(k * channels);
-            out = count == scale ? draw_out(out, left, channels, scale, scale, end)
-                                 : draw_out(out, left, channels, scale, count, end);
+            out = count == scale ? stretch_row(out, left, channels, scale, scale, end)
+                                 : stretch_row(out, left, channels, scale, count, end);
             x += count;
         }
     }

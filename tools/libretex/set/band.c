@@ -10,7 +10,7 @@
 struct RetexSetBand {
     const RetexSet *whole;
     int copies;
-    RetexSet set;      /* its parts belong to the band; their pixels may be those of the whole set */
+    RetexSet set;        /* its parts belong to the band; their pixels may be those of the whole set */
     RetexImage *buffers; /* by part: memory for most_rows rows, for parts whose rows are not in memory; allocated when
                           needed */
     int most_rows;
@@ -69,7 +69,7 @@ void retex_set_band_close(RetexSetBand **result)
     *result = NULL;
 }
 
-static int take_part(void *context, int part, int thread, RetexError *err)
+static int read_part_rows(void *context, int part, int thread, RetexError *err)
 {
     RetexSetBand *band = context;
     const RetexImage *whole = &band->whole->parts[part].image;
@@ -96,5 +96,5 @@ int retex_set_band_load(RetexSet **rows, RetexSetBand *band, int first, int coun
     *rows = &band->set;
     band->first = first;
     band->set.height = count;
-    return retex_jobs_run(nthreads, band->whole->nparts, take_part, band, err);
+    return retex_jobs_run(nthreads, band->whole->nparts, read_part_rows, band, err);
 }

@@ -25,7 +25,7 @@ typedef struct ExrSource {
 typedef struct Strip {
     RetexImage image;
     RetexExrSums sums;
-    int number; /* from 1; 0: none */
+    int number;    /* from 1; 0: none */
     char *nonzero; /* by row: 1 if some value is not 0 */
 } Strip;
 

@@ -105,7 +105,7 @@ uint64_t retex_set_bytes(const RetexSet *set)
     return bytes;
 }
 
-static void want(char *wanted, int part)
+static void mark_wanted(char *wanted, int part)
 {
     if (part >= 0)
         wanted[part] = 1;
@@ -118,16 +118,16 @@ static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS
 
     memset(wanted, 0, RETEX_SET_PARTS_MAX);
     for (int i = 0; i < set->nterms; i++) {
-        want(wanted, set->terms[i].radiance);
-        want(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
+        mark_wanted(wanted, set->terms[i].radiance);
+        mark_wanted(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
     }
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)
-            want(wanted, set->mixtures[i].shares[k].weight);
+            mark_wanted(wanted, set->mixtures[i].shares[k].weight);
     for (int i = 0; i < set->nfootprints; i++) {
-        want(wanted, set->footprints[i].uv);
-        want(wanted, set->footprints[i].spread);
-        want(wanted, set->footprints[i].albedo);
+        mark_wanted(wanted, set->footprints[i].uv);
+        mark_wanted(wanted, set->footprints[i].spread);
+        mark_wanted(wanted, set->footprints[i].albedo);
     }
     for (int i = 0; i < set->nparts; i++)
         if (wanted[i])

@@ -16,8 +16,8 @@ typedef struct Reading {
     RetexBandSums *sums; /* or NULL */
 } Reading;
 
-static void bad(Reading *reading, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
-static void bad(Reading *reading, int code, const char *fmt, ...)
+static void fail_reading(Reading *reading, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
+static void fail_reading(Reading *reading, int code, const char *fmt, ...)
 {
     char message[512];
     va_list arguments;
@@ -36,7 +36,7 @@ static void get_text(Reading *reading, const json_t *object, const char *key, ch
     const char *bytes = json_string_value(value);
 
     if (!bytes || strlen(bytes) >= size || strlen(bytes) != json_string_length(value))
-        bad(reading, RETEX_EFORMAT, "has no proper text \"%s\"", key);
+        fail_reading(reading, RETEX_EFORMAT, "has no proper text \"%s\"", key);
     else
         strcpy(out, bytes);
 }
@@ -47,7 +47,7 @@ static int get_integer(Reading *reading, const json_t *object, const char *key, 
     const json_int_t number = json_integer_value(value);
 
     if (!json_is_integer(value) || number < low || number > high) {
-        bad(reading, RETEX_EFORMAT, "has no integer \"%s\" from %d to %d", key, low, high);
+        fail_reading(reading, RETEX_EFORMAT, "has no integer \"%s\" from %d to %d", key, low, high);
         return low;
     }
     return (int)number;
@@ -56,14 +56,14 @@ static int get_integer(Reading *reading, const json_t *object, const char *key, 
 static double get_real(Reading *reading, const json_t *value, const char *key)
 {
     if (!json_is_number(value))
-        bad(reading, RETEX_EFORMAT, "has no number \"%s\"", key);
+        fail_reading(reading, RETEX_EFORMAT, "has no number \"%s\"", key);
     return json_number_value(value);
 }
 
 static int get_boolean(Reading *reading, const json_t *value, const char *key)
 {
     if (!json_is_boolean(value))
-        bad(reading, RETEX_EFORMAT, "has no true or false \"%s\"", key);
+        fail_reading(reading, RETEX_EFORMAT, "has no true or false \"%s\"", key);
     return json_is_true(value);
 }
 
@@ -72,7 +72,7 @@ static const json_t *get_array(Reading *reading, const json_t *object, const cha
     const json_t *value = json_object_get(object, key);
 
     if (!json_is_array(value) || json_array_size(value) > most) {
-        bad(reading, RETEX_EFORMAT, "has no list \"%s\" of at most %zu", key, most);
+        fail_reading(reading, RETEX_EFORMAT, "has no list \"%s\" of at most %zu", key, most);
         return NULL;
     }
     return value;
@@ -97,10 +97,10 @@ static int get_part(Reading *reading, const RetexSet *set, const json_t *object,
         return -1;
     const int part = name ? retex_set_find_part(set, name) : -1;
     if (part < 0)
-        bad(reading, RETEX_EFORMAT, "refers to a part that is not there in \"%s\"", key);
+        fail_reading(reading, RETEX_EFORMAT, "refers to a part that is not there in \"%s\"", key);
     else if (strlen(set->parts[part].letters) != channels)
-        bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of %zu channels instead of %zu", key,
-            strlen(set->parts[part].letters), channels);
+        fail_reading(reading, RETEX_EFORMAT, "has in \"%s\" a part of %zu channels instead of %zu", key,
+                     strlen(set->parts[part].letters), channels);
     return part;
 }
 
@@ -123,15 +123,15 @@ static int get_part_of_one_or_three(Reading *reading, const RetexSet *set, const
 static void check_size(Reading *reading, const RetexSet *set, int part, const char *key)
 {
     if (part >= 0 && (set->parts[part].image.width != set->width || set->parts[part].image.height != set->height))
-        bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
+        fail_reading(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
 }
 
 /* Checks the size of a part that may be reduced. */
 static void check_scale(Reading *reading, const RetexSet *set, int part, const char *key)
 {
     if (part >= 0 && !retex_set_scale(set, &set->parts[part].image))
-        bad(reading, RETEX_EFORMAT,
-            "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
+        fail_reading(reading, RETEX_EFORMAT,
+                     "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
 }
 
 /* Parses the checksums of bands: eight hexadecimal digits each. */
@@ -142,9 +142,9 @@ static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
     uint32_t *bands = NULL;
 
     if (!digits || strlen(digits) != 8 * count || strspn(digits, "0123456789abcdef") != 8 * count)
-        bad(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
+        fail_reading(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
     else if (!(bands = calloc(count, sizeof *bands)))
-        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
     for (size_t i = 0; bands && i < count; i++) {
         char hex[9] = "";
         memcpy(hex, digits + 8 * i, 8);
@@ -181,14 +181,14 @@ static void read_part(Reading *reading, const json_t *json, RetexPart *part, cha
     part->image.width = get_integer(reading, json, "width", 1, RETEX_MAX_SIZE);
     part->image.height = get_integer(reading, json, "height", 1, RETEX_MAX_SIZE);
     if (!reading->status && !retex_letters_are_valid(part->letters))
-        bad(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
+        fail_reading(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
     part->image.channels = (int)strlen(part->letters);
     part->crc = (uint32_t)strtoul(hex, &end, 16);
     if (strlen(hex) != 8 || *end || hex[0] == '+' || hex[0] == '-')
-        bad(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
+        fail_reading(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
     part->type = strcmp(type, "float") == 0 ? RETEX_FLOAT : RETEX_HALF;
     if (part->type == RETEX_HALF && strcmp(type, "half") != 0)
-        bad(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
+        fail_reading(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
 }
 
 static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
@@ -197,10 +197,10 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
     const size_t count = json_array_size(array);
 
     if (count == 0)
-        bad(reading, RETEX_EFORMAT, "lists no parts");
+        fail_reading(reading, RETEX_EFORMAT, "lists no parts");
     set->parts = calloc(count ? count : 1, sizeof *set->parts);
     if (!set->parts)
-        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
     for (size_t i = 0; i < count && !reading->status; i++) {
         RetexPart *part = &set->parts[i];
         read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
@@ -208,15 +208,15 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
         if (reading->status)
             return;
         if (!retex_name_is_valid(part->name))
-            bad(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
+            fail_reading(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
         else if (retex_set_find_part(set, part->name) >= 0)
-            bad(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
+            fail_reading(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
         set->nparts = (int)i + 1;
     }
     if (!reading->status) {
         check_size(reading, set, 0, "parts");
         if (strcmp(set->parts[0].letters, "RGB") != 0)
-            bad(reading, RETEX_EFORMAT, "has a first part that is no picture");
+            fail_reading(reading, RETEX_EFORMAT, "has a first part that is no picture");
     }
 }
 
@@ -228,10 +228,10 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
     get_text(reading, json, "name", target->name, sizeof target->name);
     get_text(reading, json, "idents", target->idents, sizeof target->idents);
     if (!reading->status && !target->name[0])
-        bad(reading, RETEX_EFORMAT, "has a target without a name");
+        fail_reading(reading, RETEX_EFORMAT, "has a target without a name");
     for (int i = 0; i < set->ntargets; i++)
         if (strcmp(set->targets[i].name, target->name) == 0)
-            bad(reading, RETEX_EFORMAT, "has two targets named \"%s\"", target->name);
+            fail_reading(reading, RETEX_EFORMAT, "has two targets named \"%s\"", target->name);
     for (size_t i = 0; i < 2; i++)
         target->periodic[i] = get_boolean(reading, json_array_get(periodic, i), "periodic");
     for (size_t i = 0; i < 3; i++)
@@ -247,7 +247,7 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
     const char *name = json_string_value(original);
     target->original = name ? retex_set_find_part(set, name) : -1;
     if (target->original < 0 && !json_is_null(original))
-        bad(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
+        fail_reading(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
 }
 
 static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
@@ -272,7 +272,7 @@ static int get_kind(Reading *reading, const json_t *json, const char *(*name_of)
     while (number < count && strcmp(kind, name_of(number)) != 0)
         number++;
     if (number == count)
-        bad(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
+        fail_reading(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
     return number < count ? number : 0;
 }
 
@@ -298,7 +298,7 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         if (!reading->status)
             reading->status = retex_set_add_footprint(set, &footprint, NULL, reading->err);
         if (!reading->status && !retex_set_footprint_scale(set, set->nfootprints - 1))
-            bad(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
+            fail_reading(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
     }
 }
 
@@ -314,16 +314,16 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         if (json_object_get(json, "gain")) {
             term.gain = get_part_of_one_or_three(reading, set, json, "gain");
             if (term.gain == 0)
-                bad(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
+                fail_reading(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
         }
         if (!json_object_get(json, "kind"))
-            bad(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
+            fail_reading(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
         term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kind_name, RETEX_TERM_KINDS);
         for (int f = 0; f < term.nfactors; f++) {
             const json_t *value = json_array_get(factors, (size_t)f);
             const json_int_t factor = json_integer_value(value);
             if (!json_is_integer(value) || factor < RETEX_MIXTURE(set->nmixtures - 1) || factor >= set->nfootprints)
-                bad(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
+                fail_reading(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
             else
                 term.factors[f] = (int)factor;
         }
@@ -341,7 +341,7 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
     RetexMixture mixture = {.nshares = (int)json_array_size(array)};
 
     if (!json_is_array(array) || json_array_size(array) > RETEX_SHARES_MAX) {
-        bad(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
+        fail_reading(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
         return;
     }
     for (int i = 0; i < mixture.nshares && !reading->status; i++) {
@@ -356,7 +356,7 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
         const int sampled = f->uv < 0 && f->spread < 0 && f->albedo < 0; /* in a stream */
         if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
-            bad(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
+            fail_reading(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }
     if (!reading->status)
         reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
@@ -379,7 +379,7 @@ static uint32_t get_identity(Reading *reading, const json_t *json, const char *k
     get_text(reading, json, key, hex, sizeof hex);
     unsigned long id = strtoul(hex, &end, 16);
     if (!reading->status && (end != hex + 8 || *end))
-        bad(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
+        fail_reading(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
     return (uint32_t)id;
 }
 
@@ -390,7 +390,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
 
     *result = set;
     if (!set) {
-        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
     set->width = width;
@@ -403,7 +403,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     set->spp = get_integer(reading, root, "spp", 0, 1 << 30);
     set->max_depth = get_integer(reading, root, "max_depth", 0, 1 << 30);
     if (!json_is_integer(seed) || json_integer_value(seed) < 0 || json_integer_value(seed) > UINT32_MAX)
-        bad(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
+        fail_reading(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
     set->seed = (uint32_t)json_integer_value(seed);
     set->id = get_identity(reading, root, "id");
     set->folded = get_real(reading, json_object_get(root, "folded"), "folded");
@@ -440,12 +440,12 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     read_bands(reading, json_part, part.image.height);
     if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
                              part.image.width > samples->width || part.image.height > samples->height))
-        bad(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
+        fail_reading(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
     if (!reading->status && !parts[index].name[0])
-        bad(reading, RETEX_EFORMAT, "has a sample image without a name");
+        fail_reading(reading, RETEX_EFORMAT, "has a sample image without a name");
     for (int i = 0; i < index; i++)
         if (parts[index].name[0] && strcmp(parts[i].name, parts[index].name) == 0)
-            bad(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
+            fail_reading(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
     parts[index].crc = part.crc;
     samples->images[index] = part.image;
 }
@@ -459,7 +459,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
 
     *parts = calloc(count + 1, sizeof **parts);
     if (!*parts || retex_samples_alloc(result, (int)count, NULL)) {
-        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
     RetexSamples *samples = *result;
@@ -483,12 +483,12 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
     const json_int_t number = json_integer_value(version);
 
     if (!json_is_integer(version) || number < 1)
-        bad(reading, RETEX_EFORMAT, "has no version");
+        fail_reading(reading, RETEX_EFORMAT, "has no version");
     else if (number > RETEX_SET_VERSION)
-        bad(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d", (long long)number,
-            RETEX_SET_VERSION);
+        fail_reading(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d",
+                     (long long)number, RETEX_SET_VERSION);
     else if (sum == RETEX_MANIFEST_UNSEALED)
-        bad(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
+        fail_reading(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }
 
 static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
@@ -506,7 +506,7 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
     const int width = get_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
     const int height = get_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
     if (!has_set && !has_samples)
-        bad(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
+        fail_reading(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
     if (!reading->status && has_set)
         read_set(reading, root, width, height, set);
     if (!reading->status && has_samples)
@@ -537,7 +537,7 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (its `retex` attribute is no JSON: %s)", name,
                           where.text);
     if (!json_is_object(root))
-        bad(&reading, RETEX_EFORMAT, "is no JSON object");
+        fail_reading(&reading, RETEX_EFORMAT, "is no JSON object");
     else
         read_root(&reading, root, sum, set, samples, sample_parts);
     json_decref(root);

@@ -33,7 +33,7 @@ static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind,
 }
 
 /* The target that the light of a term meets first; -1 where it meets none. */
-static void term_place(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
+static void find_first_target(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
 {
     *target = -1, *kind = RETEX_FOOTPRINT_HIT;
     if (term && term->nfactors)
@@ -44,7 +44,7 @@ void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char na
 {
     int target;
     RetexFootprintKind kind;
-    term_place(set, term, &target, &kind);
+    find_first_target(set, term, &target, &kind);
     noise_name(set, target, kind, name);
 }
 
@@ -66,7 +66,7 @@ static RetexSignal *signal_of(RetexSignals *signals, const RetexSet *set, const 
 {
     int target;
     RetexFootprintKind kind;
-    term_place(set, term, &target, &kind);
+    find_first_target(set, term, &target, &kind);
     for (int k = 0; k < signals->count; k++)
         if (signals->of[k].target == target && signals->of[k].kind == kind)
             return &signals->of[k];

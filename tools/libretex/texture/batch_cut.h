@@ -21,12 +21,12 @@ RETEX_CPU_INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes leng
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};
     Lanes high[2] = {SELECT(turned, ends[0].high, ends[1].high), SELECT(turned, ends[1].high, ends[0].high)};
-    Mask within = (low[0] < -length) & (high[0] > length) & (low[1] < -width) & (high[1] > width);
+    Mask inside = (low[0] < -length) & (high[0] > length) & (low[1] < -width) & (high[1] > width);
     for (int k = 0; k < 2; k++) { /* a footprint that is not cut must not depend on others in its group */
-        STORE(p->low[k] + i, SELECT(within, NAME(all)(-INFINITY), low[k]));
-        STORE(p->high[k] + i, SELECT(within, NAME(all)(INFINITY), high[k]));
+        STORE(p->low[k] + i, SELECT(inside, NAME(all)(-INFINITY), low[k]));
+        STORE(p->high[k] + i, SELECT(inside, NAME(all)(INFINITY), high[k]));
     }
-    STORE(p->cut + i, ~within);
+    STORE(p->cut + i, ~inside);
 }
 
 /* The share of a texel, or of a line of texels, that is on the surface; exactly 1 far from the limits. */

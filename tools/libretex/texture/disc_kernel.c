@@ -112,8 +112,8 @@ static inline RetexLevelCovariance ellipse_rest(const RetexTextureLevel *level, 
     return rest;
 }
 
-static inline int level_leaves(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
-                               const double position[2], double least)
+static inline int level_variance_left(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
+                                      const double position[2], double least)
 {
     RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
     double x = rest.xx - least, y = rest.yy - least;
@@ -135,18 +135,18 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
     int level = smaller > GOOD_VARIANCE ? ilogb(smaller / GOOD_VARIANCE) / 2 : 0, flat[2], turned;
     if (level > texture->nlevels - 1)
         level = texture->nlevels - 1;
-    while (level > 0 && !level_leaves(texture, level, f, position, GOOD_VARIANCE))
+    while (level > 0 && !level_variance_left(texture, level, f, position, GOOD_VARIANCE))
         level--;
-    while (level + 1 < texture->nlevels && level_leaves(texture, level + 1, f, position, GOOD_VARIANCE))
+    while (level + 1 < texture->nlevels && level_variance_left(texture, level + 1, f, position, GOOD_VARIANCE))
         level++;
     for (; level + 1 < texture->nlevels; level++) {
         find_flat(texture, &texture->levels[level], flat);
         RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
         Ellipse e = find_ellipse(&rest, flat, &turned);
-        if (taps_of(&e) <= TAP_BUDGET || !level_leaves(texture, level + 1, f, position, LEAST_VARIANCE))
+        if (taps_of(&e) <= TAP_BUDGET || !level_variance_left(texture, level + 1, f, position, LEAST_VARIANCE))
             break;
     }
-    *box = level > 0 && level_leaves(texture, level, f, position, BOX_LEAST);
+    *box = level > 0 && level_variance_left(texture, level, f, position, BOX_LEAST);
     return level;
 }
 
@@ -393,7 +393,7 @@ static inline RetexFloat4 sum_sparse(const Lines *lines, const Ellipse *e)
 
 /* On the coarsest level, for an axis that does not repeat: an ellipse much larger than the image covers mostly the
  * border, and is shrunk together with its distance. Returns the factor by which the image's share grows. */
-static inline double draw_nearer(const Lines *lines, Ellipse *e)
+static inline double shrink_ellipse(const Lines *lines, Ellipse *e)
 {
     double filled = 1;
     if (e->length > MAX_LENGTH) {
@@ -436,7 +436,7 @@ void retex_texture_disc_kernel(const RetexTexture *texture, const RetexTexelFoot
                    {turned ? level->width : level->height, turned ? level->height : level->width},
                    texel_size(texture->narrow) * (turned ? (size_t)level->width : 1),
                    {texture->spec.wrap[!turned], texture->spec.wrap[turned]}};
-    double filled = found == texture->nlevels - 1 ? draw_nearer(&lines, &e) : 1;
+    double filled = found == texture->nlevels - 1 ? shrink_ellipse(&lines, &e) : 1;
     RetexFloat4 sum = e.length > MAX_LENGTH ? sum_sparse(&lines, &e) : sum_dense(&lines, &e);
     sum *= (float)filled * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);

@@ -58,7 +58,7 @@ static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError
 }
 
 /* Combines the spec's placement into one matrix and offset, for an image of that size. */
-static void finish_map(RetexTexture *texture, int width, int height)
+static void set_transform(RetexTexture *texture, int width, int height)
 {
     const RetexTextureSpec *spec = &texture->spec;
     double angle = fmod(spec->rotate, 360) * M_PI / 180, c = cos(angle), s = sin(angle);
@@ -82,14 +82,14 @@ static void finish_map(RetexTexture *texture, int width, int height)
     }
 }
 
-typedef struct LookWork {
+typedef struct InspectWork {
     const RetexTexels *texels;
     atomic_int found; /* 1: a texel that is not opaque */
-} LookWork;
+} InspectWork;
 
-static void look_job(void *context, int index, int thread)
+static void inspect_job(void *context, int index, int thread)
 {
-    LookWork *work = context;
+    InspectWork *work = context;
     const size_t width = (size_t)work->texels->width, first = (size_t)index * width;
     const uint16_t *narrow = work->texels->texels;
     const float *wide = work->texels->texels;
@@ -101,10 +101,10 @@ static void look_job(void *context, int index, int thread)
         atomic_store(&work->found, 1);
 }
 
-static void look_through(RetexTexture *texture, const RetexTexels *texels, int nthreads)
+static void inspect_texels(RetexTexture *texture, const RetexTexels *texels, int nthreads)
 {
-    LookWork work = {texels, 0};
-    retex_parallel(nthreads, texels->height, look_job, &work);
+    InspectWork work = {texels, 0};
+    retex_parallel(nthreads, texels->height, inspect_job, &work);
     texture->opaque =
         !work.found && texture->spec.wrap[0] != RETEX_WRAP_BLACK && texture->spec.wrap[1] != RETEX_WRAP_BLACK;
 }
@@ -132,15 +132,15 @@ static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *
 }
 
 /* Makes premultiplied texels those of the texture. */
-static int take_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
+static int set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
 {
     int width = texels->width, height = texels->height, code = charge(texture, texels, err);
     if (!code)
         code = compose_repeats(texture, texels, err);
     if (code)
         return code;
-    finish_map(texture, width, height);
-    look_through(texture, texels, nthreads);
+    set_transform(texture, width, height);
+    inspect_texels(texture, texels, nthreads);
     if (retex_texture_build_pyramid(texture, texels, nthreads))
         return no_memory(texture, width, height, err);
     return RETEX_OK;
@@ -180,14 +180,14 @@ static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthr
 }
 
 /* Makes RGBA pixels the texels of the texture. */
-static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+static int set_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
 {
     RetexTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
     int code = premultiply(texture, pixels, nthreads, err);
     if (code)
         return code;
     *pixels = (RetexImage){0};
-    code = take_texels(texture, &texels, nthreads, err);
+    code = set_texels(texture, &texels, nthreads, err);
     free(texels.texels);
     return code;
 }
@@ -276,7 +276,7 @@ void retex_texture_report_defects(const RetexTexture *texture, const RetexTextur
 }
 
 /* Returns the texture without pointers to the caller's data, which may not live as long. */
-static void hand_over(RetexTexture **out, RetexTexture *texture, const float color[3])
+static void return_texture(RetexTexture **out, RetexTexture *texture, const float color[3])
 {
     RetexTextureSpec described = texture->spec;
     memcpy(described.color, color, sizeof described.color); /* the colour as it was given */
@@ -316,8 +316,8 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
         if (!code && !narrow.pixels)
             code = retex_image_read(&image, own->image, &params, nthreads, &why);
         if (!code)
-            code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
-                                 : take_pixels(texture, &image, nthreads, &why);
+            code = narrow.pixels ? set_texels(texture, &texels, nthreads, &why)
+                                 : set_pixels(texture, &image, nthreads, &why);
         free(texels.texels);
         retex_image_free(&image);
     }
@@ -327,7 +327,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
             *err = why;
         return code;
     }
-    hand_over(out, texture, spec->color);
+    return_texture(out, texture, spec->color);
     return RETEX_OK;
 }
 
@@ -350,7 +350,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             for (int c = 0; c < 4; c++)
                 to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
         }
-        code = take_pixels(texture, &copy, nthreads, &why);
+        code = set_pixels(texture, &copy, nthreads, &why);
         retex_image_free(&copy);
     }
     if (code) {
@@ -359,7 +359,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             *err = why;
         return code;
     }
-    hand_over(out, texture, texture->spec.color);
+    return_texture(out, texture, texture->spec.color);
     return RETEX_OK;
 }
 
@@ -490,7 +490,7 @@ void retex_texture_point(const RetexTexture *texture, double u, double v, float 
     look_up(texture, u, v, 0, rgba);
 }
 
-static int within(double x, int size)
+static int clamped(double x, int size)
 {
     return x <= 0 ? 0 : x >= size - 1 ? size - 1 : (int)x;
 }
@@ -502,8 +502,8 @@ void retex_texture_prefetch(const RetexTexture *texture, double u, double v)
     if (!texture->nlevels || !texture_uv(texture, u, v, uv))
         return;
     const RetexTextureLevel *image = &texture->levels[0];
-    int column = within((uv[0] - floor(uv[0])) * image->width - 0.5, image->width);
-    int row = within((1 - (uv[1] - floor(uv[1]))) * image->height - 0.5, image->height > 1 ? image->height - 1 : 1);
+    int column = clamped((uv[0] - floor(uv[0])) * image->width - 0.5, image->width);
+    int row = clamped((1 - (uv[1] - floor(uv[1]))) * image->height - 0.5, image->height > 1 ? image->height - 1 : 1);
     size_t size = 4 * (texture->narrow ? sizeof(uint16_t) : sizeof(float));
     const char *texel = (const char *)image->texels + ((size_t)row * (size_t)image->width + (size_t)column) * size;
     __builtin_prefetch(texel);
