@@ -170,7 +170,7 @@ static float *whole_rows(Bands *bands, int k, int band)
 }
 
 /* Rows of zeros for an image that has none yet; the lock is held. */
-static float *give_rows(BandRows *rows, int k)
+static float *cleared_rows(BandRows *rows, int k)
 {
     Bands *bands = rows->of;
     if (bands->whole)
@@ -180,11 +180,11 @@ static float *give_rows(BandRows *rows, int k)
     return cleared ? cleared : calloc((size_t)bands->width * BAND_LINES * bands->images[k]->channels, sizeof(float));
 }
 
-static float *need_rows(BandRows *rows, int image)
+static float *acquire_rows(BandRows *rows, int image)
 {
     pthread_mutex_lock(&rows->of->lock);
     float *given = rows->rows[image];
-    if (!given && (given = give_rows(rows, image)))
+    if (!given && (given = cleared_rows(rows, image)))
         atomic_store_explicit(&rows->rows[image], given, memory_order_release);
     pthread_mutex_unlock(&rows->of->lock);
     if (given)
@@ -197,7 +197,7 @@ float *bands_pixel(BandRows *rows, int image, int x, int y)
 {
     float *at = atomic_load_explicit(&rows->rows[image], memory_order_acquire);
     if (!at)
-        at = need_rows(rows, image);
+        at = acquire_rows(rows, image);
     size_t pixel = (size_t)(y - rows->band * BAND_LINES) * (size_t)rows->of->width + (size_t)x;
     return at + pixel * rows->of->images[image]->channels;
 }
@@ -214,7 +214,7 @@ void bands_add_albedo(const BandRows *rows, int uv_image, int albedo_image, Rete
     }
 }
 
-static void note_filled(BandImage *image, const float *pixels, size_t count)
+static void mark_filled(BandImage *image, const float *pixels, size_t count)
 {
     for (size_t i = 0; i < count && !image->filled; i++)
         if (pixels[i] != 0)
@@ -229,7 +229,7 @@ static size_t band_size(const Bands *bands, int k, int band)
 }
 
 /* Keep an image's rows of a finished band. */
-static int keep_rows(BandRows *rows, int k, RetexError *err)
+static int store_rows(BandRows *rows, int k, RetexError *err)
 {
     Bands *bands = rows->of;
     BandImage *image = bands->images[k];
@@ -240,7 +240,7 @@ static int keep_rows(BandRows *rows, int k, RetexError *err)
     if (bands->store)
         code = retex_band_store_put(bands->store, image->store_image, rows->band, kept, err);
     if (bands->whole) {
-        note_filled(image, kept, count);
+        mark_filled(image, kept, count);
         return code;
     }
     memset(kept, 0, count * sizeof *kept);
@@ -259,7 +259,7 @@ int bands_finish(BandRows *rows, RetexError *err)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     for (int k = 0; k < nimages && !code; k++)
         if (rows->rows[k])
-            code = keep_rows(rows, k, err);
+            code = store_rows(rows, k, err);
     pthread_mutex_lock(&bands->lock);
     if (!code) { /* else they stay where they are, to be freed */
         bands->open[rows->band] = NULL;
@@ -281,7 +281,7 @@ int bands_resume(Bands *bands, int band, RetexError *err)
             return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
         code = retex_band_store_load_band(bands->store, bands->images[k]->store_image, band, rows, err);
         if (!code)
-            note_filled(bands->images[k], rows, band_size(bands, k, band));
+            mark_filled(bands->images[k], rows, band_size(bands, k, band));
     }
     return code;
 }

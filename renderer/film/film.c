@@ -362,7 +362,7 @@ static int copy_bands(const Film *film, RetexBandStore *store, RetexError *err)
     return code;
 }
 
-int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
+int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
 {
     RetexBandStore *store = bands_store(film->bands), *copy = NULL;
     if (store)
@@ -485,7 +485,7 @@ int film_move_image(Film *film, int image, RetexSet *set, RetexError *err)
     return bands_move_part(film->bands, image, set, NULL, err);
 }
 
-void film_give_store(Film *film, RetexSet *set)
+void film_move_store(Film *film, RetexSet *set)
 {
     set->store = bands_take_store(film->bands);
 }

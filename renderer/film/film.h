@@ -37,7 +37,7 @@ int film_band_is_done(const Film *film, int band);
 /* Once all images are added: read the bands that the band store has already. */
 int film_resume(Film *film, RetexError *err);
 /* Leave finished bands in a file, for another film of this key to go on from. */
-int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
+int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
 
 /* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);
@@ -48,7 +48,7 @@ int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
 /* Make the film a set: parts, terms, footprints, folded light; images that are empty are left out. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
 /* When all images are in the set: let it have the band store. */
-void film_give_store(Film *film, RetexSet *set);
+void film_move_store(Film *film, RetexSet *set);
 /* Numbers a pixel that the film's images have at least, all together. */
 long film_floats(const FilmParams *params, int ntargets);
 /* Bytes that they take at least, with a band store or without. */

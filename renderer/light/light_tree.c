@@ -236,7 +236,7 @@ static void cut_range(Builder *b, Range *range, Range *rest)
 }
 
 /* The range of the highest cost that can be split, or -1. */
-static int dearest(const Range *ranges, int count)
+static int costliest(const Range *ranges, int count)
 {
     int best = -1;
     for (int k = 0; k < count; k++)
@@ -251,7 +251,7 @@ static void build(Builder *b, Range range, int parent)
     Range ranges[WIDTH] = {range};
     int count = 1, index = b->nnodes++, dear;
     /* the first node is the whole alone */
-    while (index > 0 && count < WIDTH && (dear = dearest(ranges, count)) >= 0) {
+    while (index > 0 && count < WIDTH && (dear = costliest(ranges, count)) >= 0) {
         cut_range(b, &ranges[dear], &ranges[count]);
         count++;
     }

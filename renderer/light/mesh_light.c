@@ -12,14 +12,14 @@ static const Texture *face_texture(const Primitive *p, int face)
 }
 
 /* The radiance of one side, if it is uniform. */
-static int find_shine(const Texture *texture, int target, Rgb *shine)
+static int find_emission(const Texture *texture, int target, Rgb *emission)
 {
     const Rgbft *c = &texture->pigment->color;
     if (target >= 0 || texture->pigment->kind != PIGMENT_COLOR)
         return 0;
     float opacity = at_most(not_negative(1 - not_negative(c->filter) - not_negative(c->transmit)), 1);
-    *shine = rgb_mul(rgb_scale(texture->finish->emission, opacity),
-                     rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b)));
+    *emission = rgb_mul(rgb_scale(texture->finish->emission, opacity),
+                        rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b)));
     return 1;
 }
 
@@ -42,9 +42,9 @@ static int fill_face(MeshLightFace *f, const Primitive *p, int face)
                          .face = face,
                          .target = surface.target,
                          .texture = surface.texture};
-    f->uniform = find_shine(surface.texture, surface.target, &f->shine[0]);
+    f->uniform = find_emission(surface.texture, surface.target, &f->emission[0]);
     surface_turn(&surface, 1);
-    f->uniform &= find_shine(surface.texture, surface.target, &f->shine[1]);
+    f->uniform &= find_emission(surface.texture, surface.target, &f->emission[1]);
     return density > 0 && isfinite(density);
 }
 

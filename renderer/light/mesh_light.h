@@ -6,23 +6,23 @@
 
 typedef struct MeshLightFace {
     Vec3 corner, edge1, edge2;
-    Vec3 normal;         /* of the surface: outward, unit length */
+    Vec3 normal; /* of the surface: outward, unit length */
     double inverse_area;
-    double share;        /* of the mesh's power */
-    float radiance;      /* luminance of its emission */
-    int face, target;    /* of the mesh; of the face's outside */
+    double share;           /* of the mesh's power */
+    float radiance;         /* luminance of its emission */
+    int face, target;       /* of the mesh; of the face's outside */
     const Texture *texture; /* of its outside */
-    int uniform;            /* it is no target and its radiance is uniform: shine, of its outside and of its inside */
-    Rgb shine[2];
+    int uniform;            /* it is no target and its radiance is uniform: emission, of its outside and inside */
+    Rgb emission[2];
 } MeshLightFace;
 
 typedef struct MeshLight {
     int count;
     MeshLightFace *faces;
-    double *sums;        /* running sums of shares, count + 1, the last one 1 */
-    int *of_face;        /* by face of the mesh: index into faces, or -1 */
-    double area, power;  /* power: luminance of emission times area */
-    int closed;          /* its faces' area vectors add up to 0: the outside is what is seen most */
+    double *sums;       /* running sums of shares, count + 1, the last one 1 */
+    int *of_face;       /* by face of the mesh: index into faces, or -1 */
+    double area, power; /* power: luminance of emission times area */
+    int closed;         /* its faces' area vectors add up to 0: the outside is what is seen most */
 } MeshLight;
 
 /* *light is NULL where no face emits. */

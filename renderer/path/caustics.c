@@ -56,7 +56,7 @@ struct Caustics {
 };
 
 /* State of building it. */
-typedef struct Maker {
+typedef struct Builder {
     const Scene *scene;
     const Accel *accel;
     const Lights *lights;
@@ -67,7 +67,7 @@ typedef struct Maker {
     Landing *landings; /* BATCH for each batch */
     int *counts;       /* by batch: how many of them */
     Caustics *caustics;
-} Maker;
+} Builder;
 
 /* ---- casters ---- */
 
@@ -93,7 +93,7 @@ static int primitive_casts(const Primitive *p)
     return 0;
 }
 
-static int find_casters(Maker *m, RetexError *err)
+static int find_casters(Builder *m, RetexError *err)
 {
     double sum = 0;
     m->casters = malloc(((size_t)m->scene->nprimitives + 1) * sizeof *m->casters);
@@ -119,7 +119,7 @@ static float photon_number(uint32_t photon, uint32_t dimension)
     return unit_float(hash_pair(hash_mix(photon ^ 0x43415553u), dimension));
 }
 
-static int pick_caster(const Maker *m, double u)
+static int pick_caster(const Builder *m, double u)
 {
     int low = 0, high = m->ncasters - 1;
     u *= m->caster_sums[high];
@@ -149,7 +149,7 @@ static double aim(const Caster *c, Vec3 from, float u1, float u2, Vec3 *directio
 }
 
 /* Start a photon. Returns its power, 0 for none. */
-static double start_photon(const Maker *m, uint32_t photon, Ray *ray, int *caster)
+static double start_photon(const Builder *m, uint32_t photon, Ray *ray, int *caster)
 {
     EmissionPoint point;
     if (!lights_emission(m->lights, photon_number(photon, 0), photon_number(photon, 1), photon_number(photon, 2),
@@ -165,7 +165,7 @@ static double start_photon(const Maker *m, uint32_t photon, Ray *ray, int *caste
 }
 
 /* Follow a photon while it is refracted or mirrored. Returns 1 where it lands after that. */
-static int trace_photon(const Maker *m, uint32_t photon, Landing *landing)
+static int trace_photon(const Builder *m, uint32_t photon, Landing *landing)
 {
     Ray ray;
     int caster = 0, bent = 0;
@@ -212,7 +212,7 @@ static int trace_photon(const Maker *m, uint32_t photon, Landing *landing)
 
 static void trace_batch(void *context, int index, int thread)
 {
-    Maker *m = context;
+    Builder *m = context;
     Landing *landings = m->landings + (size_t)index * BATCH;
     uint32_t first = (uint32_t)index * BATCH;
     int count = 0;
@@ -223,7 +223,7 @@ static void trace_batch(void *context, int index, int thread)
 }
 
 /* Trace batches; landings are collected in the order of batches. Returns their number. */
-static int trace_batches(Maker *m, int batches, int nthreads)
+static int trace_batches(Builder *m, int batches, int nthreads)
 {
     int count = 0;
     retex_parallel(nthreads, batches, trace_batch, m);
@@ -257,7 +257,7 @@ static double key(const Landing *l, int of_from, int axis)
 }
 
 /* Partial sort: the nth of a range gets its place, smaller ones before it and larger ones after it. */
-static void put_nth(Landing *l, int first, int end, int nth, int of_from, int axis)
+static void select_nth(Landing *l, int first, int end, int nth, int of_from, int axis)
 {
     while (end - first > 1) {
         double pivot = key(&l[first + (end - first) / 2], of_from, axis);
@@ -347,7 +347,7 @@ static double halve_lobe(Landing *landings, const Lobe *lobe, int of_from, Lobe 
     int middle = lobe->first + (lobe->end - lobe->first) / 2;
     double ignored = 0;
     int axis = widest_axis(landings, lobe->first, lobe->end, of_from, &ignored);
-    put_nth(landings, lobe->first, lobe->end, middle, of_from, axis);
+    select_nth(landings, lobe->first, lobe->end, middle, of_from, axis);
     halves[0] = (Lobe){.first = lobe->first, .end = middle};
     halves[1] = (Lobe){.first = middle, .end = lobe->end};
     fit_lobe(landings, &halves[0]);
@@ -406,7 +406,7 @@ static void make_lobes(CausticsCell *cell, Landing *landings, int first, int end
 /* ---- cells ---- */
 
 /* The probability of sampling by the guide: by estimates of the irradiance of caustics and of all other light. */
-static float cell_share(const Maker *m, const Bounds *b, double power)
+static float cell_share(const Builder *m, const Bounds *b, double power)
 {
     Vec3 d = vec_sub(b->high, b->low);
     double area = fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x)), caustic = power / fmax(area, 1e-12) / m->nphotons;
@@ -429,7 +429,7 @@ static double cell_gain(const CausticsCell *cell, const Landing *landings, int f
     return fmax(0, 1 - guided / (power * PI));
 }
 
-static void make_cell(Maker *m, Landing *landings, int first, int end, Bounds b)
+static void make_cell(Builder *m, Landing *landings, int first, int end, Bounds b)
 {
     Caustics *c = m->caustics;
     CausticsCell *cell = &c->cells[c->ncells];
@@ -460,7 +460,7 @@ static int part_range(Landing *landings, int first, int end, int axis, float at)
     return middle;
 }
 
-static void make_nodes(Maker *m, int node, Landing *landings, int first, int end)
+static void make_nodes(Builder *m, int node, Landing *landings, int first, int end)
 {
     Caustics *c = m->caustics;
     double at = 0;
@@ -479,7 +479,7 @@ static void make_nodes(Maker *m, int node, Landing *landings, int first, int end
     make_nodes(m, child + 1, landings, middle, end);
 }
 
-static int make_guide(Maker *m, int count, RetexError *err)
+static int make_guide(Builder *m, int count, RetexError *err)
 {
     Caustics *c = m->caustics = calloc(1, sizeof *c);
     size_t most = (size_t)count / CELL_LEAST + 1;
@@ -496,7 +496,7 @@ static int make_guide(Maker *m, int count, RetexError *err)
 }
 
 /* Trace photons, in rounds of batches, until there are enough landings or photons. */
-static int trace_photons(Maker *m, long paths, int nthreads, int *found, RetexError *err)
+static int trace_photons(Builder *m, long paths, int nthreads, int *found, RetexError *err)
 {
     long wanted = paths / PATHS_PER_PHOTON;
     wanted = wanted < PHOTONS_MIN ? PHOTONS_MIN : wanted > PHOTONS_MAX ? PHOTONS_MAX : wanted;
@@ -514,7 +514,7 @@ static int trace_photons(Maker *m, long paths, int nthreads, int *found, RetexEr
 int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, long paths,
                     int nthreads, const RetexBudget *budget, RetexError *err)
 {
-    Maker m = {.scene = scene, .accel = accel, .lights = lights, .budget = budget};
+    Builder m = {.scene = scene, .accel = accel, .lights = lights, .budget = budget};
     int found = 0, code = find_casters(&m, err);
     *caustics = NULL;
     if (!code && m.ncasters > 0 && lights_emit(lights))

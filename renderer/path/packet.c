@@ -141,7 +141,7 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
     if (passed < 0)
         return;
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}};
-    Rgb light = rgb_mul(rgb_scale(sample.light.radiance, lights->weight[k]), p->faces[k]->shine[lights->behind[k]]);
+    Rgb light = rgb_mul(rgb_scale(sample.light.radiance, lights->weight[k]), p->faces[k]->emission[lights->behind[k]]);
     if (passed == 0 && surface_is_unsplit(w->context, &v->s)) {
         Rgb by_variant[VARIANTS_MAX];
         for (int i = 0; i < w->context->nvariants; i++)

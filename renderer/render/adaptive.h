@@ -1,29 +1,30 @@
-/* How many samples a tile needs for a given noise.
+/* Adaptive sampling: how many samples a tile needs for a given noise.
  *
- * A pilot estimates the variance of a tile by a few samples of each pixel, with sample numbers of their own. These are
- * thrown away, so that the number of samples does not depend on the samples of the picture, which stays unbiased (Kirk
- * and Arvo, 'Unbiased sampling techniques for image synthesis', 1991). */
+ * A pilot estimates the variance of a tile from a few samples of each pixel. The picture does not use these samples, so
+ * that its number of samples does not depend on their values, and it stays unbiased (Kirk and Arvo, 'Unbiased sampling
+ * techniques for image synthesis', 1991). */
 #ifndef RENDERER_RENDER_ADAPTIVE_H
 #define RENDERER_RENDER_ADAPTIVE_H
 
 #include "path/path.h"
 
-#define ADAPTIVE_PILOT 4  /* samples a pixel of the pilot */
-#define ADAPTIVE_LEAST 16 /* least samples a pixel of the picture, unless the most is less */
+#define ADAPTIVE_PILOT 4  /* samples of each pixel in the pilot */
+#define ADAPTIVE_LEAST 16 /* fewest samples of each pixel in the picture, unless the limit is lower */
 
 /* One thread's pilot. */
 typedef struct Adaptive Adaptive;
 
-/* Its paths have the context given, but no split and no variants. */
+/* context, variants: of the picture. The pilot's paths do not split contributions and have one variant. */
 int adaptive_create(Adaptive **adaptive, const PathContext *context, const RenderVariant *variants, RetexError *err);
 void adaptive_close(Adaptive **adaptive);
-/* The worker to trace a pilot's paths with; adaptive_path_end after each, adaptive_pixel_end after those of a pixel. */
+/* The worker that traces the pilot's paths. Call adaptive_path_end after each path, adaptive_pixel_end after each
+ * pixel. */
 PathWorker *adaptive_worker(Adaptive *adaptive);
 void adaptive_path_end(Adaptive *adaptive);
 void adaptive_pixel_end(Adaptive *adaptive);
-/* Samples a pixel for the pilot's tile, in whole packets, up to most; then begin another tile. noise: the root mean
- * square, over the tile's pixels, of the standard deviation over the square root of the value. A picture for display is
- * encoded by about the square root: there it is about twice the visible standard deviation. */
+/* The samples of each pixel that the tile needs: whole packets, at most `most`. Then the next tile begins. noise: the
+ * standard deviation of a pixel over the square root of its value, as root mean square over the tile. A display encodes
+ * values by about their square root, so that this is about twice the standard deviation of what is shown. */
 int adaptive_tile_samples(Adaptive *adaptive, double noise, int most);
 
 #endif

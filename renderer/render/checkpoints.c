@@ -45,7 +45,7 @@ int checkpoint_merge(RetexBandStore *store, const RenderParams *p, int width, in
     return code;
 }
 
-int checkpoint_keep(Film *film, const RenderParams *p, RetexError *err)
+int checkpoint_save(Film *film, const RenderParams *p, RetexError *err)
 {
     int done = film_bands_done(film);
     RetexError why;
@@ -54,7 +54,7 @@ int checkpoint_keep(Film *film, const RenderParams *p, RetexError *err)
         unlink(p->checkpoint);
     if (!p->checkpoint || !done)
         return retex_budget_check(p->budget, err);
-    if (!p->resume && film_keep(film, p->key, p->checkpoint, 0, &why))
+    if (!p->resume && film_save(film, p->key, p->checkpoint, 0, &why))
         return retex_fail(err, RETEX_ESTOPPED, "stopped; what was finished is lost: %s", why.message);
     return retex_fail(err, RETEX_ESTOPPED, "stopped; %d of %d bands are finished and in %s: %s", done, film_bands(film),
                       p->checkpoint, "the same command with --resume goes on");

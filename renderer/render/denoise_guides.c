@@ -4,17 +4,17 @@
 
 /* Sample points of a pixel: few, or many if the few do not all see the same surface. Both are powers of 2, because
  * such numbers of samples are well distributed. */
-#define PLACES_FEW 16
-#define PLACES_MANY 64
-#define ONE_NORMAL 0.999 /* minimum length of the mean normal for normals that count as equal */
-#define ONE_ALBEDO 1e-4  /* maximum variance of luminance for albedos that count as equal */
-#define FOLLOWED_MAX 16  /* specular reflections and refractions along a ray, at most */
+#define SAMPLES_FEW 16
+#define SAMPLES_MANY 64
+#define ONE_NORMAL 0.999        /* minimum length of the mean normal for normals that count as equal */
+#define ONE_ALBEDO 1e-4         /* maximum variance of luminance for albedos that count as equal */
+#define SPECULAR_BOUNCES_MAX 16 /* specular reflections and refractions along a ray, at most */
 
-static void add_sight(Sight *sight, const Shading *s)
+static void add_surface(SurfaceSums *surface, const Shading *s)
 {
-    sight->places++;
-    sight->normal = vec_add(sight->normal, s->bsdf.normal);
-    sight->position = vec_add(sight->position, s->surface.position);
+    surface->samples++;
+    surface->normal = vec_add(surface->normal, s->bsdf.normal);
+    surface->position = vec_add(surface->position, s->surface.position);
 }
 
 /* Albedo of a surface. A target's albedo is unknown, because the target may be retextured. */
@@ -38,7 +38,7 @@ static void add_albedo(PixelGuides *sums, Rgb albedo)
 
 static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading *s)
 {
-    add_sight(&sums->seen, s);
+    add_surface(&sums->seen, s);
     add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
     sums->roughness += shading_roughness(s);
     sums->metallic += shading_metallic(s);
@@ -46,8 +46,8 @@ static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading 
 
 /* Continue the ray by specular reflection or refraction, if that lobe is the most likely one. The throughput is
  * multiplied by the lobe's weight. Returns 0 if the surface itself is seen. */
-static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
-                  float *throughput)
+static int continue_specular(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
+                             float *throughput)
 {
     const Bsdf *b = &s->bsdf;
     int mirror = b->p_mirror > b->p_passing;
@@ -77,102 +77,102 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shad
 }
 
 /* Record the primitive that a sample point sees; -1: none. */
-static void note_primitive(PixelGuides *sums, int primitive)
+static void record_primitive(PixelGuides *sums, int primitive)
 {
-    if (sums->places++ == 0)
+    if (sums->samples++ == 0)
         sums->primitive = primitive;
-    sums->differ |= primitive != sums->primitive;
+    sums->varied_primitive |= primitive != sums->primitive;
 }
 
 /* hit: the ray's first hit. first: the shading at that hit; not read if there is none. */
-static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
+static void add_sample(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
 {
-    const DenoiseGuides *job = sums->of;
+    const DenoiseGuides *job = sums->guides;
     const FirstHitWindow *w = &job->window;
     RayKind kind = RAY_CAMERA;
     float throughput = 1;
     unsigned met = 0;
     Shading next;
     const Shading *s = first;
-    for (int followed = 0;; followed++) {
-        if (followed ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
+    for (int bounces = 0;; bounces++) {
+        if (bounces ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
             add_albedo(sums, rgb_grey(1));
-            note_primitive(sums, -1);
+            record_primitive(sums, -1);
             return;
         }
-        if (followed == 0)
-            add_sight(&sums->first, s);
+        if (bounces == 0)
+            add_surface(&sums->first, s);
         else
             shading_at(&next, w->scene, w->variants, 1, &ray, &hit), s = &next;
         add_cover(sums->cover, &met, s, throughput);
-        if (followed == FOLLOWED_MAX || !follow(job, s, &hit, &ray, &kind, &throughput))
+        if (bounces == SPECULAR_BOUNCES_MAX || !continue_specular(job, s, &hit, &ray, &kind, &throughput))
             break;
-        sums->specular += followed == 0;
+        sums->specular += bounces == 0;
     }
     add_seen(job, sums, s);
-    note_primitive(sums, hit.primitive);
+    record_primitive(sums, hit.primitive);
 }
 
 /* Destination of a pixel's guides. */
-typedef struct GuidePlace {
+typedef struct GuidePixel {
     FilmPixel *pixel;
     int x, y;
-} GuidePlace;
+} GuidePixel;
 
-static void store(const GuidePlace *at, int image, double scale, double a, double b, double c)
+static void store(const GuidePixel *at, int image, double scale, double a, double b, double c)
 {
     float *p = film_image_pixel(at->pixel, image, at->x, at->y);
     p[0] = (float)(a * scale), p[1] = (float)(b * scale), p[2] = (float)(c * scale);
 }
 
 /* Store one channel. Zeros are not written, so that memory pages without data are not allocated. */
-static void store_one(const GuidePlace *at, int image, double value)
+static void store_channel(const GuidePixel *at, int image, double value)
 {
     if (value != 0)
         *film_image_pixel(at->pixel, image, at->x, at->y) = (float)value;
 }
 
-static void store_sight(const GuidePlace *at, int normal, int position, const Sight *sight)
+static void store_surface(const GuidePixel *at, int normal, int position, const SurfaceSums *surface)
 {
-    if (!sight->places)
+    if (!surface->samples)
         return;
-    store(at, normal, 1.0 / sight->places, sight->normal.x, sight->normal.y, sight->normal.z);
-    store(at, position, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
+    store(at, normal, 1.0 / surface->samples, surface->normal.x, surface->normal.y, surface->normal.z);
+    store(at, position, 1.0 / surface->samples, surface->position.x, surface->position.y, surface->position.z);
 }
 
-static int is_one_normal(const Sight *sight)
+static int has_one_normal(const SurfaceSums *surface)
 {
-    return sight->places == 0 || vec_length(sight->normal) > ONE_NORMAL * sight->places;
+    return surface->samples == 0 || vec_length(surface->normal) > ONE_NORMAL * surface->samples;
 }
 
 /* 1 if all sample points see the same surface. */
-static int is_even(const PixelGuides *s)
+static int is_uniform(const PixelGuides *s)
 {
-    double mean = s->luminance / s->places;
-    return !s->differ && (s->first.places == 0 || s->first.places == s->places) &&
-           (s->specular == 0 || s->specular == s->places) && is_one_normal(&s->first) && is_one_normal(&s->seen) &&
-           s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
+    double mean = s->luminance / s->samples;
+    return !s->varied_primitive && (s->first.samples == 0 || s->first.samples == s->samples) &&
+           (s->specular == 0 || s->specular == s->samples) && has_one_normal(&s->first) && has_one_normal(&s->seen) &&
+           s->luminance_squared / s->samples - mean * mean < ONE_ALBEDO;
 }
 
-int denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading)
+int denoise_guides_observe(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading)
 {
     PixelGuides *p = pixel;
     if (denoise_guides_missing(p) == 0)
         return 0;
-    look(p, *ray, *hit, shading);
-    if (p->places == PLACES_FEW)
-        p->uneven = !is_even(p);
+    add_sample(p, *ray, *hit, shading);
+    if (p->samples == SAMPLES_FEW)
+        p->varied = !is_uniform(p);
     return denoise_guides_missing(p);
 }
 
 int denoise_guides_missing(const PixelGuides *p)
 {
-    return (p->uneven ? PLACES_MANY : PLACES_FEW) - p->places;
+    return (p->varied ? SAMPLES_MANY : SAMPLES_FEW) - p->samples;
 }
 
-void denoise_guides_look_along(PixelGuides *p, const Ray *rays, int count)
+void denoise_guides_trace(PixelGuides *p, const Ray *rays, int count)
 {
-    const FirstHitWindow *w = &p->of->window;
+    const FirstHitWindow *w = &p->guides->window;
     RayKind kinds[ACCEL_PACKET] = {RAY_CAMERA};
     Hit hits[ACCEL_PACKET];
     Shading s;
@@ -182,25 +182,26 @@ void denoise_guides_look_along(PixelGuides *p, const Ray *rays, int count)
     for (int i = 0; i < count; i++) {
         if (hits[i].primitive >= 0)
             shading_at(&s, w->scene, w->variants, 1, &rays[i], &hits[i]);
-        denoise_guides_look(p, &rays[i], &hits[i], &s);
+        denoise_guides_observe(p, &rays[i], &hits[i], &s);
     }
 }
 
 void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
 {
-    const DenoiseGuides *job = p->of;
+    const DenoiseGuides *job = p->guides;
     const int *to = job->guides;
-    const GuidePlace at = {pixel, x, y};
-    const double share = 1.0 / p->places;
-    store_sight(&at, to[RETEX_FEATURE_NORMAL], to[RETEX_FEATURE_POSITION], &p->first);
-    store_one(&at, to[RETEX_FEATURE_SPECULAR], share * p->specular);
-    store_sight(&at, to[RETEX_FEATURE_SEEN_NORMAL], to[RETEX_FEATURE_SEEN_POSITION], &p->seen);
+    const GuidePixel at = {pixel, x, y};
+    const double share = 1.0 / p->samples;
+    store_surface(&at, to[RETEX_FEATURE_NORMAL], to[RETEX_FEATURE_POSITION], &p->first);
+    store_channel(&at, to[RETEX_FEATURE_SPECULAR], share * p->specular);
+    store_surface(&at, to[RETEX_FEATURE_SEEN_NORMAL], to[RETEX_FEATURE_SEEN_POSITION], &p->seen);
     store(&at, to[RETEX_FEATURE_SEEN_ALBEDO], share, p->albedo.r, p->albedo.g, p->albedo.b);
-    double each = p->seen.places ? 1.0 / p->seen.places : 0;
-    store(&at, to[RETEX_FEATURE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each, 1 - p->seen.places * share);
+    double each = p->seen.samples ? 1.0 / p->seen.samples : 0;
+    store(&at, to[RETEX_FEATURE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each,
+          1 - p->seen.samples * share);
     for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
-        store_one(&at, job->covers[t], share * p->cover[t]);
-    *p = (PixelGuides){.of = job};
+        store_channel(&at, job->covers[t], share * p->cover[t]);
+    *p = (PixelGuides){.guides = job};
 }
 
 int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)

@@ -2,7 +2,7 @@
  * surfaces that each pixel sees, directly and in mirrors and through clear glass. They are the parts guide_… of
  * <retex/denoise_data.h>.
  *
- * Places of a pixel are those of its first samples: paths report what their camera rays meet (FirstHitObserver). */
+ * They are averages over sample points of the pixel: paths report what their camera rays hit (FirstHitObserver). */
 #ifndef RENDERER_RENDER_DENOISE_GUIDES_H
 #define RENDERER_RENDER_DENOISE_GUIDES_H
 
@@ -13,24 +13,24 @@
 
 typedef struct DenoiseGuides {
     FirstHitWindow window;
-    int split;          /* what lies on targets is not known */
+    int split; /* 1: the set is for retexturing, so that the albedo of targets is unknown */
     int guides[RETEX_FEATURE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
 } DenoiseGuides;
 
-/* Sums over those places of a pixel that see anything. */
-typedef struct Sight {
-    int places;
+/* Sums over those sample points of a pixel that see a surface. */
+typedef struct SurfaceSums {
+    int samples;
     Vec3 normal, position;
-} Sight;
+} SurfaceSums;
 
-/* One thread's sums over the places of the current pixel; begin with zeros. */
+/* One thread's sums over the sample points of the current pixel; begin with zeros. */
 typedef struct PixelGuides {
-    const DenoiseGuides *of;
-    int places, uneven;    /* so far; uneven: they do not all see the same */
-    Sight first, seen;
-    int specular;
+    const DenoiseGuides *guides;
+    int samples, varied;                 /* so far; varied: they do not all see the same surface */
+    SurfaceSums first, seen;             /* at first hits; at the first hits that are neither mirror nor clear glass */
+    int specular;                        /* sample points whose first hit is a mirror or clear glass */
     double luminance, luminance_squared; /* of the albedos */
-    int primitive, differ; /* that the first place sees; whether others see another one */
+    int primitive, varied_primitive;     /* that the first point sees; 1: another point sees another one */
     Rgb albedo;
     double roughness, metallic;
     double cover[RETEX_MAX_TARGETS];
@@ -38,13 +38,13 @@ typedef struct PixelGuides {
 
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
 
-/* Add a place, given what its camera ray meets: a FirstHitObserver. pixel: PixelGuides. */
-int denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
-/* How many more places the pixel needs. */
+/* Add a sample point by the first hit of its camera ray: a FirstHitObserver. pixel: PixelGuides. */
+int denoise_guides_observe(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
+/* How many more sample points the pixel needs. */
 int denoise_guides_missing(const PixelGuides *pixel);
-/* Add places without paths, along up to ACCEL_PACKET camera rays. */
-void denoise_guides_look_along(PixelGuides *pixel, const Ray *rays, int count);
-/* Store the pixel's and begin the next. */
+/* Add sample points without paths: trace up to ACCEL_PACKET camera rays. */
+void denoise_guides_trace(PixelGuides *pixel, const Ray *rays, int count);
+/* Store the averages of the pixel and begin the next pixel. */
 void denoise_guides_pixel_end(PixelGuides *pixel, FilmPixel *film, int x, int y);
 
 /* Add the parts to the set that the film became. */

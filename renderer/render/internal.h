@@ -30,7 +30,7 @@ typedef struct Render {
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     DenoiseGuides guides;
     PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
-    char *resumed;                 /* by band: finished by another render */
+    char *resumed;             /* by band: finished by another render */
     int wanted;                /* tiles, of all that are to be rendered */
     PathContext context;
     PathWorker *workers; /* by thread */
@@ -53,7 +53,7 @@ void render_close_films(Render *render);
 int render_open_guide(Render *render, RetexError *err);
 /* The film, and what each thread has. control: also a control film of all variants, with moments of 0 to 2 halves. */
 int render_open_film(Render *render, int control, int halves, RetexError *err);
-void render_forget_files(RenderParams *params); /* of a render beside the one that files are for */
+void render_drop_files(RenderParams *params); /* of a render beside the one that files are for */
 FirstHitWindow render_window(const Render *render);
 const FilmLayout *render_layout(const RenderParams *params);
 int render_is_stopped(const Render *render);
@@ -64,7 +64,7 @@ int render_is_wanted(const Render *render, int band);
 
 /* Trace all, and count; started: by the clock. Fails where the render is stopped and tiles are missing. */
 int render_paths(Render *render, RenderStats *stats, double started, RetexError *err);
-void render_sample(Render *render, int x, int y, int sample);          /* a single path, for --trace-pixel */
-HalfSamples render_half_samples(const Render *render);                 /* samples of each half */
+void render_sample(Render *render, int x, int y, int sample); /* a single path, for --trace-pixel */
+HalfSamples render_half_samples(const Render *render);        /* samples of each half */
 
 #endif

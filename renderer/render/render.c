@@ -45,7 +45,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     pass.context.white = 1, pass.context.split = 0, pass.context.halves = 1;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
     pass.params.denoise_data = 0, pass.params.noise = 0;
-    render_forget_files(&pass.params);
+    render_drop_files(&pass.params);
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);
     if (!code)
@@ -72,7 +72,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     if (code)
         return code;
     if (render_paths(r, stats, started, err))
-        return checkpoint_keep(r->film, &r->params, err);
+        return checkpoint_save(r->film, &r->params, err);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = render_window(r);
     if (!code && r->context.split)
@@ -94,7 +94,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
-    film_give_store(r->film, set);
+    film_move_store(r->film, set);
     stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;
     return code;
 }
@@ -136,10 +136,10 @@ int render_shard(const Scene *scene, const RenderParams *params, RenderStats *st
         int stopped = render_paths(&r, stats, started, err);
         code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
         if (!code && stopped)
-            code = checkpoint_keep(r.film, &r.params, err);
+            code = checkpoint_save(r.film, &r.params, err);
     }
     if (!code)
-        code = film_keep(r.film, r.params.key, r.params.output, 1, err);
+        code = film_save(r.film, r.params.key, r.params.output, 1, err);
     render_close(&r);
     return code;
 }

@@ -49,7 +49,7 @@ double render_bytes(const Scene *scene, const RenderParams *p, int width, int he
            (double)width * height * sizeof(float) * (guides + retex_aov_channels(p->aovs));
 }
 
-void render_forget_files(RenderParams *p)
+void render_drop_files(RenderParams *p)
 {
     p->stored = p->resume = p->nshards = p->nmerged = 0;
     p->checkpoint = NULL;
@@ -147,7 +147,7 @@ static int open_worker(Render *r, int k, RetexError *err)
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
     if (r->pixel_guides)
-        w->first_hit = denoise_guides_look, w->first_hit_context = &r->pixel_guides[k];
+        w->first_hit = denoise_guides_observe, w->first_hit_context = &r->pixel_guides[k];
     w->variants = r->variants;
     if (r->constants) {
         memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
@@ -180,7 +180,7 @@ int render_is_wanted(const Render *r, int band)
 }
 
 /* Read the bands that earlier renders have finished. The film must have all its images by then. */
-static int take_over(Render *r, RetexBandStore *store, RetexError *err)
+static int resume_bands(Render *r, RetexBandStore *store, RetexError *err)
 {
     r->resumed = calloc((size_t)r->tiles_y, 1);
     if (!r->resumed)
@@ -213,7 +213,7 @@ static int open_guides(Render *r, int threads, RetexError *err)
     if (!(r->pixel_guides = calloc((size_t)threads, sizeof *r->pixel_guides)))
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
     for (int k = 0; k < threads; k++)
-        r->pixel_guides[k].of = &r->guides;
+        r->pixel_guides[k].guides = &r->guides;
     return denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
 }
 
@@ -248,7 +248,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
     if (!code && keeps_denoise_data(&r->params))
         code = open_guides(r, threads, err);
     if (!code)
-        code = take_over(r, film.store, err);
+        code = resume_bands(r, film.store, err);
     if (!code && control)
         code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
     for (int k = 0; k < threads && !code && r->control; k++)

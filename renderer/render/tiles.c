@@ -94,7 +94,7 @@ static void end_guides(const Render *r, int thread, int spp, int x, int y)
         count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
         for (int i = 0; i < count; i++)
             rays[i] = start_sample(r, &start, s + i, &unused);
-        denoise_guides_look_along(guides, rays, count);
+        denoise_guides_trace(guides, rays, count);
     }
     denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
 }

@@ -16,7 +16,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     RenderParams plain = *params;
     Render r;
     plain.plain = 1, plain.denoise_data = 0;
-    render_forget_files(&plain);
+    render_drop_files(&plain);
     int code = render_open(&r, scene, &plain, err);
     if (!code && r.params.nvariants < 1)
         code = retex_fail(err, RETEX_EINVAL, "no variants to render");
@@ -101,7 +101,7 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     if (params->nvariants > 0)
         variants[0] = params->variants[0];
     plain.plain = 1, plain.variants = variants, plain.nvariants = 2, plain.denoise_data = 0;
-    render_forget_files(&plain);
+    render_drop_files(&plain);
     int code = render_open(&r, scene, &plain, err);
     if (!code)
         code = check_control(&r, set, err);

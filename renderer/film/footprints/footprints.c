@@ -145,7 +145,7 @@ static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node 
     before->white += node->white * path_hit_white(hit->before_d, hit->before_i);
 }
 
-static void note_range(FootprintPixel *p, const PathHit *hit)
+static void add_range(FootprintPixel *p, const PathHit *hit)
 {
     const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
     uv_range_add(p->range, hit->at.target, uv);
@@ -160,7 +160,7 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
     }
     was_met |= add_first(p, hit, &node->dependent);
     if (was_met)
-        note_range(p, hit);
+        add_range(p, hit);
 }
 
 /* As end_several, of a path with one hit, as most are. */
@@ -171,7 +171,7 @@ static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Floa
     *free += hit->independent;
     *white += path_hit_white(hit->dependent, hit->independent);
     if (add_first(p, hit, &light))
-        note_range(p, hit);
+        add_range(p, hit);
 }
 
 static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, Float4 *white)

@@ -155,7 +155,7 @@ static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4
 }
 
 /* Count contributions for each hit of the expansion. */
-static void note_connections(PaperPixel *p, const Expansion *e, int connections)
+static void add_connections(PaperPixel *p, const Expansion *e, int connections)
 {
     for (int j = 0; j < e->size.nhits; j++) {
         const TargetHit *hit = &e->hits[j];
@@ -198,7 +198,7 @@ static void connect(PaperPixel *p, int connections)
         if (m->hits)
             add_albedos(p, e, m->hits, m->coefficient);
     }
-    note_connections(p, e, connections);
+    add_connections(p, e, connections);
 }
 
 /* Make the expansion that of the hits before one. */
