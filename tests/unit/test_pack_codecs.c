@@ -154,6 +154,40 @@ static void test_planes_restored_alike(void **state)
 }
 
 /* Any numbers come back, whatever is missing and whatever their steps, by every width. */
+/* Codes are the nearest ones: by the logarithm, the value or the angle. Only 0 has the code that means 0. */
+static void test_codes_are_the_nearest(void **state)
+{
+    (void)state;
+    RetexPackMap log_map = {RETEX_PACK_MAP_LOG, 0x1p-10, 16, {0}}, linear = {RETEX_PACK_MAP_LINEAR, 1.0 / 200, 0, {0}},
+                 angle = {RETEX_PACK_MAP_ANGLE, 0, 100, {0}};
+    retex_pack_map_fill(&log_map);
+    retex_pack_map_fill(&linear);
+    retex_pack_map_fill(&angle);
+    for (int k = 0; k < 2000; k++) {
+        const float values[3] = {(float)(0x1p-10 * exp2(15.0 * k / 2000)), (float)((k + 0.3) / 2000),
+                                 (float)(k / 1000.0 - 1)};
+        const RetexPackMap *const maps[3] = {&log_map, &linear, &angle};
+        for (int m = 0; m < 3; m++) {
+            int32_t code;
+            float back;
+            retex_pack_map_numbers(&code, &values[m], 1, 1, maps[m], RETEX_HALF);
+            retex_pack_map_samples(&back, 1, &code, 1, maps[m], RETEX_HALF);
+            const double v = (double)values[m], b = (double)back;
+            const double off = m == 0   ? fabs(log2(b / v)) * 16
+                               : m == 1 ? fabs(b - v) * 200
+                                        : fabs(asin(b) - asin(v)) * 2 / acos(-1) * 100;
+            assert_true(code >= 0 && code < RETEX_PACK_CODES && (m == 2 || code > 0));
+            assert_true(off < 0.5001 || (m == 1 && code == 1)); /* what is not 0 is not coded so */
+        }
+    }
+    const float none = 0;
+    int32_t code;
+    retex_pack_map_numbers(&code, &none, 1, 1, &log_map, RETEX_HALF);
+    assert_int_equal(code, 0);
+    retex_pack_map_numbers(&code, &none, 1, 1, &linear, RETEX_HALF);
+    assert_int_equal(code, 0);
+}
+
 static void test_planes_keep_numbers(void **state)
 {
     (void)state;
@@ -195,9 +229,8 @@ static void test_planes_keep_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_jpeg_keeps_levels),
-        cmocka_unit_test(test_jpeg_kernels_agree),
-        cmocka_unit_test(test_planes_restored_alike),
+        cmocka_unit_test(test_jpeg_keeps_levels),     cmocka_unit_test(test_jpeg_kernels_agree),
+        cmocka_unit_test(test_planes_restored_alike), cmocka_unit_test(test_codes_are_the_nearest),
         cmocka_unit_test(test_planes_keep_numbers),
     };
     return cmocka_run_group_tests_name("pack codecs", tests, NULL, NULL);

@@ -178,6 +178,39 @@ static double psnr_of_tiles(int quality)
     return psnr[RETEX_PACK_LOSS_WHITE];
 }
 
+/* Each target has a part in the pictures: light that only one of two sets has on it is a loss in all of them, of so
+ * many dB. */
+static void all_targets_are_tried(void **state)
+{
+    (void)state;
+    for (int t = 0; t < 2; t++) {
+        RetexSet *sets[2];
+        double psnr[RETEX_PACK_LOSSES];
+        RetexError err = {0};
+        for (int k = 0; k < 2; k++) {
+            RetexSet *set = sets[k] = start_set(8, 8, 2);
+            set->denoised = 1;
+            for (int target = 0; target < 2; target++) {
+                const int f = add_footprint(set, target, RETEX_FOOTPRINT_SHARP, 1, "RGB");
+                const int light = add_term(set, 1, f, f);
+                for (int i = 0; i < 64; i++) {
+                    put(set, f, i % 8, i / 8, 0.5f, 0.5f, 1);
+                    put_rgb(set, set->footprints[f].albedo, i % 8, i / 8, 0.25f, 0.25f, 0.25f);
+                    put_rgb(set, light, i % 8, i / 8, k && target == t ? 0.5f : 0.25f, 0.25f, 0.25f);
+                }
+            }
+        }
+        test_must(retex_pack_loss(psnr, sets[1], sets[0], 1, &err), &err);
+        /* red: with white textures .5 and .75, with the originals .125 and .1875 */
+        const double white = retex_srgb_encode(0.75) - retex_srgb_encode(0.5),
+                     original = retex_srgb_encode(0.1875) - retex_srgb_encode(0.125);
+        assert_float_equal(psnr[RETEX_PACK_LOSS_WHITE], -10 * log10(white * white / 3), 0.01);
+        assert_float_equal(psnr[RETEX_PACK_LOSS_ORIGINAL], -10 * log10(original * original / 3), 0.01);
+        retex_set_close(&sets[0]);
+        retex_set_close(&sets[1]);
+    }
+}
+
 /* Its steps are finer than those of a JPEG's 255 levels, or of twice as many. */
 static void clean_light_stays_clean(void **state)
 {
@@ -258,9 +291,13 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(promises_rise_with_quality), cmocka_unit_test(promises_are_kept),
-        cmocka_unit_test(clean_light_stays_clean),    cmocka_unit_test(bits_are_kept_where_nothing_else_does),
-        cmocka_unit_test(noise_lowers_the_promise),   cmocka_unit_test(others_promise_nothing),
+        cmocka_unit_test(promises_rise_with_quality),
+        cmocka_unit_test(promises_are_kept),
+        cmocka_unit_test(all_targets_are_tried),
+        cmocka_unit_test(clean_light_stays_clean),
+        cmocka_unit_test(bits_are_kept_where_nothing_else_does),
+        cmocka_unit_test(noise_lowers_the_promise),
+        cmocka_unit_test(others_promise_nothing),
         cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -325,6 +325,48 @@ static void test_jpeg_is_plain(void **state)
     retex_image_free(&im);
 }
 
+static unsigned long big_endian(const unsigned char *at)
+{
+    return (unsigned long)at[0] << 24 | (unsigned long)at[1] << 16 | (unsigned long)at[2] << 8 | at[3];
+}
+
+/* The data of a PNG's chunk, or NULL. */
+static const unsigned char *find_chunk(const Bytes *png, const char *type, size_t bytes)
+{
+    for (size_t at = 8; at + 12 <= png->count; at += 12 + big_endian(png->data + at))
+        if (memcmp(png->data + at + 4, type, 4) == 0) {
+            assert_int_equal(big_endian(png->data + at), bytes);
+            return png->data + at + 8;
+        }
+    return NULL;
+}
+
+/* What went through the display transform says that it is sRGB, for old readers too by its gamma and the primaries of
+ * Rec. 709; what is in a space that was named says nothing. */
+static void test_png_says_its_colours(void **state)
+{
+    (void)state;
+    static const unsigned long xy[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
+    for (int named = 0; named < 2; named++) {
+        RetexImage im = {0};
+        RetexError err = {0};
+        RetexWriteParams params = RETEX_WRITE_INIT;
+        params.colorspace = named ? "ACEScct" : NULL;
+        paint(&im, 9, 7, 3);
+        test_must(retex_image_write(&im, test_in_folder("said.png"), &params, 1, &err), &err);
+        Bytes png = load(test_in_folder("said.png"));
+        const unsigned char *gamma = find_chunk(&png, "gAMA", 4), *primaries = find_chunk(&png, "cHRM", 32);
+        assert_int_equal(find_chunk(&png, "sRGB", 1) == NULL, named);
+        assert_int_equal(gamma == NULL, named);
+        assert_int_equal(primaries == NULL, named);
+        for (int k = 0; k < 8 && !named; k++)
+            assert_int_equal(big_endian(primaries + 4 * k), xy[k]);
+        assert_true(named || big_endian(gamma) == 45455);
+        free(png.data);
+        retex_image_free(&im);
+    }
+}
+
 static void test_png_filters_can_be_undone(void **state)
 {
     (void)state;
@@ -524,6 +566,7 @@ int main(void)
         cmocka_unit_test(test_exr_is_that_of_sets),
         cmocka_unit_test(test_exr_of_any_light),
         cmocka_unit_test(test_jpeg_is_plain),
+        cmocka_unit_test(test_png_says_its_colours),
         cmocka_unit_test(test_png_filters_can_be_undone),
         cmocka_unit_test(test_srgb_codes),
         cmocka_unit_test(test_given_up_or_failed),

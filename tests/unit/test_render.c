@@ -269,6 +269,50 @@ static void crops_are_cut_from_the_whole(void **state)
     stage_close(&s);
 }
 
+/* The bottom of a black well of depth 1 and radius 1, under a square that glows on both sides, each in its own way:
+ * half of a bright sky's light. Seen from farther away than the well is deep, through a pane that changes nothing. */
+static void a_pane_hides_no_walls(void **state)
+{
+    Vec3 corners[4] = {{-50, -50, -2.8}, {50, -50, -2.8}, {50, 50, -2.8}, {-50, 50, -2.8}};
+    MeshFace faces[2] = {{{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}, {{0, 2, 3}, {-1, -1, -1}, {-1, -1, -1}, -1}};
+    Mesh mesh = {.nvertices = 4, .nfaces = 2};
+
+    (void)state;
+    mesh.vertices = corners, mesh.faces = faces;
+    for (int pane = 0; pane < 2; pane++)
+        for (int turned = 0; turned < 2; turned++) {
+            Stage s;
+            Finish dim;
+            Texture inside;
+            stage_open(&s);
+            s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 0, -5}, {0, 0, 1}, {0.02, 0, 0}, {0, 0.015, 0}};
+            stage_add(&s, &shape_disc, at(0, 0, 0, 2), 1, 1, 1)->shape.r1 = 0;
+            Primitive *wall = stage_add(&s, &shape_cone, at(0, 0, -1, 1), 0, 0, 0);
+            wall->shape.open = 1;
+            Primitive *lamp = stage_add(&s, &shape_mesh, transform_identity(), 1, 1, 1);
+            lamp->shape.mesh = &mesh, lamp->no_image = 1;
+            /* its faces wind so that their normals point to +z, at the well */
+            for (int k = 0; k < 2; k++)
+                faces[k].vertex[1] = turned ? k + 2 : k + 1, faces[k].vertex[2] = turned ? k + 1 : k + 2;
+            s.finishes[2].diffuse = 0, s.finishes[2].emission = rgb_grey(1);
+            dim = s.finishes[2], dim.emission = rgb_grey(0.25f);
+            inside = (Texture){.pigment = &s.pigments[2], .finish = &dim};
+            lamp->interior_texture = &inside, lamp->interior_target = -1;
+            if (pane) {
+                stage_add(&s, &shape_disc, at(0, 0, -3, 20), 1, 1, 1)->shape.r1 = 0;
+                s.pigments[3].color = (Rgbft){1, 1, 1, 0, 1};
+            }
+            RetexSet *set = stage_render(&s, 64, 1, 2);
+            double mean = 0;
+            for (int y = 0; y < 12; y++)
+                for (int x = 0; x < 16; x++)
+                    mean += pixel(set, x, y)[0] / (16 * 12);
+            expect(mean, turned ? 0.125 : 0.5, turned ? 0.002 : 0.008, pane ? "through a pane" : "in sight");
+            retex_set_close(&set);
+            stage_close(&s);
+        }
+}
+
 /* The edge of a bright half, between two columns of pixels: a box sees it sharply, a Gaussian of half a pixel by its
  * error function. */
 static void filters_have_their_width(void **state)
@@ -568,21 +612,42 @@ static void halves_are_renders_of_their_own(void **state)
         assert_memory_equal(found->pixels, pixel(alone, 0, 0), 16 * 12 * 3 * sizeof(float));
         retex_set_close(&alone);
     }
+    /* the variance of the whole is that of both, each by its share of the samples */
+    const float *variance = both->parts[retex_set_find_part(both, "variance")].image.pixels,
+                *a = both->parts[retex_set_find_part(both, "variance_a")].image.pixels,
+                *b = both->parts[retex_set_find_part(both, "variance_b")].image.pixels;
+    const double whole = 2 * BEYOND_A_WAVE + 1, more = (BEYOND_A_WAVE + 1) / whole, less = BEYOND_A_WAVE / whole;
+    double sum = 0, shares = 0, swapped = 0;
+    for (int i = 0; i < 16 * 12 * 3; i++) {
+        expect(variance[i], more * more * a[i] + less * less * b[i], 1e-9 + 1e-5 * fabs(variance[i]),
+               "variance of both halves");
+        sum += variance[i], shares += more * more * a[i] + less * less * b[i];
+        swapped += fabs(variance[i] - less * less * a[i] - more * more * b[i]);
+    }
+    assert_true(sum > 0 && swapped > 1e-4 * shares);
     retex_set_close(&both);
     stage_close(&s);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnace_is_invisible),           cmocka_unit_test(point_light_over_a_plane),
-        cmocka_unit_test(sphere_emitter_irradiance),      cmocka_unit_test(slab_reflects_by_fresnel),
-        cmocka_unit_test(crops_are_cut_from_the_whole),   cmocka_unit_test(filters_have_their_width),
-        cmocka_unit_test(bits_do_not_depend_on_threads),  cmocka_unit_test(paper_recombines),
-        cmocka_unit_test(paper_recombines_shiny_targets), cmocka_unit_test(footprints_recombine_shiny_targets),
-        cmocka_unit_test(footprints_recombine),           cmocka_unit_test(the_inside_is_another_surface),
-        cmocka_unit_test(aovs_are_of_the_first_hit),      cmocka_unit_test(irradiance_knows_no_material),
-        cmocka_unit_test(variants_share_paths),           cmocka_unit_test(moments_are_of_single_paths),
-        cmocka_unit_test(halves_are_renders_of_their_own)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(furnace_is_invisible),
+                                       cmocka_unit_test(point_light_over_a_plane),
+                                       cmocka_unit_test(sphere_emitter_irradiance),
+                                       cmocka_unit_test(slab_reflects_by_fresnel),
+                                       cmocka_unit_test(crops_are_cut_from_the_whole),
+                                       cmocka_unit_test(filters_have_their_width),
+                                       cmocka_unit_test(a_pane_hides_no_walls),
+                                       cmocka_unit_test(bits_do_not_depend_on_threads),
+                                       cmocka_unit_test(paper_recombines),
+                                       cmocka_unit_test(paper_recombines_shiny_targets),
+                                       cmocka_unit_test(footprints_recombine_shiny_targets),
+                                       cmocka_unit_test(footprints_recombine),
+                                       cmocka_unit_test(the_inside_is_another_surface),
+                                       cmocka_unit_test(aovs_are_of_the_first_hit),
+                                       cmocka_unit_test(irradiance_knows_no_material),
+                                       cmocka_unit_test(variants_share_paths),
+                                       cmocka_unit_test(moments_are_of_single_paths),
+                                       cmocka_unit_test(halves_are_renders_of_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,8 +57,9 @@ static void add_term(RetexSet *set, int radiance, int gain, int nfactors, int fi
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 
-/* C0 + D (S + g S L + h M + h M L), of which the broad mixture M = (w1 B1 + w2 B2) / (w1 + w2) is four times smaller
- * than the picture, the later footprint L eight times and the gain g twice; h has three colours and the full size. */
+/* C0 + D (S + g S L + h M + h M L + j M), of which the broad mixture M = (w1 B1 + w2 B2) / (w1 + w2) is four times
+ * smaller than the picture, the later footprint L eight times and the gain g twice; h, which has three colours, and j,
+ * which has one, have the full size. */
 static RetexSet *make_set(void)
 {
     RetexSet *set;
@@ -79,12 +80,13 @@ static RetexSet *make_set(void)
                              {BROAD2, add_part(set, "weight2", "R", BROAD_SCALE, &seed)}}};
     test_must(retex_set_add_mixture(set, &mixture, NULL, &err), &err);
     int light = add_part(set, "light", "RGB", 1, &seed), g = add_part(set, "g", "R", GAIN_SCALE, &seed);
-    int h = add_part(set, "h", "RGB", 1, &seed);
+    int h = add_part(set, "h", "RGB", 1, &seed), j = add_part(set, "j", "R", 1, &seed);
     add_term(set, add_part(set, "indep", "RGB", 1, &seed), 0, 0, 0, 0);
     add_term(set, light, 0, 1, SHARP, 0);
     add_term(set, light, g, 2, SHARP, LATER);
     add_term(set, light, h, 1, RETEX_MIXTURE(0), 0);
     add_term(set, light, h, 2, RETEX_MIXTURE(0), LATER);
+    add_term(set, light, j, 1, RETEX_MIXTURE(0), 0);
     return set;
 }
 
@@ -165,8 +167,9 @@ static void expect_formula(const RetexSet *set, const RetexSamples *samples, con
             for (int c = 0; c < 3; c++) {
                 double s = pixel(sharp, x, y, c), d = pixel(part(set, "light"), x, y, c);
                 double m = enlarged(&mix, BROAD_SCALE, x, y, c), h = pixel(part(set, "h"), x, y, c);
-                double want = pixel(part(set, "indep"), x, y, c) + d * (s + s * enlarged(&gl, GAIN_SCALE, x, y, c) +
-                                                                        h * (m + enlarged(&ml, BROAD_SCALE, x, y, c)));
+                double j = pixel(part(set, "j"), x, y, c), gain = enlarged(&gl, GAIN_SCALE, x, y, c);
+                double want = pixel(part(set, "indep"), x, y, c) +
+                              d * (s + s * gain + h * (m + enlarged(&ml, BROAD_SCALE, x, y, c)) + j * m);
                 assert_float_equal(picture->pixels[retex_image_index(picture, x, y) + (size_t)c], want, 2e-5);
             }
     retex_image_free(&mix);
