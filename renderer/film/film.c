@@ -467,6 +467,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     if (film->params.split) {
         set->orders = film->params.orders;
         set->strict_paper = film->params.strict_paper;
+        set->exact_picture = !set->strict_paper;
         name_targets(film, set);
         int code = finish_stats_of_all(film, set, err);
         if (code)

@@ -143,7 +143,7 @@ double expect_beauty(const Fixture *f, size_t pixel)
     const RetexSet *set = f->set;
     double sum[3] = {0, 0, 0}, white[3] = {0, 0, 0}, largest = 0;
     for (int t = 0; t < set->nterms; t++)
-        for (size_t c = 0; c < 3; c++) {
+        for (size_t c = 0; c < 3 && !set->terms[t].edited; c++) {
             double value = set->parts[set->terms[t].radiance].image.pixels[3 * pixel + c];
             assert_true(value >= 0);
             white[c] += value;

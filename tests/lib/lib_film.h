@@ -51,8 +51,9 @@ void expect_rgb(const float *got, float r, float g, float b, double tolerance);
 /* Parts that are 0 in all pixels are not in the set. */
 void assert_absent(const Fixture *f, const char *name);
 
-/* The polynomial with the original albedos of the footprints, and with white textures. The latter is the largest
- * channel, which sets the rounding step of coefficients. Every coefficient may have an error of half a step. */
+/* The polynomial without corrections: with the original albedos of the footprints, and with white textures. The latter
+ * is the largest channel, which sets the rounding step of coefficients. Every coefficient may have an error of half a
+ * step. */
 double expect_beauty(const Fixture *f, size_t pixel);
 
 /* A pixel may have all its clusters of one kind. params.clusters is the number of both kinds together. */

@@ -1,4 +1,5 @@
-/* make_blind_set SET OUT: writes the set with a black beauty part, to show that recombination never reads that part. */
+/* make_blind_set SET OUT: writes the set with a black beauty part, which is not its picture any more, to show that
+ * recombination does not read that part of such a set. */
 #include <retex/set.h>
 #include <retex/set_file.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@ int main(int argc, char **argv)
     RetexImage *beauty = &set->parts[0].image;
     memset(beauty->pixels, 0,
            (size_t)beauty->width * (size_t)beauty->height * (size_t)beauty->channels * sizeof(float));
+    set->exact_picture = 0;
     if (retex_set_write(set, NULL, argv[2], NULL, 0, &err))
         goto failed;
     retex_set_close(&set);

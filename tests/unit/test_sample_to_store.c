@@ -31,7 +31,8 @@ static RetexSet *make_set(void)
     }
     f.hit++;
     test_must(retex_set_add_footprint(set, &f, NULL, &err), &err);
-    RetexTerm term = {RETEX_TERM_DEP, set->terms[0].radiance, 0, 1, {set->nfootprints - 1}};
+    RetexTerm term = {
+        .kind = RETEX_TERM_DEP, .radiance = set->terms[0].radiance, .nfactors = 1, .factors = {set->nfootprints - 1}};
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
     return set;
 }

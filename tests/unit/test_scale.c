@@ -53,7 +53,11 @@ static void add_footprint(RetexSet *set, const char *name, RetexFootprintKind ki
 static void add_term(RetexSet *set, int radiance, int gain, int nfactors, int first, int second)
 {
     RetexError err = {0};
-    RetexTerm term = {nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP, radiance, gain, nfactors, {first, second}};
+    RetexTerm term = {.kind = nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP,
+                      .radiance = radiance,
+                      .gain = gain,
+                      .nfactors = nfactors,
+                      .factors = {first, second}};
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 

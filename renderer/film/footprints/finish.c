@@ -107,6 +107,31 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
     return code;
 }
 
+static int finish_correction(FootprintFilm *film, RetexSet *set, int t, int kind, int n, const Places *places,
+                             RetexError *err)
+{
+    const CorrectionImages *images = &film->targets[t].corrections;
+    RetexTerm term = {.kind = RETEX_TERM_DEP, .edited = 1 + t};
+    if (n) {
+        add_factors(&term, kind < 2 ? places->kinds[t][kind] : places->interreflections[t], 1);
+        add_factors(&term, places->interreflections[t], n - 1);
+    }
+    return finish_term(film, set, &term, n ? images->with[kind][n - 1] : images->without, err);
+}
+
+/* Corrections come after all other terms. */
+static int finish_corrections(FootprintFilm *film, RetexSet *set, const Places *places, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int t = 0; t < corrected_targets(film->scene) && !code; t++) {
+        code = finish_correction(film, set, t, 0, 0, places, err);
+        for (int kind = 0; kind < CORRECTION_KINDS; kind++)
+            for (int n = 1; n <= CORRECTION_POWERS && !code; n++)
+                code = finish_correction(film, set, t, kind, n, places, err);
+    }
+    return code;
+}
+
 int footprints_finish(void *layout, RetexSet *set, RetexError *err)
 {
     FootprintFilm *film = layout;
@@ -125,5 +150,5 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
     for (int t = 0; t < set->ntargets; t++)
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_interreflected(film, set, t, kind, &places, err);
-    return code;
+    return code ? code : finish_corrections(film, set, &places, err);
 }

@@ -51,8 +51,11 @@ static inline void add_coefficient(HitLight *sum, int k, Float4 value)
 }
 
 /* Add light times the factor of a hit, without its texture. */
-static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
+static inline void add_times(const FootprintFilm *film, HitLight *sum, const HitLight *light, Float4 by)
 {
+    for (int t = 0; t < corrected_targets(film->scene); t++)
+        for (int n = 0; n <= CORRECTION_POWERS; n++)
+            sum->edited[t][n] += light->edited[t][n] * by;
     sum->c[0] += light->c[0] * by;
     sum->original += light->original * by;
     sum->half += light->half * by;
@@ -63,8 +66,20 @@ static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
 }
 
 /* Add light times the texture of one more hit. */
-static inline void add_textured(HitLight *sum, const HitLight *light, const Plan *plan, int target, Float4 albedo)
+static inline void add_textured(const FootprintFilm *film, HitLight *sum, const HitLight *light, const TargetHit *hit,
+                                Float4 albedo)
 {
+    const Plan *plan = &film->plan;
+    const int target = hit->target;
+    const Float4 original = colour4(hit->albedo);
+    for (int t = 0; t < corrected_targets(film->scene); t++)
+        for (int n = 0; n <= CORRECTION_POWERS; n++) {
+            const Float4 all = light->edited[t][n] + (n ? splat(0) : light->c[0]);
+            if (t == target)
+                sum->edited[t][correction_power(n + 1)] += all;
+            else
+                sum->edited[t][n] += all * original;
+        }
     sum->original += (light->c[0] + light->original) * albedo;
     sum->half += (light->c[0] + light->half) * splat(0.5f);
     add_coefficient(sum, plan->coefficients[0].next[target], light->c[0]);
@@ -74,18 +89,19 @@ static inline void add_textured(HitLight *sum, const HitLight *light, const Plan
     }
 }
 
-static inline void start_light(HitLight *light, Float4 value)
+static inline void start_light(const FootprintFilm *film, HitLight *light, Float4 value)
 {
     light->c[0] = value;
+    memset(light->edited, 0, (size_t)corrected_targets(film->scene) * sizeof *light->edited);
     light->original = light->half = splat(0);
     light->used = 0;
 }
 
 /* Set what the hits before this one, towards the camera, do to light that comes from it. */
-static inline void start_node(Node *node, const PathHit *hit, const Node *before)
+static inline void start_node(const FootprintFilm *film, Node *node, const PathHit *hit, const Node *before)
 {
-    start_light(&node->dependent, hit->dependent);
-    start_light(&node->independent, hit->independent);
+    start_light(film, &node->dependent, hit->dependent);
+    start_light(film, &node->independent, hit->independent);
     node->white = path_hit_white(hit->dependent, hit->independent);
     if (!before) {
         node->none = node->original = node->half = splat(1);
@@ -125,11 +141,15 @@ static int add_first(FootprintPixel *p, const PathHit *hit, HitLight *light)
                             .light = light,
                             .albedo = colour4(hit->at.albedo)};
     clusters_add(&p->targets[first.target], &first, &p->film->params);
+    corrections_add(p, &first);
     return 1;
 }
 
-static void scale_light(HitLight *light, Float4 by)
+static void scale_light(const FootprintFilm *film, HitLight *light, Float4 by)
 {
+    for (int t = 0; t < corrected_targets(film->scene); t++)
+        for (int n = 0; n <= CORRECTION_POWERS; n++)
+            light->edited[t][n] *= by;
     light->c[0] *= by, light->original *= by, light->half *= by;
     for (unsigned left = light->used; left; left &= left - 1)
         light->c[__builtin_ctz(left)] *= by;
@@ -138,10 +158,10 @@ static void scale_light(HitLight *light, Float4 by)
 /* Add a hit's light to the hit before it, once it has the light of all further hits itself. */
 static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
 {
-    add_textured(&node->independent, &node->dependent, &p->film->plan, hit->at.target, node->albedo);
-    add_times(&before->dependent, &node->independent, hit->before_d);
+    add_textured(p->film, &node->independent, &node->dependent, &hit->at, node->albedo);
+    add_times(p->film, &before->dependent, &node->independent, hit->before_d);
     if (!is_black4(hit->before_i))
-        add_times(&before->independent, &node->independent, hit->before_i);
+        add_times(p->film, &before->independent, &node->independent, hit->before_i);
     before->white += node->white * path_hit_white(hit->before_d, hit->before_i);
 }
 
@@ -156,7 +176,7 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
     int was_met = 0;
     if (hit->before) {
         was_met = add_interreflection(p, hit, node);
-        scale_light(&node->dependent, node->none);
+        scale_light(p->film, &node->dependent, node->none);
     }
     was_met |= add_first(p, hit, &node->dependent);
     if (was_met)
@@ -167,7 +187,7 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
 static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Float4 *white)
 {
     HitLight light;
-    start_light(&light, hit->dependent);
+    start_light(p->film, &light, hit->dependent);
     *free += hit->independent;
     *white += path_hit_white(hit->dependent, hit->independent);
     if (add_first(p, hit, &light))
@@ -182,7 +202,7 @@ static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, F
     for (int k = 0; k < path->count; k++) {
         const PathHit *before = hits[k]->before;
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
-        start_node(&p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
+        start_node(p->film, &p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
     }
     for (int k = path->count - 1; k >= 0; k--)
         if (hits[k]->before)

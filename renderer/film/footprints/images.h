@@ -2,6 +2,7 @@
 #ifndef RENDERER_FILM_FOOTPRINTS_IMAGES_H
 #define RENDERER_FILM_FOOTPRINTS_IMAGES_H
 
+#include "film/corrections.h"
 #include "film/layout.h"
 #include "film/footprints/plan.h"
 
@@ -20,10 +21,18 @@ typedef struct KindImages {
     int interreflected[PLAN_COEFFICIENTS_MAX];
 } KindImages;
 
+#define CORRECTION_KINDS 3 /* of the first hit on the edited target: sharp, broad, an interreflection */
+
+/* Images of the corrections of a target: without its texture, and by kind and number of hits. */
+typedef struct CorrectionImages {
+    int without, with[CORRECTION_KINDS][CORRECTION_POWERS];
+} CorrectionImages;
+
 /* Images of a target. */
 typedef struct TargetImages {
     KindImages kinds[2]; /* sharp, broad */
     FootprintImages interreflections[INTERREFLECTION_CLUSTERS];
+    CorrectionImages corrections; /* where there are several targets */
 } TargetImages;
 
 typedef struct FootprintFilm {

@@ -6,6 +6,8 @@
 #include "base/color4.h"
 #include "film/footprints/images.h"
 
+typedef struct FootprintPixel FootprintPixel;
+
 /* Colours are red, green, blue and nothing. */
 typedef Float4 Coefficients[PLAN_COEFFICIENTS_MAX];
 
@@ -23,12 +25,17 @@ typedef struct Cluster {
     Float4 interreflected; /* light with further hits, with their original albedos */
 } Cluster;
 
+/* Light by the number of a target's hits, 0 to CORRECTION_POWERS and more: with the original albedos of all hits on
+ * other targets. */
+typedef Float4 Powers[CORRECTION_POWERS + 1];
+
 /* Light as a polynomial in the textures of further hits, by the coefficients of the plan; and the sum of all its terms
- * but the first, with each further hit's original albedo and with 1/2. */
+ * but the first, with each further hit's original albedo and with 1/2, and where each target alone is edited. */
 typedef struct HitLight {
     Coefficients c; /* [0], and those in use; the others are not set */
     Float4 original, half;
-    unsigned used; /* bits, of those after the first */
+    unsigned used;                    /* bits, of those after the first */
+    Powers edited[RETEX_MAX_TARGETS]; /* of corrected targets; the others are not set */
 } HitLight;
 
 /* A hit of one path as the first hit of monomials, and their light. */
@@ -51,26 +58,40 @@ typedef struct Interreflection {
  * empty. */
 typedef struct Clusters {
     int count;
-    unsigned used; /* bits: coefficients of `interreflected` that are not 0 */
-    double merge_bound;  /* merging any two of them costs at least this; -inf: not known */
+    unsigned used;      /* bits: coefficients of `interreflected` that are not 0 */
+    double merge_bound; /* merging any two of them costs at least this; -inf: not known */
     Cluster of[FILM_CLUSTERS_MAX];
     Coefficients interreflected;
 } Clusters;
 
 /* A cluster of further hits on a target. */
 typedef struct InterreflectionCluster {
-    RetexUvStats uv;     /* weight 0: none */
-    double varies;  /* retex_uv_stats_variation */
-    double squares; /* of the paths' weights */
+    RetexUvStats uv; /* weight 0: none */
+    double varies;   /* retex_uv_stats_variation */
+    double squares;  /* of the paths' weights */
     AlbedoSums albedo;
 } InterreflectionCluster;
+
+/* Light that meets a target, where that target alone is edited: with the original albedos of all other hits, by kind
+ * of the first hit on the target. Light of one target's clusters without further hits is left out. */
+typedef struct EditedLight {
+    Float4 without;
+    Powers with[CORRECTION_KINDS]; /* [kind][n - 1] of n hits */
+} EditedLight;
 
 /* The clusters of one pixel on one target. */
 typedef struct TargetClusters {
     Clusters sharp, broad;
     InterreflectionCluster interreflections[INTERREFLECTION_CLUSTERS];
     double interreflections_bound; /* merge_bound of interreflections */
+    EditedLight edited;            /* of corrected targets */
 } TargetClusters;
+
+/* Add a hit of a path as the first one to the light of edited targets. */
+void corrections_add(FootprintPixel *pixel, const FirstHit *hit);
+/* Store what the light of edited targets differs from that of the stored images, with the mean albedos of other
+ * targets; before the clusters are reset. unit: to which it is rounded. */
+void corrections_store(FootprintPixel *pixel, BandRows *rows, double unit, int x, int y);
 
 /* Add a hit of a path to the clusters of its target. */
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
@@ -87,7 +108,7 @@ typedef struct Node {
     Float4 none, original, half;
 } Node;
 
-typedef struct FootprintPixel {
+struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
     double free[3];
@@ -95,6 +116,6 @@ typedef struct FootprintPixel {
     Node nodes[PATH_HITS_MAX];
     LightSums *light; /* of contributions */
     UvRange *range;   /* of the hits */
-} FootprintPixel;
+};
 
 #endif

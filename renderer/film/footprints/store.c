@@ -64,6 +64,21 @@ static void interreflected_name(const Scene *scene, int t, int kind, const PlanC
             used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + other, c->powers[other]);
 }
 
+/* correction_Floor, correction_Floor_sharp1 and so on: the number is that of the target's hits. */
+static int add_corrections(FootprintFilm *film, int t, RetexError *err)
+{
+    CorrectionImages *images = &film->targets[t].corrections;
+    char name[RETEX_NAME_MAX];
+    snprintf(name, sizeof name, "correction_%.90s", film->scene->targets[t].name);
+    int code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->without, err);
+    for (int kind = 0; kind < CORRECTION_KINDS; kind++)
+        for (int n = 0; n < CORRECTION_POWERS && !code; n++) {
+            snprintf(name, sizeof name, "correction_%.80s_%s%d", film->scene->targets[t].name, kind_name(kind), n + 1);
+            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->with[kind][n], err);
+        }
+    return code;
+}
+
 static int add_target(FootprintFilm *film, int t, RetexError *err)
 {
     TargetImages *target = &film->targets[t];
@@ -79,6 +94,8 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
     }
     for (int k = 0; k < most_interreflections(film) && !code; k++)
         code = add_footprint(film, &target->interreflections[k], t, 2, k, err);
+    if (!code && corrected_targets(film->scene))
+        code = add_corrections(film, t, err);
     return code;
 }
 
@@ -93,8 +110,8 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_FACTORS);
-    int parts =
-        scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * INTERREFLECTION_CLUSTERS);
+    int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count +
+                                   4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS);
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts, PARTS_MAX);
@@ -215,8 +232,13 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
     for (unsigned left = clusters->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
         store_light(images->interreflected[i], clusters->interreflected[i], scale, unit, at);
-        clusters->interreflected[i] = splat(0);
     }
+}
+
+static void reset_clusters(Clusters *clusters)
+{
+    for (unsigned left = clusters->used; left; left &= left - 1)
+        clusters->interreflected[__builtin_ctz(left)] = splat(0);
     clusters->count = 0;
     clusters->used = 0;
 }
@@ -236,14 +258,13 @@ static void store_interreflections(FootprintPixel *p, const Place *at)
             sum += light_sum(&p->targets[t].interreflections[k].albedo);
     for (int t = 0; t < ntargets; t++)
         for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
-            InterreflectionCluster *cluster = &p->targets[t].interreflections[k];
+            const InterreflectionCluster *cluster = &p->targets[t].interreflections[k];
             const FootprintImages *images = &p->film->targets[t].interreflections[k];
             if (!(cluster->uv.weight > 0))
                 continue;
             double effective = cluster->uv.weight * cluster->uv.weight / cluster->squares / p->spp;
             store_footprint(images, &cluster->uv, &cluster->albedo, (float)fmin(effective, 1), at);
             store_share(images->share, sum > 0 ? (float)(light_sum(&cluster->albedo) / sum) : 0, at);
-            *cluster = (InterreflectionCluster){.squares = 0};
         }
 }
 
@@ -262,6 +283,13 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
         store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, unit, &at);
     }
     store_interreflections(p, &at);
+    corrections_store(p, rows, retex_correction_unit(unit, spp), x, y);
+    for (int t = 0; t < film->scene->ntargets; t++) {
+        TargetClusters *target = &p->targets[t];
+        reset_clusters(&target->sharp);
+        reset_clusters(&target->broad);
+        memset(target->interreflections, 0, sizeof target->interreflections);
+    }
 }
 
 /* ---- the finished band ---- */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "film/corrections.h"
 #include "film/paper/expansion.h"
 #include "film/paper/paper.h"
 #include "film/paper/terms.h"
@@ -16,6 +17,11 @@ typedef struct FootprintSums {
     Float4 albedo;                /* unweighted, for footprints that gave no light */
 } FootprintSums;
 
+/* Light, or images, of a target's corrections, by the number of its hits. */
+typedef struct CorrectionImages {
+    int of[CORRECTION_POWERS + 1];
+} CorrectionImages;
+
 typedef struct PaperFilm {
     const Scene *scene;
     FilmParams params;
@@ -24,6 +30,7 @@ typedef struct PaperFilm {
     /* images of the bands */
     int uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
         albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    CorrectionImages corrections[RETEX_MAX_TARGETS];
     atomic_int lost; /* light was lost, as there were too many terms */
 } PaperFilm;
 
@@ -33,6 +40,7 @@ typedef struct PaperPixel {
     Float4 *sums; /* by term */
     int *touched, ntouched;
     FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    Float4 corrections[RETEX_MAX_TARGETS][CORRECTION_POWERS + 1]; /* by target, and number of hits on it */
     /* of the current path: */
     Expansion expansion;
     ExpansionMark mark;            /* of it before a hit that light came by */
@@ -64,12 +72,38 @@ static int add_footprint(PaperFilm *film, int k, RetexError *err)
     return code ? code : bands_add(film->bands, name, "RGB", RETEX_HALF, &film->albedo[k], err);
 }
 
+/* Sets of the supplement's own form have none. */
+static int corrected(const PaperFilm *film)
+{
+    return film->params.strict_paper ? 0 : corrected_targets(film->scene);
+}
+
+static int last_correction(const PaperFilm *film)
+{
+    return correction_power(film->params.orders);
+}
+
+/* correction_Floor_2: with two hits on the target. */
+static int add_corrections(PaperFilm *film, RetexError *err)
+{
+    char name[RETEX_NAME_MAX];
+    int code = RETEX_OK;
+    for (int t = 0; t < corrected(film); t++)
+        for (int n = 0; n <= last_correction(film) && !code; n++) {
+            snprintf(name, sizeof name, "correction_%.90s_%d", film->scene->targets[t].name, n);
+            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &film->corrections[t].of[n], err);
+        }
+    return code;
+}
+
 static int paper_alloc(PaperFilm *film, RetexError *err)
 {
     int code = RETEX_OK;
     for (int k = 0; k < footprints_count(film) && !code; k++)
         if (k % RETEX_MAX_ORDERS < film->params.orders)
             code = add_footprint(film, k, err);
+    if (!code)
+        code = add_corrections(film, err);
     return code ? code : terms_create(&film->terms, film->bands, film->scene->ntargets, film->params.orders, err);
 }
 
@@ -154,6 +188,24 @@ static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4
     }
 }
 
+/* Add a monomial to the light of edited targets, with the original albedos of all other hits. */
+static void add_to_corrections(PaperPixel *p, const Expansion *e, unsigned hits, Float4 value)
+{
+    for (int t = 0; t < corrected(p->film); t++) {
+        Float4 light = value;
+        int on = 0, others = 0;
+        for (unsigned left = hits; left; left &= left - 1) {
+            const TargetHit *hit = &e->hits[__builtin_ctz(left)];
+            if (hit->target == t)
+                on++;
+            else
+                light *= colour4(hit->albedo), others++;
+        }
+        if (others)
+            p->corrections[t][correction_power(on)] += light;
+    }
+}
+
 /* Count contributions for each hit of the expansion. */
 static void add_connections(PaperPixel *p, const Expansion *e, int connections)
 {
@@ -196,7 +248,7 @@ static void connect(PaperPixel *p, int connections)
             continue;
         add_term(p, key, m->coefficient);
         if (m->hits)
-            add_albedos(p, e, m->hits, m->coefficient);
+            add_albedos(p, e, m->hits, m->coefficient), add_to_corrections(p, e, m->hits, m->coefficient);
     }
     add_connections(p, e, connections);
 }
@@ -297,24 +349,67 @@ static void sum_signals(const void *pixel, SignalTotals *totals)
     }
 }
 
+/* The unit of a pixel's corrections. */
+static double correction_unit(const PaperPixel *p, int spp)
+{
+    Float4 white = splat(0);
+    for (int k = 0; k < p->ntouched; k++)
+        white += p->sums[p->touched[k]];
+    const float most = fmaxf(white[0], fmaxf(white[1], white[2])) / (float)spp;
+    return retex_correction_unit(retex_coefficient_unit((double)most), spp);
+}
+
+/* Subtract a stored term, with the mean albedos of all targets but t. */
+static void subtract_term(PaperPixel *p, int term, int t, BandRows *rows, int x, int y)
+{
+    const PaperFilm *film = p->film;
+    const HitMask hits = terms_hits(&film->terms, term);
+    const int on = hits_on_target(hits, t);
+    int others = 0;
+    Float4 light = correction_stored(rows, film->terms.images[term], x, y);
+    for (int k = 0; k < footprints_count(film); k++)
+        if (k / RETEX_MAX_ORDERS != t && hits & hit_bit(k / RETEX_MAX_ORDERS, k % RETEX_MAX_ORDERS))
+            light *= correction_stored(rows, film->albedo[k], x, y), others++;
+    if (others)
+        p->corrections[t][correction_power(on)] -= light;
+}
+
+/* Terms and footprints are stored already. */
+static void store_corrections(PaperPixel *p, BandRows *rows, int spp, int x, int y)
+{
+    const PaperFilm *film = p->film;
+    const double unit = correction_unit(p, spp);
+    for (int t = 0; t < corrected(film); t++) {
+        for (int n = 0; n <= CORRECTION_POWERS; n++)
+            p->corrections[t][n] *= splat(1 / (float)spp);
+        for (int k = 0; k < p->ntouched; k++)
+            subtract_term(p, p->touched[k], t, rows, x, y);
+        for (int n = 0; n <= last_correction(film); n++)
+            correction_store(rows, film->corrections[t].of[n], p->corrections[t][n], unit, x, y);
+    }
+    memset(p->corrections, 0, sizeof p->corrections);
+}
+
 static void end_pixel(void *context, BandRows *rows, int spp, int x, int y)
 {
     PaperPixel *p = context;
     PaperFilm *film = p->film;
     float scale = 1 / (float)spp;
     for (int k = 0; k < p->ntouched; k++) {
-        Float4 *sum = &p->sums[p->touched[k]];
+        const Float4 sum = p->sums[p->touched[k]];
         float *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
         for (int c = 0; c < 3; c++)
-            pixel[c] = (*sum)[c] * scale;
-        *sum = splat(0);
+            pixel[c] = sum[c] * scale;
     }
-    p->ntouched = 0;
     for (int k = 0; k < footprints_count(film); k++)
         if (p->footprints[k].count > 0) {
             store_footprint(film, k, &p->footprints[k], rows, spp, x, y);
             p->footprints[k] = (FootprintSums){0};
         }
+    store_corrections(p, rows, spp, x, y);
+    for (int k = 0; k < p->ntouched; k++)
+        p->sums[p->touched[k]] = splat(0);
+    p->ntouched = 0;
 }
 
 static void add_band_stats(const void *layout, const BandRows *rows, RetexBandStats *stats)
@@ -343,6 +438,22 @@ static int finish_footprints(PaperFilm *film, RetexSet *set, RetexError *err)
     return code;
 }
 
+/* Each takes the texture at the first hits of its target. */
+static int finish_corrections(PaperFilm *film, RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int t = 0; t < corrected(film); t++)
+        for (int n = 0; n <= last_correction(film) && !code; n++) {
+            RetexTerm term = {.kind = RETEX_TERM_DEP, .edited = 1 + t, .nfactors = n};
+            for (int k = 0; k < n; k++)
+                term.factors[k] = t * film->params.orders + k;
+            code = bands_move_part(film->bands, film->corrections[t].of[n], set, &term.radiance, err);
+            if (!code)
+                code = retex_set_add_term(set, &term, NULL, err);
+        }
+    return code;
+}
+
 static int finish_film(void *layout, RetexSet *set, RetexError *err)
 {
     PaperFilm *film = layout;
@@ -350,7 +461,9 @@ static int finish_film(void *layout, RetexSet *set, RetexError *err)
         return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
                           TERMS_MAX, "take fewer targets or orders");
     int code = finish_footprints(film, set, err);
-    return code ? code : terms_finish(&film->terms, set, err);
+    if (!code)
+        code = terms_finish(&film->terms, set, err);
+    return code ? code : finish_corrections(film, set, err);
 }
 
 /* Footprints, and terms: what each has for every order. */

@@ -203,6 +203,17 @@ int terms_resume(TermTable *table, const char *name, RetexError *err)
     return key == TERM_DROPPED ? RETEX_OK : add_term(table, key, err);
 }
 
+HitMask terms_hits(const TermTable *table, int term)
+{
+    const RetexTermKind kind = (RetexTermKind)(table->keys[term] >> 56);
+    return kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP ? 0 : REST(table->keys[term]);
+}
+
+int hits_on_target(HitMask hits, int target)
+{
+    return count_bits(target_bits(hits, target));
+}
+
 int terms_place(const TermTable *table, int term, int *nfactors)
 {
     TermKey key = table->keys[term];

@@ -17,19 +17,19 @@ typedef uint64_t TermKey;
 TermKey term_key(int nhits, HitMask hits, int strict);
 
 typedef struct TermTable {
-    Bands *bands;           /* borrowed */
+    Bands *bands; /* borrowed */
     int ntargets, orders;
     int count;
     TermKey keys[TERMS_MAX];
-    int images[TERMS_MAX];  /* of the bands, made as terms come */
+    int images[TERMS_MAX]; /* of the bands, made as terms come */
     pthread_mutex_t lock;
-    int ready;              /* the lock exists */
+    int ready; /* the lock exists */
 } TermTable;
 
 /* One thread's memory of where terms are, so that the lock is taken once per term. */
 typedef struct TermCache {
     TermKey keys[256];
-    int terms[256];         /* number + 1, 0 = empty */
+    int terms[256]; /* number + 1, 0 = empty */
 } TermCache;
 
 int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, RetexError *err);
@@ -38,6 +38,10 @@ void terms_close(TermTable *table);
 int terms_find(TermTable *table, TermCache *cache, TermKey key);
 /* Make the term whose image has this name, if it is one of several targets' terms and not there yet. */
 int terms_resume(TermTable *table, const char *name, RetexError *err);
+/* The hits whose textures multiply a term. */
+HitMask terms_hits(const TermTable *table, int term);
+/* How many hits of a mask are on a target. */
+int hits_on_target(HitMask hits, int target);
 /* The target of a term's first factor, or -1, and how many factors it has. */
 int terms_place(const TermTable *table, int term, int *nfactors);
 /* Make all terms the set's, in an order that does not depend on when they came; footprints must be there already. */

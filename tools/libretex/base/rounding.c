@@ -7,6 +7,8 @@
 #include <retex/rounding.h>
 
 #define COEFFICIENT_STEP (1.0 / 8192)
+#define CORRECTION_STEP 64   /* most, in units of coefficients */
+#define CORRECTION_NOISE 512 /* of one sample, in the same units */
 #define SHARE_STEP (1.0 / 512)
 #define LEAST_SHARE 1e-5f   /* a half holds it */
 enum { COVERAGE_BITS = 8 }; /* significant ones: what lies below is noise, which does not compress */
@@ -36,6 +38,11 @@ double retex_coefficient_unit(double white)
 {
     /* sums that miss a power of two by their last bits make it */
     return retex_round_unit(COEFFICIENT_STEP * (float)white);
+}
+
+double retex_correction_unit(double coefficient_unit, int spp)
+{
+    return retex_round_unit(coefficient_unit * fmin(CORRECTION_STEP, CORRECTION_NOISE / sqrt(fmax(spp, 1))));
 }
 
 float retex_round_share(double share)

@@ -47,6 +47,7 @@ int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *er
     RetexSet empty = *set;
     empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
     empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.store = NULL, empty.source = NULL;
+    empty.exact_picture = 0;
     **copy = empty;
     return code;
 }
@@ -60,7 +61,7 @@ static int is_kept(const RetexSet *set, int part)
     if (!retex_part_is_used(set, part))
         return 1;
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].radiance == part && !set->terms[i].nfactors)
+        if (set->terms[i].radiance == part && !set->terms[i].nfactors && !set->terms[i].edited)
             return 1;
     for (int t = 0; t < set->ntargets; t++)
         if (set->targets[t].original == part)
@@ -83,7 +84,7 @@ static int copy_kept(const Compaction *work, RetexError *err)
                 set->targets[t].original = index;
         for (int k = 0; k < old->nterms && !code; k++) {
             RetexTerm term = old->terms[k];
-            if (term.nfactors || term.radiance != i)
+            if (term.nfactors || term.edited || term.radiance != i)
                 continue;
             term.radiance = index;
             code = retex_set_add_term(set, &term, NULL, err);

@@ -78,7 +78,7 @@ static int sort_term(RetexCompactLight *light, int number)
     RetexFootprintKind what;
     if (term->gain)
         return 0;
-    if (!term->nfactors)
+    if (!term->nfactors || term->edited)
         return 1;
     for (int k = 1; k < term->nfactors; k++) {
         retex_factor_target(light->set, term->factors[k], &target, &what);

@@ -10,6 +10,8 @@
 
 #include "base/half.h"
 
+#define LIKE_SAMPLES 16 /* a filtered pixel knows as much as one of so many times as many samples */
+
 /* Scales signals so that their means are as before filtering. */
 static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *result, int y)
 {
@@ -19,6 +21,8 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
         for (int c = 0; c < 3; c++)
             scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            if (retex_signal_corrects(d->set, &d->signals.of[s].members[k]))
+                continue;
             RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
             float *row = im->pixels + retex_image_index(im, 0, y);
             for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
@@ -33,6 +37,8 @@ static double pixel_unit(const RetexDenoiser *d, int x, int y)
     double white[3] = {0, 0, 0};
     for (int s = 0; s < d->signals.count; s++)
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            if (retex_signal_corrects(d->set, &d->signals.of[s].members[k]))
+                continue;
             const RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
             for (int c = 0; c < 3; c++)
                 white[c] += im->pixels[retex_image_index(im, x, y) + (size_t)c];
@@ -40,18 +46,29 @@ static double pixel_unit(const RetexDenoiser *d, int x, int y)
     return retex_coefficient_unit(fmax(white[0], fmax(white[1], white[2])));
 }
 
-/* Rounds coefficients as the renderer does; light that no texture multiplies is not rounded. */
+static void round_member(const RetexDenoiser *d, const RetexSignalMember *m, int x, int y, double unit)
+{
+    RetexImage *im = &d->set->parts[m->part].image;
+    float *value = im->pixels + retex_image_index(im, x, y);
+    for (int c = 0; c < 3; c++)
+        if (value[c] != 0)
+            value[c] = (float)retex_round_by(value[c], unit);
+}
+
+/* Rounds as the renderer does: corrections, and coefficients of layout footprints. Light that no texture multiplies is
+ * not rounded. */
 static void round_coefficients(const RetexDenoiser *d, int y)
 {
+    const int all = strcmp(d->set->layout, "footprints") == 0;
     for (int x = d->roi.x0; x < d->roi.x1; x++) {
-        const double unit = pixel_unit(d, x, y);
+        const double unit = pixel_unit(d, x, y), correction = retex_correction_unit(unit, LIKE_SAMPLES * d->set->spp);
         for (int s = 0; s < d->signals.count; s++)
-            for (int k = 0; k < d->signals.of[s].nmembers && d->signals.of[s].target >= 0; k++) {
-                RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
-                float *value = im->pixels + retex_image_index(im, x, y);
-                for (int c = 0; c < 3; c++)
-                    if (value[c] != 0)
-                        value[c] = (float)retex_round_by(value[c], unit);
+            for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+                const RetexSignalMember *m = &d->signals.of[s].members[k];
+                if (retex_signal_corrects(d->set, m))
+                    round_member(d, m, x, y, correction);
+                else if (all && d->signals.of[s].target >= 0)
+                    round_member(d, m, x, y, unit);
             }
     }
 }
@@ -82,8 +99,7 @@ static void finish_row(void *context, int y, int thread)
     (void)thread;
     if (y >= d->roi.y0 && y < d->roi.y1) {
         restore_means(d, f->result, y);
-        if (strcmp(d->set->layout, "footprints") == 0)
-            round_coefficients(d, y);
+        round_coefficients(d, y);
     }
     for (int k = 0; k < d->set->nparts; k++)
         if (f->result->written[k])
@@ -96,8 +112,11 @@ int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *resul
     RetexSet *set = d->set;
     int code = RETEX_OK;
     retex_parallel(retex_threads(nthreads), set->height, finish_row, &finish);
+    const int exact = set->exact_picture;
+    set->exact_picture = 0; /* until it is made of the filtered terms */
     if (set->nterms)
         code = retex_combine(&set->parts[0].image, set, NULL, NULL, &d->roi, nthreads, err);
+    set->exact_picture = exact;
     for (int y = 0; y < set->height && !code; y++)
         round_halves(&set->parts[0], y);
     return code;

@@ -402,6 +402,14 @@ static float image_value(const SignalScratch *r, const TilePixel *at, int image,
     return image ? 0 : total / weight;
 }
 
+/* A correction, which may have either sign, with the first candidate's weights. */
+static float correction_value(const SignalScratch *r, const TilePixel *at, int image, int c)
+{
+    const RetexDenoiseSums *s = &r->candidates[0];
+    const float norm = 0.5f * (s->norm[0][at->i] + s->norm[1][at->i]);
+    return norm > 0 ? r->mean_modulation[at->p] * (r->sums[3 * image + c][at->i] / norm) : 0;
+}
+
 /* Steps to each side at which neighbours lie within the window. */
 static int neighbour_reach(const RetexDenoiser *d)
 {
@@ -440,7 +448,8 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
             continue;
         float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
-            to[c] = image_value(r, at, image, c, total[c], members[c], m->weight);
+            to[c] = retex_signal_corrects(d->set, m) ? correction_value(r, at, image, c)
+                                                     : image_value(r, at, image, c, total[c], members[c], m->weight);
         image++;
     }
     if (r->nclusters) {

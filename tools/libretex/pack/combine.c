@@ -20,6 +20,8 @@ static int mark_needed(char *needed, const RetexSet *set)
     int ok = 1;
     memset(needed, 0, (size_t)set->nparts);
     for (int i = 0; i < set->nterms; i++) {
+        if (set->terms[i].edited)
+            continue;
         needed[set->terms[i].radiance] = 1;
         if (set->terms[i].gain)
             needed[set->terms[i].gain] = 1;

@@ -26,7 +26,7 @@ static void combine_row(const RetexPolynomialRow *row, int width, float *restric
             const RetexMonomial *m = &row->monomials[t];
             const RetexRowSpan span =
                 retex_span_intersection(m->span, (RetexRowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
-            const float *factors[RETEX_MAX_FACTORS + 2];
+            const float *factors[RETEX_MAX_FACTORS + 3];
             if (retex_span_is_empty(span))
                 continue;
             const size_t begin = 3 * (size_t)span.begin;
@@ -61,14 +61,28 @@ static void limit_row(const RetexPolynomialRow *row, size_t count, float *restri
     }
 }
 
+static int copy_picture(RetexPolynomialRow *row, int y, float *out, RetexError *err)
+{
+    const size_t count = 3 * (size_t)row->polynomial->set->width;
+    const float *picture;
+    int code = retex_row_reader_get(row->reader, 0, y, &picture, err);
+    memset(out, 0, count * sizeof *out);
+    if (!code && picture)
+        memcpy(out, picture, count * sizeof *out);
+    return code;
+}
+
 static int combine_band(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const int width = row->polynomial->set->width;
     int code = RETEX_OK;
     (void)context;
     for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)width) {
-        code = retex_polynomial_row_make(row, y, err);
-        if (!code)
+        if (row->polynomial->picture)
+            code = copy_picture(row, y, rgb, err);
+        else
+            code = retex_polynomial_row_make(row, y, err);
+        if (!code && !row->polynomial->picture)
             combine_row(row, width, rgb);
         if (!code && retex_floats_have_nonfinite(rgb, 3 * (size_t)width))
             limit_row(row, 3 * (size_t)width, rgb);
@@ -96,6 +110,14 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
 
 /* ---- with the originals, some rows ---- */
 
+/* The set's terms, though its picture may be exact. */
+static RetexSet without_picture(const RetexSet *set)
+{
+    RetexSet terms = *set;
+    terms.exact_picture = 0;
+    return terms;
+}
+
 static int open_original(RetexPolynomial *polynomial, const RetexSet *set, RetexError *err)
 {
     const RetexCombineParams all = {sizeof all, 3};
@@ -105,7 +127,8 @@ static int open_original(RetexPolynomial *polynomial, const RetexSet *set, Retex
 int retex_combine_check(const RetexSet *set, RetexError *err)
 {
     RetexPolynomial polynomial;
-    int code = open_original(&polynomial, set, err);
+    const RetexSet terms = without_picture(set);
+    int code = open_original(&polynomial, &terms, err);
     retex_polynomial_close(&polynomial);
     return code == RETEX_ENOMEM ? code : code == RETEX_OK;
 }
@@ -114,7 +137,8 @@ int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1,
 {
     RetexPolynomial polynomial;
     RetexPolynomialRow row = {0};
-    int code = open_original(&polynomial, set, err);
+    const RetexSet terms = without_picture(set);
+    int code = open_original(&polynomial, &terms, err);
     if (!code)
         code = retex_polynomial_row_open(&row, &polynomial, err);
     if (!code)

@@ -11,9 +11,30 @@
 
 #define MISSING 1 /* the code where the set lacks a part that a term needs */
 
-int retex_term_is_excluded(const RetexTerm *term, int cross)
+#define ALL_CROSS_TERMS 3
+
+int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
 {
-    return (term->kind == RETEX_TERM_CROSS2 && cross < 2) || (term->kind == RETEX_TERM_CROSS3 && cross < 3);
+    if (p->picture)
+        return 0;
+    if (term->edited)
+        return p->correction > 0 && p->edited[term->edited - 1];
+    return !(term->kind == RETEX_TERM_CROSS2 && p->cross < 2) && !(term->kind == RETEX_TERM_CROSS3 && p->cross < 3);
+}
+
+/* Finds what is edited. Corrections, and the picture of part 0, are those of all cross terms. */
+static void find_edited(RetexPolynomial *p)
+{
+    const RetexSet *set = p->set;
+    int count = 0;
+    for (int f = 0; f < set->nfootprints; f++) {
+        const int t = set->footprints[f].target;
+        p->edited[t] |= (p->textures && p->textures[t]) || (p->samples && retex_samples_have(p->samples, f));
+    }
+    for (int t = 0; t < set->ntargets; t++)
+        count += p->edited[t];
+    p->picture = set->exact_picture && !count && !p->apart && p->cross == ALL_CROSS_TERMS;
+    p->correction = p->apart || p->cross < ALL_CROSS_TERMS ? 0 : (float)retex_correction_weight(set->ntargets, count);
 }
 
 /* ---- opening ---- */
@@ -91,13 +112,14 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
     int code = samples ? retex_samples_check(samples, set, err) : RETEX_OK;
     if (code)
         return code;
+    find_edited(p);
     p->footprints = calloc((size_t)set->nfootprints + 1, sizeof *p->footprints);
     p->mixtures = calloc((size_t)set->nmixtures + 1, sizeof *p->mixtures);
     p->gains = calloc((size_t)set->nparts + 1, sizeof *p->gains);
     if (!p->footprints || !p->mixtures || !p->gains)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (!retex_term_is_excluded(&set->terms[i], p->cross))
+        if (retex_polynomial_has_term(p, &set->terms[i]))
             code = open_term(p, i, err);
     if (!code)
         code = retex_polynomial_reduced_make(p, nthreads, err);
@@ -222,6 +244,21 @@ static int make_term(RetexPolynomialRow *row, const RetexTerm *term, int y, Rete
     return code;
 }
 
+/* A row of the weight of corrections. */
+static int weight_row(RetexPolynomialRow *row, const float **made, RetexError *err)
+{
+    const RetexPolynomial *p = row->polynomial;
+    const int slot = retex_polynomial_slot_count(p->set) + p->ngroups;
+    float *values = buffer_values(row, slot, err);
+    if (!values)
+        return RETEX_ENOMEM;
+    if (values[0] != p->correction)
+        for (size_t i = 0; i < 3 * (size_t)p->set->width; i++)
+            values[i] = p->correction;
+    *made = values;
+    return RETEX_OK;
+}
+
 static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup *group, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
@@ -240,6 +277,8 @@ static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup
             retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);
         m->factors[m->nimages++] = values;
     }
+    if (group->corrects && p->correction != 1 && !code && !black)
+        code = weight_row(row, &m->factors[m->nimages++], err);
     row->count += !code && !black;
     return code;
 }
@@ -253,7 +292,7 @@ int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err)
     for (int g = 0; g < p->ngroups && !code; g++)
         code = make_group(row, &p->groups[g], y, err);
     for (int t = 0; t < p->set->nterms && !code && p->apart; t++)
-        if (!retex_term_is_excluded(&p->set->terms[t], p->cross))
+        if (retex_polynomial_has_term(p, &p->set->terms[t]))
             code = make_term(row, &p->set->terms[t], y, err);
     return code;
 }
@@ -262,7 +301,7 @@ void retex_polynomial_row_close(RetexPolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->buffers && i < retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups;
+    for (int i = 0; row->buffers && i <= retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups;
          i++)
         free(row->buffers[i].values);
     free(row->buffers);

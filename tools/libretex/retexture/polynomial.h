@@ -14,10 +14,13 @@ typedef struct RetexPolynomial {
     const RetexSamples *samples;   /* or NULL */
     RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
     int cross;
-    int apart;                                 /* 1: one monomial for each term, with all its factors; 0: terms are
-                                                  grouped */
+    int apart;                                 /* 1: one monomial for each term, with all its factors, and no
+                                                  corrections; 0: terms are grouped */
+    char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
+    int picture;                               /* 1: part 0 is the result, and there are no terms */
+    float correction;                          /* weight of the corrections of edited targets */
     RetexImage *footprints, *mixtures, *gains; /* reduced images, by number; gains by number of their part */
-    struct RetexPolynomialGroup *groups;            /* unless apart; see polynomial_groups.h */
+    struct RetexPolynomialGroup *groups;       /* unless apart; see polynomial_groups.h */
     int ngroups;
 } RetexPolynomial;
 
@@ -26,6 +29,8 @@ int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, cons
                           RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
                           RetexError *err);
 void retex_polynomial_close(RetexPolynomial *polynomial);
+/* Whether a term of the set counts in this polynomial. */
+int retex_polynomial_has_term(const RetexPolynomial *polynomial, const RetexTerm *term);
 
 /* A row of colours that is 0 outside of the span that was filled last. */
 typedef struct RetexRowBuffer {
@@ -35,12 +40,12 @@ typedef struct RetexRowBuffer {
 
 /* One term over one row, or several terms that differ only in reduced factors. */
 typedef struct RetexMonomial {
-    RetexRowSpan span;                                /* outside of it one of the factors is 0 */
+    RetexRowSpan span;                           /* outside of it one of the factors is 0 */
     const float *radiance;                       /* RGB, 3 * width numbers */
     int nfactors;                                /* number of footprints and mixtures */
-    int nimages;                                 /* the same with the gain or product of reduced factors, which comes
-                                                    last */
-    const float *factors[RETEX_MAX_FACTORS + 2]; /* RGB rows: samples, or the original albedo */
+    int nimages;                                 /* the same with the gain, the product of reduced factors and the
+                                                    weight of a correction, which come last */
+    const float *factors[RETEX_MAX_FACTORS + 3]; /* RGB rows: samples, or the original albedo */
     int footprints[RETEX_MAX_FACTORS];           /* their footprints or mixtures, as in RetexTerm */
 } RetexMonomial;
 
@@ -49,9 +54,9 @@ typedef struct RetexPolynomialRow {
     RetexRowReader *reader;
     RetexMonomial *monomials; /* those that are not black in all of the row */
     int count;
-    const float **made; /* rows of footprints, mixtures and gains that are made already; see polynomial.c */
+    const float **made;      /* rows of footprints, mixtures and gains that are made already; see polynomial.c */
     RetexRowSpan *spans;     /* outside of which these rows are 0 */
-    RetexRowBuffer *buffers;     /* memory for the rows that must be made */
+    RetexRowBuffer *buffers; /* memory for the rows that must be made */
     float *weights;
 } RetexPolynomialRow;
 

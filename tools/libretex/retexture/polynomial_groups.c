@@ -42,13 +42,15 @@ int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexTerm *term
 static int is_same(const struct RetexPolynomialGroup *a, const struct RetexPolynomialGroup *b)
 {
     return a->scale && a->radiance == b->radiance && a->gain == b->gain && a->scale == b->scale &&
-           a->nfactors == b->nfactors && memcmp(a->factors, b->factors, sizeof *a->factors * (size_t)a->nfactors) == 0;
+           a->corrects == b->corrects && a->nfactors == b->nfactors &&
+           memcmp(a->factors, b->factors, sizeof *a->factors * (size_t)a->nfactors) == 0;
 }
 
 static int add_term(RetexPolynomial *p, int number, RetexError *err)
 {
     const RetexTerm *term = &p->set->terms[number];
-    struct RetexPolynomialGroup wanted = {.radiance = term->radiance, .scale = retex_polynomial_group_scale(p, term)};
+    struct RetexPolynomialGroup wanted = {
+        .radiance = term->radiance, .scale = retex_polynomial_group_scale(p, term), .corrects = term->edited > 0};
     for (int k = 0; k < term->nfactors; k++)
         if (factor_scale(p, term->factors[k]) == 1)
             wanted.factors[wanted.nfactors++] = term->factors[k];
@@ -203,7 +205,7 @@ int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *e
     if (!(p->groups = calloc((size_t)p->set->nterms + 1, sizeof *p->groups)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
     for (int t = 0; t < p->set->nterms && !code; t++)
-        if (!retex_term_is_excluded(&p->set->terms[t], p->cross))
+        if (retex_polynomial_has_term(p, &p->set->terms[t]))
             code = add_term(p, t, err);
     for (int g = 0; g < p->ngroups && !code; g++)
         if (p->groups[g].scale)

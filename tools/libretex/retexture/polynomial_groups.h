@@ -11,6 +11,7 @@ struct RetexPolynomialGroup {
     int nfactors, factors[RETEX_MAX_FACTORS]; /* factors of the picture's size, as in RetexTerm */
     int gain;                                 /* gain of the picture's size: its part, or 0 */
     int scale;                                /* scale of the product, or 0 where there is none */
+    int corrects;                             /* 1: of corrections */
     RetexImage product;                       /* RGB */
     int *terms, nterms;
 };
@@ -24,7 +25,6 @@ int retex_polynomial_group_scale(const RetexPolynomial *polynomial, const RetexT
 
 /* ---- of polynomial.c ---- */
 
-int retex_term_is_excluded(const RetexTerm *term, int cross);
 /* Expand a row of one channel to three, in place. */
 void retex_row_gray_to_rgb(float *row, size_t width);
 

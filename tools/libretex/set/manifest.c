@@ -104,6 +104,8 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
                              part_name(set, term->radiance), "factors", factors);
     if (term->gain)
         retex_json_put(&json, "gain", part_name(set, term->gain));
+    if (term->edited)
+        retex_json_put(&json, "edited", json_integer(term->edited - 1));
     return json;
 }
 
@@ -189,6 +191,7 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "folded_white", real(set->folded_white, finite));
     retex_json_put(root, "denoised", json_boolean(set->denoised));
     retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
+    retex_json_put(root, "exact_picture", json_boolean(set->exact_picture));
     retex_json_put(root, "targets", targets);
     retex_json_put(root, "footprints", footprints);
     retex_json_put(root, "mixtures", mixtures);

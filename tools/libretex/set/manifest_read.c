@@ -316,6 +316,8 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
             if (term.gain == 0)
                 fail_reading(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
         }
+        if (json_object_get(json, "edited"))
+            term.edited = 1 + get_integer(reading, json, "edited", 0, set->ntargets - 1);
         if (!json_object_get(json, "kind"))
             fail_reading(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
         term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kind_name, RETEX_TERM_KINDS);
@@ -412,6 +414,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (json_object_get(root, "denoised"))
         set->denoised = get_boolean(reading, json_object_get(root, "denoised"), "denoised");
     set->strict_paper = get_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
+    if (json_object_get(root, "exact_picture"))
+        set->exact_picture = get_boolean(reading, json_object_get(root, "exact_picture"), "exact_picture");
     if (!reading->status)
         read_parts(reading, root, set);
     if (!reading->status)

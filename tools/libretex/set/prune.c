@@ -101,7 +101,7 @@ static void prune_terms(Pruning *p)
 
     for (int t = 0; t < set->nterms; t++) {
         RetexTerm *term = &set->terms[t];
-        if ((term->nfactors && (p->empty[term->radiance] || (term->gain && p->empty[term->gain]))) ||
+        if (((term->nfactors || term->edited) && (p->empty[term->radiance] || (term->gain && p->empty[term->gain]))) ||
             !prune_factors(p, term)) {
             drop(p, term->radiance);
             drop(p, term->gain ? term->gain : -1);

@@ -302,6 +302,11 @@ int retex_set_part_is_color(const RetexSet *set, int part)
     return found;
 }
 
+double retex_correction_weight(int ntargets, int edited)
+{
+    return edited == 1 ? 1 : edited < 1 ? 0 : (double)(ntargets - edited) / (edited * (ntargets - 1.0));
+}
+
 int retex_set_find_target(const RetexSet *set, const char *name)
 {
     int found = -1, count = 0;

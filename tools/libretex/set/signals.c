@@ -19,9 +19,14 @@ int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member)
 {
     const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
     return term && term->nfactors == 1 && term->factors[0] >= 0 &&
-                   set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT
+                   set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT && !term->edited
                ? term->factors[0]
                : -1;
+}
+
+int retex_signal_corrects(const RetexSet *set, const RetexSignalMember *member)
+{
+    return member->term >= 0 && set->terms[member->term].edited;
 }
 
 static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
@@ -32,11 +37,11 @@ static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind,
         retex_noise_part_name(name, set->targets[target].name, retex_footprint_kind_name(kind));
 }
 
-/* The target that the light of a term meets first; -1 where it meets none. */
+/* The target that the light of a term meets first; -1 where it meets none, and of corrections. */
 static void find_first_target(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
 {
     *target = -1, *kind = RETEX_FOOTPRINT_HIT;
-    if (term && term->nfactors)
+    if (term && term->nfactors && !term->edited)
         retex_factor_target(set, term->factors[0], target, kind);
 }
 
@@ -111,7 +116,7 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
         RetexSignal *signal = &signals->of[k];
         signal->members = signals->members + used;
         for (int t = 0; t < set->nterms; t++) {
-            float weight = 1;
+            float weight = set->terms[t].edited ? 0 : 1;
             if (signal_of(signals, set, &set->terms[t]) != signal)
                 continue;
             for (int n = 1; n < set->terms[t].nfactors; n++)

@@ -7,15 +7,15 @@
 /* A member of a signal: the radiance of one of its terms. */
 typedef struct RetexSignalMember {
     int part;
-    float weight; /* its factor in the signal's total */
+    float weight; /* its factor in the signal's total: 0 of corrections */
     int term;     /* -1: the beauty of a set without terms */
 } RetexSignalMember;
 
 typedef struct RetexSignal {
-    int target;   /* -1: light that no target's texture multiplies */
+    int target;              /* -1: light that no target's texture multiplies */
     RetexFootprintKind kind; /* of the first factor's footprint */
-    int noise;    /* part noise_… */
-    int cover;    /* part guide_cover_… of the target, or -1 */
+    int noise;               /* part noise_… */
+    int cover;               /* part guide_cover_… of the target, or -1 */
     int nmembers;
     RetexSignalMember *members;
 } RetexSignal;
@@ -23,7 +23,7 @@ typedef struct RetexSignal {
 typedef struct RetexSignals {
     int count;
     RetexSignal *of;
-    RetexSignalMember *members; /* of all signals */
+    RetexSignalMember *members;    /* of all signals */
     int covers[RETEX_MAX_TARGETS]; /* parts guide_cover_… by target; -1 where no signal is of the target */
 } RetexSignals;
 
@@ -33,6 +33,9 @@ void retex_signals_close(RetexSignals *signals);
 
 /* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
 int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
+
+/* 1 if the member is a correction. These are members of the signal that no target's texture multiplies. */
+int retex_signal_corrects(const RetexSet *set, const RetexSignalMember *member);
 
 /* The footprint of a cluster if the member is the light of that cluster alone, that is its term has that one factor.
  * Else -1, as always in layout paper. */

@@ -12,12 +12,15 @@ extern "C" {
 /* Begin with RETEX_COMBINE_INIT. */
 typedef struct RetexCombineParams {
     size_t size;
-    int cross;    /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
+    int cross; /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
 } RetexCombineParams;
-#define RETEX_COMBINE_INIT { sizeof(RetexCombineParams), 3 }
+#define RETEX_COMBINE_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(RetexCombineParams), 3                                                                                  \
+    }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
- * The beauty part is never read. */
+ * The beauty part is read only where no target has samples, and set->exact_picture says that it is the result. */
 int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
                   const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
                   int nthreads /* 0 = all cores */, RetexError *err);

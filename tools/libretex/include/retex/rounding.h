@@ -31,6 +31,9 @@ double retex_round_bits(double value, int bits);
 /* The unit, for retex_round_by, of a pixel's coefficients: radiance that a texture multiplies. white: the sum of all
  * terms of the pixel in its largest channel, which is its value with white targets. */
 double retex_coefficient_unit(double white);
+/* The unit of a pixel's corrections, from that of its coefficients: no texture makes them brighter than the picture,
+ * and they are known to their noise only. */
+double retex_correction_unit(double coefficient_unit, int spp);
 /* Round a footprint's weight in a mixture, above 0 to 1; never to 0. */
 float retex_round_share(double share);
 /* Round a footprint's coverage, 0..1. */

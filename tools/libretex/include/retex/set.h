@@ -5,7 +5,9 @@
  *     I = sum over terms t of  C_t * product over the factors f of t of  A_f
  *
  * C_t is a radiance image, A_f the (new) texture filtered at footprint f. A footprint holds, per pixel, where on its
- * target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. Both
+ * target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. A
+ * target that keeps its original is a factor too, by that mean; corrections make up for what a product of means differs
+ * from the mean of products. Both
  * layouts, 'paper' and 'footprints', are such polynomials and differ only in which terms and footprints they list.
  * Source: 'Efficient physically-based retexturing in image-space', supplement 4.2 Eq. 4 and 4.3.
  *
@@ -92,6 +94,8 @@ typedef struct RetexTerm {
     int gain;          /* part "R" or "RGB" that multiplies radiance, as a factor does, or 0: none. half */
     int nfactors;      /* 0..RETEX_MAX_FACTORS */
     int factors[RETEX_MAX_FACTORS]; /* of each the index of a footprint, or RETEX_MIXTURE(index of a mixture) */
+    int edited;        /* 0: always counts. 1 + t: a correction, of either sign, which counts in full where target t has
+                          a new texture and all others keep their originals; see retex_correction_weight */
 } RetexTerm;
 
 #define RETEX_MIXTURE(m) (-1 - (m)) /* and back */
@@ -124,6 +128,7 @@ typedef struct RetexSet {
     double folded_white;   /* layout footprints: the same share, were every target painted white (albedo 0.8) */
     int denoised;          /* 1: the coefficients were filtered, see denoise.h */
     int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
+    int exact_picture;     /* 1: part 0 is the picture with all originals: recombination without textures gives it */
     int ntargets;
     RetexTarget targets[RETEX_MAX_TARGETS];
     int nfootprints, nterms, nparts;
@@ -170,6 +175,9 @@ int retex_set_scale(const RetexSet *set, const RetexImage *image);
 int retex_set_footprint_scale(const RetexSet *set, int footprint);
 /* 1 if the part holds colours, scene-linear Rec.709: the picture, radiance, albedos and originals. 0: other values. */
 int retex_set_part_is_color(const RetexSet *set, int part);
+/* The weight of the corrections of each edited target, where `edited` of `ntargets` have a new texture: 1 of one, 0 of
+ * all, between them linear, divided among the edited ones. */
+double retex_correction_weight(int ntargets, int edited);
 /* The target of that name, exactly, else ignoring case if that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
 

@@ -1,0 +1,215 @@
+/* Corrections, through the film of both layouts: with one target edited, the others kept, a set gives the sum over its
+ * paths of their light times the product of what each hit does. */
+#include "film/footprints/footprints.h"
+#include "film/paper/paper.h"
+#include "lib_film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define PATHS 40
+#define HITS 6
+#define EACH 3        /* most hits of one target on a path: corrections tell no more apart */
+#define SPP (1 << 18) /* steps of corrections are as small as those of coefficients */
+#define PICTURES 16   /* by which targets are edited: bits */
+
+static const Rgb COLOUR = {0.9f, 0.4f, 0.05f}; /* of edited targets */
+
+/* The left pixel, by brute force. */
+typedef struct Truth {
+    double sum[PICTURES][3];
+    Rgb value[PICTURES]; /* of the current path */
+} Truth;
+
+static Rgb random_rgb(uint32_t *seed, double low)
+{
+    return (Rgb){(float)(low + (1 - low) * test_random(seed)), (float)(low + (1 - low) * test_random(seed)),
+                 (float)(low + (1 - low) * test_random(seed))};
+}
+
+static void add_hit(Fixture *f, Truth *truth, int target, int first, uint32_t *seed)
+{
+    const int both = test_random(seed) < 0.5;
+    const Split split = {random_rgb(seed, 0.2), both ? random_rgb(seed, 0) : rgb_grey(0)};
+    const Rgb albedo = random_rgb(seed, 0);
+    split_hit(f, target, test_random(seed), test_random(seed), albedo, first && test_random(seed) < 0.5, split);
+    for (int e = 0; e < PICTURES; e++)
+        truth->value[e] = rgb_mul(truth->value[e], split_apply(split, e >> target & 1 ? COLOUR : albedo));
+}
+
+static void add_light(Fixture *f, Truth *truth, uint32_t *seed)
+{
+    const Rgb light = rgb_scale(random_rgb(seed, 0.5), (float)SPP / PATHS);
+    connect_light(f, light);
+    for (int e = 0; e < PICTURES; e++) {
+        const Rgb more = rgb_mul(light, truth->value[e]);
+        truth->sum[e][0] += (double)more.r / SPP, truth->sum[e][1] += (double)more.g / SPP;
+        truth->sum[e][2] += (double)more.b / SPP;
+    }
+}
+
+static void add_path(Fixture *f, Truth *truth, uint32_t *seed)
+{
+    int of[RETEX_MAX_TARGETS] = {0};
+    const int nhits = (int)(test_random(seed) * (HITS + 1));
+    begin_path(f);
+    for (int e = 0; e < PICTURES; e++)
+        truth->value[e] = rgb_grey(1);
+    for (int k = 0; k < nhits; k++) {
+        const int target = (int)(test_random(seed) * f->scene.ntargets);
+        if (of[target]++ == EACH)
+            break;
+        add_hit(f, truth, target, k == 0, seed);
+        if (test_random(seed) < 0.5)
+            add_light(f, truth, seed);
+    }
+    add_light(f, truth, seed);
+    end_path(f);
+}
+
+static void make(Fixture *f, Truth *truth, const FilmLayout *layout, int ntargets, uint32_t seed)
+{
+    begin_film(f, ntargets, SPP, 6, 2, 2);
+    f->params.layout = layout;
+    create_film(f);
+    memset(truth, 0, sizeof *truth);
+    for (int k = 0; k < PATHS; k++)
+        add_path(f, truth, &seed);
+    finish_film(f);
+}
+
+/* The picture with some targets in COLOUR, by retex_combine. */
+static void combine(RetexImage *picture, const RetexSet *set, int edited)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    RetexSamples *samples = NULL;
+    RetexError err = {0};
+    int count = 0;
+    for (int t = 0; t < set->ntargets; t++) {
+        if (!(edited >> t & 1))
+            continue;
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        snprintf(spec.target, sizeof spec.target, "%s", set->targets[t].name);
+        spec.constant = 1, spec.color[0] = COLOUR.r, spec.color[1] = COLOUR.g, spec.color[2] = COLOUR.b;
+        specs[count++] = spec;
+    }
+    if (count)
+        test_must(retex_sample(&samples, set, specs, count, 1, &err), &err);
+    test_must(retex_combine(picture, set, samples, NULL, NULL, 1, &err), &err);
+    retex_samples_close(&samples);
+}
+
+static double largest_error(const Fixture *f, const Truth *truth, int edited)
+{
+    RetexImage picture = {0};
+    double error = 0;
+    combine(&picture, f->set, edited);
+    for (size_t c = 0; c < 3; c++)
+        error = fmax(error, fabs(picture.pixels[c] - truth->sum[edited][c]));
+    retex_image_free(&picture);
+    return error;
+}
+
+static void remove_corrections(RetexSet *set)
+{
+    int count = 0;
+    for (int t = 0; t < set->nterms; t++)
+        if (!set->terms[t].edited)
+            set->terms[count++] = set->terms[t];
+    set->nterms = count;
+}
+
+/* What rounding may do: coefficients and corrections are off by up to half a step of the pixel's white, each its own
+ * way. */
+static double bound(const Fixture *f)
+{
+    double most = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double white = 0;
+        for (int t = 0; t < f->set->nterms; t++)
+            white += f->set->terms[t].edited ? 0 : (double)f->set->parts[f->set->terms[t].radiance].image.pixels[c];
+        most = fmax(most, white);
+    }
+    return most * sqrt(f->set->nterms) / 3 / 8192;
+}
+
+static void check_layout(const FilmLayout *layout)
+{
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        const int ntargets = seed % 2 ? 2 : 3;
+        Fixture f;
+        Truth truth;
+        make(&f, &truth, layout, ntargets, seed);
+        const double most = bound(&f);
+        double with = 0, without = 0;
+        for (int t = 0; t < ntargets; t++)
+            with = fmax(with, largest_error(&f, &truth, 1 << t));
+        assert_true(largest_error(&f, &truth, 0) < most);
+        remove_corrections(f.set);
+        for (int t = 0; t < ntargets; t++)
+            without = fmax(without, largest_error(&f, &truth, 1 << t));
+        printf("# seed %u: error %g, at most %g, without corrections %g\n", seed, with, most, without);
+        assert_true(with < most);
+        assert_true(without > 2 * most);
+        end_film(&f);
+    }
+}
+
+static void footprints_are_exact(void **state)
+{
+    (void)state;
+    check_layout(&footprints_layout);
+}
+
+static void paper_is_exact(void **state)
+{
+    (void)state;
+    check_layout(&paper_layout);
+}
+
+/* Make the corrections terms like all others, with a part of their light. */
+static void weigh_corrections(RetexSet *set, float weight)
+{
+    for (int t = 0; t < set->nterms; t++) {
+        RetexImage *radiance = &set->parts[set->terms[t].radiance].image;
+        for (size_t i = 0; i < 3 && set->terms[t].edited; i++)
+            radiance->pixels[i] *= weight;
+        set->terms[t].edited = 0;
+    }
+}
+
+/* Between one edited target and all, corrections count in part. */
+static void several_edited_targets_interpolate(void **state)
+{
+    (void)state;
+    RetexImage picture = {0}, expected = {0};
+    Fixture f;
+    Truth truth;
+    make(&f, &truth, &footprints_layout, 3, 2);
+    assert_true(retex_correction_weight(3, 0) == 0 && retex_correction_weight(3, 1) == 1);
+    assert_true(retex_correction_weight(3, 2) == 0.25 && retex_correction_weight(3, 3) == 0);
+    assert_true(retex_correction_weight(2, 2) == 0 && retex_correction_weight(1, 1) == 1);
+    combine(&picture, f.set, 5);
+    int count = 0; /* those of the target that is kept do not count */
+    for (int t = 0; t < f.set->nterms; t++)
+        if (f.set->terms[t].edited != 2)
+            f.set->terms[count++] = f.set->terms[t];
+    f.set->nterms = count;
+    weigh_corrections(f.set, 0.25f);
+    combine(&expected, f.set, 5);
+    for (size_t c = 0; c < 3; c++)
+        assert_float_equal(picture.pixels[c], expected.pixels[c], 1e-5f * expected.pixels[c]);
+    retex_image_free(&picture);
+    retex_image_free(&expected);
+    end_film(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(footprints_are_exact), cmocka_unit_test(paper_is_exact),
+                                       cmocka_unit_test(several_edited_targets_interpolate)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
