@@ -176,10 +176,14 @@ static ParsedColorMap *known_map(Sdl *sdl, const char *word)
     return known;
 }
 
-ParsedColorMap *parse_pigment_map(Sdl *sdl)
+/* Reads an entry of a map after its value. */
+typedef void MapEntryReader(Sdl *sdl, ParsedColorMap *map, int *capacity, double value);
+
+/* The rest of a pigment_map or texture_map: the identifier of one, or its entries. */
+static ParsedColorMap *parse_map(Sdl *sdl, const char *word, MapEntryReader *read_entry)
 {
     sdl_expect(sdl, "{");
-    ParsedColorMap *map = known_map(sdl, "pigment_map");
+    ParsedColorMap *map = known_map(sdl, word);
     if (map)
         return map;
     map = map_new(sdl);
@@ -188,11 +192,7 @@ ParsedColorMap *parse_pigment_map(Sdl *sdl)
     while (sdl_accept(sdl, "[")) {
         double value = optional_float(sdl, 1); /* of `average` it may be left out */
         sdl_optional_comma(sdl);
-        ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
-        map_add(sdl, map, &capacity, value, pigment_mean(pigment));
-        gaps_join(&map->gaps, &pigment->gaps);
-        if (pigment->pigment.kind != PIGMENT_COLOR)
-            gaps_add(&map->gaps, GAP_PIGMENT_MAP);
+        read_entry(sdl, map, &capacity, value);
         sdl_optional_comma(sdl);
     }
     statement_end(sdl);
@@ -200,30 +200,35 @@ ParsedColorMap *parse_pigment_map(Sdl *sdl)
     return map;
 }
 
+static void read_pigment_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
+{
+    ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
+    map_add(sdl, map, capacity, value, pigment_mean(pigment));
+    gaps_join(&map->gaps, &pigment->gaps);
+    if (pigment->pigment.kind != PIGMENT_COLOR)
+        gaps_add(&map->gaps, GAP_PIGMENT_MAP);
+}
+
+static void read_texture_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
+{
+    const ParsedTexture *texture = parse_texture_body(sdl, ']');
+    const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
+    map_add(sdl, map, capacity, value, pigment_mean(pigment));
+    gaps_join(&map->gaps, &texture->gaps);
+    gaps_join(&map->gaps, &pigment->gaps);
+    if (!map->texture)
+        map->texture = texture;
+}
+
+ParsedColorMap *parse_pigment_map(Sdl *sdl)
+{
+    return parse_map(sdl, "pigment_map", read_pigment_entry);
+}
+
 ParsedColorMap *parse_texture_map(Sdl *sdl)
 {
-    sdl_expect(sdl, "{");
-    ParsedColorMap *map = known_map(sdl, "texture_map");
-    if (map)
-        return map;
-    map = map_new(sdl);
-    int capacity = 0;
-    statement_begin(sdl);
+    ParsedColorMap *map = parse_map(sdl, "texture_map", read_texture_entry);
     gaps_add(&map->gaps, GAP_TEXTURE_MAP);
-    while (sdl_accept(sdl, "[")) {
-        double value = optional_float(sdl, 1);
-        sdl_optional_comma(sdl);
-        const ParsedTexture *texture = parse_texture_body(sdl, ']');
-        const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
-        map_add(sdl, map, &capacity, value, pigment_mean(pigment));
-        gaps_join(&map->gaps, &texture->gaps);
-        gaps_join(&map->gaps, &pigment->gaps);
-        if (!map->texture)
-            map->texture = texture;
-        sdl_optional_comma(sdl);
-    }
-    statement_end(sdl);
-    sdl_expect(sdl, "}");
     return map;
 }
 

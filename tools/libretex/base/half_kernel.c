@@ -100,26 +100,17 @@ RETEX_CPU_TARGET_AVX2 static void to_float_f16c(float *restrict dst, const uint1
 
 #endif
 
+RETEX_CPU_TABLE(from_float, (uint16_t *restrict, const float *restrict, size_t), retex_half_from_float_scalar,
+                from_float_f16c, from_float_f16c)
+RETEX_CPU_TABLE(to_float, (float *restrict, const uint16_t *restrict, size_t), retex_half_to_float_scalar,
+                to_float_f16c, to_float_f16c)
+
 void retex_half_from_float(uint16_t *restrict dst, const float *restrict src, size_t count)
 {
-    static void (*const by_level[RETEX_CPU_LEVELS])(uint16_t *restrict, const float *restrict, size_t) = {
-        retex_half_from_float_scalar,
-#if RETEX_CPU_X86
-        from_float_f16c,
-        from_float_f16c
-#endif
-    };
-    by_level[retex_cpu_level()](dst, src, count);
+    from_float_by_level[retex_cpu_level()](dst, src, count);
 }
 
 void retex_half_to_float(float *restrict dst, const uint16_t *restrict src, size_t count)
 {
-    static void (*const by_level[RETEX_CPU_LEVELS])(float *restrict, const uint16_t *restrict, size_t) = {
-        retex_half_to_float_scalar,
-#if RETEX_CPU_X86
-        to_float_f16c,
-        to_float_f16c
-#endif
-    };
-    by_level[retex_cpu_level()](dst, src, count);
+    to_float_by_level[retex_cpu_level()](dst, src, count);
 }

@@ -8,14 +8,13 @@
 
 #include <retex/color.h>
 #include <retex/combine.h>
-#include <retex/denoise_data.h>
 #include <retex/parallel.h>
 #include <retex/samples.h>
 
 #include "compact/bands.h"
 #include "compact/build.h"
 #include "compact/image_noise.h"
-#include "set/parts.h"
+#include "set/noise.h"
 
 #define TILE RETEX_COMPACT_BAND_ROWS /* side of a tile in pixels, without margins */
 #define MARGIN 16                    /* pixels on each side: two pixels of an image of scale 8 */
@@ -293,9 +292,9 @@ int retex_compact_trial_pictures(RetexImage pictures[RETEX_COMPACT_TRIALS], cons
     return code;
 }
 
-/* Estimate the mean square noise of the picture. Sets that are not denoised have parts of noise: these are added to the
- * picture, those of targets by half because targets' noise is divided so. Denoised sets do not have these parts: their
- * remaining noise is estimated from the high frequencies of a trial picture of flat colours. */
+/* Estimate the mean square noise of the picture. Sets that are not denoised have parts of noise, which are added to the
+ * picture. Denoised sets do not have them: their remaining noise is estimated from the high frequencies of a trial
+ * picture of flat colours. */
 static int measure_noise(RetexCompactReference *reference, int nthreads, RetexError *err)
 {
     const RetexSet *set = reference->set;
@@ -309,14 +308,8 @@ static int measure_noise(RetexCompactReference *reference, int nthreads, RetexEr
     if (!code)
         code = retex_image_copy(&noise, &picture, err);
     const size_t count = (size_t)set->width * (size_t)set->height * 3;
-    for (int i = 1; i < set->nparts && !code; i++) {
-        const RetexPart *part = &set->parts[i];
-        const float share = strcmp(part->name, RETEX_NOISE_PREFIX RETEX_SIGNAL_INDEP) == 0 ? 1 : 0.5f;
-        if (!retex_part_is_denoise_data(set, i) || !retex_name_is_noise(part->name) || part->image.channels != 3)
-            continue;
-        for (size_t k = 0; k < count; k++)
-            noise.pixels[k] += share * part->image.pixels[k];
-    }
+    if (!code)
+        code = retex_set_add_noise(noise.pixels, set, 0, set->height, err);
     for (size_t k = 0; k < count && !code; k++) {
         const double d = (double)encoded(noise.pixels[k]) - (double)encoded(picture.pixels[k]);
         sum += d * d;

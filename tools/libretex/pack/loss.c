@@ -7,14 +7,12 @@
 #include <string.h>
 
 #include <retex/combine.h>
-#include <retex/denoise_data.h>
 
 #include "retexture/combine_rows.h"
 #include "set/manifest.h"
 #include "pack/bands.h"
-#include "set/rows.h"
-#include "set/parts.h"
 #include "picture/srgb_codes.h"
+#include "set/noise.h"
 
 /* --- bytes --- */
 
@@ -102,29 +100,6 @@ static uint64_t squared_error(const uint16_t *a, const uint16_t *b, size_t count
     return sum;
 }
 
-/* Rows of the picture as they would be with the noise that denoising reads on top; that of targets by half, for they
- * are divided so. */
-static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexError *err)
-{
-    const size_t length = 3 * (size_t)set->width;
-    RetexRowReader *reader;
-    int code = retex_row_reader_open(&reader, set, NULL, err);
-    for (int i = 1; i < set->nparts; i++) {
-        const RetexPart *part = &set->parts[i];
-        const float share = strcmp(part->name, RETEX_NOISE_PREFIX RETEX_SIGNAL_INDEP) == 0 ? 1 : 0.5f;
-        if (!retex_part_is_denoise_data(set, i) || !retex_name_is_noise(part->name) || part->image.channels != 3)
-            continue;
-        for (int y = y0; y < y1 && !code; y++) {
-            const float *row;
-            code = retex_row_reader_get(reader, i, y, &row, err);
-            for (size_t k = 0; k < length && !code && row; k++)
-                rows[(size_t)(y - y0) * length + k] += share * row[k];
-        }
-    }
-    retex_row_reader_close(&reader);
-    return code;
-}
-
 static int process_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
 {
     const PictureWork *work = context;
@@ -140,7 +115,7 @@ static int process_rows(void *context, int y0, int y1, const float *rows, RetexE
     int code = codes && (noisy || !work->noise) ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to compare rows");
     if (!code && noisy) {
         memcpy(noisy, rows, count * sizeof *noisy);
-        code = add_noise(noisy, work->set, y0, y1, err);
+        code = retex_set_add_noise(noisy, work->set, y0, y1, err);
     }
     if (!code)
         retex_srgb_codes_16(codes, noisy ? noisy : rows, count);

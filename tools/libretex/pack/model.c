@@ -10,6 +10,7 @@
 
 #include "pack/fit.h"
 #include "pack/range_coder.h"
+#include "pack/zigzag.h"
 
 #define ALWAYS_INLINE __attribute__((always_inline))
 
@@ -80,16 +81,6 @@ ALWAYS_INLINE static inline uint32_t code_number(Stream *s, RetexBitModel *model
         return (uint32_t)token;
     const int rest = token / 2 - 1;
     return (2u | (token & 1)) << rest | code_plain(s, number & ((1u << rest) - 1), rest, reading);
-}
-
-static uint32_t to_unsigned(int32_t residual)
-{
-    return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
-}
-
-static int32_t from_unsigned(uint32_t code)
-{
-    return (int32_t)(code >> 1 ^ (0u - (code & 1)));
 }
 
 /* --- ranks --- */
@@ -229,10 +220,10 @@ ALWAYS_INLINE static inline void code_numbers(Coding *c, int index, int nweights
             const int32_t guess = in_steps(retex_pack_fit_guess_by(channel, at, above, nweights), shift);
             uint32_t code = 0;
             if (!reading)
-                code = to_unsigned((int32_t)((uint32_t)(channel->numbers[at] >> shift) - (uint32_t)guess));
+                code = zigzag_encode((int32_t)((uint32_t)(channel->numbers[at] >> shift) - (uint32_t)guess));
             code = code_number(&c->stream, c->models->token[class_of(channel, at, above)], code, reading);
             channel->sizes[at] = (int32_t)(code / 2 < LARGEST_SIZE ? (code + 1) / 2 : LARGEST_SIZE);
-            channel->numbers[at] = last = (int32_t)(((uint32_t)guess + (uint32_t)from_unsigned(code)) << shift);
+            channel->numbers[at] = last = (int32_t)(((uint32_t)guess + (uint32_t)zigzag_decode(code)) << shift);
         }
     }
 }

@@ -9,17 +9,13 @@
 #include <blosc.h>
 
 #include "pack/restore.h"
+#include "pack/zigzag.h"
 
 static const int TRIAL_EFFORT = 1; /* blosc's effort when predictors are compared */
 
 static int32_t wrap_residual(int32_t value, int bits)
 {
     return bits == 8 ? (int8_t)value : bits == 16 ? (int16_t)value : value;
-}
-
-static uint32_t to_unsigned(int32_t residual)
-{
-    return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
 }
 
 static uint32_t residual_at(const RetexPackPlane *plane, RetexPackPredictor predictor, size_t row, int x, int32_t last)
@@ -30,7 +26,7 @@ static uint32_t residual_at(const RetexPackPlane *plane, RetexPackPredictor pred
         guess = in_steps(guess, shift);
         number >>= shift;
     }
-    return to_unsigned(wrap_residual(subtract(number, guess), plane->bits));
+    return zigzag_encode(wrap_residual(subtract(number, guess), plane->bits));
 }
 
 size_t retex_pack_plane_bound(const RetexPackPlane *plane)

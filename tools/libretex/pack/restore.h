@@ -3,6 +3,7 @@
 #define RETEX_PACK_RESTORE_H
 
 #include "pack/planes.h"
+#include "pack/zigzag.h"
 
 /* How a number is predicted where its left, upper and upper left neighbours matter. At an edge of what matters it is by
  * the left one, else the upper one, else the last one that was met in the row. */
@@ -52,11 +53,6 @@ static inline int32_t predict(RetexPackPredictor predictor, int32_t left, int32_
 static inline int32_t wrap(int32_t value, int bits)
 {
     return bits == 8 ? (uint8_t)value : bits == 16 ? (int16_t)value : value;
-}
-
-static inline int32_t from_unsigned(uint32_t code)
-{
-    return (int32_t)(code >> 1 ^ (0u - (code & 1)));
 }
 
 /* The prediction of number x of the row at `row`, which has one above it unless it is the first. */

@@ -7,7 +7,7 @@
 static inline NUMBER NAME(step)(int32_t guess, int shift, const unsigned char *from, int bytes, int bits)
 {
     guess = add(guess, (1 << shift) >> 1) >> shift;
-    return (NUMBER)wrap((int32_t)((uint32_t)add(guess, from_unsigned(load(from, bytes))) << shift), bits);
+    return (NUMBER)wrap((int32_t)((uint32_t)add(guess, zigzag_decode(load(from, bytes))) << shift), bits);
 }
 
 /* A run of a row; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
@@ -76,7 +76,7 @@ static inline void NAME(restore_row)(NUMBER *n, const NUMBER *above, RetexPackPr
     int32_t left = n[0];
     for (int x = 1; x < width; x++) {
         const int32_t guess = predict(predictor, left, above[x], above[x - 1]);
-        n[x] = (NUMBER)wrap(add(guess, from_unsigned(load(from + x * bytes, bytes))), bits);
+        n[x] = (NUMBER)wrap(add(guess, zigzag_decode(load(from + x * bytes, bytes))), bits);
         left = n[x];
     }
 }

@@ -59,7 +59,7 @@ void retex_pack_restore_reference(const RetexPackPlane *plane, RetexPackPredicto
                 continue;
             const int shift = plane->shift ? plane->shift[row + (size_t)x] : 0;
             const int32_t guess = in_steps(predict_at(plane, predictor, row, x, last), shift);
-            const int32_t sum = add(guess, from_unsigned(load(from, bytes)));
+            const int32_t sum = add(guess, zigzag_decode(load(from, bytes)));
             *number = last = wrap((int32_t)((uint32_t)sum << shift), plane->bits);
             from += bytes;
         }
@@ -93,7 +93,7 @@ static inline void spread_wide(int32_t *numbers, size_t count, const unsigned ch
     }
 #endif
     for (; i < count; i++)
-        numbers[i] = wrap(from_unsigned(load(from + i * (size_t)bytes, bytes)), bits);
+        numbers[i] = wrap(zigzag_decode(load(from + i * (size_t)bytes, bytes)), bits);
 }
 
 static inline void spread_codes(unsigned char *codes, size_t count, const unsigned char *from)
@@ -105,7 +105,7 @@ static inline void spread_codes(unsigned char *codes, size_t count, const unsign
         memcpy(codes + i, &some, sizeof some);
     }
     for (; i < count; i++)
-        codes[i] = (unsigned char)from_unsigned(from[i]);
+        codes[i] = (unsigned char)zigzag_decode(from[i]);
 }
 
 /* Of all that matters, the one or the other. */

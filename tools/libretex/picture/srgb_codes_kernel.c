@@ -144,17 +144,12 @@ RETEX_CPU_TARGET_AVX2 static void codes_8_avx2(uint8_t *restrict codes, const fl
 
 #endif
 
+RETEX_CPU_TABLE(codes_8, (uint8_t *restrict, const float *restrict, size_t), codes_8_plain, codes_8_avx2, codes_8_avx2)
+
 void retex_srgb_codes_8(uint8_t *restrict codes, const float *restrict values, size_t count)
 {
-    static void (*const by_level[RETEX_CPU_LEVELS])(uint8_t *restrict, const float *restrict, size_t) = {
-        codes_8_plain,
-#if RETEX_CPU_X86
-        codes_8_avx2,
-        codes_8_avx2
-#endif
-    };
     pthread_once(&tables.once_8, make_8);
-    by_level[retex_cpu_level()](codes, values, count);
+    codes_8_by_level[retex_cpu_level()](codes, values, count);
 }
 
 void retex_srgb_codes_16(uint16_t *restrict codes, const float *restrict values, size_t count)

@@ -8,8 +8,9 @@
  *
  *     scale_by_level[retex_cpu_level()](v, n);
  *
- * Kernels written with intrinsics fill their table by hand, between #if RETEX_CPU_X86 and #endif. The function of
- * RETEX_CPU_BASELINE is the reference that tests compare the others with. */
+ * Kernels written with intrinsics, between #if RETEX_CPU_X86 and #endif, fill it by RETEX_CPU_TABLE with a function for
+ * each level; the others are not looked at elsewhere. The function of RETEX_CPU_BASELINE is the reference that tests
+ * compare the others with. */
 #ifndef RETEX_CPU_H
 #define RETEX_CPU_H
 
@@ -49,15 +50,21 @@ RetexCpuLevel retex_cpu_level(void);
         _Pragma("GCC target(\"avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512\")")
 #define RETEX_CPU_END _Pragma("GCC pop_options")
 
+#define RETEX_CPU_TABLE(name, parameters, baseline, avx2, avx512)                                                      \
+    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {baseline, avx2, avx512};
+
 #define RETEX_CPU_KERNEL(name, parameters, arguments)                                                                  \
     static void name##_baseline parameters { name##_body arguments; }                                                  \
     RETEX_CPU_TARGET_AVX2 static void name##_avx2 parameters { name##_body arguments; }                                \
     RETEX_CPU_TARGET_AVX512 static void name##_avx512 parameters { name##_body arguments; }                            \
-    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {name##_baseline, name##_avx2, name##_avx512};
+    RETEX_CPU_TABLE(name, parameters, name##_baseline, name##_avx2, name##_avx512)
 #else
+#define RETEX_CPU_TABLE(name, parameters, baseline, avx2, avx512)                                                      \
+    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {baseline};
+
 #define RETEX_CPU_KERNEL(name, parameters, arguments)                                                                  \
     static void name##_baseline parameters { name##_body arguments; }                                                  \
-    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {name##_baseline};
+    RETEX_CPU_TABLE(name, parameters, name##_baseline, , )
 #endif
 
 #ifdef __cplusplus
