@@ -17,6 +17,7 @@ command pkg-config pkg-config
 pkg OpenImageIO libopenimageio-dev
 pkg OpenEXR libopenexr-dev
 pkg OpenColorIO libopencolorio-dev
+pkg lcms2 liblcms2-dev
 embree rtcore.h libembree-dev
 pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
@@ -30,6 +31,7 @@ pkg libzip libzip-dev
 pkg cmocka libcmocka-dev
 command mandoc mandoc
 command oiiotool openimageio-tools
+command transicc liblcms2-utils
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
 '
@@ -112,8 +114,8 @@ config() {
     echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
         "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal) -ldl -lm"
-    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR)"
-    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO)"
+    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
+    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z)"
     echo "RENDER_LIBS := -l$embree_name"
 }

@@ -34,7 +34,7 @@ static RetexImage read_picture(const char *path, const char *colorspace)
 {
     RetexImage im = {0};
     RetexError err = {0};
-    test_must(retex_bridge_read(&im, &(RetexBridgeFile){path, NULL, -1, colorspace, 0, "", 1}, &err), &err);
+    test_must(retex_bridge_read(&im, &(RetexBridgeFile){path, NULL, -1, colorspace, 0, "", 1, NULL, NULL}, &err), &err);
     assert_int_equal(im.channels, 4);
     return im;
 }
@@ -160,21 +160,23 @@ static void check_other_ocio(void)
     test_random_image(&im, 16, 16, 3, 1, 0, 1);
     /* Its display shows Rec.709 as sRGB, so what comes back is what went in. */
     must_child(bridge_write(&im, test_in_folder("o.tif"), NULL, &err) == 0, err.message);
-    must_child(retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, NULL, 0, "", 1}, &err) ==
-                   0,
+    must_child(retex_bridge_read(
+                   &back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, NULL, 0, "", 1, NULL, NULL}, &err) == 0,
                err.message);
     for (size_t i = 0; i < 256; i++)
         for (size_t c = 0; c < 3; c++)
             must_child(fabsf(back.pixels[4 * i + c] - im.pixels[3 * i + c]) < 1e-3f, "another configuration's display");
     retex_image_free(&back);
     /* Its own names and ours both mean something. */
-    must_child(retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, "non", 0, "", 1}, &err) ==
-                   0,
+    must_child(retex_bridge_read(&back,
+                                 &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, "non", 0, "", 1, NULL, NULL},
+                                 &err) == 0,
                err.message);
     retex_image_free(&back);
-    must_child(
-        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, "ACEScct", 0, "", 1}, &err) == 0,
-        err.message);
+    must_child(retex_bridge_read(&back,
+                                 &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, "ACEScct", 0, "", 1, NULL, NULL},
+                                 &err) == 0,
+               err.message);
     retex_image_free(&back);
     /* Of a name that both have, its own meaning: thrice as bright. */
     params.colorspace = "non";
@@ -456,16 +458,20 @@ static void test_mistakes(void **state)
 
     write_picture(&im, test_in_folder("fine.png"), NULL);
     assert_int_equal(
-        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("fine.png"), NULL, -1, NULL, 5, "", 1}, &err),
+        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("fine.png"), NULL, -1, NULL, 5, "", 1, NULL, NULL},
+                          &err),
         RETEX_ELIMIT);
     assert_int_equal(
-        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("fine.png"), NULL, -1, "Bleu", 0, "", 1}, &err),
+        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("fine.png"), NULL, -1, "Bleu", 0, "", 1, NULL, NULL},
+                          &err),
         RETEX_ENOTFOUND);
     assert_int_equal(
-        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("none.png"), NULL, -1, NULL, 0, "", 1}, &err),
+        retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("none.png"), NULL, -1, NULL, 0, "", 1, NULL, NULL},
+                          &err),
         RETEX_EIO);
-    assert_int_equal(retex_bridge_read(&back, &(RetexBridgeFile){test_folder, NULL, -1, NULL, 0, "", 1}, &err),
-                     RETEX_EIO);
+    assert_int_equal(
+        retex_bridge_read(&back, &(RetexBridgeFile){test_folder, NULL, -1, NULL, 0, "", 1, NULL, NULL}, &err),
+        RETEX_EIO);
     assert_non_null(strstr(err.message, "folder"));
     static const char *const bad[] = {"empty.png", "text.png", "cut.tif"};
     write_picture(&im, test_in_folder(bad[2]), NULL);
@@ -479,7 +485,8 @@ static void test_mistakes(void **state)
     }
     for (int i = 0; i < 3; i++) {
         assert_int_equal(
-            retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder(bad[i]), NULL, -1, NULL, 0, "", 1}, &err),
+            retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder(bad[i]), NULL, -1, NULL, 0, "", 1, NULL, NULL},
+                              &err),
             RETEX_EFORMAT);
         assert_null(back.pixels);
         assert_true(err.message[0] != '\0');

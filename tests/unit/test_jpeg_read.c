@@ -54,7 +54,8 @@ static void test_like_the_bridge(void **state)
         RetexNarrowImage direct = read_direct(0);
         assert_non_null(direct.pixels);
         assert_true(direct.width == cases[i].width && direct.height == cases[i].height);
-        test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1}, &err),
+        test_must(retex_bridge_read_narrow(&bridged,
+                                           &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1, NULL, NULL}, &err),
                   &err);
         assert_non_null(bridged.pixels);
         assert_memory_equal(direct.pixels, bridged.pixels,
@@ -106,7 +107,9 @@ static void test_what_is_left(void **state)
     expect_left();
     RetexNarrowImage bridged = {0};
     RetexError err = {0};
-    test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1}, &err), &err);
+    test_must(
+        retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1, NULL, NULL}, &err),
+        &err);
     assert_int_equal(bridged.width, 48);
     free(bridged.pixels);
     unlink(FILE_NAME);

@@ -130,8 +130,8 @@ static void assert_same_pixels(const char *a, const char *b)
 {
     RetexImage x = {0}, y = {0};
     RetexError err = {0};
-    test_must(retex_bridge_read(&x, &(RetexBridgeFile){a, NULL, -1, "raw", 0, "", 1}, &err), &err);
-    test_must(retex_bridge_read(&y, &(RetexBridgeFile){b, NULL, -1, "raw", 0, "", 1}, &err), &err);
+    test_must(retex_bridge_read(&x, &(RetexBridgeFile){a, NULL, -1, "raw", 0, "", 1, NULL, NULL}, &err), &err);
+    test_must(retex_bridge_read(&y, &(RetexBridgeFile){b, NULL, -1, "raw", 0, "", 1, NULL, NULL}, &err), &err);
     assert_int_equal(x.width, y.width);
     assert_int_equal(x.height, y.height);
     assert_memory_equal(x.pixels, y.pixels, retex_image_index(&x, 0, x.height) * sizeof(float));
@@ -250,7 +250,8 @@ static void test_exr_of_any_light(void **state)
         retex_exr_encoding_free(&encoding);
         write_bands(&im, test_in_folder("light.exr"), NULL, 2, 1);
         test_must(
-            retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("light.exr"), NULL, -1, "raw", 0, "", 1}, &err),
+            retex_bridge_read(
+                &back, &(RetexBridgeFile){test_in_folder("light.exr"), NULL, -1, "raw", 0, "", 1, NULL, NULL}, &err),
             &err);
         for (int y = 0; y < im.height; y++) {
             float *row = im.pixels + retex_image_index(&im, 0, y);

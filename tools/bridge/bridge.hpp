@@ -2,11 +2,14 @@
 #ifndef RETEX_BRIDGE_HPP
 #define RETEX_BRIDGE_HPP
 
+#include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "../libretex/picture/bridge_load.h"
 
@@ -50,6 +53,35 @@ Transform transform_from_gamma(float gamma);
 Transform transform_from_srgb_levels(int levels);
 // Throw Failure, with the reason, if $OCIO names a configuration that cannot be used.
 void check_configuration();
+
+// Each channel by itself.
+template <typename Curve> Transform per_channel(Curve curve)
+{
+    return [curve](float *rgba, long pixels) {
+        for (long i = 0; i < pixels; i++)
+            for (int c = 0; c < 3; c++)
+                rgba[4 * i + c] = curve(rgba[4 * i + c]);
+    };
+}
+
+// What a file states of its colours.
+struct StatedColours {
+    bool are_stated = false;     // otherwise the type of the file decides
+    bool are_srgb = false;       // they are sRGB as far as 8 bits show it
+    bool are_by_channel = false; // the transform takes each channel by itself
+    Transform transform;         // to scene-linear Rec.709
+    std::string problem;         // why what is stated is not followed, or ""
+};
+
+// Chunks of a PNG by their names.
+using Chunks = std::map<std::string, std::vector<uint8_t>>;
+// The first bytes of the chunks that say something of colours; none of other files. To be called before a decoder has
+// the file, because all copies of a descriptor share the file position.
+Chunks read_colour_chunks(const RetexBridgeFile &file);
+
+// profile: the file's ICC profile, or null. is_grey: the pixels have three equal channels.
+StatedColours stated_colours(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
+                             size_t profile_bytes, bool is_grey);
 
 // Transform all rows of an RGBA block, on OpenImageIO's threads.
 void apply_transform(const Transform &transform, float *rgba, int width, int height);

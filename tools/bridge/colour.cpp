@@ -55,15 +55,6 @@ const Configurations &configurations()
     return all;
 }
 
-template <typename Curve> Transform per_channel(Curve curve)
-{
-    return [curve](float *rgba, long pixels) {
-        for (long i = 0; i < pixels; i++)
-            for (int c = 0; c < 3; c++)
-                rgba[4 * i + c] = curve(rgba[4 * i + c]);
-    };
-}
-
 Transform from_processor(const OCIO::ConstProcessorRcPtr &processor)
 {
     if (processor->isNoOp())

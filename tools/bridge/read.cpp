@@ -232,31 +232,50 @@ void unassociate(RetexImage &image)
     });
 }
 
-// The encoding of the values: from the user, else from the file, else by the file's type.
-Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *colorspace)
+// How the values of a file become scene-linear Rec.709.
+struct Decoding {
+    Transform transform;
+    bool is_by_channel = true;
+    std::string problem; // why what the file states is not followed, or ""
+};
+
+bool is_grey(const Channels &channels)
 {
-    if (colorspace && *colorspace && strcasecmp(colorspace, "sRGB") != 0)
-        return transform_from(colorspace);
-    bool named = colorspace && *colorspace;
-    bool integer = !spec.format.is_floating_point();
+    return channels.rgba[0] == channels.rgba[1] && channels.rgba[1] == channels.rgba[2];
+}
+
+// By the user's colour space, else by what the file states, else by the file's type.
+Decoding choose_decoding(const RetexBridgeHost *host, const RetexBridgeFile &file, const OIIO::ImageSpec &spec,
+                         const Chunks &chunks, const Channels &channels)
+{
+    const char *colorspace = file.colorspace;
+    bool named = colorspace && *colorspace, integer = !spec.format.is_floating_point();
+    if (named && strcasecmp(colorspace, "sRGB") != 0)
+        return {transform_from(colorspace), false, ""};
+    Decoding decoding;
     if (!named) {
         check_configuration();
-        if (!integer)
-            return {};
-        // Only PNG states its encoding reliably.
-        std::string said = spec.get_string_attribute("oiio:ColorSpace");
-        if (std::strcmp(format, "png") == 0 && strncasecmp(said.c_str(), "lin", 3) == 0)
-            return {};
-        float gamma = spec.get_float_attribute("oiio:Gamma", 0);
-        if (std::strcmp(format, "png") == 0 && said.compare(0, 5, "Gamma") == 0 && gamma > 0 &&
-            std::fabs(gamma - 2.2f) > 0.05f)
-            return gamma == 1 ? Transform{} : transform_from_gamma(gamma);
+        const OIIO::ParamValue *icc = spec.find_attribute("ICCProfile");
+        StatedColours stated =
+            stated_colours(host, chunks, icc ? icc->data() : nullptr, icc ? icc->type().size() : 0, is_grey(channels));
+        if (stated.are_stated && !stated.are_srgb)
+            return {stated.transform, stated.are_by_channel, ""};
+        if (!stated.problem.empty())
+            decoding.problem = std::string(file.path) + ": " + stated.problem + "; its colours are taken as " +
+                               (integer ? "sRGB" : "scene-linear");
+        if (!integer && !stated.are_stated)
+            return decoding;
     }
-    if (spec.format.basetype == OIIO::TypeDesc::UINT8)
-        return transform_from_srgb_levels(256);
-    if (spec.format.basetype == OIIO::TypeDesc::UINT16)
-        return transform_from_srgb_levels(65536);
-    return transform_from("sRGB");
+    decoding.transform = spec.format.basetype == OIIO::TypeDesc::UINT8    ? transform_from_srgb_levels(256)
+                         : spec.format.basetype == OIIO::TypeDesc::UINT16 ? transform_from_srgb_levels(65536)
+                                                                          : transform_from("sRGB");
+    return decoding;
+}
+
+void warn(const RetexBridgeFile &file, const Decoding &decoding)
+{
+    if (file.warn && !decoding.problem.empty())
+        file.warn(file.warn_context, decoding.problem.c_str());
 }
 
 // Maps a pixel of the upright picture to the file's pixel, for EXIF orientations 1..8.
@@ -319,6 +338,7 @@ class OpenPicture
     {
         check_file(file);
         check_whole(file);
+        chunks_ = read_colour_chunks(file);
         OIIO::ImageSpec wish;
         wish.attribute("oiio:UnassociatedAlpha", 1); // avoids lossy conversions of 8-bit values
         if (file.format)
@@ -343,6 +363,10 @@ class OpenPicture
     {
         return *in_;
     }
+    const Chunks &chunks() const // of a PNG, that say something of its colours
+    {
+        return chunks_;
+    }
 
   private:
     void open_as(const RetexBridgeFile &file, const OIIO::ImageSpec &wish)
@@ -358,6 +382,7 @@ class OpenPicture
             fail_read(in_->geterror());
     }
 
+    Chunks chunks_;
     std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
     std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
     std::unique_ptr<OIIO::ImageInput> in_; // last member: destroyed first
@@ -374,13 +399,14 @@ RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file
     if (windowed)
         check_size(spec.full_width, spec.full_height, file);
 
-    Transform decode = decoding(spec, format.c_str(), file.colorspace);
     Channels channels = find_channels(spec);
+    Decoding decoding = choose_decoding(host, file, spec, in.chunks(), channels);
     OwnedImage picture(host, spec.width, spec.height);
     read_channels(*in, spec, channels, picture.image);
     if (channels.rgba[3] >= 0 && !channels.cmyk && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0))
         unassociate(picture.image);
-    apply_transform(decode, picture.image.pixels, picture.image.width, picture.image.height);
+    apply_transform(decoding.transform, picture.image.pixels, picture.image.width, picture.image.height);
+    warn(file, decoding);
     if (windowed)
         fit_window(host, picture, spec);
     orient(host, picture, spec.get_int_attribute("Orientation", 1));
@@ -469,24 +495,25 @@ void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channe
 RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile &file)
 {
     OpenPicture in(file);
-    const char *colorspace = file.colorspace;
     OIIO::ImageSpec spec = in->spec();
     Channels channels = find_channels(spec);
     bool wide = spec.format == OIIO::TypeDesc::UINT16, colours = true;
     for (int c = 0; c < 3; c++)
         colours = colours && channels.rgba[c] >= 0;
-    bool named = colorspace && *colorspace && strcasecmp(colorspace, "sRGB") != 0;
     bool associated = channels.rgba[3] >= 0 && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
-    if (named || associated || channels.cmyk || !colours || spec.nchannels > 4 ||
+    if (associated || channels.cmyk || !colours || spec.nchannels > 4 ||
         (!wide && spec.format != OIIO::TypeDesc::UINT8))
         return RetexNarrowImage{};
-    Transform decode = decoding(spec, in->format_name(), colorspace);
+    Decoding decoding = choose_decoding(host, file, spec, in.chunks(), channels);
+    if (!decoding.is_by_channel)
+        return RetexNarrowImage{};
     OwnedPixels pixels = new_pixels(host, spec.width, spec.height);
     if (wide)
-        read_levels<uint16_t>(*in, spec, channels, decode, pixels.get());
+        read_levels<uint16_t>(*in, spec, channels, decoding.transform, pixels.get());
     else
-        read_levels<uint8_t>(*in, spec, channels, decode, pixels.get());
+        read_levels<uint8_t>(*in, spec, channels, decoding.transform, pixels.get());
 
+    warn(file, decoding);
     Upright upright(spec.width, spec.height, spec.get_int_attribute("Orientation", 1));
     RetexNarrowImage image{spec.width, spec.height, nullptr};
     if (upright.orientation != 1) {

@@ -160,6 +160,7 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
     RetexError err = {0};
     sdl_add_file(sdl, map->path);
     const SdlOptions *options = sdl_options(sdl);
+    ImageWarning warning = {sdl, image};
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     spec.budget = options->budget;
     snprintf(spec.image, sizeof spec.image, "%s", map->path);
@@ -167,7 +168,9 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
                                     .colorspace = colorspace_of(sdl, image),
                                     .access = sdl_access(sdl),
                                     .budget = options->budget,
-                                    .pixel_bytes = IMAGE_PEAK_BYTES};
+                                    .pixel_bytes = IMAGE_PEAK_BYTES,
+                                    .warn = warn_of_image,
+                                    .warn_context = &warning};
     sdl_step(sdl, 1);
     if (retex_image_read(&pixels, map->path, &params, options->nthreads, &err) == 0) {
         map->has_alpha = has_alpha(&pixels);
@@ -175,7 +178,6 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
         map->height = pixels.height;
         scene->digest =
             digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
-        ImageWarning warning = {sdl, image};
         spec.warn = warn_of_image;
         spec.warn_context = &warning;
         spec.is_light = is_light;

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <retex/parallel.h>
 
@@ -213,6 +214,14 @@ const char *retex_exr_attribute(const RetexExr *exr, int part, const char *name)
     return text;
 }
 
+/* The name of a space that OpenImageIO's attribute gives; NULL where it only says that values are linear. */
+static const char *color_space_name(const RetexExr *exr, int part)
+{
+    const char *name = retex_exr_attribute(exr, part, "oiio:ColorSpace");
+
+    return name && strcasecmp(name, "linear") != 0 && strcasecmp(name, "scene_linear") != 0 ? name : NULL;
+}
+
 void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag)
 {
     const exr_attribute_t *attribute;
@@ -227,6 +236,8 @@ void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag)
         return;
     }
     const char *interop = retex_exr_attribute(exr, part, "colorInteropID");
+    if (!interop)
+        interop = color_space_name(exr, part);
     if (interop && strlen(interop) < sizeof tag->interop)
         strcpy(tag->interop, interop);
     if (!exr_get_attribute_by_name(exr->context, part, "chromaticities", &attribute) &&

@@ -1,5 +1,6 @@
 /* Finds and loads libretex-oiio.so, once per process, when the first picture needs it. */
 #include "picture/bridge_load.h"
+#include "exr/color_tag.h"
 #include "io/pending_files.h"
 
 #include <dlfcn.h>
@@ -110,7 +111,7 @@ int retex_names_linear(const char *colorspace)
            strcasecmp(colorspace, "scene_linear") == 0;
 }
 
-static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free};
+static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free, retex_color_tag_to_rec709};
 
 int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
 {

@@ -27,6 +27,8 @@ typedef struct RetexBridgeFile {
     long max_pixels;        /* 0 = no limit */
     char limit[64];         /* the limit in words, for messages */
     int nthreads;           /* that decode, at most; 0 = all cores */
+    RetexWarn *warn;        /* as of RetexReadParams, or NULL */
+    void *warn_context;
 } RetexBridgeFile;
 
 /* Read any file that OpenImageIO reads as R,G,B,A, scene-linear Rec.709, unassociated alpha: the general case of
@@ -88,9 +90,10 @@ typedef struct RetexBridgeHost {
     void (*image_free)(RetexImage *im);
     void *(*alloc)(size_t bytes);
     void (*free)(void *block);
+    int (*to_rec709)(const float chromaticities[8], double matrix[3][3]); /* retex_color_tag_to_rec709 */
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 7
+#define RETEX_BRIDGE_ABI 8
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,

@@ -2,6 +2,7 @@
  * which starts in 2 ms, every other format, and EXR files that Core cannot decode, by the bridge, which loads
  * OpenImageIO. */
 #include <errno.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -85,7 +86,7 @@ static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
 /* How the colours of an EXR are converted. */
 typedef struct ExrColors {
     const char *colorspace; /* "" = linear; where converted is 1 this matrix leads to Rec.709: */
-    int converted;
+    int converted;          /* negative: the chromaticities span no space */
     double matrix[3][3];
     RetexColorTag tag;
 } ExrColors;
@@ -101,11 +102,11 @@ static void choose_colors(ExrColors *colors, const RetexExr *exr, int is_unknown
     const RetexColorTag *known = retex_color_tag_find(tag->interop);
     const int named = !is_unknown && tag->interop[0] && strcmp(tag->interop, "unknown") != 0;
     if (known)
-        colors->converted = retex_color_tag_to_rec709(known->chromaticities, colors->matrix) == 1;
+        colors->converted = retex_color_tag_to_rec709(known->chromaticities, colors->matrix);
     else if (named && strcmp(tag->interop, "data") != 0)
         colors->colorspace = tag->interop;
     else if (!named && tag->has_chromaticities)
-        colors->converted = retex_color_tag_to_rec709(tag->chromaticities, colors->matrix) == 1;
+        colors->converted = retex_color_tag_to_rec709(tag->chromaticities, colors->matrix);
 }
 
 static void convert_colors(RetexImage *image, const ExrColors *colors)
@@ -113,7 +114,7 @@ static void convert_colors(RetexImage *image, const ExrColors *colors)
     const size_t count = (size_t)image->width * (size_t)image->height;
     const double(*m)[3] = colors->matrix;
 
-    for (size_t i = 0; i < count && colors->converted; i++) {
+    for (size_t i = 0; i < count && colors->converted == 1; i++) {
         float *p = image->pixels + 4 * i;
         const double r = p[0], g = p[1], b = p[2];
         for (int c = 0; c < 3; c++)
@@ -166,7 +167,11 @@ static RetexReadParams complete_params(const RetexReadParams *given)
 static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const char *path,
                           const RetexReadParams *params, RetexError *err)
 {
-    *file = (RetexBridgeFile){.path = path, .descriptor = -1, .colorspace = params->colorspace};
+    *file = (RetexBridgeFile){.path = path,
+                              .descriptor = -1,
+                              .colorspace = params->colorspace,
+                              .warn = params->warn,
+                              .warn_context = params->warn_context};
     set_limit(file, params);
     if (strcmp(path, "-") == 0)
         return 0;
@@ -201,23 +206,44 @@ static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input
     return status;
 }
 
+/* Warns of colours that the header states and that are not followed. */
+static void warn_of_colors(const ExrColors *colors, int is_unknown, const RetexBridgeFile *file)
+{
+    const char *taken = is_unknown && colors->converted == 1 ? "the colours are taken by its chromaticities"
+                                                             : "its colours are taken as scene-linear Rec.709";
+    char text[sizeof colors->tag.interop + PATH_MAX + 256];
+
+    if (!file->warn || (!is_unknown && colors->converted >= 0))
+        return;
+    if (is_unknown)
+        snprintf(text, sizeof text, "%s: its header names the colour space '%s', which is not known; %s", file->path,
+                 colors->tag.interop, taken);
+    else
+        snprintf(text, sizeof text, "%s: the chromaticities in its header span no colour space; %s", file->path, taken);
+    file->warn(file->warn_context, text);
+}
+
 /* Reads an EXR in the colour space that its header names, as far as it is known. */
 static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
                        RetexError *err)
 {
     RetexBridgeFile tagged = *file;
     ExrColors colors;
+    int is_unknown = 0;
 
     choose_colors(&colors, exr, 0);
     tagged.colorspace = colors.colorspace;
     int status = read_in_space(dst, exr, input, &tagged, err);
     if (status == RETEX_ENOTFOUND && colors.colorspace[0]) {
-        choose_colors(&colors, exr, 1);
+        is_unknown = 1;
+        choose_colors(&colors, exr, is_unknown);
         tagged.colorspace = colors.colorspace;
         status = read_in_space(dst, exr, input, &tagged, err);
     }
-    if (!status)
+    if (!status) {
         convert_colors(dst, &colors);
+        warn_of_colors(&colors, is_unknown, file);
+    }
     return status;
 }
 

@@ -66,6 +66,12 @@ static unsigned find_orientation(const unsigned char *exif, size_t bytes)
     return 1;
 }
 
+/* Whether the marker is a part of an ICC profile. */
+static int is_profile(jpeg_saved_marker_ptr marker)
+{
+    return marker->marker == JPEG_APP0 + 2 && marker->data_length >= 12 && memcmp(marker->data, "ICC_PROFILE", 12) == 0;
+}
+
 static int is_plain(const struct jpeg_decompress_struct *jpeg, long max_pixels)
 {
     const long pixels = (long)jpeg->image_width * (long)jpeg->image_height;
@@ -75,7 +81,7 @@ static int is_plain(const struct jpeg_decompress_struct *jpeg, long max_pixels)
         (max_pixels > 0 && pixels > max_pixels) || !(colors || jpeg->jpeg_color_space == JCS_GRAYSCALE))
         return 0;
     for (jpeg_saved_marker_ptr marker = jpeg->marker_list; marker; marker = marker->next)
-        if (find_orientation(marker->data, marker->data_length) != 1)
+        if (find_orientation(marker->data, marker->data_length) != 1 || is_profile(marker))
             return 0;
     return 1;
 }
@@ -112,6 +118,7 @@ static int decode(Decoder *d, const void *data, size_t bytes, long max_pixels)
     jpeg_create_decompress(jpeg);
     jpeg_mem_src(jpeg, data, (unsigned long)bytes);
     jpeg_save_markers(jpeg, JPEG_APP0 + 1, 0xffff);
+    jpeg_save_markers(jpeg, JPEG_APP0 + 2, 0xffff);
     if (jpeg_read_header(jpeg, TRUE) != JPEG_HEADER_OK || !is_plain(jpeg, max_pixels))
         return 0;
     jpeg->out_color_space = jpeg->jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE : JCS_RGB;

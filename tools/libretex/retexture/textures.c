@@ -116,7 +116,7 @@ static int load_textures(Loading *loading, int nthreads, RetexError *err)
             return loading->errors[i].code;
         }
     for (int i = 0; i < loading->nspecs; i++)
-        retex_texture_report_defects(loading->textures[loading->target[i]], &loading->specs[i]);
+        retex_texture_report_colors(loading->textures[loading->target[i]], &loading->specs[i]);
     return RETEX_OK;
 }
 

@@ -40,6 +40,7 @@ struct RetexTexture {
     int nlevels; /* 0 = constant */
     int opaque;  /* 1: alpha is 1 wherever the texture is looked up */
     RetexTexelDefects defects; /* defects of the file's texels */
+    char *color_warning;       /* why colours that the file states are not followed, or NULL */
     int narrow;  /* 1: texels are 16-bit integers, NARROW_ONE standing for 1; else floats */
     RetexTextureLevel levels[TEXTURE_MAX_LEVELS];
     char corners[4][16]; /* texels of the image: top left, top right, bottom left, bottom right */
@@ -54,8 +55,8 @@ typedef struct RetexTexels {
     void *texels;
 } RetexTexels;
 
-/* Report the texture's defects to spec->warn; the texture was loaded by that spec or a copy of it. */
-void retex_texture_report_defects(const RetexTexture *texture, const RetexTextureSpec *spec);
+/* Report what is odd about the texture's colours to spec->warn; the texture was loaded by that spec or a copy of it. */
+void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec);
 
 size_t retex_texture_texel_size(int narrow);           /* bytes */
 int retex_texels_alloc(RetexTexels *texels); /* allocate texels by width, height and narrow; not 0: out of memory */

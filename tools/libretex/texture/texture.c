@@ -264,14 +264,17 @@ void retex_texture_close(RetexTexture **texture)
         }
     }
     retex_budget_release((*texture)->spec.budget, (*texture)->charged);
+    free((*texture)->color_warning);
     free(*texture);
     *texture = NULL;
 }
 
-void retex_texture_report_defects(const RetexTexture *texture, const RetexTextureSpec *spec)
+void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec)
 {
     int width, height;
     retex_texture_size(texture, &width, &height);
+    if (texture->color_warning && spec->warn)
+        spec->warn(spec->warn_context, texture->color_warning);
     retex_texel_defects_report(&texture->defects, spec, (long)width * height);
 }
 
@@ -280,22 +283,34 @@ static void return_texture(RetexTexture **out, RetexTexture *texture, const floa
 {
     RetexTextureSpec described = texture->spec;
     memcpy(described.color, color, sizeof described.color); /* the colour as it was given */
-    retex_texture_report_defects(texture, &described);
+    retex_texture_report_colors(texture, &described);
     texture->spec.access = NULL;
     texture->spec.warn = NULL;
     *out = texture;
 }
 
+/* Keeps a warning of the file's colours for the report. */
+static void keep_warning(void *context, const char *text)
+{
+    RetexTexture *texture = context;
+
+    free(texture->color_warning);
+    texture->color_warning = strdup(text);
+}
+
 /* Parameters of reading. While an image is decoded, an image of 16-bit integers, or for other files the floats of the
  * file, exists beside the texture's own texels. */
-static RetexReadParams read_params(const RetexTextureSpec *spec)
+static RetexReadParams read_params(RetexTexture *texture)
 {
+    const RetexTextureSpec *spec = &texture->spec;
     enum { PEAK_BYTES = 24 };
     RetexReadParams params = RETEX_READ_INIT;
     params.colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
     params.max_pixels = retex_budget_pixels(spec->budget) ? 0 : MAX_TEXTURE_PIXELS;
     params.access = spec->access;
     params.budget = spec->budget;
+    params.warn = keep_warning;
+    params.warn_context = texture;
     params.pixel_bytes = has_two_repeats(spec) ? 2 * PEAK_BYTES : PEAK_BYTES;
     return params;
 }
@@ -308,7 +323,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     int code = why.code;
     if (texture && !spec->constant) {
         const RetexTextureSpec *own = &texture->spec;
-        const RetexReadParams params = read_params(own);
+        const RetexReadParams params = read_params(texture);
         RetexNarrowImage narrow = {0};
         RetexImage image = {0};
         code = retex_image_read_narrow(&narrow, own->image, &params, nthreads, &why);

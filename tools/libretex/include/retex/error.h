@@ -37,6 +37,9 @@ typedef struct RetexError {
     char message[1024];
 } RetexError;
 
+/* Receives a warning: a line of text, without the caller's file or line. */
+typedef void RetexWarn(void *context, const char *text);
+
 /* Fill err (which may be NULL) and return code, so that failing is one statement: return retex_fail(err, ...). */
 int retex_fail(RetexError *err, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
 int retex_fail_at(RetexError *err, int code, const char *file, int line, int column, const char *fmt, ...)

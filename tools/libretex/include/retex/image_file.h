@@ -11,16 +11,20 @@ extern "C" {
 /* How a picture is read. Begin with RETEX_READ_INIT. */
 typedef struct RetexReadParams {
     size_t size;               /* of this struct */
-    const char *colorspace;    /* a name known to the OCIO config. NULL, the default = 8- and 16-bit integers are sRGB,
-                                  floats scene-linear, an EXR what its header says (acesImageContainerFlag,
-                                  colorInteropID, chromaticities, in this order) */
+    const char *colorspace;    /* a name known to the OCIO config. NULL, the default = what the file states, else
+                                  8- and 16-bit integers are sRGB and floats scene-linear. An EXR states its colours by
+                                  acesImageContainerFlag, colorInteropID, oiio:ColorSpace, chromaticities, in this
+                                  order; a PNG by cICP, iCCP, sRGB, gAMA with cHRM; others by an ICC profile */
     long max_pixels;           /* a picture of more is refused with RETEX_ELIMIT. Default 0 = no limit */
     const RetexAccess *access; /* borrowed; default NULL = any file */
     const RetexBudget *budget; /* borrowed: a picture of more pixels, or for which it has not enough memory left, is
                                   refused before it is decoded. Default NULL = none is */
     unsigned pixel_bytes;      /* what the caller will need a pixel, at the peak; default 16, the pixels alone */
+    RetexWarn *warn;           /* told, in the calling thread, why colours that the file states are not followed;
+                                  default NULL = nobody */
+    void *warn_context;        /* handed to it; default NULL */
 } RetexReadParams;
-#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16 }
+#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16, NULL, NULL }
 
 /* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO. path
  * "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated (1

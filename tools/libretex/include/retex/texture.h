@@ -33,9 +33,6 @@ typedef enum RetexRepeat {
     RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
 } RetexRepeat;
 
-/* Receives a line of text, without the caller's file or line. */
-typedef void RetexWarn(void *context, const char *text);
-
 /* A parsed texture option: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
     size_t size;
