@@ -182,9 +182,10 @@ static void check_other_ocio(void)
     params.colorspace = "non";
     must_child(bridge_write(&im, test_in_folder("o.tif"), &params, &err) == 0, err.message);
     for (int own = 0; own < 2; own++) {
-        must_child(retex_bridge_read(
-                       &back, &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, own ? "Rec709" : "ap0", 0, "", 1},
-                       &err) == 0,
+        must_child(retex_bridge_read(&back,
+                                     &(RetexBridgeFile){test_in_folder("o.tif"), NULL, -1, own ? "Rec709" : "ap0", 0,
+                                                        "", 1, NULL, NULL},
+                                     &err) == 0,
                    err.message);
         for (size_t i = 0; i < 256; i++)
             for (size_t c = 0; c < 3 && own; c++)
@@ -201,8 +202,9 @@ static void check_other_ocio(void)
         {0.61310f, 0.33952f, 0.04738f}, {0.07019f, 0.91635f, 0.01345f}, {0.02062f, 0.10957f, 0.86981f}};
     params.view = "same";
     must_child(bridge_write(&im, test_in_folder("o.png"), &params, &err) == 0, err.message);
-    must_child(retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("o.png"), NULL, -1, "non", 0, "", 1}, &err) ==
-                   0,
+    must_child(retex_bridge_read(&back,
+                                 &(RetexBridgeFile){test_in_folder("o.png"), NULL, -1, "non", 0, "", 1, NULL, NULL},
+                                 &err) == 0,
                err.message);
     for (size_t i = 0; i < 256; i++)
         for (size_t c = 0; c < 3; c++) {
