@@ -83,6 +83,7 @@ $ make_picture a.png; make_picture b.png noise=0.004; retex-diff -q a.png a.png
 $ retex-diff -q a.png b.png
 = 1
 $ retex-diff -q a.png a.exr --fail-psnr 48
+$ retex-diff -q a.png a.exr --fail-abs 0.006 # channels meet by name, in whatever order files have them
 $ make_picture m.png mirror; retex-diff -q a.png m.png --fail-psnr 30
 = 1
 $ make_picture grey.png grey; retex-diff -q a.png grey.png --fail-psnr 30

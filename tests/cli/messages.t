@@ -58,6 +58,10 @@ $ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx'
 ! retex-render: error: --replace: `flor` is no target; is Floor meant?
 ! retex-render: error: standard input:1: `flor` is no target, there are: Floor; is Floor meant?
 = 2
+# Of a crop its own pixels count.
+$ retex-render -q --max-pixels 600 --size 100x100 --crop 0,0,100,5 --spp 1 box.pov -o x.exr && rm x.exr; retex-render -q --max-pixels 400 --size 100x100 --crop 0,0,5,100 --spp 1 box.pov -o x.exr
+! retex-render: error: 5x100 pixels are more than the 400 of --max-pixels
+= 2
 $ retex-diff s.exr s.exr --part beuaty; retex-diff s.exr s.exr --part zzzzzzz
 ! retex-diff: error: neither file has a part 'beuaty'; is beauty meant?
 ! retex-diff: error: neither file has a part 'zzzzzzz'

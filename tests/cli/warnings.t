@@ -21,6 +21,7 @@ $ sh try dark '$v $c $s'
 ! retex-render: dark.pov: warning: no light source, nothing that shines and no sky: the picture will be black; `ambient` gives light with --ambient only
 $ o=--plain sh try dark2 '$v $c sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }'
 ! retex-render: dark2.pov: warning: no light source, nothing that shines and no sky: the picture will be black
+$ o=--plain sh try inner '$v $c sphere { 0, 1 texture { pigment { rgb 1 } } interior_texture { pigment { rgb 1 } finish { emission 1 } } }'
 $ sh try black '$v $c light_source { -9*z rgb 0 } $s'
 ! retex-render: black.pov: warning: its light sources are black, nothing shines and there is no sky: the picture will be black; `ambient` gives light with --ambient only
 $ sh try empty '$v $c $l'

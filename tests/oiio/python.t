@@ -32,6 +32,14 @@ $ RETEX_OIIO_DEBUG=1 /usr/bin/python3 pictures.py renders 'box.pov?spp=1&size=16
 $ RETEX_OIIO_DEBUG=1 oiiotool 'box.pov?spp=1&size=16x12&targets=Floor' --dup --add -o x.exr --echo "{TOP.'retex:renders'}"
 > 1
 
+# Names that differ in an option are pictures of their own, in one process too.
+$ for o in 'Floor=rgb(1,0,0) Floor=rgb(0,1,0)' 'Floor=brick.jpg Floor=brick.jpg&Floor.scale=2'; do set -- $o; /usr/bin/python3 pictures.py same "room.retex?$1" "room.retex?$2" | grep -cx same; done; for o in 'spp=1 spp=2' 'spp=1 spp=1&seed=3' 'spp=1 spp=1'; do set -- $o; /usr/bin/python3 pictures.py same "box.pov?size=16x12&$1" "box.pov?size=16x12&$2" | grep -cx same; done
+> 0
+> 0
+> 0
+> 0
+> 1
+
 # What changes on disk is made again, and only then.
 $ cp brick.jpg t.jpg; /usr/bin/python3 pictures.py changes 'room.retex?Floor=t.jpg' "$SCENES/textures/fans.jpg" t.jpg; /usr/bin/python3 pictures.py changes 'room.retex?Floor=t.jpg' brick.jpg u.jpg
 > yes

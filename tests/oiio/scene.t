@@ -25,6 +25,12 @@ $ oiiotool 'box.pov?spp=4&size=32x24&denoise=1&threads=1' -d half -o a.exr; rete
 $ printf 'camera { location -3*z direction z right x up y }\n#ifndef (C) #declare C = 0; #end\nlight_source { -9*z rgb 1 }\n#include "ball.inc"\n' >d.pov; mkdir inc; printf 'sphere { 0, clock pigment { rgb C } }\n' >inc/ball.inc; oiiotool 'd.pov?include=inc&declare.C=0.5&declare.clock=1&size=16x16&spp=2' -d half -o a.exr; retex-render -q --plain -I inc -D C=0.5 -D clock=1 --size 16x16 --spp 2 d.pov -o b.exr; retex-diff a.exr b.exr >/dev/null && echo same
 > same
 
+# One side gives the other by the scene's own shape.
+$ printf 'camera { location -3*z direction z right 2*x up y }\nsphere { 0, 1 }\n' >wide.pov; for o in width=32 height=16 'width=20&height=30'; do iinfo "wide.pov?spp=1&$o" | sed 's/.* : *//'; done
+> 32 x   16, 3 channel, float pov
+> 32 x   16, 3 channel, float pov
+> 20 x   30, 3 channel, float pov
+
 # A set: what oiiotool writes of it is the one that retex-render writes, but for bytes of compression.
 $ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor,Walls=White+Red' -o a.exr; retex-render -q --spp 2 --size 32x24 -t Floor -t Walls=White,Red box.pov -o b.exr; retex-info --check a.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; grep -c crc32 a.txt | sed 's/^[1-9].*/checksums/'
 > a.exr: ok

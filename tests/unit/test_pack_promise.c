@@ -211,6 +211,32 @@ static void all_targets_are_tried(void **state)
     }
 }
 
+/* The noise that a set says it has is that of its own picture: a target's counts by half. */
+static void noise_counts_as_it_shows(void **state)
+{
+    static const char *const names[] = {"noise_indep", "noise_T0_sharp"};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        RetexSet *set = start_set(8, 8, 1);
+        RetexPackReference reference;
+        RetexError err = {0};
+        int part;
+        const int f = add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 1, "RGB"), light = add_term(set, 1, f, f);
+        test_must(retex_set_add_part(set, names[k], "RGB", RETEX_HALF, 0, 0, &part, &err), &err);
+        for (int i = 0; i < 64; i++) {
+            put(set, f, i % 8, i / 8, 0.5f, 0.5f, 1);
+            put_rgb(set, set->footprints[f].albedo, i % 8, i / 8, 0.5f, 0.5f, 0.5f);
+            put_rgb(set, light, i % 8, i / 8, 0.5f, 0.5f, 0.5f);
+            put_rgb(set, part, i % 8, i / 8, 0.125f, 0.125f, 0.125f);
+        }
+        test_must(retex_pack_reference_open(&reference, set, 1u << RETEX_PACK_LOSS_ORIGINAL, 1, &err), &err);
+        const double off = retex_srgb_encode(0.25 + 0.125 / (k + 1)) - retex_srgb_encode(0.25);
+        assert_true(fabs(reference.noise / (off * off) - 1) < 1e-3);
+        retex_pack_reference_close(&reference);
+        retex_set_close(&set);
+    }
+}
+
 /* Its steps are finer than those of a JPEG's 255 levels, or of twice as many. */
 static void clean_light_stays_clean(void **state)
 {
@@ -291,13 +317,10 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(promises_rise_with_quality),
-        cmocka_unit_test(promises_are_kept),
-        cmocka_unit_test(all_targets_are_tried),
-        cmocka_unit_test(clean_light_stays_clean),
-        cmocka_unit_test(bits_are_kept_where_nothing_else_does),
-        cmocka_unit_test(noise_lowers_the_promise),
-        cmocka_unit_test(others_promise_nothing),
+        cmocka_unit_test(promises_rise_with_quality), cmocka_unit_test(promises_are_kept),
+        cmocka_unit_test(all_targets_are_tried),      cmocka_unit_test(noise_counts_as_it_shows),
+        cmocka_unit_test(clean_light_stays_clean),    cmocka_unit_test(bits_are_kept_where_nothing_else_does),
+        cmocka_unit_test(noise_lowers_the_promise),   cmocka_unit_test(others_promise_nothing),
         cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

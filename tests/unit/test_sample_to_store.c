@@ -207,10 +207,39 @@ static void samples_alone_stay_in_their_file(void **state)
     retex_set_close(&set);
 }
 
+/* Of two textures for one target the one that came later counts, and samples of other targets stay. */
+static void later_samples_win(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexTextureSpec specs[3] = {make_spec("Floor"), make_spec("Wall"), make_spec("Wall")};
+    RetexSamples *samples, *more, *both;
+    RetexImage merged = {0}, direct = {0};
+    RetexError err = {0};
+    specs[2].constant = 1, specs[2].color[1] = 0.75f;
+    test_must(retex_sample(&samples, set, specs, 2, 2, &err), &err);
+    test_must(retex_sample(&more, set, &specs[2], 1, 2, &err), &err);
+    test_must(retex_samples_merge(samples, more, 2, &err), &err);
+    specs[1] = specs[2];
+    test_must(retex_sample(&both, set, specs, 2, 2, &err), &err);
+    test_must(retex_combine(&merged, set, samples, NULL, NULL, 2, &err), &err);
+    test_must(retex_combine(&direct, set, both, NULL, NULL, 2, &err), &err);
+    assert_memory_equal(merged.pixels, direct.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
+    for (int t = 0; t < set->ntargets; t++)
+        assert_string_equal(samples->textures[t], both->textures[t]);
+    retex_image_free(&merged);
+    retex_image_free(&direct);
+    retex_samples_close(&more);
+    retex_samples_close(&both);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_those_from_memory),
+        cmocka_unit_test(later_samples_win),
         cmocka_unit_test(streams_stay_in_their_files),
         cmocka_unit_test(samples_alone_stay_in_their_file),
     };

@@ -153,6 +153,14 @@ static void test_targets(void **state)
     assert_int_equal(scene->primitives[1].target, 0);
     assert_int_equal(scene->primitives[0].target, 0);
     scene_close(&scene);
+    /* a name is another one than its beginning */
+    scene = parse(V37 "#declare Tile = texture{pigment{rgb 1}} #declare Tiles = texture{pigment{rgb .5}}"
+                      "sphere{0,1 texture{Tile}} sphere{3,1 texture{Tiles}}");
+    const char *tiles[] = {"Tiles", "Tile"};
+    assert_int_equal(scene_resolve_targets(scene, tiles, 2, &err), 0);
+    assert_int_equal(scene->primitives[0].target, 1);
+    assert_int_equal(scene->primitives[1].target, 0);
+    scene_close(&scene);
 }
 
 static void test_target_errors(void **state)
