@@ -1,7 +1,7 @@
 #!/bin/sh
 # Rules that a script can check: make lint.
 #   - includes between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
-#   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
+#   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of files
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
@@ -80,8 +80,9 @@ back=$(rooms renderer 1:base 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:acce
 [ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
 $back"
 
-# No circles. Of headers: none includes, by however many steps, itself. Of the renderer's files: no two need symbols of
-# each other, by however many steps; but for the rooms of the scene language, whose grammar is recursive.
+# No circles. Of headers: none includes, by however many steps, itself. Of files of the library and of the renderer: no
+# two need symbols of each other, by however many steps; but for the rooms of the scene language, whose grammar is
+# recursive.
 no_circle() { # pairs of names, what
     found=$(echo "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //')
     [ -z "$found" ] || complain "$2:
@@ -93,6 +94,7 @@ for root in tools tools/libretex renderer oiio_plugins tests/lib; do
 done
 no_circle "$(grep -rE '^#include <retex/' tools/libretex/include/retex |
     sed -nE 's|^.*/(retex/[^:]*):#include <(.*)>|\1 \2|p')" "public headers that include each other"
+no_circle "$(needs tools/libretex | awk '{ print $1, $2 }')" "files of tools/libretex that need each other"
 recursive='^sdl/'
 no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
     "files of the renderer that need each other"

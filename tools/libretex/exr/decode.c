@@ -28,12 +28,6 @@ int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFin
                                  dot ? dot + 1 : channel, bad->x, bad->y, bad->value);
 }
 
-void retex_exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
-{
-    if (exr_get_data_window(exr->context, part, window) != EXR_ERR_SUCCESS)
-        *window = (exr_attr_box2i_t){.min = {.x = 0, .y = 0}, .max = {.x = -1, .y = -1}};
-}
-
 size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
 {
     return channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4;

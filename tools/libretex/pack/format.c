@@ -88,6 +88,11 @@ void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part
         snprintf(name, size, planes ? "planes/%s.blk" : "radiance/%s.jpg", set->parts[part].name);
 }
 
+int retex_pack_damaged(RetexError *err, const char *what, const char *name)
+{
+    return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: %s '%s'", what, name);
+}
+
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
 {
     const size_t n = (size_t)part->image.width * (size_t)part->image.height, channels = (size_t)part->image.channels;

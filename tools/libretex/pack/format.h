@@ -63,6 +63,9 @@ int retex_pack_is_modelled(const RetexPackPart *packed);
 /* The name of the ZIP entry with a part's chunks. planes: 0 = of its JPEG, 1 = of its planes. */
 void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part, int planes);
 
+/* Fail with RETEX_EFORMAT: what is wrong, and with which part or entry of the file. */
+int retex_pack_damaged(RetexError *err, const char *what, const char *name);
+
 /* CRC-32 of a part's samples in their stored type: see RetexPart. */
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
 

@@ -13,11 +13,6 @@
 #include "set/manifest.h"
 #include "base/value_check.h"
 
-int retex_pack_damaged(RetexError *err, const char *what, const char *name)
-{
-    return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: %s '%s'", what, name);
-}
-
 void retex_pack_close(RetexPack **result)
 {
     RetexPack *pack = result ? *result : NULL;

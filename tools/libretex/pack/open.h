@@ -18,7 +18,6 @@ struct RetexPack {
     RetexPackPromise promise;
 };
 
-int retex_pack_damaged(RetexError *err, const char *what, const char *name);
 const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch);
 
 #endif

@@ -1,4 +1,5 @@
-/* Inside a thread's means of decoding. Private to bands.c and band_planes.c. */
+/* What a thread decodes a pack with: memory, the chunk that was read last, the bands that were decoded. Private to
+ * libretex. */
 #ifndef RETEX_PACK_SCRATCH_H
 #define RETEX_PACK_SCRATCH_H
 

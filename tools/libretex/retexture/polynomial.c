@@ -13,15 +13,6 @@
 
 #define ALL_CROSS_TERMS 3
 
-int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
-{
-    if (p->picture)
-        return 0;
-    if (term->edited)
-        return p->correction > 0 && p->edited[term->edited - 1];
-    return !(term->kind == RETEX_TERM_CROSS2 && p->cross < 2) && !(term->kind == RETEX_TERM_CROSS3 && p->cross < 3);
-}
-
 /* Finds what is edited. Corrections, and the picture of part 0, are those of all cross terms. */
 static void find_edited(RetexPolynomial *p)
 {
@@ -140,12 +131,6 @@ static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
     if (!buffer->values && !(buffer->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *buffer->values)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     return buffer->values;
-}
-
-void retex_row_gray_to_rgb(float *row, size_t width)
-{
-    for (size_t i = width; i-- > 0;)
-        row[3 * i] = row[3 * i + 1] = row[3 * i + 2] = row[i];
 }
 
 static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err);

@@ -8,6 +8,15 @@
 
 /* ---- what a factor is made of ---- */
 
+int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
+{
+    if (p->picture)
+        return 0;
+    if (term->edited)
+        return p->correction > 0 && p->edited[term->edited - 1];
+    return !(term->kind == RETEX_TERM_CROSS2 && p->cross < 2) && !(term->kind == RETEX_TERM_CROSS3 && p->cross < 3);
+}
+
 int retex_polynomial_slot_of_factor(const RetexSet *set, int factor)
 {
     return factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor);
@@ -156,4 +165,10 @@ int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reade
     else
         retex_mixture_divide_colors(sum->values + 3 * first, weights + 3 * first, all.end - all.begin);
     return RETEX_OK;
+}
+
+void retex_row_gray_to_rgb(float *row, size_t width)
+{
+    for (size_t i = width; i-- > 0;)
+        row[3 * i] = row[3 * i + 1] = row[3 * i + 2] = row[i];
 }

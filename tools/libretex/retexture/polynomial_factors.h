@@ -28,4 +28,7 @@ int retex_polynomial_mixture_row(const RetexPolynomial *polynomial, RetexRowRead
                                  RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
                                  RetexError *err);
 
+/* Expand a row of one channel to three, in place. */
+void retex_row_gray_to_rgb(float *row, size_t width);
+
 #endif

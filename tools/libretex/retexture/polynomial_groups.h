@@ -23,9 +23,4 @@ void retex_polynomial_groups_close(RetexPolynomial *polynomial);
 /* The finest scale above 1 among a term's gain and factors; 0 where all have the picture's size. */
 int retex_polynomial_group_scale(const RetexPolynomial *polynomial, const RetexTerm *term);
 
-/* ---- of polynomial.c ---- */
-
-/* Expand a row of one channel to three, in place. */
-void retex_row_gray_to_rgb(float *row, size_t width);
-
 #endif

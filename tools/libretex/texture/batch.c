@@ -9,24 +9,6 @@
 
 #define LEAST_ALPHA 1e-20f /* alpha below this has no colour that a float can hold */
 
-void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels)
-{
-    size_t size = texel_size(texture->narrow);
-    for (int j = 0; j < 4; j++) {
-        RetexLevelRow row = find_row(texture, level, y + j, 0);
-        for (int i = 0; i < 4; i++, texels += size) {
-            int at = wrap_index(x + i, level->width, texture->spec.wrap[0]);
-            const char *p = NULL;
-            if (row.texels)
-                p = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
-            if (p)
-                memcpy(texels, p, size);
-            else
-                memset(texels, 0, size);
-        }
-    }
-}
-
 /* The number of usable levels: only a level whose texels have about the same size along both axes stands for the
  * smaller variance along both. */
 static int count_levels(const RetexTexture *texture)
