@@ -6,6 +6,7 @@
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions, the AOVs, the features of denoising
 #   - each public header compiles alone, as C11 and as C++17; its calls fail in the same way
+#   - files and functions that comments, READMEs and man pages name exist
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
@@ -158,6 +159,10 @@ found=$(for header in tools/libretex/include/retex/*.h; do
             /RetexError/ && !/RetexError \*err\)$/ || /nthreads/ && !/, int nthreads, RetexError \*err\)$/'
 done)
 [ -z "$found" ] || complain "public calls that can fail: int retex_…(…[, int nthreads], RetexError *err):
+$found"
+
+# What comments, READMEs and man pages name exists.
+found=$(/usr/bin/python3 tests/lib/mentions.py) || complain "named, but not there:
 $found"
 
 for page in man/*.[1-9]; do
