@@ -54,6 +54,8 @@ $ retex-pack -q s.exr --quality 50 -o q50.retex; test $(stat -c %s q50.retex) -l
 
 # What was lost, measured: all keys, groups that add up to the file, and more decibels at more quality.
 $ retex-pack -q s.exr -o st.retex --stats st.json; retex-pack -q s.exr -o st.retex --quality 50 --stats - >st50.json
+$ test $(grep -o '"set_bytes": [0-9]*' st.json | cut -d' ' -f2) = $(stat -c %s s.exr) && echo the size of the set
+> the size of the set
 $ python3 -c 'import json; a, b = json.load(open("st.json")), json.load(open("st50.json")); print(*a); print(*a["bytes"]); print(sum(b["bytes"].values()) == b["pack_bytes"], [a["psnr"][k] > b["psnr"][k] > 30 for k in a["psnr"]])'
 > codec quality set_bytes pack_bytes bytes psnr promised measured
 > picture radiance gains uv spread weights albedo originals other

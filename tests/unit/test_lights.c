@@ -250,6 +250,41 @@ static void photons_carry_all_light(void **state)
     scene_close(&scene);
 }
 
+/* Light sources by POV-Ray's laws: a spot is whole within its radius, none beyond its falloff, and a smooth cubic
+ * between; fading halves at the distance it names; an area light is a grid about its centre. */
+static void sources_shine_by_their_laws(void **state)
+{
+    (void)state;
+    const Light plain = {.location = {0, 4, 0}, .point_at = {0, 0, 0}, .color = {1, 0.5f, 0.25f}};
+    Vec3 direction;
+    double distance;
+    Light spot = plain;
+    spot.kind = LIGHT_SPOT, spot.radius = 20, spot.falloff = 35, spot.tightness = 3;
+    for (double angle = 1; angle < 180; angle += 2) {
+        const Vec3 at = vec3(3 * sin(angle * PI / 180), 4 - 3 * cos(angle * PI / 180), 0);
+        const double cosine = cos(angle * PI / 180), outer = cos(35 * PI / 180), inner = cos(20 * PI / 180);
+        const double t = fmin(fmax((cosine - outer) / (inner - outer), 0), 1);
+        const double wanted = cosine > 0 ? PI * pow(cosine, 3) * t * t * (3 - 2 * t) : 0;
+        const Rgb found = source_irradiance(&spot, at, spot.location, &direction, &distance);
+        assert_true(fabs((double)found.r - wanted) < 1e-5 && fabs((double)found.g - wanted / 2) < 1e-5);
+        assert_true(fabs(distance - 3) < 1e-12);
+    }
+    for (int power = 1; power < 4; power++)
+        for (int k = 1; k < 6; k++) {
+            Light fading = plain;
+            fading.fade_power = power, fading.fade_distance = 2;
+            const Rgb found = source_irradiance(&fading, vec3(0, 4 - k, 0), fading.location, &direction, &distance);
+            assert_true(fabs((double)found.r - PI * 2 / (1 + pow(k / 2.0, power))) < 1e-5);
+        }
+    Light grid = plain;
+    grid.area = 1, grid.size1 = 3, grid.size2 = 5, grid.axis1 = vec3(2, 0, 0), grid.axis2 = vec3(0, 0, 8);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 5; j++) {
+            const Vec3 p = source_point(&grid, vec3(0, 0, 0), (float)((i + 0.5) / 3), (float)((j + 0.5) / 5));
+            assert_true(fabs(p.x - (i - 1)) < 1e-6 && p.y == 4 && fabs(p.z - (2 * j - 4)) < 1e-6);
+        }
+}
+
 /* Irradiance that all samples together find at a point. */
 static double mean_irradiance(const char *text, LightSampleContext p)
 {
@@ -296,6 +331,7 @@ int main(void)
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(photons_carry_all_light),
+        cmocka_unit_test(sources_shine_by_their_laws),
         cmocka_unit_test(faces_give_what_their_sheet_gives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
