@@ -1,14 +1,14 @@
 #!/bin/sh
-# Sees to it that what retex is built from (`setup.sh build`) or tested with (`setup.sh test`) is on this machine.
+# Installs the Debian packages that retex needs to be built (`setup.sh build`) or tested (`setup.sh test`).
 #
-# Present: says nothing, exits 0. Absent: installs the Debian packages when it may (root, a sudo that asks no password,
-# or a sudo on a terminal); else prints the one command that would, and exits 1. `setup.sh config` prints what
-# $(BUILD)/config.mk holds: the compilers' and linkers' flags found by pkg-config.
+# If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
+# password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
+# `setup.sh config` prints the contents of $(BUILD)/config.mk: flags for compilers and linkers, found by pkg-config.
 set -eu
 
-# kind  what it is known by   the Debian package it comes from
-# Of packs: libjpeg-dev reads and writes the coefficients of JPEGs, libblosc-dev compresses their planes, jansson reads
-# and writes manifests. libisal-dev deflates and inflates.
+# Each line: the kind of check, what is looked for, the Debian package that has it.
+# libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
+# reads and writes manifests, libisal-dev deflates and inflates.
 needs_build='
 command gcc build-essential
 command g++ build-essential
@@ -40,7 +40,7 @@ CC=${CC:-gcc}
 CXX=${CXX:-g++}
 PKG_CONFIG=${PKG_CONFIG:-pkg-config}
 
-# The name of the Embree library that both has a header here and links: embree4, embree3 or nothing.
+# Prints the name of the Embree library that is installed: embree4, embree3 or nothing. A test program must link.
 embree() {
     probe=$(mktemp -d)
     for name in embree4 embree3; do
@@ -53,7 +53,7 @@ embree() {
     rm -rf "$probe"
 }
 
-present() { # kind what
+is_present() { # kind what
     case $1 in
     command) command -v "$2" >/dev/null 2>&1 ;;
     header) echo "#include <$2>" | "$CC" -E -x c - >/dev/null 2>&1 ;;
@@ -64,13 +64,14 @@ present() { # kind what
     esac
 }
 
-missing_packages() { # list of needs -> the packages of those that are absent, each once
+missing_packages() { # list; prints the packages of the lines whose check fails, each once
     echo "$1" | while read -r kind what package; do
-        [ -z "$kind" ] || present "$kind" "$what" || echo "$package"
+        [ -z "$kind" ] || is_present "$kind" "$what" || echo "$package"
     done | sort -u | tr '\n' ' '
 }
 
-# Root's prefix for a command: nothing, sudo, or a failure where there is no way to become root without a person.
+# Prints the command that runs another one as root: env for root itself, else sudo. Fails if sudo is absent, or needs a
+# password and there is no terminal.
 as_root() {
     if [ "$(id -u)" = 0 ]; then
         echo env
@@ -83,33 +84,33 @@ as_root() {
     fi
 }
 
-ensure() { # list of needs
+install_missing() { # list
     missing=$(missing_packages "$1")
     [ -n "$missing" ] || return 0
     if ! command -v apt-get >/dev/null 2>&1; then
-        echo "retex: missing here; these are the names of the Debian packages: $missing" >&2
+        echo "retex: error: libraries or programs are missing. The names of their Debian packages are: $missing" >&2
         return 1
     fi
     if root=$(as_root); then
-        echo "retex: installing $missing" >&2
+        echo "retex: installing packages: $missing" >&2
         $root apt-get update -qq >&2 && $root env DEBIAN_FRONTEND=noninteractive \
             apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 $missing >&2 || true
         missing=$(missing_packages "$1")
         [ -n "$missing" ] || return 0
-        echo "retex: installing did not help; still missing: $missing" >&2
+        echo "retex: error: these packages could not be installed: $missing" >&2
         return 1
     fi
-    echo "retex: packages are missing. As root, run this once, then make again:" >&2
+    echo "retex: error: packages are missing. Run this command as root, then run make again:" >&2
     echo "    apt-get update && apt-get install -y --no-install-recommends $missing" >&2
     return 1
 }
 
-# Foreign headers are system headers: their warnings are not ours to mend.
+# Headers of libraries are system headers, so that the compiler reports no warnings in them.
 cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 
 config() {
     embree_name=$(embree)
-    echo "# Made by tools/setup.sh; remove it after installing other versions of the libraries."
+    echo "# Made by tools/setup.sh. Delete this file after other versions of the libraries have been installed."
     echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg blosc zlib libisal)"
     echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
@@ -121,8 +122,8 @@ config() {
 }
 
 case ${1-} in
-build) ensure "$needs_build" ;;
-test) ensure "$needs_test" ;;
+build) install_missing "$needs_build" ;;
+test) install_missing "$needs_test" ;;
 config) config ;;
 *)
     echo "usage: $0 build | test | config" >&2
