@@ -1,7 +1,11 @@
 #!/bin/sh
 # retex-combine --error: what it expects, against what a retexture is really off by from --replace at the same seed. In
-# every scene of the house: Spearman's rank correlation over blocks of 8x8 pixels is at least 0.7, and the expected
-# error of the whole picture is the true one to a factor of 3.
+# every scene of the house, measured over seeds 1 to 5:
+#
+# - the expected error of the whole picture is the true one to a factor of 1.4. It was 0.77 to 0.82 times that under
+#   glass, and 0.82 to 1.14 times elsewhere.
+# - Spearman's rank correlation over blocks of 8x8 pixels is at least 0.75. The least was 0.78, under glass
+#   and in the kitchen.
 set -u
 . tests/lib/tap.sh
 size=${FIDELITY_SIZE:-128x96} spp=${FIDELITY_SPP:-32}
@@ -24,7 +28,7 @@ check_scene() { # SCENE TARGET=IMAGE…
     retex-combine -q "$work/set.exr" $textures --error "$work/error.exr" -o "$work/retextured.exr"
     found=$(make_ranks "$work/error.exr" "$work/retextured.exr" "$work/again.exr")
     echo "# $scene, $*: rank correlation, expected, true: $found"
-    result "$(echo "$found" | awk '{ print (NF == 3 && $1 >= 0.7 && $2 < 3 * $3 && $3 < 3 * $2) }')" "$scene $*"
+    result "$(echo "$found" | awk '{ print (NF == 3 && $1 >= 0.75 && $2 < 1.4 * $3 && $3 < 1.4 * $2) }')" "$scene $*"
 }
 
 check_scene cornell-box Floor=brick.jpg

@@ -130,7 +130,7 @@ static void sampling_matches_evaluation(void **state)
                 snprintf(what, sizeof what, "case %zu side %d theta %.1f", k, side, theta);
                 close_to(sampled_albedo(&b, 1 << 16), whole, 0.01, what);
                 assert_true(pdf < 1.005); /* below 1 where the lobe reaches under the surface */
-                assert_true(pdf > 0.8);
+                assert_true(pdf > 0.9);
             }
 }
 
@@ -147,7 +147,7 @@ static void energy_is_kept(void **state)
                 Bsdf b = make(&c, theta, 0, 0);
                 double a = sampled_albedo(&b, 1 << 14);
                 /* Burley's diffuse lobe knows nothing of the coat over it: with a dielectric coat it may exceed one */
-                assert_true(a <= (metal ? 1.001 : 1.35));
+                assert_true(a <= (metal ? 1.001 : 1.15)); /* 1.14 is the most here */
                 if (metal && r == 0)
                     close_to(a, 1, 1e-4, "smooth white metal");
             }
@@ -232,7 +232,8 @@ static void tint_of_metals_wears_off(void **state)
     close_to(grazing.d.r, 0, 1e-3, "grazing");
     close_to(grazing.i.r, 0.8, 1e-3, "grazing, white");
     close_to(between.d.r + between.i.r, 0.8, 1e-6, "sum");
-    assert_true(between.d.r < 0.6f && between.d.r > 0);
+    const double x = acos(0.3) / (PI / 2), grey = 0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903;
+    close_to(between.d.r, 0.6 * (1 - grey), 1e-4, "between, by POV-Ray's formula");
 }
 
 static void highlights_sample_as_they_evaluate(void **state)

@@ -194,7 +194,7 @@ static void test_firefly(void **state)
             double share = denoise_total(set, &signals.of[s], left, y, 0) / was[s];
             printf("# %s, %s: %.3f of the firefly is left\n", layouts[k], denoise_signal_name(truth, &signals.of[s]),
                    share);
-            assert_true(share < 0.2);
+            assert_true(share < 0.05);
         }
         retex_signals_close(&signals);
         retex_set_close(&set);

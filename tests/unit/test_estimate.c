@@ -394,7 +394,7 @@ static void contrast_makes_errors(void **state)
     }
     assert_true(sums[0] > 0);
     for (int k = 1; k < 3; k++) /* twice the contrast, twice the error; later hits see each other's colour, too */
-        assert_true(fabs(sums[k] / sums[k - 1] - 2) < 0.05);
+        assert_true(fabs(sums[k] / sums[k - 1] - 2) < 0.01);
     retex_set_close(&set);
 }
 

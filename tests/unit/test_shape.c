@@ -528,7 +528,7 @@ static double height(Vec3 p)
 
 static void assert_mean(const Primitive *p, double (*of)(Vec3 at), double expected)
 {
-    assert_true(fabs(surface_mean(p, of) - expected) < 0.02 * (1 + expected));
+    assert_true(fabs(surface_mean(p, of) - expected) < 0.005 * (1 + expected));
 }
 
 /* Samples lie where the area is: means over the surface, by integration. */

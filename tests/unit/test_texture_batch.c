@@ -320,7 +320,7 @@ static void test_cut_alike(void **state)
             print_message("%d x %d, turned by %g: rms %.5f, at most %.4f\n", size[0], size[1], spec.rotate,
                           sqrt(squares / (4 * COUNT)), largest);
             assert_true(sqrt(squares / (4 * COUNT)) < 4e-3); /* of white noise */
-            assert_true(largest < 0.2);                      /* where little is left of one */
+            assert_true(largest < 0.05);                     /* where little is left of one */
         }
         retex_texture_close(&texture);
         retex_image_free(&im);
