@@ -185,6 +185,7 @@ class SceneJob
         if (options_.denoise) {
             RetexDenoiseParams params = RETEX_DENOISE_INIT;
             params.budget = budget_.begin();
+            params.full_precision = 1;
             must(retex_denoise(rendered, &params, nullptr, options_.render.nthreads, &err), err);
         }
         if (!is_picture()) {

@@ -22,6 +22,7 @@ enum {
     OPT_STRICT_PAPER,
     OPT_DENOISE,
     OPT_NO_DENOISE_DATA,
+    OPT_FULL_PRECISION,
     OPT_CAUSTICS_GUIDE,
     OPT_SPP,
     OPT_NOISE,
@@ -72,6 +73,7 @@ static const CliOption options[] = {
     [OPT_DENOISE] = {"denoise", 0, NULL, "denoise the result, as retex-denoise does", 0},
     [OPT_CAUSTICS_GUIDE] = {"caustics-guide", 0, NULL, "guide paths by photons, for caustics of small lamps", 0},
     [OPT_NO_DENOISE_DATA] = {"no-denoise-data", 0, NULL, "omit the parts of the set that retex-denoise needs", 0},
+    [OPT_FULL_PRECISION] = {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples per pixel; default 64", 0},
     [OPT_NOISE] = {"noise", 0, "X",
                    "adaptive sampling: as many samples, up to --spp, as keep the noise of each tile at most X", 0},
@@ -182,6 +184,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_NO_DENOISE_DATA:
         a->no_denoise_data = 1;
+        break;
+    case OPT_FULL_PRECISION:
+        a->full_precision = 1;
         break;
     case OPT_AOV_DIR:
         a->aov_dir = cli->value;

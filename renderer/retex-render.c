@@ -137,7 +137,16 @@ static void denoise(Arguments *a, RetexSet *set)
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     params.progress = denoise_progress, params.progress_context = a->cli;
     params.budget = a->cli->budget;
+    params.full_precision = a->full_precision;
     if (retex_denoise(set, &params, NULL, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+}
+
+/* What is written has the numbers that it will be read with, whether it is denoised here or later. */
+static void round_set(const Arguments *a, RetexSet *set, const char *output)
+{
+    RetexError err;
+    if (!a->full_precision && retex_set_round(set, output, a->cli->threads, &err))
         cli_fail(a->cli, &err);
 }
 
@@ -217,10 +226,10 @@ int main(int argc, char **argv)
         check_output(&a, output), check_stats(&a);
     if (a.control)
         read_control(&a);
-    /* sets in OpenEXR keep the data for retex-denoise; packs omit it, and pictures without targets are only filtered
-     * here */
+    /* sets in OpenEXR keep the data for retex-denoise, which rounding reads too; packs omit it, and pictures without
+     * targets are only filtered here */
     int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
-    a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
+    a.render.denoise_data = a.denoise || keeps;
     a.render.stored = keeps && !a.denoise;
     double started = retex_clock_seconds();
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
@@ -249,8 +258,11 @@ int main(int argc, char **argv)
     if (failed)
         cli_fail(&cli, &err);
     if (set) {
+        round_set(&a, set, output);
         if (a.denoise)
             denoise(&a, set);
+        else if (a.no_denoise_data)
+            retex_denoise_drop_data(set);
         if (a.aov_dir && aov_files_write(set, a.aov_dir, cli.threads, &err))
             cli_fail(&cli, &err);
         if (output)

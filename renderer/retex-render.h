@@ -28,7 +28,7 @@ typedef struct Arguments {
     RetexSet *control_set;
     char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* the set's targets, as arguments of -t */
     int named;                                                 /* -t was given */
-    int denoise, no_denoise_data;
+    int denoise, no_denoise_data, full_precision;
     const char *merged[LIST_MAX];
     int nmerged;
     char checkpoint[4096]; /* OUTPUT.partial, or "" if the output is not a file */

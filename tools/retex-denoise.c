@@ -15,6 +15,7 @@ static const CliOption options[] = {
     {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
     {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
+    {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
     {0},
 };
 
@@ -32,6 +33,8 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
             params->radius = (int)cli_integer(cli, option, 1, 10);
         } else if (strcmp(option->name, "memory") == 0) {
             *memory = cli_megabytes(cli, option);
+        } else if (strcmp(option->name, "full-precision") == 0) {
+            params->full_precision = 1;
         } else {
             params->footprints = 0;
         }

@@ -33,7 +33,7 @@ static inline Float4 correction_stored(BandRows *rows, int image, int x, int y)
     return (Float4){pixel[0], pixel[1], pixel[2], 0};
 }
 
-/* unit: as of retex_correction_unit. */
+/* unit: what is smaller is an error of rounding, as of retex_coefficient_unit. */
 static inline void correction_store(BandRows *rows, int image, Float4 difference, double unit, int x, int y)
 {
     float rounded[3];

@@ -174,6 +174,12 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: the table of --variants names the outputs: no -o
 = 2
 
+# Sets are rounded to what their numbers are known to, so that they are smaller; merged shards as a single render is.
+$ set -- -q --size 32x24 --spp 8 -t floor scenes/cornell-box/cornell-box.pov; retex-render "$@" -o r.exr; retex-render "$@" --full-precision -o f.exr; retex-render "$@" --plain -o p.exr; retex-diff -q p.exr f.exr --fail-abs 0 && echo exact; retex-diff -q p.exr r.exr --fail-abs 0 || echo rounded; for i in 1 2; do retex-render "$@" --shard $i/2 -o s$i; done; retex-render "$@" --merge s1 --merge s2 -o m.exr; cmp m.exr r.exr; retex-render "$@" --full-precision --merge s1 --merge s2 -o m.exr; cmp m.exr f.exr; [ $(stat -c %s r.exr) -lt $(stat -c %s f.exr) ] && echo smaller; rm ?.exr s1 s2
+> exact
+> rounded
+> smaller
+
 # What denoising reads is in sets of two samples and more, but not in packs and pictures; without it the set is the same.
 $ rm -f ?.exr; set -- -q --size 32x24 --spp 4 -t floor; retex-render "$@" scenes/cornell-box/cornell-box.pov -o d.exr; retex-render "$@" --no-denoise-data scenes/cornell-box/cornell-box.pov -o n.exr; retex-render "$@" --spp 1 scenes/cornell-box/cornell-box.pov -o o.exr; retex-render "$@" scenes/cornell-box/cornell-box.pov -o p.retex; retex-render "$@" --plain --aov depth scenes/cornell-box/cornell-box.pov -o a.exr; for f in d.exr n.exr o.exr p.retex a.exr; do retex-info --json $f | grep -o '"\(noise\|guide_cover\)_[A-Za-z_]*"' | sort -u | wc -l; done; retex-info --json d.exr | grep -o '"\(noise\|guide_cover\)_[A-Za-z_]*"' | sort -u
 > 4

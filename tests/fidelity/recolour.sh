@@ -12,7 +12,8 @@ set -u
 . tests/lib/tap.sh
 size=${FIDELITY_SIZE:-128x96} spp=${FIDELITY_SPP:-32}
 
-render() { retex-render -q --threads 2 --size "$size" --spp "$spp" --seed 3 "$@"; }
+# Numbers of sets are not rounded to their noise, which would hide what the method itself loses.
+render() { retex-render -q --full-precision --threads 2 --size "$size" --spp "$spp" --seed 3 "$@"; }
 
 # The scene with another pigment in `#declare NAME = texture`, as its author would edit it: edited SCENE NAME PIGMENT.
 edited() {

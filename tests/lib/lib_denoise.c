@@ -244,16 +244,13 @@ double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel)
     return sum / (set->width * set->height);
 }
 
-double denoise_half_step(const RetexSet *set, int x, int y)
-{
-    double white[3] = {0, 0, 0};
-    for (int t = 0; t < set->nterms && strcmp(set->layout, "footprints") == 0; t++)
-        for (int c = 0; c < 3; c++)
-            white[c] += pixel(set, set->terms[t].radiance, x, y)[c];
-    return fmax(white[0], fmax(white[1], white[2])) / 16384;
-}
-
 /* ---- calls ---- */
+
+const RetexDenoiseParams denoise_exactly = {.size = sizeof denoise_exactly,
+                                            .strength = 1,
+                                            .radius = 5,
+                                            .footprints = 1,
+                                            .full_precision = 1};
 
 void denoise_all(RetexSet *set, const RetexDenoiseParams *params, int nthreads)
 {

@@ -3,6 +3,8 @@
 #ifndef LIB_DENOISE_H
 #define LIB_DENOISE_H
 
+#include <retex/denoise.h>
+
 #include "lib_test.h"
 #include "set/signals.h"
 
@@ -27,8 +29,8 @@ double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel)
 double denoise_from_silhouette(const RetexSet *set, int x, int y);
 double denoise_from_shadow(const RetexSet *set, int x, int y);
 
-/* The largest rounding error of a pixel's coefficients: half a step in layout footprints, else 0. */
-double denoise_half_step(const RetexSet *set, int x, int y);
+/* The defaults, but in full precision. */
+extern const RetexDenoiseParams denoise_exactly;
 
 /* Calls retex_denoise, which must succeed; params may be NULL. */
 void denoise_all(RetexSet *set, const RetexDenoiseParams *params, int nthreads);

@@ -134,35 +134,6 @@ static void test_beauty_is_the_recombination(void **state)
     }
 }
 
-/* Coefficients of a pixel are multiples of a power of two, at most 1/8192 of the pixel with white targets, and no more
- * than half of that from what they were; light that no texture multiplies is what it was. Without rounding: the same
- * set, of a layout that is not ours. */
-static void test_rounding(void **state)
-{
-    (void)state;
-    enum { WIDTH = 70, HEIGHT = 60 };
-    RetexSet *set = noisy_set("footprints", WIDTH, HEIGHT), *as_it_is = noisy_set("footprints", WIDTH, HEIGHT);
-    int rounded = 0;
-    strcpy(as_it_is->layout, "other");
-    denoise_all(set, NULL, 2);
-    denoise_all(as_it_is, NULL, 1);
-    for (int t = 0; t < set->nterms; t++)
-        for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
-            const double is = (double)set->parts[set->terms[t].radiance].image.pixels[i],
-                         was = (double)as_it_is->parts[as_it_is->terms[t].radiance].image.pixels[i];
-            double half = denoise_half_step(set, i / 3 % WIDTH, i / 3 / WIDTH), step = exp2(floor(log2(2 * half)));
-            if (!(fabs(is - was) <= (set->terms[t].nfactors ? 1.001 * half : 0)))
-                fail_msg("term %d: %.9g is far from %.9g", t, is, was);
-            /* where rounding takes the white pixel over a power of two the steps were half of what they seem */
-            if (set->terms[t].nfactors && is != 0.5 * step * rint(2 * is / step))
-                fail_msg("term %d: %.9g is no multiple of %.9g", t, is, step);
-            rounded += is != was;
-        }
-    assert_true(rounded > 9 * WIDTH * HEIGHT);
-    retex_set_close(&set);
-    retex_set_close(&as_it_is);
-}
-
 static void record(void *context, double done)
 {
     double *last = context;
@@ -339,8 +310,7 @@ static void stain(RetexSet *set, int channel, float by)
                 set->parts[part].image.pixels[i] *= i / 3 % set->width % 3 ? by : 3 * by;
 }
 
-/* Each channel of each signal has the mean that it had, whatever the others have; and coefficients are rounded by the
- * largest channel, whichever it is. */
+/* Each channel of each signal has the mean that it had, whatever the others have. */
 static void test_channels_are_on_their_own(void **state)
 {
     (void)state;
@@ -356,13 +326,6 @@ static void test_channels_are_on_their_own(void **state)
                 const double a = denoise_mean(before, &signals.of[s], c), b = denoise_mean(set, &signals.of[s], c);
                 if (fabs(a - b) > 2e-3 * a)
                     fail_msg("channel %d of signal %d: mean %.6g instead of %.6g", c, s, b, a);
-            }
-        for (int t = 0; t < set->nterms; t++)
-            for (int i = 0; i < 3 * WIDTH * HEIGHT && set->terms[t].nfactors; i++) {
-                const double is = (double)set->parts[set->terms[t].radiance].image.pixels[i];
-                const double step = exp2(floor(log2(2 * denoise_half_step(set, i / 3 % WIDTH, i / 3 / WIDTH))));
-                if (is != 0.5 * step * rint(2 * is / step))
-                    fail_msg("term %d: %.9g is no multiple of %.9g", t, is, step);
             }
         retex_signals_close(&signals);
         retex_set_close(&before);
@@ -429,7 +392,6 @@ int main(void)
         cmocka_unit_test(test_region),
         cmocka_unit_test(test_data_is_gone),
         cmocka_unit_test(test_beauty_is_the_recombination),
-        cmocka_unit_test(test_rounding),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_parameters),
         cmocka_unit_test(test_shorter_params),

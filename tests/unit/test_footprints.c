@@ -207,27 +207,6 @@ static void one_place_may_be_met_twice(void **state)
     end_film(&f);
 }
 
-/* Coefficients are rounded to the nearest step, a power of two of about 1/8192 of the white pixel. */
-static void steps_are_rounded_to(void **state)
-{
-    (void)state;
-    static const double steps[] = {0.2, 0.8, 4.6};
-    for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
-        Fixture f;
-        float value = (float)(0.5 + steps[k] / 8192);
-        begin_film(&f, 1, 1, 6, 1, 1);
-        create_film(&f);
-        begin_path(&f);
-        connect_light(&f, rgb(1 - value, 0, 0));
-        end_path(&f);
-        one_hit(&f, 0.5, 0.5, rgb_grey(0.5f), SHARP, rgb(value, 1.0f / 1024 - 1e-6f, 0));
-        finish_film(&f);
-        expect_rgb(part(&f, "dep_Floor_sharp1"), (float)(0.5 + rint(steps[k]) / 8192), 1.0f / 1024, 0, 0);
-        expect_rgb(part(&f, "indep"), 1 - value, 0, 0, 0); /* of which there is one only: as it is */
-        end_film(&f);
-    }
-}
-
 /* Clusters, later hits and albedos of one pixel are not in the next. */
 static void pixels_do_not_mix(void **state)
 {
@@ -280,8 +259,8 @@ int main(void)
         cmocka_unit_test(two_places_are_two_clusters), cmocka_unit_test(what_is_not_needed_is_left_out),
         cmocka_unit_test(the_set_says_what_is_what),   cmocka_unit_test(a_cluster_knows_its_spread),
         cmocka_unit_test(the_nearest_places_merge),    cmocka_unit_test(sharp_and_broad_stay_apart),
-        cmocka_unit_test(one_place_may_be_met_twice),  cmocka_unit_test(steps_are_rounded_to),
-        cmocka_unit_test(pixels_do_not_mix),           cmocka_unit_test(a_seam_is_one_place),
+        cmocka_unit_test(one_place_may_be_met_twice),  cmocka_unit_test(pixels_do_not_mix),
+        cmocka_unit_test(a_seam_is_one_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

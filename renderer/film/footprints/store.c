@@ -156,8 +156,8 @@ static void store_footprint(const FootprintImages *to, const RetexUvStats *uv, c
                             const Place *at)
 {
     float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread), *a = pixel_of(at, to->albedo);
-    retex_uv_stats_store(uv, mean, spread);
-    mean[2] = retex_round_coverage((double)coverage);
+    retex_uv_stats_get(uv, mean, spread);
+    mean[2] = coverage;
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
     for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
@@ -198,23 +198,22 @@ static double effective_samples(const Cluster *cluster)
     return cluster->uv.weight * cluster->uv.weight / cluster->squares;
 }
 
-static void store_light(int image, Float4 sum, float scale, double unit, const Place *at)
+static void store_light(int image, Float4 sum, float scale, const Place *at)
 {
     if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
         return; /* memory that is never touched is never taken */
     float *to = pixel_of(at, image);
     for (int c = 0; c < 3; c++)
-        to[c] = (float)retex_round_by((double)(sum[c] * scale), unit);
+        to[c] = sum[c] * scale;
 }
 
 static void store_share(int image, float share, const Place *at)
 {
-    *pixel_of(at, image) = retex_round_share((double)share);
+    *pixel_of(at, image) = fmaxf(share, RETEX_LEAST_SHARE);
 }
 
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
-static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, double unit,
-                           const Place *at)
+static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, const Place *at)
 {
     float scale = 1 / (float)p->spp;
     float interreflected = 0;
@@ -225,13 +224,13 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
         const Cluster *cluster = &clusters->of[k];
         float coverage = (float)effective_samples(cluster) * scale;
         store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
-        store_light(images->of[k].light, cluster->c, scale, unit, at);
+        store_light(images->of[k].light, cluster->c, scale, at);
         if (interreflected > 0)
             store_share(images->of[k].share, luminance4(cluster->interreflected) / interreflected, at);
     }
     for (unsigned left = clusters->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
-        store_light(images->interreflected[i], clusters->interreflected[i], scale, unit, at);
+        store_light(images->interreflected[i], clusters->interreflected[i], scale, at);
     }
 }
 
@@ -274,16 +273,16 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
     p->spp = spp;
-    double unit = retex_coefficient_unit(white_pixel(p));
+    const double unit = retex_coefficient_unit(white_pixel(p)); /* before light is reset */
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
     for (int t = 0; t < film->scene->ntargets; t++) {
-        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, unit, &at);
-        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, unit, &at);
+        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, &at);
+        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, &at);
     }
     store_interreflections(p, &at);
-    corrections_store(p, rows, retex_correction_unit(unit, spp), x, y);
+    corrections_store(p, rows, unit, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
         TargetClusters *target = &p->targets[t];
         reset_clusters(&target->sharp);

@@ -356,7 +356,7 @@ static double correction_unit(const PaperPixel *p, int spp)
     for (int k = 0; k < p->ntouched; k++)
         white += p->sums[p->touched[k]];
     const float most = fmaxf(white[0], fmaxf(white[1], white[2])) / (float)spp;
-    return retex_correction_unit(retex_coefficient_unit((double)most), spp);
+    return retex_coefficient_unit((double)most);
 }
 
 /* Subtract a stored term, with the mean albedos of all targets but t. */

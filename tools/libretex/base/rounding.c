@@ -7,10 +7,7 @@
 #include <retex/rounding.h>
 
 #define COEFFICIENT_STEP (1.0 / 8192)
-#define CORRECTION_STEP 64   /* most, in units of coefficients */
-#define CORRECTION_NOISE 512 /* of one sample, in the same units */
 #define SHARE_STEP (1.0 / 512)
-#define LEAST_SHARE 1e-5f   /* a half holds it */
 enum { COVERAGE_BITS = 8 }; /* significant ones: what lies below is noise, which does not compress */
 
 /* The largest power of two that is no larger, 0 of what is below all normal numbers. */
@@ -40,14 +37,9 @@ double retex_coefficient_unit(double white)
     return retex_round_unit(COEFFICIENT_STEP * (float)white);
 }
 
-double retex_correction_unit(double coefficient_unit, int spp)
-{
-    return retex_round_unit(coefficient_unit * fmin(CORRECTION_STEP, CORRECTION_NOISE / sqrt(fmax(spp, 1))));
-}
-
 float retex_round_share(double share)
 {
-    return fmaxf((float)retex_round_to(share, SHARE_STEP), LEAST_SHARE);
+    return fmaxf((float)retex_round_to(share, SHARE_STEP), RETEX_LEAST_SHARE);
 }
 
 float retex_round_coverage(double coverage)

@@ -51,6 +51,19 @@ double retex_uv_stats_variation_gain(const RetexUvStats *a, const RetexUvStats *
            retex_uv_stats_variation(a) - retex_uv_stats_variation(b);
 }
 
+static double correlation_of(const RetexUvStats *stats, double su, double sv)
+{
+    return su > 0 && sv > 0 ? stats->m2[1] / (stats->weight * su * sv) : 0;
+}
+
+void retex_uv_stats_get(const RetexUvStats *stats, float mean[2], float spread[3])
+{
+    const double su = sqrt(stats->m2[0] / stats->weight), sv = sqrt(stats->m2[2] / stats->weight);
+    mean[0] = (float)stats->mean[0], mean[1] = (float)stats->mean[1];
+    spread[0] = (float)su, spread[1] = (float)sv;
+    spread[2] = (float)fmax(-1, fmin(correlation_of(stats, su, sv), 1));
+}
+
 #define UV_STEP (1.0 / 32)
 #define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: the step where all samples met one place */
 enum { SPREAD_BITS = 7 };           /* an error of 1/128 is less than the uncertainty from so few samples */
@@ -63,7 +76,7 @@ void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread
     mean[0] = (float)retex_round_to(stats->mean[0], fmax(UV_STEP * su, UV_FINEST)) + 0.0f;
     mean[1] = (float)retex_round_to(stats->mean[1], fmax(UV_STEP * sv, UV_FINEST)) + 0.0f;
     spread[0] = (float)retex_round_bits(su, SPREAD_BITS), spread[1] = (float)retex_round_bits(sv, SPREAD_BITS);
-    double correlation = su > 0 && sv > 0 ? stats->m2[1] / (stats->weight * su * sv) : 0;
+    const double correlation = correlation_of(stats, su, sv);
     spread[2] = (float)copysign(1 - retex_round_bits(1 - fmin(fabs(correlation), 1), CORRELATION_BITS), correlation);
 }
 

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/denoise_data.h>
+
 #include "denoise/filter.h"
 #include "base/jobs.h"
 #include "set/band.h"
@@ -140,7 +142,7 @@ static int open_filtered(Strips *s, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     memcpy(s->filtered.parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
     for (int k = 0; k < set->nparts; k++)
-        if (retex_part_is_denoise_data(set, k))
+        if (retex_part_is_denoise_data(set, k) && !retex_name_is_noise(set->parts[k].name)) /* rounding reads noise */
             s->filtered.parts[k].image = (RetexImage){0};
         else if (s->images[0][k] >= 0)
             s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].store_image = 1 + s->images[0][k];

@@ -128,14 +128,27 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
     return RETEX_OK;
 }
 
-int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err)
+int retex_signals_group(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
+    char name[RETEX_NAME_MAX];
     *signals = (RetexSignals){.of = calloc(SIGNALS_MAX, sizeof *signals->of),
                               .members = calloc((size_t)set->nterms + 1, sizeof *signals->members)};
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         signals->covers[t] = -1;
     int code = signals->of && signals->members ? sort_terms(signals, set, err)
                                                : retex_fail(err, RETEX_ENOMEM, "no memory for the signals of a set");
+    for (int k = 0; k < signals->count && !code; k++) {
+        noise_name(set, signals->of[k].target, signals->of[k].kind, name);
+        signals->of[k].noise = retex_set_find_part(set, name);
+    }
+    if (code)
+        retex_signals_close(signals);
+    return code;
+}
+
+int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err)
+{
+    int code = retex_signals_group(signals, set, err);
     if (!code)
         code = find_parts(signals, set, err);
     if (code)

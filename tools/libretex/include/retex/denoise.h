@@ -29,8 +29,10 @@ typedef struct RetexDenoiseParams {
     const char *near;    /* of a set that is open: path of a file beside which temporary ones, without names, may lie;
                             NULL, the default: in $TMPDIR or /tmp */
     const RetexBudget *budget; /* may stop it; NULL, the default = nothing does */
+    int full_precision;  /* 1: the new pixels are rounded to halves only; 0 (default): also to what they are known to,
+                            see retex-set(5) */
 } RetexDenoiseParams;
-#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL }
+#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0 }
 
 /* Filter a set in place. A set that is open (retex_set_open) is filtered strip by strip into a band store if roi is
  * NULL. Filtered are terms, with `footprints` also broad footprints and, as far as they are near to each other,

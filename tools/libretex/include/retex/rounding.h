@@ -1,5 +1,5 @@
-/* To what the numbers of a set of layout footprints are rounded: steps that no one sees, and numbers of few bits, which
- * compress. Whatever makes such a set, the renderer's film or denoising, rounds here. */
+/* To what numbers are rounded before they are stored: numbers of few bits compress. retex_set_round rounds a set as
+ * retex-set(5) describes, and retex_denoise does so too. */
 #ifndef RETEX_ROUNDING_H
 #define RETEX_ROUNDING_H
 
@@ -31,9 +31,7 @@ double retex_round_bits(double value, int bits);
 /* The unit, for retex_round_by, of a pixel's coefficients: radiance that a texture multiplies. white: the sum of all
  * terms of the pixel in its largest channel, which is its value with white targets. */
 double retex_coefficient_unit(double white);
-/* The unit of a pixel's corrections, from that of its coefficients: no texture makes them brighter than the picture,
- * and they are known to their noise only. */
-double retex_correction_unit(double coefficient_unit, int spp);
+#define RETEX_LEAST_SHARE 1e-5f /* of a footprint in a mixture; a half holds it */
 /* Round a footprint's weight in a mixture, above 0 to 1; never to 0. */
 float retex_round_share(double share);
 /* Round a footprint's coverage, 0..1. */

@@ -156,6 +156,10 @@ int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, R
  * with factors are removed if their radiance or gain is empty, and noise parts of signals without terms. Parts that
  * something else refers to stay. All else keeps its order. */
 void retex_set_prune(RetexSet *set, const char *empty);
+/* Round all numbers of a rendered set to what they are known to, by its noise parts; by less, if it has none: see
+ * retex-set(5). Parts that are in a band store go into another one, which lies near the path `near` (NULL: in $TMPDIR
+ * or /tmp). The set is in memory or in its band store. Sets without terms stay as they are. */
+int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *err);
 /* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
 /* The names of a RetexFootprintKind, "hit", "sharp", "broad" or "interreflection", and of a RetexTermKind, "full" and

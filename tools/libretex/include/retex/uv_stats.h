@@ -67,8 +67,9 @@ static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, doub
     return sum * both / (both + sum * sum * (RETEX_UV_FEATURE * RETEX_UV_FEATURE));
 }
 
-/* Round as footprints are stored: mean u and v to a 32nd of their standard deviation at most; spread: these deviations,
- * and the correlation. */
+/* The mean, as floats; spread: the standard deviations of u and v, and their correlation. */
+void retex_uv_stats_get(const RetexUvStats *stats, float mean[2], float spread[3]);
+/* The same, rounded: the mean to a 32nd of the standard deviation at most. */
 void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread[3]);
 /* Statistics from a footprint's stored mean and spread. */
 void retex_uv_stats_load(RetexUvStats *stats, double weight, const float mean[2], const float spread[3]);

@@ -1,0 +1,324 @@
+/* How precisely numbers of sets are stored: errors against the fractions of noise that precision.h states. Noise is
+ * averaged by a plain loop. */
+#include "lib_denoise.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/denoise.h>
+#include <retex/set_file.h>
+
+#include "set/precision.h"
+
+enum { WIDTH = 70, HEIGHT = 52 };
+static const char *const layouts[] = {"paper", "footprints"};
+
+static RetexSet *noisy_set(const char *layout, uint32_t seed)
+{
+    RetexSet *set = denoise_set(layout, WIDTH, HEIGHT);
+    set->spp = 16;
+    denoise_add_noise(set, seed);
+    return set;
+}
+
+static const float *at(const RetexSet *set, int part, int x, int y)
+{
+    const RetexImage *im = &set->parts[part].image;
+    return im->pixels + retex_image_index(im, x, y);
+}
+
+/* The variance of a signal's noise: the mean root of its size in the 5x5 pixels around one, those of its band of 16
+ * rows only, over that of normal numbers of variance 1. */
+static double noise2(const RetexSet *set, int part, int x, int y)
+{
+    double sum = 0, own = 0;
+    int count = 0;
+    for (int v = y - 2; v <= y + 2; v++)
+        for (int u = x - 2; u <= x + 2; u++) {
+            if (u < 0 || u >= WIDTH || v < 0 || v >= HEIGHT || v / 16 != y / 16)
+                continue;
+            const float *n = at(set, part, u, v);
+            for (int c = 0; c < 3; c++) {
+                own += u == x && v == y ? fabs((double)n[c]) : 0;
+                sum += sqrt(fabs((double)n[c]));
+                count++;
+            }
+        }
+    return own > 0 ? pow(sum / count * sqrt(M_PI) / (pow(2, 0.25) * tgamma(0.75)), 4) : 0;
+}
+
+static double noise_of_all(const RetexSet *set, const RetexSignals *signals, int x, int y)
+{
+    double sum = 0;
+    for (int s = 0; s < signals->count; s++)
+        sum += noise2(set, signals->of[s].noise, x, y);
+    return sqrt(sum);
+}
+
+static double white(const RetexSet *set, int x, int y)
+{
+    double sum[3] = {0, 0, 0};
+    for (int t = 0; t < set->nterms; t++)
+        for (int c = 0; c < 3; c++)
+            sum[c] += (double)at(set, set->terms[t].radiance, x, y)[c];
+    return fmax(sum[0], fmax(sum[1], sum[2]));
+}
+
+/* The sum of a signal is rounded once: by half of a step. A single number also takes the error of another. `halves` is
+ * the relative error of numbers that were stored as halves. */
+static void expect_light(const RetexSet *is, const RetexSet *was, const RetexSet *noise, double fraction, double halves)
+{
+    RetexSignals signals = denoise_signals(noise);
+    int rounded = 0;
+    for (int s = 0; s < signals.count; s++)
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const int x = i % WIDTH, y = i / WIDTH;
+            const double sigma = sqrt(noise2(noise, signals.of[s].noise, x, y));
+            const double step = sigma > 0 ? fmax(fraction * sigma, 1.001 * white(was, x, y) / 8192) : 0;
+            for (int c = 0; c < 3; c++) {
+                double a = 0, b = 0, size = 0;
+                for (int m = 0; m < signals.of[s].nmembers; m++) {
+                    const RetexSignalMember *member = &signals.of[s].members[m];
+                    const int part = was->terms[member->term].radiance, other = is->terms[member->term].radiance;
+                    const double before = (double)at(was, part, x, y)[c], after = (double)at(is, other, x, y)[c];
+                    a += (double)member->weight * after, b += (double)member->weight * before;
+                    size += fabs(before) * (double)member->weight;
+                    rounded += after != before;
+                    if (!(fabs(after - before) <= 1.0001 * step + halves * fabs(before)))
+                        fail_msg("%s: %g became %g, steps of %g", was->parts[part].name, before, after, step);
+                }
+                if (!(fabs(a - b) <= 0.501 * step + (halves + 1e-6) * size))
+                    fail_msg("signal %d: %g became %g, steps of %g", s, b, a, step);
+            }
+        }
+    assert_true(rounded > WIDTH * HEIGHT);
+    retex_signals_close(&signals);
+}
+
+static void light_is_rounded_to_its_noise(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        RetexSet *set = noisy_set(layouts[k], 1), *was = noisy_set(layouts[k], 1);
+        RetexError err = {0};
+        test_must(retex_set_round(set, NULL, 2, &err), &err);
+        expect_light(set, was, was, 0.15, 0);
+        retex_set_close(&set);
+        retex_set_close(&was);
+    }
+}
+
+/* Light that denoising leaves, to a third of that. */
+static void denoised_light_is_rounded_to_less(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        RetexSet *set = noisy_set(layouts[k], 1), *exact = noisy_set(layouts[k], 1), *was = noisy_set(layouts[k], 1);
+        denoise_all(set, NULL, 2);
+        denoise_all(exact, &denoise_exactly, 2);
+        expect_light(set, exact, was, 0.15 * 0.3, 1.0 / 1024);
+        retex_set_close(&set);
+        retex_set_close(&exact);
+        retex_set_close(&was);
+    }
+}
+
+/* A step that is a part of a scale, for what multiplies `light` of which `noise` is not known. */
+static double step_of(double scale, double fraction, double finest, double coarsest, double noise, double light)
+{
+    const double relative = noise > 0 ? noise / light : 0;
+    return 1.0001 * scale * fmin(fmax(fraction * relative, finest), coarsest);
+}
+
+static void expect_near(double is, double was, double step, const char *what)
+{
+    if (!(fabs(is - was) <= step))
+        fail_msg("%s: %g became %g, further than %g", what, was, is, step);
+}
+
+/* The footprints of a synthetic set, and the light that each multiplies: that of its own term, and half of that of the
+ * two terms with further hits of its kind, which two clusters share. */
+static double light_of(const RetexSet *set, int footprint, int x, int y)
+{
+    double light = 0;
+    for (int t = 0; t < set->nterms; t++) {
+        const RetexTerm *term = &set->terms[t];
+        const float *v = at(set, term->radiance, x, y);
+        const double value = (double)(v[0] + v[1] + v[2]) / 3 * pow(0.5, term->nfactors - 1);
+        for (int k = 0; k < term->nfactors; k++) {
+            const int factor = term->factors[k];
+            light += factor == footprint ? value : 0;
+            for (int n = 0; factor < 0 && n < 2; n++)
+                light += set->mixtures[RETEX_MIXTURE(factor)].shares[n].footprint == footprint ? value / 2 : 0;
+        }
+    }
+    return light;
+}
+
+static void expect_footprint(const RetexSet *is, const RetexSet *was, int number, double noise, int x, int y)
+{
+    const RetexFootprint *f = &was->footprints[number];
+    const float *uv = at(was, f->uv, x, y), *got = at(is, f->uv, x, y);
+    const double light = light_of(was, number, x, y);
+    const int broad = f->kind >= RETEX_FOOTPRINT_BROAD;
+    if (uv[2] == 0) {
+        assert_memory_equal(uv, got, 12);
+        return;
+    }
+    expect_near((double)got[2], (double)uv[2], step_of((double)uv[2], .5, 1. / 128, .125, noise, light) / 2,
+                "coverage");
+    for (int k = 0; k < 2; k++) {
+        const double sd = (double)at(was, f->spread, x, y)[k], size = fabs((double)uv[k]);
+        /* clusters lie within .3 and few samples are credited with no more; 16 significant bits are enough */
+        const double wide = broad ? fmax(sd, 0.3) : sd;
+        const double step = fmax(step_of(wide, broad ? 1 : .5, 1. / 32, broad ? 1 : .5, noise, light),
+                                 size / 32768 <= sd / 2 || (double)uv[2] * was->spp < 8 ? size / 32768 : 0);
+        expect_near((double)got[k], (double)uv[k], step / 2, "mean");
+        expect_near((double)at(is, f->spread, x, y)[k], sd,
+                    step_of(sd, broad ? 1 : .25, 1. / 64, broad ? .5 : 1. / 16, noise, light) / 2, "deviation");
+    }
+}
+
+static void footprints_are_rounded_by_what_they_multiply(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexSignals signals = denoise_signals(was);
+    RetexError err = {0};
+    test_must(retex_set_round(set, NULL, 2, &err), &err);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        double sum[3][3] = {{0}}, step[3] = {0, 0, 0};
+        for (int k = 0; k < was->nfootprints; k++) {
+            const RetexFootprint *f = &was->footprints[k];
+            const int kind = f->kind - RETEX_FOOTPRINT_SHARP;
+            double noise = noise_of_all(was, &signals, x, y), light = light_of(was, k, x, y);
+            for (int s = 0; s < signals.count; s++)
+                if (signals.of[s].target == f->target && signals.of[s].kind == f->kind)
+                    noise = sqrt(noise2(was, signals.of[s].noise, x, y));
+            expect_footprint(set, was, k, noise, x, y);
+            if (at(was, f->uv, x, y)[2] == 0 || !(light > 0))
+                continue;
+            for (int c = 0; c < 3; c++)
+                sum[kind][c] += light * ((double)at(set, f->albedo, x, y)[c] - (double)at(was, f->albedo, x, y)[c]);
+            step[kind] = fmax(step[kind], light * step_of(1, .1, 1. / 4096, .125, noise, light));
+        }
+        for (int k = 0; k < 9; k++) /* what original albedos reflect together is rounded once */
+            expect_near(sum[k / 3][k % 3], 0, step[k / 3] / 2 + 1e-6, "reflected light");
+    }
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
+/* Where a signal has no noise its light stays as it is, whatever the noise around it. */
+static void light_without_noise_is_exact(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexSignals signals = denoise_signals(set);
+    RetexError err = {0};
+    for (int s = 0; s < signals.count; s++) {
+        RetexImage *im = &set->parts[signals.of[s].noise].image;
+        memset(im->pixels + retex_image_index(im, 30, 20), 0, 12);
+    }
+    test_must(retex_set_round(set, NULL, 1, &err), &err);
+    for (int t = 0; t < set->nterms; t++)
+        assert_memory_equal(at(set, set->terms[t].radiance, 30, 20), at(was, was->terms[t].radiance, 30, 20), 12);
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
+/* Without noise parts light is rounded to 1/8192 of the white pixel. Light that no texture multiplies is kept. */
+static void a_set_without_noise_parts(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexError err = {0};
+    retex_denoise_drop_data(set);
+    test_must(retex_set_round(set, NULL, 1, &err), &err);
+    for (int t = 0; t < was->nterms; t++)
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            for (int c = 0; c < 3; c++) {
+                const int x = i % WIDTH, y = i / WIDTH;
+                const double a = (double)at(was, was->terms[t].radiance, x, y)[c];
+                expect_near((double)at(set, set->terms[t].radiance, x, y)[c], a,
+                            was->terms[t].nfactors ? 1.001 * white(was, x, y) / 8192 : 0, "light");
+            }
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
+/* Numbers of three bits, multiples of 1/1024, and so on. */
+static void data_of_denoising_are_rounded(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexError err = {0};
+    test_must(retex_set_round(set, NULL, 2, &err), &err);
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        expect_near((double)set->parts[0].image.pixels[i], (double)was->parts[0].image.pixels[i],
+                    fabs((double)was->parts[0].image.pixels[i]) / 16384, "picture");
+    for (int k = 1; k < set->nparts; k++) {
+        const char *name = set->parts[k].name;
+        const int noise = strncmp(name, "noise_", 6) == 0, guide = strncmp(name, "guide_", 6) == 0;
+        const int position = guide && strstr(name, "position");
+        const size_t count = retex_image_index(&set->parts[k].image, 0, HEIGHT);
+        for (size_t i = 0; i < count && (noise || guide); i++) {
+            const double a = (double)was->parts[k].image.pixels[i], b = (double)set->parts[k].image.pixels[i];
+            int exponent;
+            const double bits = frexp(b, &exponent) * (noise ? 8 : 32768);
+            expect_near(b, a, noise ? fabs(a) / 8 : position ? fabs(a) / 32768 : 1. / 2048, name);
+            assert_true(noise || position ? bits == rint(bits) : b * 1024 == rint(b * 1024));
+        }
+    }
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
+/* Of a band store, and with any number of threads, all is the same to the bit. */
+static void a_band_store_and_threads_change_nothing(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *stored = noisy_set("footprints", 1);
+    RetexError err = {0};
+    for (int k = 1; k < stored->nparts; k++) {
+        RetexPart *part = &stored->parts[k];
+        int image;
+        part->type = set->parts[k].type = RETEX_FLOAT; /* so that nothing else rounds */
+        if (!stored->store)
+            test_must(retex_band_store_create(&stored->store, WIDTH, HEIGHT, 0, NULL, &err), &err);
+        test_must(retex_band_store_add(stored->store, part->name, part->letters, part->type, &image, &err), &err);
+        for (int y = 0; y < HEIGHT; y += RETEX_BAND_ROWS)
+            test_must(retex_band_store_put(stored->store, image, y / RETEX_BAND_ROWS,
+                                           part->image.pixels + retex_image_index(&part->image, 0, y), &err),
+                      &err);
+        free(part->image.pixels);
+        part->image.pixels = NULL;
+        part->store_image = 1 + image;
+    }
+    test_must(retex_set_round(set, NULL, 1, &err), &err);
+    test_must(retex_set_round(stored, NULL, 3, &err), &err);
+    test_must(retex_set_load(stored, 2, &err), &err);
+    denoise_expect_same(set, stored);
+    retex_set_close(&set);
+    retex_set_close(&stored);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_is_rounded_to_its_noise),
+        cmocka_unit_test(denoised_light_is_rounded_to_less),
+        cmocka_unit_test(footprints_are_rounded_by_what_they_multiply),
+        cmocka_unit_test(light_without_noise_is_exact),
+        cmocka_unit_test(a_set_without_noise_parts),
+        cmocka_unit_test(data_of_denoising_are_rounded),
+        cmocka_unit_test(a_band_store_and_threads_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,549 @@
+/* See precision.h. Footprints are rounded by the light that they multiply: an error of a footprint changes the picture
+ * by at most so much. Errors of light, and of albedos, are carried on from one number of a pixel to the next larger
+ * one, so that their sums are rounded only once. */
+#include "set/precision.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/denoise_data.h>
+#include <retex/rounding.h>
+#include <retex/uv_stats.h>
+
+#include "base/jobs.h"
+#include "set/samples.h"
+
+enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
+
+/* Fractions were chosen so that no picture of docs/storage.md's scenes loses .02 dB against truth, finest steps so that
+ * nothing is lost in pictures without noise. */
+const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
+    [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
+    [RETEX_PRECISION_CORRECTION] = {0.25, 1.0 / 8192, 1.0 / 64},
+    [RETEX_PRECISION_PICTURE] = {0, 1.0 / 8192, 1.0 / 8192},
+    [RETEX_PRECISION_MEAN] = {0.5, 1.0 / 32, 1.0 / 2},
+    [RETEX_PRECISION_BROAD_MEAN] = {1, 1.0 / 32, 1},
+    [RETEX_PRECISION_SPREAD] = {0.25, 1.0 / 64, 1.0 / 16},
+    [RETEX_PRECISION_BROAD_SPREAD] = {1, 1.0 / 64, 1.0 / 2},
+    [RETEX_PRECISION_CORRELATION] = {0.25, 1.0 / 32, 1.0 / 8},
+    [RETEX_PRECISION_BROAD_CORRELATION] = {0.5, 1.0 / 64, 1.0 / 2},
+    [RETEX_PRECISION_COVERAGE] = {0.5, 1.0 / 128, 1.0 / 8},
+    [RETEX_PRECISION_ALBEDO] = {0.1, 1.0 / 4096, 1.0 / 8},
+    [RETEX_PRECISION_WEIGHT] = {0.5, 1.0 / 512, 1.0 / 16},
+    [RETEX_PRECISION_NOISE] = {0, 1.0 / 4, 1.0 / 4},
+    [RETEX_PRECISION_GUIDE] = {0, 1.0 / 1024, 1.0 / 1024},
+    [RETEX_PRECISION_POSITION] = {0, 1.0 / 16384, 1.0 / 16384},
+};
+
+/* A footprint, where it has all its parts and they are not reduced. */
+typedef struct Footprint {
+    int uv, spread, albedo; /* parts; uv -1: it is left as it is */
+    int channels;           /* of its spread */
+    int signal;             /* of the light that it multiplies, or -1: all of them */
+    int first;              /* the first footprint of the same target and kind */
+    int broad;
+    const int *periodic;
+} Footprint;
+
+struct RetexPrecision {
+    RetexSignals signals;
+    double remaining;
+    int has_noise;
+    int nfootprints, nmixtures;
+    Footprint *footprints;
+};
+
+/* Memory of one job. */
+typedef struct Scratch {
+    float *noise;  /* by signal, then of all together: of a band's pixels */
+    float *row;    /* sums over columns */
+    double *light; /* by footprint: light that it multiplies in the pixel */
+    double *mixed; /* by mixture */
+    int *order;    /* of footprints */
+} Scratch;
+
+static size_t band_pixels(const RetexSet *rows)
+{
+    return (size_t)rows->width * RETEX_PRECISION_LINES;
+}
+
+static double step(RetexPrecisionKind kind, double scale, double relative)
+{
+    const RetexPrecisionRule *rule = &retex_precision_rules[kind];
+    return scale * fmax(fmin(rule->fraction * relative, rule->coarsest), rule->finest);
+}
+
+static float rounded(RetexPrecisionKind kind, double value, double scale, double relative)
+{
+    return (float)retex_round_to(value, step(kind, scale, relative)) + 0.0f; /* no -0 */
+}
+
+/* ---- the plan ---- */
+
+static int signal_of(const RetexPrecision *p, const RetexFootprint *f)
+{
+    for (int s = 0; s < p->signals.count; s++)
+        if (p->signals.of[s].target == f->target && p->signals.of[s].kind == f->kind)
+            return s;
+    return -1;
+}
+
+static int is_whole(const RetexSet *set, int part, int channels)
+{
+    return part >= 0 && set->parts[part].image.channels >= channels && set->parts[part].image.width == set->width &&
+           set->parts[part].image.height == set->height;
+}
+
+static void plan_footprints(RetexPrecision *p, const RetexSet *set)
+{
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        int first = 0;
+        while (set->footprints[first].target != f->target || set->footprints[first].kind != f->kind)
+            first++;
+        const int whole = is_whole(set, f->uv, 3) && is_whole(set, f->spread, 2) && is_whole(set, f->albedo, 3);
+        p->footprints[i] =
+            (Footprint){.uv = whole ? f->uv : -1,
+                        .spread = f->spread,
+                        .albedo = f->albedo,
+                        .channels = whole ? set->parts[f->spread].image.channels : 0,
+                        .signal = f->kind == RETEX_FOOTPRINT_INTERREFLECTION ? -1 : signal_of(p, f),
+                        .first = first,
+                        .broad = f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION,
+                        .periodic = set->targets[f->target].periodic};
+    }
+}
+
+/* The members of a signal with the smallest weights first, because errors are carried on to the next ones. */
+static int compare_members(const void *a, const void *b)
+{
+    const RetexSignalMember *x = a, *y = b;
+    return x->weight != y->weight ? (x->weight < y->weight ? -1 : 1) : x->term - y->term;
+}
+
+int retex_precision_open(RetexPrecision **result, const RetexSet *set, double remaining, RetexError *err)
+{
+    RetexPrecision *p = *result = calloc(1, sizeof *p);
+    if (p)
+        p->footprints = calloc((size_t)set->nfootprints + 1, sizeof *p->footprints);
+    if (!p || !p->footprints) {
+        retex_precision_close(result);
+        return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
+    }
+    p->remaining = remaining, p->nfootprints = set->nfootprints, p->nmixtures = set->nmixtures;
+    const int code = retex_signals_group(&p->signals, set, err);
+    if (code) {
+        retex_precision_close(result);
+        return code;
+    }
+    p->has_noise = 1;
+    for (int s = 0; s < p->signals.count; s++) {
+        RetexSignal *signal = &p->signals.of[s];
+        qsort(signal->members, (size_t)signal->nmembers, sizeof *signal->members, compare_members);
+        p->has_noise = p->has_noise && signal->noise >= 0 && is_whole(set, signal->noise, 3);
+    }
+    plan_footprints(p, set);
+    return RETEX_OK;
+}
+
+void retex_precision_close(RetexPrecision **result)
+{
+    RetexPrecision *p = *result;
+    if (!p)
+        return;
+    retex_signals_close(&p->signals);
+    free(p->footprints);
+    free(p);
+    *result = NULL;
+}
+
+/* ---- noise ---- */
+
+/* The square of a deviation from the mean root of its size, for normally distributed numbers. */
+static double square_of_root(double root)
+{
+    static const double ROOT = 0.82217895866; /* the mean root of the size of standard normal numbers */
+    const double ratio = root / ROOT;
+    return ratio * ratio * ratio * ratio;
+}
+
+/* The variance of one signal's noise, from roots averaged over the neighbourhood within the band: few bright pixels do
+ * not count for those around them. 0 where the pixel itself has no noise. */
+static void average_noise(float *out, float *sums, const RetexSet *rows, int part, int y0, int lines, double scale)
+{
+    const int width = rows->width;
+    const float *noise = rows->parts[part].image.pixels + retex_image_index(&rows->parts[part].image, 0, y0);
+    for (int y = 0; y < lines; y++, out += width) {
+        const int top = y > NEIGHBOURS ? y - NEIGHBOURS : 0;
+        const int end = y + NEIGHBOURS + 1 < lines ? y + NEIGHBOURS + 1 : lines;
+        memset(sums, 0, sizeof *sums * (size_t)width);
+        for (int row = top; row < end; row++)
+            for (int x = 0; x < width; x++) {
+                const float *n = noise + 3 * ((size_t)row * (size_t)width + (size_t)x);
+                sums[x] += sqrtf(fabsf(n[0])) + sqrtf(fabsf(n[1])) + sqrtf(fabsf(n[2]));
+            }
+        for (int x = 0; x < width; x++) {
+            const int left = x > NEIGHBOURS ? x - NEIGHBOURS : 0;
+            const int right = x + NEIGHBOURS + 1 < width ? x + NEIGHBOURS + 1 : width;
+            const float *own = noise + 3 * ((size_t)y * (size_t)width + (size_t)x);
+            double sum = 0;
+            for (int k = left; k < right; k++)
+                sum += (double)sums[k];
+            out[x] = own[0] == 0 && own[1] == 0 && own[2] == 0
+                         ? 0
+                         : (float)(scale * scale * square_of_root(sum / (3.0 * (right - left) * (end - top))));
+        }
+    }
+}
+
+static void find_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int y0, int lines)
+{
+    const size_t pixels = band_pixels(rows);
+    float *all = s->noise + (size_t)p->signals.count * pixels;
+    memset(all, 0, sizeof *all * pixels);
+    for (int k = 0; k < p->signals.count && p->has_noise; k++) {
+        float *one = s->noise + (size_t)k * pixels;
+        average_noise(one, s->row, rows, p->signals.of[k].noise, y0, lines, p->remaining);
+        for (size_t i = 0; i < (size_t)rows->width * (size_t)lines; i++)
+            all[i] += one[i];
+    }
+}
+
+/* The noise of a signal, or of all (-1), in a pixel of the band. */
+static double noise_at(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, int signal, size_t pixel)
+{
+    return p->has_noise
+               ? sqrt((double)s->noise[(size_t)(signal < 0 ? p->signals.count : signal) * band_pixels(rows) + pixel])
+               : 0;
+}
+
+/* ---- one pixel ---- */
+
+static float *value_at(const RetexSet *rows, int part, size_t at)
+{
+    const RetexImage *im = &rows->parts[part].image;
+    return im->pixels + at * (size_t)im->channels;
+}
+
+static double mean_size(const float v[3])
+{
+    return ((double)fabsf(v[0]) + (double)fabsf(v[1]) + (double)fabsf(v[2])) / 3;
+}
+
+/* How much light every footprint and every mixture multiplies, further hits being grey. */
+static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at)
+{
+    memset(s->light, 0, sizeof *s->light * (size_t)(p->nfootprints + 1));
+    memset(s->mixed, 0, sizeof *s->mixed * (size_t)(p->nmixtures + 1));
+    for (int k = 0; k < p->signals.count; k++)
+        for (int m = 0; m < p->signals.of[k].nmembers; m++) {
+            const RetexSignalMember *member = &p->signals.of[k].members[m];
+            const RetexTerm *term = &rows->terms[member->term];
+            const double light = mean_size(value_at(rows, member->part, at)) * (double)member->weight;
+            for (int f = 0; f < term->nfactors && light > 0; f++)
+                *(term->factors[f] < 0 ? &s->mixed[RETEX_MIXTURE(term->factors[f])] : &s->light[term->factors[f]]) +=
+                    light;
+        }
+    for (int m = 0; m < p->nmixtures; m++) {
+        const RetexMixture *mixture = &rows->mixtures[m];
+        double sum = 0;
+        for (int k = 0; k < mixture->nshares && s->mixed[m] > 0; k++)
+            sum += (double)*value_at(rows, mixture->shares[k].weight, at);
+        for (int k = 0; k < mixture->nshares && sum > 0; k++)
+            s->light[mixture->shares[k].footprint] +=
+                s->mixed[m] * (double)*value_at(rows, mixture->shares[k].weight, at) / sum;
+    }
+}
+
+static double relative_noise(double noise, double light)
+{
+    return noise > 0 ? noise / light : 0; /* a footprint without light: infinite */
+}
+
+/* The variance of UV along an axis over all clusters of the kind that a pixel has. */
+static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int first, size_t at, int axis)
+{
+    const int broad_periodic = p->footprints[first].periodic[axis];
+    double weight = 0, mean = 0, square = 0, origin = 0;
+    for (int i = first; i < p->nfootprints; i++) {
+        const Footprint *f = &p->footprints[i];
+        if (f->first != first || f->uv < 0)
+            continue;
+        const float *uv = value_at(rows, f->uv, at), *spread = value_at(rows, f->spread, at);
+        if (!(uv[2] > 0))
+            continue;
+        origin = weight > 0 ? origin : (double)uv[axis];
+        const double d = retex_uv_stats_difference((double)uv[axis], origin, broad_periodic);
+        weight += (double)uv[2];
+        mean += (double)uv[2] * d;
+        square += (double)uv[2] * (d * d + (double)(spread[axis] * spread[axis]));
+    }
+    return weight > 0 ? fmax(square / weight - mean / weight * (mean / weight), 0) : 0;
+}
+
+/* The standard deviation that a step follows. Few samples do not tell that of a broad cluster: one more is assumed,
+ * which varies as all clusters of its kind do together. */
+static double credible_deviation(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at, int axis,
+                                 double samples)
+{
+    const double deviation = (double)value_at(rows, f->spread, at)[axis];
+    if (!f->broad || !p->has_noise)
+        return deviation;
+    return sqrt((samples * deviation * deviation + kind_variance(p, rows, f->first, at, axis)) / (samples + 1));
+}
+
+static void round_spread(const Footprint *f, float *spread, double relative)
+{
+    for (int k = 0; k < 2; k++)
+        spread[k] = rounded(f->broad ? RETEX_PRECISION_BROAD_SPREAD : RETEX_PRECISION_SPREAD, (double)spread[k],
+                            (double)spread[k], relative);
+    if (f->channels < 3)
+        return;
+    const double size = fmin(fabs((double)spread[2]), 1);
+    if (f->broad)
+        spread[2] = rounded(RETEX_PRECISION_BROAD_CORRELATION, (double)spread[2], 1, relative);
+    else
+        spread[2] = copysignf(1 - rounded(RETEX_PRECISION_CORRELATION, 1 - size, 1 - size, relative), spread[2]);
+}
+
+/* Mean, spread and coverage. The steps of means are those before any of a kind is rounded. */
+static void round_place(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at,
+                        const double deviation[2], double relative)
+{
+    static const double FINEST = 1.0 / (1 << 18); /* a 64th of a texel of a 4K texture */
+    float *uv = value_at(rows, f->uv, at);
+    for (int k = 0; k < 2; k++) {
+        const double size = fabs((double)uv[k]), kept = retex_round_unit(size) / 32768, /* 16 significant bits */
+            unit = step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k], relative);
+        /* more bits only where they are finer than half a deviation, which PXR24 cannot store */
+        const int enough = !p->has_noise ? 0 : kept <= deviation[k] / 2 || (double)uv[2] * rows->spp < 8;
+        uv[k] = (float)retex_round_to((double)uv[k], fmax(fmax(unit, FINEST), enough ? kept : 0)) + 0.0f;
+    }
+    round_spread(f, value_at(rows, f->spread, at), relative);
+    uv[2] = rounded(RETEX_PRECISION_COVERAGE, (double)uv[2], (double)uv[2], relative);
+}
+
+static void round_places(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+{
+    double deviation[RETEX_SET_FOOTPRINTS_MAX][2];
+    for (int i = 0; i < p->nfootprints; i++) {
+        const Footprint *f = &p->footprints[i];
+        const double coverage = f->uv < 0 ? 0 : (double)value_at(rows, f->uv, at)[2];
+        for (int k = 0; k < 2 && coverage > 0; k++)
+            deviation[i][k] = credible_deviation(p, rows, f, at, k, coverage * rows->spp);
+    }
+    for (int i = 0; i < p->nfootprints; i++) {
+        const Footprint *f = &p->footprints[i];
+        if (f->uv >= 0 && value_at(rows, f->uv, at)[2] > 0)
+            round_place(p, rows, f, at, deviation[i],
+                        relative_noise(noise_at(p, s, rows, f->signal, pixel), s->light[i]));
+    }
+}
+
+/* The footprints of one kind that have light in the pixel, those with little first. */
+static int sort_footprints(const RetexPrecision *p, Scratch *s, int first)
+{
+    int count = 0;
+    for (int i = first; i < p->nfootprints; i++) {
+        int k = count;
+        if (p->footprints[i].first != first || p->footprints[i].uv < 0 || !(s->light[i] > 0))
+            continue;
+        for (; k > 0 && s->light[s->order[k - 1]] > s->light[i]; k--)
+            s->order[k] = s->order[k - 1];
+        s->order[k] = i;
+        count++;
+    }
+    return count;
+}
+
+static void round_albedos(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int first, size_t at, size_t pixel)
+{
+    const double noise = noise_at(p, s, rows, p->footprints[first].signal, pixel);
+    const int count = sort_footprints(p, s, first);
+    double carried[3] = {0, 0, 0};
+    for (int k = 0; k < count; k++) {
+        const double light = s->light[s->order[k]],
+                     unit = retex_round_unit(step(RETEX_PRECISION_ALBEDO, 1, relative_noise(noise, light)));
+        float *albedo = value_at(rows, p->footprints[s->order[k]].albedo, at);
+        for (int c = 0; c < 3; c++) {
+            const double value = fmax((double)albedo[c] + carried[c] / light, 0), kept = retex_round_by(value, unit);
+            carried[c] += ((double)albedo[c] - kept) * light;
+            albedo[c] = (float)kept;
+        }
+    }
+}
+
+static void round_weights(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+{
+    for (int m = 0; m < p->nmixtures; m++) {
+        const RetexMixture *mixture = &rows->mixtures[m];
+        const double relative = relative_noise(noise_at(p, s, rows, -1, pixel), s->mixed[m]);
+        for (int k = 0; k < mixture->nshares; k++) {
+            const RetexImage *im = &rows->parts[mixture->shares[k].weight].image;
+            float *weight = value_at(rows, mixture->shares[k].weight, at);
+            if (im->channels == 1 && *weight > 0)
+                *weight = fmaxf(rounded(RETEX_PRECISION_WEIGHT, (double)*weight, 1, relative), RETEX_LEAST_SHARE);
+        }
+    }
+}
+
+/* The unit for a signal's light in a pixel; 0: it stays as it is. */
+static double light_unit(const RetexPrecision *p, const RetexSignal *signal, double noise, double white)
+{
+    if (p->has_noise ? !(noise > 0) : signal->target < 0)
+        return 0;
+    return retex_round_unit(white > 0 ? step(RETEX_PRECISION_LIGHT, white, noise / white) : 0);
+}
+
+/* The largest channel of the sum of all terms but corrections. */
+static double white_pixel(const RetexPrecision *p, const RetexSet *rows, size_t at)
+{
+    double sum[3] = {0, 0, 0};
+    for (int k = 0; k < p->signals.count; k++)
+        for (int m = 0; m < p->signals.of[k].nmembers; m++)
+            for (int c = 0; c < 3 && p->signals.of[k].members[m].weight > 0; c++)
+                sum[c] += (double)value_at(rows, p->signals.of[k].members[m].part, at)[c];
+    return (double)(float)fmax(sum[0], fmax(sum[1], sum[2]));
+}
+
+/* Light of one signal. Corrections have a weight of 0. */
+static void round_members(const RetexSignal *signal, const RetexSet *rows, size_t at, double unit)
+{
+    double carried[3] = {0, 0, 0};
+    for (int m = 0; m < signal->nmembers && unit > 0; m++) {
+        float *light = value_at(rows, signal->members[m].part, at);
+        const double weight = (double)signal->members[m].weight;
+        for (int c = 0; c < 3 && weight > 0; c++) {
+            if (light[c] == 0)
+                continue;
+            const double wanted = (double)light[c] + carried[c] / weight;
+            const double kept = (wanted < 0) == (light[c] < 0) ? retex_round_by(wanted, unit) : 0;
+            carried[c] += ((double)light[c] - kept) * weight;
+            light[c] = (float)kept + 0.0f;
+        }
+    }
+}
+
+static void round_corrections(const RetexSignal *signal, const RetexSet *rows, size_t at, double white, double noise)
+{
+    for (int m = 0; m < signal->nmembers && white > 0; m++) {
+        float *value = value_at(rows, signal->members[m].part, at);
+        for (int c = 0; c < 3 && signal->members[m].weight == 0; c++)
+            value[c] = rounded(RETEX_PRECISION_CORRECTION, (double)value[c], white, noise / white);
+    }
+}
+
+static void round_light(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+{
+    const double white = white_pixel(p, rows, at), all = noise_at(p, s, rows, -1, pixel);
+    for (int k = 0; k < p->signals.count; k++) {
+        const RetexSignal *signal = &p->signals.of[k];
+        round_members(signal, rows, at, light_unit(p, signal, noise_at(p, s, rows, k, pixel), white));
+        round_corrections(signal, rows, at, white, all);
+    }
+}
+
+static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+{
+    gather_light(p, s, rows, at);
+    round_places(p, s, rows, at, pixel);
+    for (int i = 0; i < p->nfootprints; i++)
+        if (p->footprints[i].first == i)
+            round_albedos(p, s, rows, i, at, pixel);
+    round_weights(p, s, rows, at, pixel);
+    round_light(p, s, rows, at, pixel);
+}
+
+/* ---- bands ---- */
+
+static void close_scratch(Scratch *s)
+{
+    free(s->noise);
+    free(s->row);
+    free(s->light);
+    free(s->mixed);
+    free(s->order);
+}
+
+static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *rows, RetexError *err)
+{
+    *s = (Scratch){.noise = malloc(sizeof *s->noise * band_pixels(rows) * (size_t)(p->signals.count + 1)),
+                   .row = malloc(sizeof *s->row * (size_t)rows->width),
+                   .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
+                   .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
+                   .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1))};
+    if (s->noise && s->row && s->light && s->mixed && s->order)
+        return RETEX_OK;
+    close_scratch(s);
+    return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
+}
+
+typedef struct Rounding {
+    const RetexPrecision *precision;
+    RetexSet *rows;
+    RetexRoi roi;
+} Rounding;
+
+/* The kind of a part's numbers, if they are rounded one by one; -1: another part. */
+static int lone_kind(const RetexSet *set, int part)
+{
+    const char *name = set->parts[part].name;
+    if (part == 0)
+        return RETEX_PRECISION_PICTURE;
+    if (retex_name_is_noise(name))
+        return RETEX_PRECISION_NOISE;
+    if (!retex_name_is_feature(name))
+        return -1;
+    return set->parts[part].type == RETEX_FLOAT ? RETEX_PRECISION_POSITION : RETEX_PRECISION_GUIDE;
+}
+
+static void round_lone_numbers(const Rounding *r, int y0, int y1)
+{
+    for (int k = 0; k < r->rows->nparts; k++) {
+        const int kind = lone_kind(r->rows, k);
+        const RetexImage *im = &r->rows->parts[k].image;
+        if (kind < 0 || !im->pixels || !is_whole(r->rows, k, 1))
+            continue;
+        for (int y = y0; y < y1; y++) {
+            float *v = im->pixels + retex_image_index(im, r->roi.x0, y), *end = v + retex_image_index(im, r->roi.x1, 0);
+            for (end -= retex_image_index(im, r->roi.x0, 0); v < end; v++)
+                *v = rounded((RetexPrecisionKind)kind, (double)*v, kind == RETEX_PRECISION_GUIDE ? 1 : fabs((double)*v),
+                             0);
+        }
+    }
+}
+
+static int round_band(void *context, int band, int thread, RetexError *err)
+{
+    const Rounding *r = context;
+    const int top = band * RETEX_PRECISION_LINES, left = r->rows->height - top;
+    const int lines = left < RETEX_PRECISION_LINES ? left : RETEX_PRECISION_LINES;
+    const int y0 = top > r->roi.y0 ? top : r->roi.y0, y1 = top + lines < r->roi.y1 ? top + lines : r->roi.y1;
+    Scratch s;
+    (void)thread;
+    if (y0 >= y1)
+        return RETEX_OK;
+    const int code = open_scratch(&s, r->precision, r->rows, err);
+    if (code)
+        return code;
+    find_noise(r->precision, &s, r->rows, top, lines);
+    for (int y = y0; y < y1; y++)
+        for (int x = r->roi.x0; x < r->roi.x1; x++) {
+            const size_t at = (size_t)y * (size_t)r->rows->width + (size_t)x;
+            const size_t pixel = at - (size_t)top * (size_t)r->rows->width;
+            round_pixel(r->precision, &s, r->rows, at, pixel);
+        }
+    round_lone_numbers(r, y0, y1);
+    close_scratch(&s);
+    return RETEX_OK;
+}
+
+int retex_precision_round(const RetexPrecision *p, RetexSet *rows, const RetexRoi *roi, int nthreads, RetexError *err)
+{
+    Rounding rounding = {p, rows, {0, 0, rows->width, rows->height, 0, 3}};
+    if (roi)
+        rounding.roi = *roi;
+    const int bands = (rows->height + RETEX_PRECISION_LINES - 1) / RETEX_PRECISION_LINES;
+    return retex_jobs_run(nthreads, bands, round_band, &rounding, err);
+}

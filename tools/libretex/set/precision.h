@@ -1,0 +1,54 @@
+/* How precisely the numbers of a set are stored: each to a fraction of what it is known to. Private to libretex.
+ *
+ * What a number is known to follows from the noise of the light that it multiplies. The set's noise parts tell that
+ * (see <retex/denoise_data.h>), averaged over a neighbourhood of the pixel within a band. Where a signal has no noise
+ * in the pixel its light is left as it is. Where the set has no noise parts, every number gets its finest step. */
+#ifndef RETEX_SET_PRECISION_H
+#define RETEX_SET_PRECISION_H
+
+#include <retex/set.h>
+
+#include "set/signals.h"
+
+enum { RETEX_PRECISION_LINES = 16 }; /* rows of a band */
+
+/* The kinds of numbers. A number's step is a power of two, at most scale * clamp(fraction * relative noise, finest,
+ * coarsest); relative noise is that of the light which the number multiplies. */
+typedef enum RetexPrecisionKind {
+    RETEX_PRECISION_LIGHT,      /* scale: the pixel's value with white targets */
+    RETEX_PRECISION_CORRECTION, /* scale: the same */
+    RETEX_PRECISION_PICTURE,    /* scale: the value */
+    RETEX_PRECISION_MEAN,       /* of UV; scale: the standard deviation */
+    RETEX_PRECISION_BROAD_MEAN, /* of what is not seen directly, in mirrors or through glass */
+    RETEX_PRECISION_SPREAD,     /* scale: the value */
+    RETEX_PRECISION_BROAD_SPREAD,
+    RETEX_PRECISION_CORRELATION,       /* scale: 1 - |correlation| */
+    RETEX_PRECISION_BROAD_CORRELATION, /* scale: 1 */
+    RETEX_PRECISION_COVERAGE,          /* scale: the value */
+    RETEX_PRECISION_ALBEDO,            /* scale: 1 */
+    RETEX_PRECISION_WEIGHT,            /* in mixtures; scale: 1 */
+    RETEX_PRECISION_NOISE,             /* scale: the value */
+    RETEX_PRECISION_GUIDE,             /* scale: 1 */
+    RETEX_PRECISION_POSITION,          /* scale: the value */
+    RETEX_PRECISION_KINDS
+} RetexPrecisionKind;
+
+typedef struct RetexPrecisionRule {
+    double fraction, finest, coarsest;
+} RetexPrecisionRule;
+
+extern const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS];
+
+/* Which numbers of a set are of which kind. */
+typedef struct RetexPrecision RetexPrecision;
+
+/* remaining: the share of the noise in the noise parts that the light still has: 1, or less after denoising. */
+int retex_precision_open(RetexPrecision **precision, const RetexSet *set, double remaining, RetexError *err);
+void retex_precision_close(RetexPrecision **precision); /* NULL and pointers to NULL are fine */
+
+/* Round the pixels of roi in a set of the same parts, which are in memory. The set may be some rows of the whole, from
+ * the beginning of a band on. The same for every nthreads. */
+int retex_precision_round(const RetexPrecision *precision, RetexSet *rows, const RetexRoi *roi, int nthreads,
+                          RetexError *err);
+
+#endif

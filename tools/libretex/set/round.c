@@ -1,0 +1,86 @@
+/* Rounds a rendered set before it is written, denoised or packed: see <retex/set.h>. Parts in memory are rounded
+ * where they are, those of a band store on the way into another one. */
+#include <stdlib.h>
+
+#include <retex/band_store.h>
+#include <retex/set.h>
+
+#include "base/jobs.h"
+#include "set/band.h"
+#include "set/precision.h"
+
+enum { ROWS = 4 * RETEX_PRECISION_LINES }; /* that are in memory at once */
+
+typedef struct RoundedStore {
+    const RetexSet *set, *rows;
+    RetexBandStore *store; /* or NULL: all parts are in memory */
+    int *images;           /* by part: its number in the store */
+    int y;
+} RoundedStore;
+
+static int open_store(RoundedStore *s, const char *near, RetexError *err)
+{
+    const RetexSet *set = s->set;
+    int code = retex_band_store_create(&s->store, set->width, set->height, set->id, near, err);
+    s->images = calloc((size_t)set->nparts + 1, sizeof *s->images);
+    if (!code && !s->images)
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
+    for (int k = 0; k < set->nparts && !code; k++) {
+        const RetexPart *part = &set->parts[k];
+        if (part->store_image)
+            code = retex_band_store_add(s->store, part->name, part->letters, part->type, &s->images[k], err);
+    }
+    return code;
+}
+
+static int store_part(void *context, int part, int thread, RetexError *err)
+{
+    const RoundedStore *s = context;
+    const RetexImage *im = &s->rows->parts[part].image;
+    int code = RETEX_OK;
+    (void)thread;
+    for (int y = 0; y < im->height && s->set->parts[part].store_image && !code; y += RETEX_BAND_ROWS)
+        code = retex_band_store_put(s->store, s->images[part], (s->y + y) / RETEX_BAND_ROWS,
+                                    im->pixels + retex_image_index(im, 0, y), err);
+    return code;
+}
+
+static int round_rows(const RetexPrecision *precision, RoundedStore *s, RetexSetBand *band, int y, int nthreads,
+                      RetexError *err)
+{
+    RetexSet *rows;
+    const int left = s->set->height - y;
+    int code = retex_set_band_load(&rows, band, y, left < ROWS ? left : ROWS, nthreads, err);
+    if (!code)
+        code = retex_precision_round(precision, rows, NULL, nthreads, err);
+    s->rows = rows, s->y = y;
+    return code || !s->store ? code : retex_jobs_run(nthreads, s->set->nparts, store_part, s, err);
+}
+
+int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *err)
+{
+    RoundedStore s = {.set = set};
+    RetexPrecision *precision = NULL;
+    RetexSetBand *band = NULL;
+    if (!set->nterms)
+        return RETEX_OK;
+    int code = retex_precision_open(&precision, set, 1, err);
+    if (!code && set->store)
+        code = open_store(&s, near, err);
+    if (!code)
+        code = retex_set_band_open(&band, set, ROWS, 0, err);
+    for (int y = 0; y < set->height && !code; y += ROWS)
+        code = round_rows(precision, &s, band, y, nthreads, err);
+    retex_set_band_close(&band);
+    retex_precision_close(&precision);
+    for (int k = 0; k < set->nparts && !code && s.store; k++)
+        if (set->parts[k].store_image)
+            set->parts[k].store_image = 1 + s.images[k];
+    if (!code && s.store) {
+        RetexBandStore *full = set->store;
+        set->store = s.store, s.store = full;
+    }
+    retex_band_store_close(&s.store);
+    free(s.images);
+    return code;
+}
