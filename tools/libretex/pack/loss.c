@@ -126,11 +126,12 @@ static int process_rows(void *context, int y0, int y1, const float *rows, RetexE
     return code;
 }
 
-/* A picture of a set, with one of the trials' textures on all of its targets. */
+/* A picture of a set's terms, with one of the trials' textures on all of its targets. A pack has no exact picture. */
 static int measure_picture(const PictureWork *work, int picture, int nthreads, RetexError *err)
 {
     RetexTexture *texture = NULL, *textures[RETEX_MAX_TARGETS] = {NULL};
     RetexImage texels = {0};
+    RetexSet terms = *work->set;
     PictureWork own = *work;
     int code = RETEX_OK;
     if (picture != RETEX_PACK_LOSS_ORIGINAL) {
@@ -141,10 +142,11 @@ static int measure_picture(const PictureWork *work, int picture, int nthreads, R
             code = retex_texture_create(&texture, &texels, NULL, nthreads, err);
         }
     }
+    terms.exact_picture = 0;
     for (int i = 0; i < work->set->ntargets; i++)
         textures[i] = texture;
     if (!code)
-        code = retex_retexture(work->set, NULL, textures, NULL, process_rows, &own, nthreads, err);
+        code = retex_retexture(&terms, NULL, textures, NULL, process_rows, &own, nthreads, err);
     retex_texture_close(&texture);
     retex_image_free(&texels);
     return code;
