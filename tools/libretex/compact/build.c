@@ -11,6 +11,7 @@
 #include "compact/gains.h"
 #include "set/band.h"
 #include "set/parts.h"
+#include "set/signals.h"
 
 typedef struct Compaction {
     const RetexCompactLight *light;
@@ -394,6 +395,32 @@ static int add_terms(Compaction *work, int number, RetexError *err)
     return code;
 }
 
+/* Copy a correction, with the new footprints of the same kinds. */
+static int copy_correction(Compaction *work, const RetexTerm *old, RetexError *err)
+{
+    RetexTerm term = *old;
+    int target;
+    RetexFootprintKind kind;
+    int code = retex_compact_copy_part(work->set, work->light->set, old->radiance, &term.radiance, err);
+    for (int k = 0; k < old->nfactors && !code; k++) {
+        retex_factor_target(work->light->set, old->factors[k], &target, &kind);
+        term.factors[k] = kind == RETEX_FOOTPRINT_INTERREFLECTION
+                              ? interreflection_factor(work, old->factors[k])
+                              : work->interreflected[find_kind(work->light, target, kind)];
+    }
+    return code ? code : retex_set_add_term(work->set, &term, NULL, err);
+}
+
+static int copy_corrections(Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    int code = RETEX_OK;
+    for (int t = 0; t < old->nterms && !code; t++)
+        if (old->terms[t].edited)
+            code = copy_correction(work, &old->terms[t], err);
+    return code;
+}
+
 /* ---- the whole set ---- */
 
 /* Allocate the clusters and gains of a kind. */
@@ -474,6 +501,8 @@ int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const
     for (int i = 0; i < light->nkinds && !code; i++)
         if (light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_terms(&work, i, err);
+    if (!code)
+        code = copy_corrections(&work, err);
     if (work.cache)
         retex_compact_cache_free(work.cache, light);
     free(work.cache);

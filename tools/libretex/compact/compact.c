@@ -3,12 +3,18 @@
  * radiance with gains. build.h puts the new set together. */
 #include <retex/compact.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <retex/rounding.h>
 
 #include "compact/build.h"
 #include "compact/search.h"
 #include "set/parts.h"
+
+#define CORRECTION_STEP 8  /* steps of corrections, in RMS errors of a picture of mean 1 */
+#define CORRECTION_PSNR 45 /* a compact set of less has no corrections, as they do not show */
 
 int retex_compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
 {
@@ -35,6 +41,43 @@ int retex_compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *e
         code = retex_set_add_term(*result, &view.set.terms[i], NULL, err);
     retex_set_view_free(&view);
     return code;
+}
+
+/* The mean of the picture's colours that is not negative. */
+static double picture_mean(const RetexImage *picture)
+{
+    const size_t count = (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += fmax((double)picture->pixels[i], 0);
+    return sum / (double)(count ? count : 1);
+}
+
+/* Round a correction to steps. Returns 1 if nothing is left of it. */
+static int round_correction(RetexImage *image, double step)
+{
+    int empty = 1;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height * (size_t)image->channels; i++) {
+        image->pixels[i] = (float)retex_round_to((double)image->pixels[i], step) + 0.0f; /* no -0 */
+        empty = empty && image->pixels[i] == 0;
+    }
+    return empty;
+}
+
+/* Corrections are stored without loss, so they are rounded to what the compact set is off by, of white as of what is
+ * mean in a picture of usual brightness. Those that are 0 everywhere are removed. */
+static void round_corrections(RetexSet *set, double psnr)
+{
+    const double step = CORRECTION_STEP * picture_mean(&set->parts[0].image) * pow(10, -psnr / 20);
+    for (int t = set->nterms - 1; t >= 0; t--) {
+        const int part = set->terms[t].radiance;
+        if (!set->terms[t].edited || (psnr >= CORRECTION_PSNR && !round_correction(&set->parts[part].image, step)))
+            continue;
+        memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(set->nterms - t - 1));
+        set->nterms--;
+        if (!retex_part_is_used(set, part))
+            retex_set_remove_part(set, part);
+    }
 }
 
 static int check_scale(int scale, const char *name, RetexError *err)
@@ -78,6 +121,8 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
         code = retex_compact_copy_set(compact, set, err);
     }
     retex_compact_light_close(&light);
+    if (!code)
+        round_corrections(*compact, chosen.psnr);
     if (code)
         retex_set_close(compact);
     return code;

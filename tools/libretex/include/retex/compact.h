@@ -30,8 +30,9 @@ typedef struct RetexCompactParams {
  * a gain for each of few terms says what share of it is theirs, and a mixture which share is which cluster's. Clusters
  * that no texture tells apart are merged, those of pixels that see a surface evenly are made without noise, footprints
  * are of the picture's size only where they are sharp, and one image of albedo serves all footprints of a kind. Sets of
- * other layouts, and those that are compact already, come out as they are. Output is the same to the bit for every
- * nthreads. */
+ * other layouts, and those that are compact already, come out as they are. Corrections are rounded to coarser steps in
+ * all of them, or left out where psnr is below 45, and part 0 is no exact picture. Output is the same to the bit for
+ * every nthreads. */
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params /* NULL = defaults */,
                       int nthreads /* 0 = all cores */, RetexError *err);
 
