@@ -223,6 +223,24 @@ static void what_is_damaged_is_not_read_back(void **state)
     }
 }
 
+/* A checkpoint of another size or key is refused, as one with its sides swapped. */
+static void checkpoints_have_a_size_and_a_key(void **state)
+{
+    static const int sizes[4][2] = {{WIDTH, HEIGHT}, {HEIGHT, HEIGHT}, {WIDTH, WIDTH}, {HEIGHT, WIDTH}};
+    RetexBandStore *store;
+    RetexError err = {0};
+
+    (void)state;
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, 5, path, 1, &err), &err);
+    retex_band_store_close(&store);
+    for (int k = 0; k < 4; k++)
+        for (int key = 5; key < 7; key++) {
+            const int code = retex_band_store_open(&store, sizes[k][0], sizes[k][1], (uint64_t)key, path, 1, &err);
+            assert_int_equal(code == RETEX_OK, k == 0 && key == 5);
+            retex_band_store_close(&store);
+        }
+}
+
 /* What bands counted becomes what the set says: means by pixel, coverage and light, the union of ranges. */
 static void statistics_of_bands_add_up(void **state)
 {
@@ -258,6 +276,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_set_in_a_band_store_is_written_as_one_in_memory, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_loaded_set_is_what_a_file_gives, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_damaged_is_not_read_back, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(checkpoints_have_a_size_and_a_key, make_folder, remove_folder),
         cmocka_unit_test(what_is_empty_is_known),
         cmocka_unit_test(statistics_of_bands_add_up),
         cmocka_unit_test(a_band_store_needs_no_folder_of_the_output),

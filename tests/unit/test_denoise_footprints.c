@@ -125,6 +125,26 @@ static void test_shares_are_mended(void **state)
 
 /* ---- broad ---- */
 
+/* A pooled albedo is that of the light that it reflected, each channel by itself. */
+static void test_albedo_is_of_the_light(void **state)
+{
+    (void)state;
+    static const float weights[] = {1, 1}, light[] = {1, 1, 1};
+    RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
+    for (int x = 1; x < 3; x++) {
+        put(set, 0, x, 1, 0.5f, 0.5f, 0.125f);
+        put_spread(set, 0, x, 1, 0.125f, 0.125f, 0);
+    }
+    put_rgb(set, light_part(set, 0), 1, 1, 1, 0.25f, 0.5f);
+    put_rgb(set, light_part(set, 0), 2, 1, 0.25f, 1, 0.5f);
+    put_rgb(set, set->footprints[0].albedo, 1, 1, 0.2f, 0.4f, 0.6f);
+    put_rgb(set, set->footprints[0].albedo, 2, 1, 0.8f, 0.6f, 0.4f);
+    Work w = open_work(set, 1);
+    share_light(&w, RETEX_FOOTPRINT_BROAD, weights, 2, light);
+    EXPECT(1e-6f, result_albedo(&w, 0), (1 * 0.2f + 0.25f * 0.8f) / 1.25f, (0.25f * 0.4f + 1 * 0.6f) / 1.25f, 0.5f);
+    close_work(&w);
+}
+
 static void test_identical_neighbours(void **state)
 {
     (void)state;
@@ -449,6 +469,7 @@ int main(void)
         cmocka_unit_test(test_light_by_coverage),
         cmocka_unit_test(test_borrowing),
         cmocka_unit_test(test_shares_are_mended),
+        cmocka_unit_test(test_albedo_is_of_the_light),
         cmocka_unit_test(test_identical_neighbours),
         cmocka_unit_test(test_exact_pooling),
         cmocka_unit_test(test_two_clusters),
