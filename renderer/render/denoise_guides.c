@@ -1,5 +1,5 @@
 /* Guides for denoising: albedo, normal and coverage of each pixel. See denoise_guides.h. */
-#include <stdio.h>
+#include <stdlib.h>
 #include "render/denoise_guides.h"
 
 /* Sample points of a pixel: few, or many if the few do not all see the same surface. Both are powers of 2, because
@@ -9,6 +9,25 @@
 #define ONE_NORMAL 0.999        /* minimum length of the mean normal for normals that count as equal */
 #define ONE_ALBEDO 1e-4         /* maximum variance of luminance for albedos that count as equal */
 #define SPECULAR_BOUNCES_MAX 16 /* specular reflections and refractions along a ray, at most */
+
+/* Sums over those sample points of a pixel that see a surface. */
+typedef struct SurfaceSums {
+    int samples;
+    Vec3 normal, position;
+} SurfaceSums;
+
+/* Begins with zeros. */
+struct PixelGuides {
+    const DenoiseGuides *guides;
+    int samples, varied;                 /* so far; varied: they do not all see the same surface */
+    SurfaceSums first, seen;             /* at first hits; at the first hits that are neither mirror nor clear glass */
+    int specular;                        /* sample points whose first hit is a mirror or clear glass */
+    double luminance, luminance_squared; /* of the albedos */
+    int primitive, varied_primitive;     /* that the first point sees; 1: another point sees another one */
+    Rgb albedo;
+    double roughness, metallic;
+    double cover[RETEX_MAX_TARGETS];
+};
 
 static void add_surface(SurfaceSums *surface, const Shading *s)
 {
@@ -202,6 +221,20 @@ void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
     for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
         store_channel(&at, job->covers[t], share * p->cover[t]);
     *p = (PixelGuides){.guides = job};
+}
+
+int pixel_guides_create(PixelGuides **pixel, const DenoiseGuides *guides, RetexError *err)
+{
+    if (!(*pixel = calloc(1, sizeof **pixel)))
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for guides");
+    (*pixel)->guides = guides;
+    return RETEX_OK;
+}
+
+void pixel_guides_close(PixelGuides **pixel)
+{
+    free(*pixel);
+    *pixel = NULL;
 }
 
 int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)

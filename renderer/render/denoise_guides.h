@@ -17,26 +17,13 @@ typedef struct DenoiseGuides {
     int guides[RETEX_FEATURE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
 } DenoiseGuides;
 
-/* Sums over those sample points of a pixel that see a surface. */
-typedef struct SurfaceSums {
-    int samples;
-    Vec3 normal, position;
-} SurfaceSums;
-
-/* One thread's sums over the sample points of the current pixel; begin with zeros. */
-typedef struct PixelGuides {
-    const DenoiseGuides *guides;
-    int samples, varied;                 /* so far; varied: they do not all see the same surface */
-    SurfaceSums first, seen;             /* at first hits; at the first hits that are neither mirror nor clear glass */
-    int specular;                        /* sample points whose first hit is a mirror or clear glass */
-    double luminance, luminance_squared; /* of the albedos */
-    int primitive, varied_primitive;     /* that the first point sees; 1: another point sees another one */
-    Rgb albedo;
-    double roughness, metallic;
-    double cover[RETEX_MAX_TARGETS];
-} PixelGuides;
+/* One thread's sums over the sample points of the current pixel. */
+typedef struct PixelGuides PixelGuides;
 
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
+
+int pixel_guides_create(PixelGuides **pixel, const DenoiseGuides *guides, RetexError *err);
+void pixel_guides_close(PixelGuides **pixel);
 
 /* Add a sample point by the first hit of its camera ray: a FirstHitObserver. pixel: PixelGuides. */
 int denoise_guides_observe(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);

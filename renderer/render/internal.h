@@ -29,9 +29,9 @@ typedef struct Render {
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     DenoiseGuides guides;
-    PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
-    char *resumed;             /* by band: finished by another render */
-    int wanted;                /* tiles, of all that are to be rendered */
+    PixelGuides **pixel_guides; /* by thread, or NULL: no guides */
+    char *resumed;              /* by band: finished by another render */
+    int wanted;                 /* tiles, of all that are to be rendered */
     PathContext context;
     PathWorker *workers; /* by thread */
     Adaptive **pilots;   /* by thread, or NULL: all tiles get as many samples */

@@ -84,6 +84,8 @@ void render_close_films(Render *r)
     if (r->pilots)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
             adaptive_close(&r->pilots[k]);
+    for (int k = 0; r->pixel_guides && k < retex_threads(r->params.nthreads); k++)
+        pixel_guides_close(&r->pixel_guides[k]);
     for (int k = 0; r->workers && k < retex_threads(r->params.nthreads); k++)
         path_worker_close(&r->workers[k]);
     free(r->pilots);
@@ -147,7 +149,7 @@ static int open_worker(Render *r, int k, RetexError *err)
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
     if (r->pixel_guides)
-        w->first_hit = denoise_guides_observe, w->first_hit_context = &r->pixel_guides[k];
+        w->first_hit = denoise_guides_observe, w->first_hit_context = r->pixel_guides[k];
     w->variants = r->variants;
     if (r->constants) {
         memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
@@ -212,9 +214,10 @@ static int open_guides(Render *r, int threads, RetexError *err)
     FirstHitWindow window = render_window(r);
     if (!(r->pixel_guides = calloc((size_t)threads, sizeof *r->pixel_guides)))
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    for (int k = 0; k < threads; k++)
-        r->pixel_guides[k].guides = &r->guides;
-    return denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+    int code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+    for (int k = 0; k < threads && !code; k++)
+        code = pixel_guides_create(&r->pixel_guides[k], &r->guides, err);
+    return code;
 }
 
 int render_open_film(Render *r, int control, int halves, RetexError *err)

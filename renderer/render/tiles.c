@@ -86,7 +86,7 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
 /* Trace additional camera rays for the guides, if the guides need more sample points than the pixel has samples. */
 static void end_guides(const Render *r, int thread, int spp, int x, int y)
 {
-    PixelGuides *guides = &r->pixel_guides[thread];
+    PixelGuides *guides = r->pixel_guides[thread];
     Ray rays[ACCEL_PACKET];
     Sampler unused;
     const PixelStart start = start_pixel(r, r->params.seed, r->x0 + x, r->y0 + y);
@@ -107,7 +107,7 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
         const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
         worker->constants[t] = rgb(p[0], p[1], p[2]);
     }
-    worker->first_hits_wanted = r->pixel_guides ? denoise_guides_missing(&r->pixel_guides[thread]) : 0;
+    worker->first_hits_wanted = r->pixel_guides ? denoise_guides_missing(r->pixel_guides[thread]) : 0;
     trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
     if (render_is_stopped(r))
         return;

@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#include <retex/denoise_data.h>
+
 enum {
     DENOISE_TILE = 64,
     DENOISE_MARGIN = 4, /* pixels at each side of a tile that the next tile filters: here they only help to choose
@@ -21,8 +23,8 @@ enum {
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
     DENOISE_CANDIDATES = 4, /* candidate filters */
     DENOISE_BATCH = 4,      /* displacements in one call, so that the sums stay in the cache */
-    DENOISE_FEATURES_MAX = 32,
-    DENOISE_GROUPS_MAX = 16
+    DENOISE_FEATURES_MAX = 3 * RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS, /* planes; targets have covers */
+    DENOISE_GROUPS_MAX = RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS
 };
 
 static inline size_t denoise_at(int x, int y)

@@ -6,19 +6,22 @@
 #include <stddef.h>
 #include <string.h>
 
-#define STRENGTH 0.6f      /* k_f of Rousselle et al. 2013 */
-#define SLOPE 0.3f         /* distance from the tangent plane, per distance, that counts as one surface */
-#define LEAST_NORMAL 4e-3f /* squared differences below this do not count */
-#define LEAST_ALBEDO 2e-3f
-#define LEAST_SHARE 4e-3f
-#define LEAST_DISTANCE 1e-20f
+#define STRENGTH 0.6f /* k_f of Rousselle et al. 2013 */
+#define SLOPE 0.3f    /* distance from the tangent plane, per distance, that counts as one surface */
+
+/* Squared differences below these do not count. */
+static const float least[RETEX_FEATURE_KINDS] = {[RETEX_FEATURE_KIND_NORMAL] = 4e-3f,
+                                                 [RETEX_FEATURE_KIND_POSITION] = 1e-20f,
+                                                 [RETEX_FEATURE_KIND_ALBEDO] = 2e-3f,
+                                                 [RETEX_FEATURE_KIND_SHARE] = 4e-3f};
 
 /* Planes of features, by channel, then those of covers: offsets are numbers of planes. */
-#define PLANES(id, name, letters, type) char id[sizeof letters - 1];
+#define PLANES(id, name, letters, ...) char id[sizeof letters - 1];
 typedef struct FeaturePlanes {
     RETEX_FEATURE_TABLE(PLANES)
 } FeaturePlanes;
-#define PLANE(id) ((int)offsetof(FeaturePlanes, id))
+#define PLANE(id, ...) (int)offsetof(FeaturePlanes, id),
+static const int first_planes[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABLE(PLANE)};
 enum { COVERS = sizeof(FeaturePlanes) };
 
 static int clamp(int x, int size)
@@ -59,7 +62,7 @@ typedef struct FeatureList {
     float *planes, *scales;
 } FeatureList;
 
-static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count, float factor, float least)
+static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count, float factor, RetexFeatureKind kind)
 {
     RetexDenoiseFeatures *f = g->features;
     float *strict = g->scales + (size_t)(2 * f->ngroups) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
@@ -67,25 +70,31 @@ static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count,
     for (int k = 0; k < count; k++)
         add_gradient(strict, loose, g->planes + (size_t)(first + k) * DENOISE_PLANE);
     for (int i = 0; i < DENOISE_PLANE; i++) {
-        strict[i] = 1 / (factor * fmaxf(least, strict[i]));
-        loose[i] = 1 / (factor * fmaxf(least, loose[i]));
+        strict[i] = 1 / (factor * fmaxf(least[kind], strict[i]));
+        loose[i] = 1 / (factor * fmaxf(least[kind], loose[i]));
     }
     f->groups[f->ngroups] =
         (RetexDenoiseFeatureGroup){.first = first, .count = count, .strict = strict, .loose = loose};
     return &f->groups[f->ngroups++];
 }
 
-static void add_feature(FeatureList *g, int first, int count, float least)
+/* Adds the features of a hit. Positions are similar where they lie in one plane: in that of the hit's normal. */
+static void add_features(FeatureList *g, RetexFeatureHit hit)
 {
-    add_group(g, first, count, STRENGTH * STRENGTH, least);
-}
-
-/* Positions are similar where they lie in one plane. */
-static void add_position(FeatureList *g, int first, int normal)
-{
-    RetexDenoiseFeatureGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
-    for (int k = 0; k < 3; k++)
-        group->normal[k] = g->planes + (size_t)(normal + k) * DENOISE_PLANE;
+    int normal = 0;
+    for (int k = 0; k < RETEX_FEATURE_COUNT; k++) {
+        const RetexFeatureInfo *info = &retex_features[k];
+        const int first = first_planes[k], count = (int)strlen(info->letters);
+        if (info->hit != hit)
+            continue;
+        if (info->kind == RETEX_FEATURE_KIND_NORMAL)
+            normal = first;
+        const int is_position = info->kind == RETEX_FEATURE_KIND_POSITION;
+        RetexDenoiseFeatureGroup *group =
+            add_group(g, first, count, is_position ? SLOPE * SLOPE * 0.5f : STRENGTH * STRENGTH, info->kind);
+        for (int c = 0; is_position && c < 3; c++)
+            group->normal[c] = g->planes + (size_t)(normal + c) * DENOISE_PLANE;
+    }
 }
 
 static int is_zero(const float *plane)
@@ -116,17 +125,11 @@ void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const R
     *f = (RetexDenoiseFeatures){.valid = valid};
     for (int k = 0; k < n; k++)
         f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;
-    add_feature(&g, PLANE(SEEN_NORMAL), 3, LEAST_NORMAL);
-    add_position(&g, PLANE(SEEN_POSITION), PLANE(SEEN_NORMAL));
-    add_feature(&g, PLANE(SEEN_ALBEDO), 3, LEAST_ALBEDO);
-    add_feature(&g, PLANE(SEEN_MATERIAL), 3, LEAST_SHARE);
-    if (!is_zero(f->planes[PLANE(SPECULAR)])) { /* else the first hit is the surface that is seen */
-        add_feature(&g, PLANE(NORMAL), 3, LEAST_NORMAL);
-        add_position(&g, PLANE(POSITION), PLANE(NORMAL));
-        add_feature(&g, PLANE(SPECULAR), 1, LEAST_SHARE);
-    }
+    add_features(&g, RETEX_FEATURE_HIT_SEEN);
+    if (!is_zero(f->planes[first_planes[RETEX_FEATURE_SPECULAR]])) /* else the first hit is the surface that is seen */
+        add_features(&g, RETEX_FEATURE_HIT_FIRST);
     for (int k = COVERS; k < n; k++)
-        add_feature(&g, k, 1, LEAST_SHARE);
+        add_group(&g, k, 1, STRENGTH * STRENGTH, RETEX_FEATURE_KIND_SHARE);
     for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++)
         for (int x = -DENOISE_HALO; x < DENOISE_PITCH - DENOISE_HALO; x++)
             valid[denoise_at(x, y)] = x0 + x >= 0 && x0 + x < d->set->width && y0 + y >= 0 && y0 + y < d->set->height;

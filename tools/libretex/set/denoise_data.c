@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ROW(id, name, ...) [RETEX_FEATURE_##id] = {RETEX_FEATURE_PREFIX name, __VA_ARGS__},
+#define ROW(id, name, letters, type, kind, hit)                                                                        \
+    [RETEX_FEATURE_##                                                                                                  \
+        id] = {RETEX_FEATURE_PREFIX name, letters, type, RETEX_FEATURE_KIND_##kind, RETEX_FEATURE_HIT_##hit},
 const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABLE(ROW)};
 
 void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target)

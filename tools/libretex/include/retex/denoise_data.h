@@ -30,22 +30,38 @@ extern "C" {
 #define RETEX_SIGNAL_INDEP "indep"
 #define RETEX_SIGNAL_BEAUTY "beauty"
 
-/* X(enumerator, name without prefix, letters of its channels, pixel type). To add a feature: a row here, its values in
- * renderer/render/denoise_guides.c, what it means for filtering in denoise/features.c, and a line in retex-set(5). */
+/* What the numbers of a feature are, and so how denoising compares them. */
+typedef enum RetexFeatureKind {
+    RETEX_FEATURE_KIND_NORMAL,   /* unit vectors, or 0 */
+    RETEX_FEATURE_KIND_POSITION, /* points, compared with the tangent plane, whose normal is that of the same hit */
+    RETEX_FEATURE_KIND_ALBEDO,   /* colours, 0..1 */
+    RETEX_FEATURE_KIND_SHARE,    /* numbers 0..1 */
+    RETEX_FEATURE_KINDS
+} RetexFeatureKind;
+
+/* Which hit a feature is of. Those of first hits count only where mirrors or clear glass are near: elsewhere both hits
+ * are the same. */
+typedef enum RetexFeatureHit {
+    RETEX_FEATURE_HIT_FIRST,
+    RETEX_FEATURE_HIT_SEEN /* the first one that is neither a mirror nor clear glass: what they show */
+} RetexFeatureHit;
+
+/* X(enumerator, name without prefix, letters of its channels, pixel type, kind, hit). To add a feature: a row here, its
+ * values in renderer/render/denoise_guides.c, and a line in retex-set(5). */
 #define RETEX_FEATURE_TABLE(X)                                                                                         \
-    /* mean shading normal at the first hit, world space, camera's side; 0 = nothing */                                \
-    X(NORMAL, "normal", "RGB", RETEX_HALF)                                                                             \
-    /* mean position of the first hit, world space, over those places that hit */                                      \
-    X(POSITION, "position", "RGB", RETEX_FLOAT)                                                                        \
-    /* share of the pixel, 0..1, whose first hit is a mirror or clear glass */                                         \
-    X(SPECULAR, "specular", "R", RETEX_HALF)                                                                           \
-    /* normal and position at the first hit that is neither: what is seen in mirrors and through glass */              \
-    X(SEEN_NORMAL, "seen_normal", "RGB", RETEX_HALF)                                                                   \
-    X(SEEN_POSITION, "seen_position", "RGB", RETEX_FLOAT)                                                              \
+    /* mean shading normal, world space, camera's side; 0 = nothing */                                                 \
+    X(NORMAL, "normal", "RGB", RETEX_HALF, NORMAL, FIRST)                                                              \
+    /* mean position, world space, over those places that hit */                                                       \
+    X(POSITION, "position", "RGB", RETEX_FLOAT, POSITION, FIRST)                                                       \
+    /* share of the pixel whose first hit is a mirror or clear glass */                                                \
+    X(SPECULAR, "specular", "R", RETEX_HALF, SHARE, FIRST)                                                             \
+    /* normal and position again */                                                                                    \
+    X(SEEN_NORMAL, "seen_normal", "RGB", RETEX_HALF, NORMAL, SEEN)                                                     \
+    X(SEEN_POSITION, "seen_position", "RGB", RETEX_FLOAT, POSITION, SEEN)                                              \
     /* its pigment, scene-linear; white on targets, whose texture is not known, on lamps, and where nothing is hit */  \
-    X(SEEN_ALBEDO, "seen_albedo", "RGB", RETEX_HALF)                                                                   \
+    X(SEEN_ALBEDO, "seen_albedo", "RGB", RETEX_HALF, ALBEDO, SEEN)                                                     \
     /* its roughness and metallic, as the AOVs of these names, and the share that hits nothing */                      \
-    X(SEEN_MATERIAL, "seen_material", "RGB", RETEX_HALF)
+    X(SEEN_MATERIAL, "seen_material", "RGB", RETEX_HALF, SHARE, SEEN)
 
 typedef enum RetexFeature {
 #define RETEX_FEATURE_ENUMERATOR(id, ...) RETEX_FEATURE_##id,
@@ -57,6 +73,8 @@ typedef enum RetexFeature {
 typedef struct RetexFeatureInfo {
     const char *name, *letters; /* of the part, with its prefix, and of its channels */
     RetexPixelType type;
+    RetexFeatureKind kind;
+    RetexFeatureHit hit;
 } RetexFeatureInfo;
 
 extern const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT];
