@@ -3,10 +3,10 @@
 # the truth at 4096 samples.
 #
 # - the mean of 24 seeds at 8 samples is the truth: what it is off by is what is left of the noise of 24, and what the
-#   set itself, which all of them share, is off by. Within a factor of 1.5, for both are estimates. So for both ways to
-#   find alpha that are right on average;
-# - at as many samples it is nearer to the truth than --replace, by 7 dB at 8 samples and 6 dB at 2; with the
-#   paper's single control by 3 and 4 dB;
+#   set itself, which all of them share, is off by. Within 10 %, for both are estimates; measured 0.8 and 0.86 times the
+#   sum. So for both ways to find alpha that are right on average;
+# - at as many samples it is nearer to the truth than --replace, by 8.5 dB at 8 samples and at 2 (measured 9.2 dB); with
+#   the paper's single control by 3.8 and 5 dB at 8 (4.4 and 5.8 dB), by 5.5 dB at 2 (6.2 dB);
 # - a set of another size, another scene, filter, depth or the same seed is refused.
 set -u
 . tests/lib/tap.sh
@@ -29,10 +29,10 @@ for mode in unbiased halves; do
     make_mean "$work/mean.exr" "$work"/one-*.exr
     mean=$(figure "$work/mean.exr" "$work/truth.exr" relmse)
     echo "# $mode: relMSE of one picture of 8 samples $one, of the mean of 24 $mean"
-    result "$(awk "BEGIN { print ($mean > 0 && $mean <= 1.5 * ($one / 24 + $left)) }")" "$mode: right on average"
+    result "$(awk "BEGIN { print ($mean > 0 && $mean <= 1.1 * ($one / 24 + $left)) }")" "$mode: right on average"
 done
 
-for case in 8:7:unbiased 8:3:halves 8:3:biased 2:6:unbiased 2:4:biased; do
+for case in 8:8.5:unbiased 8:3.8:halves 8:5:biased 2:8.5:unbiased 2:5.5:biased; do
     spp=${case%%:*} mode=${case##*:} gain=${case#*:} gain=${gain%%:*}
     render --spp "$spp" --seed 5 --replace "$new" "$scene" -o "$work/plain.exr"
     render --spp "$spp" --seed 5 --control "$work/set.exr" --control-mode "$mode" --replace "$new" "$scene" \
