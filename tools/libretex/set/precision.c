@@ -20,7 +20,7 @@ enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
  * nothing is lost in pictures without noise. */
 const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
     [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
-    [RETEX_PRECISION_CORRECTION] = {0.25, 1.0 / 8192, 1.0 / 64},
+    [RETEX_PRECISION_CORRECTION] = {0.1, 1.0 / 8192, 1.0 / 256},
     [RETEX_PRECISION_PICTURE] = {0, 1.0 / 8192, 1.0 / 8192},
     [RETEX_PRECISION_MEAN] = {0.5, 1.0 / 32, 1.0 / 2},
     [RETEX_PRECISION_BROAD_MEAN] = {1, 1.0 / 32, 1},
