@@ -1,4 +1,4 @@
-/* The film: it sums the contributions of paths, pixel by pixel, and makes a set of them. */
+/* The film sums the contributions of paths pixel by pixel. At the end its images become a set. */
 #ifndef RENDERER_FILM_FILM_H
 #define RENDERER_FILM_FILM_H
 
@@ -16,42 +16,42 @@ void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
 
-void film_drop(FilmPixel *pixel);                             /* count light that is not finite, and is left out */
-void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
-/* The part of it that met folded hits; and what it would be with white targets. */
+void film_drop(FilmPixel *pixel);                             /* count a sample that is not finite; nothing is added */
+void film_add_light(FilmPixel *pixel, const double light[3]); /* the sum of one path's contributions */
+/* Add the part of a path's light that has folded hits, as it is and as it would be with white targets. */
 void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
-/* A path ends, with the hits that it has where there is a split. A hit and those before it, up to the camera, are at
- * most FilmParams.orders of each target, and of all targets at most what FilmLayout.most_hits says. */
+/* End a path. hits: its hits on targets, if the set is for retexturing. A hit together with those before it are at most
+ * FilmParams.orders of each target, and at most FilmLayout.most_hits of all targets. */
 void film_path_end(FilmPixel *pixel, const PathHits *hits);
-/* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */
+/* Begin a tile whose pixels have another number of samples than FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);
-Rgb film_pixel_take(FilmPixel *pixel); /* the sum of light so far instead of film_pixel_end: of a film without split */
+Rgb film_pixel_take(FilmPixel *pixel); /* instead of film_pixel_end, for films without hits: the sum of light */
 void film_pixel_end(FilmPixel *pixel, int x, int y); /* store and reset */
 void film_tile_end(FilmPixel *pixel, int tile);      /* the last tile of a band finishes it */
-int film_failed(const Film *film);                   /* a band could not be kept: film_finish says why */
+int film_failed(const Film *film); /* 1 if a band could not be stored: film_finish fails and says why */
 
-/* Bands that are finished, and kept. */
-int film_bands(const Film *film); /* of all */
+/* The number of bands, and which of them are finished. */
+int film_bands(const Film *film);
 int film_bands_done(const Film *film);
 int film_band_is_done(const Film *film, int band);
-/* Once all images are added: read the bands that the band store has already. */
+/* Read the bands that the band store already has. Call it after all images have been added. */
 int film_resume(Film *film, RetexError *err);
-/* Leave finished bands in a file, for another film of this key to go on from. */
+/* Save the finished bands in a checkpoint, from which a render with the same key continues. */
 int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
 
 /* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);
 float *film_image_pixel(FilmPixel *pixel, int image, int x, int y);
-/* After film_finish: make it a part of the set. */
+/* Make such an image a part of the set. Call it after film_finish. */
 int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
 
-/* Make the film a set: parts, terms, footprints, folded light; images that are empty are left out. */
+/* Add the parts, terms and footprints of the film to a set, without empty images. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
-/* When all images are in the set: let it have the band store. */
+/* Give the band store to the set. Call it after all images have been moved to the set. */
 void film_move_store(Film *film, RetexSet *set);
-/* Numbers a pixel that the film's images have at least, all together. */
+/* The least number of floats for each pixel in all images of the film. */
 long film_floats(const FilmParams *params, int ntargets);
-/* Bytes that they take at least, with a band store or without. */
+/* The least number of bytes that they take in memory. stored: 1 with a band store. */
 double film_bytes(const FilmParams *params, int ntargets, int stored);
 long film_dropped(const Film *film); /* samples that were not finite */
 
