@@ -76,7 +76,7 @@ $ for options in '--orders 3 -t shell' '--orders 5 -t shell -t ball' '-t shell' 
 
 # Both layouts show the picture that was rendered, and take new textures.
 $ for s in f p two; do retex-combine -q $s.exr -o back.exr; retex-render -q --size 16x12 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; retex-diff -q back.exr plain.exr --fail-psnr 45 || echo $s; done
-$ for s in f p; do retex-combine -q $s.exr --texture 'floor=rgb(0.7,0.1,0.2)' -o red.exr; retex-render -q --size 16x12 --spp 2 --replace 'floor=rgb(0.7,0.1,0.2)' scenes/cornell-box/cornell-box.pov -o truth.exr; retex-diff -q red.exr truth.exr --fail-psnr 55 || echo $s; done
+$ for s in footprints paper; do retex-render -q --full-precision --size 16x12 --spp 2 -t floor --layout $s scenes/cornell-box/cornell-box.pov -o full.exr; retex-combine -q full.exr --texture 'floor=rgb(0.7,0.1,0.2)' -o red.exr; retex-render -q --size 16x12 --spp 2 --replace 'floor=rgb(0.7,0.1,0.2)' scenes/cornell-box/cornell-box.pov -o truth.exr; retex-diff -q red.exr truth.exr --fail-psnr 55 || echo $s; done
 
 # A pack holds either.
 $ for s in f p two; do retex-pack -q --lossless $s.exr -o $s.retex; retex-combine -q $s.retex -o a.exr; retex-combine -q $s.exr -o b.exr; cmp a.exr b.exr; done; retex-info two.retex | grep '^clusters'
