@@ -1,8 +1,9 @@
-# The library, the bridge to OpenImageIO and OpenColorIO, and the tools.
+# The library, the bridge to OpenImageIO, OpenColorIO and Little CMS, and the tools.
 LIBRETEX_SOURCES += $(wildcard tools/libretex/*/*.c)
 TOOLS += $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 
-# Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO and OpenColorIO.
+# Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO, OpenColorIO and
+# Little CMS.
 CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(CPPFLAGS)
 CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) $(CFLAGS)
 CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) $(CXXFLAGS)
