@@ -3,6 +3,7 @@
 #include "film/footprints/footprints.h"
 #include "film/paper/paper.h"
 #include "lib_film.h"
+#include "lib_folder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,10 @@
 #define PICTURES 16   /* by which targets are edited: bits */
 
 static const Rgb COLOUR = {0.9f, 0.4f, 0.05f}; /* of edited targets */
+
+/* 1: sharp hits lie in the left half of a texture of two colours, COLOUR and this one; all others in the right half. */
+static int by_place;
+static const Rgb OTHER = {0.1f, 0.7f, 0.95f};
 
 /* The left pixel, by brute force. */
 typedef struct Truth {
@@ -35,9 +40,16 @@ static void add_hit(Fixture *f, Truth *truth, int target, int first, uint32_t *s
     const int both = test_random(seed) < 0.5;
     const Split split = {random_rgb(seed, 0.2), both ? random_rgb(seed, 0) : rgb_grey(0)};
     const Rgb albedo = random_rgb(seed, 0);
-    split_hit(f, target, test_random(seed), test_random(seed), albedo, first && test_random(seed) < 0.5, split);
+    int sharp = 0;
+    if (by_place) {
+        sharp = first && test_random(seed) < 0.5;
+        split_hit(f, target, (sharp ? 0.25 : 0.75) + 0.02 * test_random(seed), 0.5, albedo, sharp, split);
+    } else {
+        split_hit(f, target, test_random(seed), test_random(seed), albedo, first && test_random(seed) < 0.5, split);
+    }
+    const Rgb edited = by_place && !sharp ? OTHER : COLOUR;
     for (int e = 0; e < PICTURES; e++)
-        truth->value[e] = rgb_mul(truth->value[e], split_apply(split, e >> target & 1 ? COLOUR : albedo));
+        truth->value[e] = rgb_mul(truth->value[e], split_apply(split, e >> target & 1 ? edited : albedo));
 }
 
 static void add_light(Fixture *f, Truth *truth, uint32_t *seed)
@@ -94,6 +106,8 @@ static void combine(RetexImage *picture, const RetexSet *set, int edited)
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         snprintf(spec.target, sizeof spec.target, "%s", set->targets[t].name);
         spec.constant = 1, spec.color[0] = COLOUR.r, spec.color[1] = COLOUR.g, spec.color[2] = COLOUR.b;
+        spec.constant = !by_place;
+        snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("halves.exr"));
         specs[count++] = spec;
     }
     if (count)
@@ -158,6 +172,34 @@ static void check_layout(const FilmLayout *layout)
     }
 }
 
+/* Corrections belong to the kind of footprint that light met first: with a texture that gives sharp ones another colour
+ * than all others. */
+static void corrections_know_their_kind(void **state)
+{
+    RetexImage halves = {0};
+    RetexError err = {0};
+    (void)state;
+    test_must(retex_image_alloc(&halves, 64, 4, 3, &err), &err);
+    for (int i = 0; i < 64 * 4; i++)
+        memcpy(halves.pixels + 3 * i, i % 64 < 32 ? &COLOUR : &OTHER, 3 * sizeof(float));
+    test_must(retex_image_write(&halves, test_in_folder("halves.exr"), NULL, 1, &err), &err);
+    retex_image_free(&halves);
+    by_place = 1;
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        const int ntargets = seed % 2 ? 2 : 3;
+        Fixture f;
+        Truth truth;
+        make(&f, &truth, &footprints_layout, ntargets, seed);
+        for (int t = 0; t < ntargets; t++) {
+            const double error = largest_error(&f, &truth, 1 << t);
+            printf("# seed %u, target %d: error %g, at most %g\n", seed, t, error, 2 * bound(&f));
+            assert_true(error < 2 * bound(&f)); /* colours are halves here */
+        }
+        end_film(&f);
+    }
+    by_place = 0;
+}
+
 static void footprints_are_exact(void **state)
 {
     (void)state;
@@ -209,7 +251,8 @@ static void several_edited_targets_interpolate(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(footprints_are_exact), cmocka_unit_test(paper_is_exact),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(corrections_know_their_kind),
+                                       cmocka_unit_test(footprints_are_exact), cmocka_unit_test(paper_is_exact),
                                        cmocka_unit_test(several_edited_targets_interpolate)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
