@@ -203,6 +203,60 @@ static void test_parts_there_and_back(void **state)
         retex_image_free(&images[i]);
 }
 
+/* Parts of floats of 24 bits are compressed by PXR24, which other readers know, and read without loss here and by
+ * OpenEXRCore. One number of more bits makes the part ZIP. Both, from memory and from a band store. */
+static void test_floats_of_24_bits(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    uint32_t seed = 3;
+    make_parts(parts, images);
+    for (int variant = 0; variant < 4; variant++) {
+        RetexBandStore *store = NULL;
+        RetexInput *input;
+        RetexExr *exr;
+        RetexError err = {0};
+        RetexExrPart part = parts[0];
+        RetexImage image = {0}, shape;
+        exr_context_t context = NULL;
+        exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        exr_compression_t compression;
+        const int wide = variant & 1;
+        int number;
+        part.type = RETEX_FLOAT, part.image = &image;
+        test_must(retex_image_alloc(&image, 61, 40, (int)strlen(part.letters), &err), &err);
+        for (size_t i = 0; i < retex_image_index(&image, 0, 40); i++)
+            image.pixels[i] = (float)(rint((test_random(&seed) - 0.5) * 65536) / 1024 + 16.0 * (i % 97 == 0));
+        image.pixels[retex_image_index(&image, 60, 39)] = wide ? 20 + 0x1p-18f : 20;
+        shape = image;
+        if (variant & 2) {
+            test_must(retex_band_store_create(&store, 61, 40, 0, NULL, &err), &err);
+            test_must(retex_band_store_add(store, "a", part.letters, RETEX_FLOAT, &number, &err), &err);
+            for (int y = 0; y < 40; y += RETEX_BAND_ROWS)
+                test_must(retex_band_store_put(store, number, y / RETEX_BAND_ROWS,
+                                               image.pixels + retex_image_index(&image, 0, y), &err),
+                          &err);
+            shape.pixels = NULL, part.store = store, part.store_image = number, part.image = &shape;
+        }
+        write_parts(&part, 1, 1, 2);
+        part.image = &image;
+        assert_int_equal(exr_start_read(&context, path, &settings), EXR_ERR_SUCCESS);
+        assert_int_equal(exr_get_compression(context, 0, &compression), EXR_ERR_SUCCESS);
+        assert_int_equal(compression, wide ? EXR_COMPRESSION_ZIP : EXR_COMPRESSION_PXR24);
+        exr_finish(&context);
+        test_must(retex_input_open(&input, path, &err), &err);
+        test_must(retex_exr_open(&exr, input, &err), &err);
+        check_part(exr, &part, 0, 2);
+        retex_exr_close(&exr);
+        retex_input_close(&input);
+        retex_band_store_close(&store);
+        retex_image_free(&image);
+    }
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
 /* Compressed parts take less room than they hold, and less than without; what does not shrink is kept as it is. */
 static void test_files_are_smaller_when_compressed(void **state)
 {
@@ -449,6 +503,7 @@ int main(void)
         cmocka_unit_test(test_rounding_to_half),
         cmocka_unit_test(test_vector_equals_scalar),
         cmocka_unit_test(test_parts_there_and_back),
+        cmocka_unit_test(test_floats_of_24_bits),
         cmocka_unit_test(test_files_are_smaller_when_compressed),
         cmocka_unit_test(test_files_are_equal_for_every_thread_count),
         cmocka_unit_test(test_damaged_files),

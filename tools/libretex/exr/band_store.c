@@ -288,18 +288,22 @@ static int any_light(const float *pixels, size_t count)
 }
 
 /* Appends the band in scratch. A band whose pixels are so dark that all are stored as 0 has a record without bytes. */
-static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, int nonzero,
+static int put_chunk(RetexBandStore *store, int number, int band, const RetexChunkShape *shape, int nonzero,
                      RetexBandStoreScratch *scratch, RetexError *err)
 {
-    RetexBandStoreRecord record = {
-        .kind = BAND_STORE_CHUNK, .image = (uint32_t)number, .band = (uint32_t)band, .nonzero = (uint32_t)nonzero};
+    const size_t bytes = retex_chunk_bytes(shape);
+    const int pxr24 = !store->plain && retex_chunk_fits_pxr24(shape, scratch->chunk.raw);
+    RetexBandStoreRecord record = {.kind = pxr24 ? BAND_STORE_PXR24 : BAND_STORE_CHUNK,
+                                   .image = (uint32_t)number,
+                                   .band = (uint32_t)band,
+                                   .nonzero = (uint32_t)nonzero};
     RetexBandStoreChunk *chunk = &store->images[number]->chunks[band];
 
     memcpy(record.crc, chunk->crc, sizeof record.crc);
     if (!all_zero(scratch->chunk.raw, bytes))
-        record.bytes =
-            store->plain ? (uint32_t)bytes
-                         : (uint32_t)retex_chunk_compress(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+        record.bytes = store->plain ? (uint32_t)bytes
+                                    : (uint32_t)retex_chunk_compress(&scratch->chunk, shape, pxr24, scratch->chunk.raw,
+                                                                     scratch->packed);
     return retex_band_store_append_chunk(store, &record, store->plain ? scratch->chunk.raw : scratch->packed, err);
 }
 
@@ -315,7 +319,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (nonzero || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
-            status = put_chunk(store, number, band, bytes, nonzero, scratch, err);
+            status = put_chunk(store, number, band, &shape, nonzero, scratch, err);
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
@@ -346,8 +350,10 @@ static int copy_chunk(RetexBandStore *store, const RetexBandStore *from, int num
 {
     const RetexBandStoreImage *image = from->images[number];
     const RetexBandStoreChunk *chunk = &image->chunks[band];
-    RetexBandStoreRecord record = {
-        .kind = BAND_STORE_CHUNK, .band = (uint32_t)band, .bytes = chunk->bytes, .nonzero = chunk->nonzero};
+    RetexBandStoreRecord record = {.kind = chunk->pxr24 ? BAND_STORE_PXR24 : BAND_STORE_CHUNK,
+                                   .band = (uint32_t)band,
+                                   .bytes = chunk->bytes,
+                                   .nonzero = chunk->nonzero};
     int to, status = retex_band_store_add(store, image->name, image->letters, image->type, &to, err);
 
     if (status || (!chunk->bytes && !chunk->nonzero))
@@ -403,14 +409,13 @@ int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk
 static int load_band(const RetexBandStore *store, const RetexBandStoreChunk *chunk, const RetexChunkShape *shape,
                      RetexBandStoreScratch *scratch, float *pixels, RetexError *err)
 {
-    const size_t bytes = retex_chunk_bytes(shape);
-
     if (!prepare(scratch, shape))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
     const int status = retex_band_store_read(store, chunk, scratch->packed, err);
     if (status)
         return status;
-    if (!retex_chunk_decompress(&scratch->chunk, scratch->packed, chunk->bytes, scratch->chunk.raw, bytes))
+    if (!retex_chunk_decompress(&scratch->chunk, shape, chunk->pxr24, scratch->packed, chunk->bytes,
+                                scratch->chunk.raw))
         return fail_damaged(store, err);
     retex_chunk_decode(&scratch->chunk, shape, scratch->chunk.raw, pixels);
     return 0;

@@ -10,6 +10,7 @@ typedef struct RetexBandStoreChunk {
     uint64_t offset;
     uint32_t bytes; /* 0: all samples are stored as 0 */
     uint32_t nonzero;   /* 1: a pixel was not 0 */
+    int pxr24;          /* 1: compressed by PXR24, 0: by ZIP */
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of each plane, where bytes is not 0 */
     uint32_t bytes_crc;                  /* checksum of the compressed bytes */
 } RetexBandStoreChunk;

@@ -10,7 +10,7 @@
 
 #include "io/checksum.h"
 
-static const char MAGIC[8] = "retex\n\032\002"; /* the last byte is the version */
+static const char MAGIC[8] = "retex\n\032\003"; /* the last byte is the version */
 
 typedef struct Header {
     char magic[8];
@@ -141,6 +141,7 @@ static void index_chunk(RetexBandStore *store, const RetexBandStoreRecord *recor
     chunk->offset = offset;
     chunk->bytes = record->bytes;
     chunk->nonzero = record->nonzero;
+    chunk->pxr24 = record->kind == BAND_STORE_PXR24;
     chunk->bytes_crc = record->bytes_crc;
     memcpy(chunk->crc, record->crc, sizeof chunk->crc);
 }
@@ -214,6 +215,7 @@ static int apply_record(RetexBandStore *store, const RetexBandStoreRecord *recor
             retex_band_store_image_new(store, description.name, description.letters, (RetexPixelType)description.type);
         return store->images[store->nimages] ? (store->nimages++, 1) : 0;
     case BAND_STORE_CHUNK:
+    case BAND_STORE_PXR24:
         if (!chunk_is_sound(store, record))
             return 0;
         index_chunk(store, record, offset);

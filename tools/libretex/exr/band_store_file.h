@@ -38,7 +38,8 @@ struct RetexBandStore {
 
 enum {
     BAND_STORE_IMAGE = 0x67616d69, /* a RetexBandStoreDescription */
-    BAND_STORE_CHUNK = 0x6b6e6863, /* what retex_chunk_compress gives */
+    BAND_STORE_CHUNK = 0x6b6e6863, /* what retex_chunk_compress gives, by ZIP */
+    BAND_STORE_PXR24 = 0x34327270, /* the same, by PXR24 */
     BAND_STORE_COMMIT = 0x646e6162 /* followed by a RetexBandStats; commits the band with all its chunks so far */
 };
 

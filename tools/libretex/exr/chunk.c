@@ -121,9 +121,17 @@ void retex_chunk_decode(RetexChunkScratch *scratch, const RetexChunkShape *shape
     }
 }
 
-size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed)
+int retex_chunk_fits_pxr24(const RetexChunkShape *shape, const unsigned char *raw)
 {
-    const size_t packed_bytes = retex_zip_pack(&scratch->zip, packed, raw, bytes);
+    return shape->type == RETEX_FLOAT && retex_pxr24_fits(raw, retex_chunk_bytes(shape));
+}
+
+size_t retex_chunk_compress(RetexChunkScratch *scratch, const RetexChunkShape *shape, int pxr24,
+                            const unsigned char *raw, unsigned char *packed)
+{
+    const size_t bytes = retex_chunk_bytes(shape);
+    const size_t packed_bytes = pxr24 ? retex_pxr24_pack(&scratch->zip, packed, raw, bytes, (size_t)shape->width)
+                                      : retex_zip_pack(&scratch->zip, packed, raw, bytes);
 
     if (packed_bytes)
         return packed_bytes;
@@ -131,11 +139,14 @@ size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw
     return bytes;
 }
 
-int retex_chunk_decompress(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes,
-                           unsigned char *raw, size_t bytes)
+int retex_chunk_decompress(RetexChunkScratch *scratch, const RetexChunkShape *shape, int pxr24,
+                           const unsigned char *packed, size_t packed_bytes, unsigned char *raw)
 {
+    const size_t bytes = retex_chunk_bytes(shape);
+
     if (packed_bytes != bytes)
-        return retex_zip_unpack(&scratch->zip, raw, bytes, packed, packed_bytes);
+        return pxr24 ? retex_pxr24_unpack(&scratch->zip, raw, bytes, packed, packed_bytes, (size_t)shape->width)
+                     : retex_zip_unpack(&scratch->zip, raw, bytes, packed, packed_bytes);
     memcpy(raw, packed, bytes);
     return 1;
 }

@@ -43,11 +43,15 @@ void retex_chunk_encode(RetexChunkScratch *scratch, const RetexChunkShape *shape
 void retex_chunk_decode(RetexChunkScratch *scratch, const RetexChunkShape *shape, const unsigned char *raw,
                         float *pixels);
 
-/* Compress a chunk into packed, which has at least `bytes` bytes. Returns the size: `bytes` where compression gains
- * nothing and the chunk is stored as it is. */
-size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed);
+/* 1 if PXR24 can store the samples of a chunk without loss, which then compresses them better than ZIP does. */
+int retex_chunk_fits_pxr24(const RetexChunkShape *shape, const unsigned char *raw);
+
+/* Compress a chunk, by ZIP or by PXR24, into packed, which has at least retex_chunk_bytes bytes. Returns the size: as
+ * many where compression gains nothing and the chunk is stored as it is. */
+size_t retex_chunk_compress(RetexChunkScratch *scratch, const RetexChunkShape *shape, int pxr24,
+                            const unsigned char *raw, unsigned char *packed);
 /* Decompress a chunk. Returns 0 where it is damaged. */
-int retex_chunk_decompress(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes,
-                           unsigned char *raw, size_t bytes);
+int retex_chunk_decompress(RetexChunkScratch *scratch, const RetexChunkShape *shape, int pxr24,
+                           const unsigned char *packed, size_t packed_bytes, unsigned char *raw);
 
 #endif

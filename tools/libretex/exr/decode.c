@@ -1,6 +1,6 @@
-/* See decode.h. Uncompressed and ZIP chunks, of which sets consist, are decoded here, other compressions by
- * OpenEXRCore. Nothing in a file is trusted: sizes are checked against the header, and a chunk must fill its place
- * exactly. */
+/* See decode.h. Uncompressed and ZIP chunks, and PXR24 chunks of floats, of which sets consist, are decoded here, other
+ * compressions by OpenEXRCore. Nothing in a file is trusted: sizes are checked against the header, and a chunk must
+ * fill its place exactly. */
 #include "exr/decode.h"
 
 #include <stdlib.h>
@@ -72,13 +72,23 @@ static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_in
     return code;
 }
 
+/* 1 if all channels are floats, which is what PXR24 is decoded for here. */
+static int has_floats_only(const RetexExrPlan *plan)
+{
+    for (int c = 0; c < plan->nchannels; c++)
+        if (plan->channels[c].pixel_type != EXR_PIXEL_FLOAT || plan->channels[c].x_sampling != 1)
+            return 0;
+    return 1;
+}
+
 /* Reads and decompresses one chunk: *bytes_of are its samples, lines of planes. */
 static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const exr_chunk_info_t *chunk,
                                   RetexExrScratch *scratch, const unsigned char **samples)
 {
     const int part = plan->request->part;
     const size_t bytes = (size_t)chunk->width * (size_t)chunk->height * plan->pixel_bytes;
-    const int zipped = plan->compression == EXR_COMPRESSION_ZIP || plan->compression == EXR_COMPRESSION_ZIPS;
+    const int pxr24 = plan->compression == EXR_COMPRESSION_PXR24 && has_floats_only(plan);
+    const int zipped = plan->compression == EXR_COMPRESSION_ZIP || plan->compression == EXR_COMPRESSION_ZIPS || pxr24;
 
     if (chunk->packed_size == 0 || chunk->packed_size > bytes || chunk->unpacked_size != bytes)
         return EXR_ERR_CORRUPT_CHUNK;
@@ -101,9 +111,11 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
     if (!reserve((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_reserve(&scratch->zip, bytes))
         return EXR_ERR_OUT_OF_MEMORY;
     *samples = scratch->raw;
-    return retex_zip_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, (size_t)chunk->packed_size)
-               ? EXR_ERR_SUCCESS
-               : EXR_ERR_CORRUPT_CHUNK;
+    const size_t packed = (size_t)chunk->packed_size;
+    const int right =
+        pxr24 ? retex_pxr24_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, packed, (size_t)chunk->width)
+              : retex_zip_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, packed);
+    return right ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
 }
 
 static void plane_to_float(float *row, const unsigned char *plane, uint16_t type, int width)

@@ -22,11 +22,13 @@ typedef struct Band {
     unsigned char *data;               /* the encoded band; NULL: fetched from the band store when it is written */
     const RetexBandStoreChunk *stored; /* or NULL */
     size_t bytes;
+    int wide;                            /* 1: PXR24 would lose bits of its floats */
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of this band of each plane, in the order of letters */
 } Band;
 
 struct RetexExrEncoding {
     RetexExrPart *parts; /* a copy */
+    char *pxr24;         /* by part: 1 = compressed by PXR24, 0 = by ZIP */
     int nparts, compress;
     RetexChunkScratch scratch; /* for bands that are fetched */
     unsigned char *packed;
@@ -47,15 +49,15 @@ static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
 }
 
 /* Compresses the chunk in scratch->raw. */
-static void pack_band(Band *band, RetexChunkScratch *scratch)
+static void pack_band(Band *band, const RetexChunkShape *shape, int pxr24, RetexChunkScratch *scratch)
 {
-    band->bytes = retex_chunk_compress(scratch, scratch->raw, band->bytes, band->data);
+    band->bytes = retex_chunk_compress(scratch, shape, pxr24, scratch->raw, band->data);
     unsigned char *less = realloc(band->data, band->bytes);
     if (less)
         band->data = less;
 }
 
-static int encode_band(Band *band, const RetexExrPart *part, const float *pixels, int compress,
+static int encode_band(Band *band, const RetexExrPart *part, const float *pixels, int compress, int pxr24,
                        RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
@@ -66,12 +68,13 @@ static int encode_band(Band *band, const RetexExrPart *part, const float *pixels
         return 0;
     retex_chunk_encode(scratch, &shape, pixels, compress ? scratch->raw : band->data, band->crc);
     if (compress)
-        pack_band(band, scratch);
+        pack_band(band, &shape, pxr24, scratch);
     return 1;
 }
 
 /* Encodes a band that is 0 everywhere. */
-static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compress, RetexChunkScratch *scratch)
+static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compress, int pxr24,
+                            RetexChunkScratch *scratch)
 {
     const int channels = (int)strlen(shape->letters);
 
@@ -85,20 +88,68 @@ static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compre
         return 1;
     band->data = malloc(band->bytes);
     if (band->data)
-        pack_band(band, scratch);
+        pack_band(band, shape, pxr24, scratch);
     return band->data != NULL;
 }
 
+/* A band of the band store in a part whose other bands PXR24 cannot store. */
+static int encode_band_again(Band *band, const RetexExrPart *part, const RetexChunkShape *shape,
+                             RetexChunkScratch *scratch)
+{
+    const size_t bytes = retex_chunk_bytes(shape);
+    RetexError ignored;
+
+    band->bytes = bytes;
+    band->data = malloc(bytes);
+    if (!band->data || !retex_chunk_reserve(scratch, shape) ||
+        retex_band_store_read(part->store, band->stored, band->data, &ignored) ||
+        !retex_chunk_decompress(scratch, shape, 1, band->data, band->stored->bytes, scratch->raw))
+        return 0;
+    pack_band(band, shape, 0, scratch);
+    return 1;
+}
+
 /* For a band in the band store only the size is needed at first. */
-static int encode_stored_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
+static int encode_stored_band(Band *band, const RetexExrPart *part, int compress, int pxr24, RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
 
     if (!band->stored->bytes)
-        return encode_zero_band(band, &shape, compress, scratch);
+        return encode_zero_band(band, &shape, compress, pxr24, scratch);
     memcpy(band->crc, band->stored->crc, sizeof band->crc);
+    if (compress && band->stored->pxr24 && !pxr24)
+        return encode_band_again(band, part, &shape, scratch);
     band->bytes = compress ? band->stored->bytes : retex_chunk_bytes(&shape);
     return 1;
+}
+
+/* Finds out whether PXR24 can store a band. */
+static void look_job(void *context, int index, int thread)
+{
+    EncodeWork *work = context;
+    Band *band = &work->encoding->bands[index];
+    const RetexExrPart *part = &work->encoding->parts[band->part];
+    const RetexChunkShape shape = band_shape(part, band);
+
+    (void)thread;
+    if (band->stored)
+        band->wide = band->stored->bytes && !band->stored->pxr24;
+    else
+        band->wide = !retex_chunk_fits_pxr24(
+            &shape, (const unsigned char *)(part->image->pixels + retex_image_index(part->image, 0, band->first_line)));
+}
+
+/* A part is compressed by PXR24 if it is of floats and loses nothing. */
+static void choose_compression(EncodeWork *work, int nthreads)
+{
+    RetexExrEncoding *encoding = work->encoding;
+
+    retex_parallel(nthreads, encoding->nbands, look_job, work);
+    for (int i = 0; i < encoding->nparts; i++)
+        encoding->pxr24[i] = encoding->compress && encoding->parts[i].type == RETEX_FLOAT;
+    for (int i = 0; i < encoding->nbands; i++)
+        if (encoding->bands[i].wide)
+            encoding->pxr24[encoding->bands[i].part] = 0;
 }
 
 static void encode_job(void *context, int index, int thread)
@@ -106,14 +157,14 @@ static void encode_job(void *context, int index, int thread)
     EncodeWork *work = context;
     Band *band = &work->encoding->bands[index];
     const RetexExrPart *part = &work->encoding->parts[band->part];
-    const int compress = work->encoding->compress;
+    const int compress = work->encoding->compress, pxr24 = work->encoding->pxr24[band->part];
 
     if (band->stored)
-        work->failed[index] = !encode_stored_band(band, part, compress, &work->scratch[thread]);
+        work->failed[index] = !encode_stored_band(band, part, compress, pxr24, &work->scratch[thread]);
     else
         work->failed[index] =
             !encode_band(band, part, part->image->pixels + retex_image_index(part->image, 0, band->first_line),
-                         compress, &work->scratch[thread]);
+                         compress, pxr24, &work->scratch[thread]);
 }
 
 /* Combines the bands' checksums: planes one after another, each from the top. */
@@ -183,7 +234,7 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
             band->part = i;
             if (encoding->parts[i].store && !encoding->parts[i].image->pixels)
                 band->stored = retex_band_store_chunk(encoding->parts[i].store, encoding->parts[i].store_image,
-                                                           y / RETEX_CHUNK_LINES);
+                                                      y / RETEX_CHUNK_LINES);
             band->first_line = y;
             band->lines = height - y < RETEX_CHUNK_LINES ? height - y : RETEX_CHUNK_LINES;
         }
@@ -199,10 +250,12 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     nthreads = retex_threads(nthreads);
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
-    if (work.scratch && work.failed)
+    if (work.scratch && work.failed) {
+        choose_compression(&work, nthreads);
         retex_parallel(nthreads, encoding->nbands, encode_job, &work);
-    else
+    } else {
         failed = 1;
+    }
     for (int i = 0; !failed && i < encoding->nbands; i++)
         failed = work.failed[i];
     for (int i = 0; work.scratch && i < nthreads; i++)
@@ -217,7 +270,9 @@ static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, i
 {
     *result = NULL;
     RetexExrEncoding *encoding = calloc(1, sizeof *encoding);
-    if (!encoding || !(encoding->parts = calloc((size_t)nparts, sizeof *parts))) {
+    if (!encoding || !(encoding->parts = calloc((size_t)nparts, sizeof *parts)) ||
+        !(encoding->pxr24 = calloc((size_t)nparts, 1))) {
+        free(encoding ? encoding->parts : NULL);
         free(encoding);
         return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
     }
@@ -271,7 +326,7 @@ int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const floa
 
     for (int y = y0; y < y1 && encoded; y += RETEX_CHUNK_LINES)
         encoded = encode_band(&encoding->bands[y / RETEX_CHUNK_LINES], part,
-                              rows + retex_image_index(part->image, 0, y - y0), encoding->compress, &scratch);
+                              rows + retex_image_index(part->image, 0, y - y0), encoding->compress, 0, &scratch);
     retex_chunk_free(&scratch);
     return encoded ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
 }
@@ -287,6 +342,7 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
     retex_chunk_free(&encoding->scratch);
     free(encoding->packed);
     free(encoding->bands);
+    free(encoding->pxr24);
     free(encoding->parts);
     free(encoding);
     *result = NULL;
@@ -399,7 +455,9 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
     if (!code)
         code = exr_initialize_required_attr(context, number, display, &data, 1.0f, &center, 1.0f,
                                             EXR_LINEORDER_INCREASING_Y,
-                                            encoding->compress ? EXR_COMPRESSION_ZIP : EXR_COMPRESSION_NONE);
+                                            !encoding->compress                         ? EXR_COMPRESSION_NONE
+                                            : encoding->pxr24 && encoding->pxr24[index] ? EXR_COMPRESSION_PXR24
+                                                                                        : EXR_COMPRESSION_ZIP);
     for (const char *letter = part->letters; *letter && !code; letter++) {
         char channel[RETEX_EXR_NAME_MAX + 2];
         if (index == 0)
@@ -436,7 +494,8 @@ static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *b
         return NULL;
     if (encoding->compress)
         return encoding->packed;
-    if (retex_chunk_decompress(&encoding->scratch, encoding->packed, band->stored->bytes, encoding->scratch.raw, bytes))
+    if (retex_chunk_decompress(&encoding->scratch, &shape, band->stored->pxr24, encoding->packed, band->stored->bytes,
+                               encoding->scratch.raw))
         return encoding->scratch.raw;
     retex_fail(err, RETEX_EFORMAT, "the temporary file is damaged");
     return NULL;

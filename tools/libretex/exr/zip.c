@@ -61,6 +61,18 @@ static size_t deflate_chunk(void *work, unsigned char *packed, size_t capacity, 
     return coded ? stored + coded : 0;
 }
 
+/* Puts the header and the checksum of a zlib stream around `coded` bytes, deflated from data. */
+static size_t finish_stream(unsigned char *packed, size_t coded, const unsigned char *data, size_t bytes)
+{
+    if (!coded)
+        return 0;
+    const uint32_t sum = retex_adler32(ADLER32_OF_NONE, data, bytes);
+    memcpy(packed, "\x78\x01", HEAD); /* deflate, 32 KB, fastest */
+    for (int k = 0; k < TAIL; k++)
+        packed[HEAD + coded + (size_t)k] = (unsigned char)(sum >> 8 * (TAIL - 1 - k));
+    return HEAD + coded + TAIL;
+}
+
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
 {
     if (bytes <= HEAD + TAIL || bytes > INT_MAX)
@@ -69,13 +81,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
     retex_exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be read as uncompressed */
     const size_t coded = deflate_chunk(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
-    if (!coded)
-        return 0;
-    const uint32_t sum = retex_adler32(ADLER32_OF_NONE, zip->scratch + bytes, bytes);
-    memcpy(packed, "\x78\x01", HEAD); /* deflate, 32 KB, fastest */
-    for (int k = 0; k < TAIL; k++)
-        packed[HEAD + coded + (size_t)k] = (unsigned char)(sum >> 8 * (TAIL - 1 - k));
-    return HEAD + coded + TAIL;
+    return finish_stream(packed, coded, zip->scratch + bytes, bytes);
 }
 
 int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed, size_t packed_bytes)
@@ -84,6 +90,38 @@ int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsi
         return 0;
     retex_exr_zip_accumulate(zip->scratch, bytes);
     retex_exr_zip_interleave(raw, zip->scratch, bytes);
+    return 1;
+}
+
+int retex_pxr24_fits(const unsigned char *raw, size_t bytes)
+{
+    uint32_t all = 0;
+    for (size_t i = 0; i < bytes / 4; i++) {
+        uint32_t value;
+        memcpy(&value, raw + 4 * i, 4);
+        all |= value;
+    }
+    return (all & 255) == 0;
+}
+
+size_t retex_pxr24_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes, size_t width)
+{
+    const size_t count = bytes / 4 * 3;
+    if (bytes <= 4 * (HEAD + TAIL) || bytes > INT_MAX)
+        return 0;
+    for (size_t line = 0; line < bytes / 4; line += width)
+        retex_exr_pxr24_difference(zip->scratch + 3 * line, raw + 4 * line, width);
+    const size_t coded = retex_deflate(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch, count, 1);
+    return finish_stream(packed, coded, zip->scratch, count);
+}
+
+int retex_pxr24_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed,
+                       size_t packed_bytes, size_t width)
+{
+    if (!retex_inflate(zip->work, zip->scratch, bytes / 4 * 3, packed, packed_bytes))
+        return 0;
+    for (size_t line = 0; line < bytes / 4; line += width)
+        retex_exr_pxr24_accumulate(raw + 4 * line, zip->scratch + 3 * line, width);
     return 1;
 }
 

@@ -1,6 +1,9 @@
 /* See zip_kernel.h. */
 #include "exr/zip_kernel.h"
 
+#include <stdint.h>
+#include <string.h>
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -67,4 +70,28 @@ void retex_exr_zip_interleave(unsigned char *restrict raw, const unsigned char *
     }
     if (bytes & 1)
         raw[bytes - 1] = in[bytes / 2];
+}
+
+void retex_exr_pxr24_difference(unsigned char *restrict out, const unsigned char *restrict raw, size_t width)
+{
+    uint32_t previous = 0;
+    for (size_t i = 0; i < width; i++) {
+        uint32_t value;
+        memcpy(&value, raw + 4 * i, 4);
+        value >>= 8;
+        const uint32_t difference = value - previous;
+        previous = value;
+        out[i] = (unsigned char)(difference >> 16);
+        out[width + i] = (unsigned char)(difference >> 8);
+        out[2 * width + i] = (unsigned char)difference;
+    }
+}
+
+void retex_exr_pxr24_accumulate(unsigned char *restrict raw, const unsigned char *restrict in, size_t width)
+{
+    uint32_t value = 0; /* with 8 more bits, so that it overflows where 24 bits do */
+    for (size_t i = 0; i < width; i++) {
+        value += (uint32_t)in[i] << 24 | (uint32_t)in[width + i] << 16 | (uint32_t)in[2 * width + i] << 8;
+        memcpy(raw + 4 * i, &value, 4);
+    }
 }

@@ -12,4 +12,10 @@ void retex_exr_zip_interleave(unsigned char *restrict raw, const unsigned char *
 void retex_exr_zip_difference(unsigned char *restrict out, const unsigned char *restrict in, size_t bytes);
 void retex_exr_zip_accumulate(unsigned char *data, size_t bytes);
 
+/* PXR24 of one line of a channel: the upper 24 bits of each float as its difference from the one before, the highest
+ * bytes of all first. */
+void retex_exr_pxr24_difference(unsigned char *restrict out, const unsigned char *restrict raw, size_t width);
+/* The reverse. */
+void retex_exr_pxr24_accumulate(unsigned char *restrict raw, const unsigned char *restrict in, size_t width);
+
 #endif

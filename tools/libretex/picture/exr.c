@@ -107,7 +107,7 @@ static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, co
             break;
         }
         retex_chunk_encode(&scratch, &shape, rows + retex_image_index(&state->shape, 0, y - y0), scratch.raw, NULL);
-        const size_t bytes = retex_chunk_compress(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
+        const size_t bytes = retex_chunk_compress(&scratch, &shape, 0, scratch.raw, to + at + LEADER);
         put_little(to + at, (uint64_t)y, 4);
         put_little(to + at + 4, bytes, 4);
         state->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
