@@ -1,6 +1,6 @@
 #!/bin/sh
 # retex-combine --error: what it expects, against what a retexture is really off by from --replace at the same seed. In
-# every scene of the house, measured over seeds 1 to 5:
+# every scene of the house, with all bits of sets, measured over seeds 1 to 5:
 #
 # - the expected error of the whole picture is the true one to a factor of 1.4. It was 0.77 to 0.82 times that under
 #   glass, and 0.82 to 1.14 times elsewhere.
@@ -21,7 +21,7 @@ check_scene() { # SCENE TARGET=IMAGE…
     done
     # shellcheck disable=SC2086 # words wanted
     for what in "$targets" "$replacements"; do
-        retex-render -q --threads 2 --size "$size" --spp "$spp" --seed 3 $what "$scenes/$scene/$scene.pov" \
+        retex-render -q --full-precision --threads 2 --size "$size" --spp "$spp" --seed 3 $what "$scenes/$scene/$scene.pov" \
             -o "$work/$([ "$what" = "$targets" ] && echo set || echo again).exr"
     done
     # shellcheck disable=SC2086
