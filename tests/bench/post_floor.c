@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include <retex/parallel.h>
+#include <retex/picture.h>
 #include <retex/set_file.h>
 
 #include "set/rows.h"
