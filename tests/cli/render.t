@@ -175,7 +175,7 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 = 2
 
 # Sets are rounded to what their numbers are known to, so that they are smaller; merged shards as a single render is.
-$ set -- -q --size 32x24 --spp 8 -t floor scenes/cornell-box/cornell-box.pov; retex-render "$@" -o r.exr; retex-render "$@" --full-precision -o f.exr; retex-render "$@" --plain -o p.exr; retex-diff -q p.exr f.exr --fail-abs 0 && echo exact; retex-diff -q p.exr r.exr --fail-abs 0 || echo rounded; for i in 1 2; do retex-render "$@" --shard $i/2 -o s$i; done; retex-render "$@" --merge s1 --merge s2 -o m.exr; cmp m.exr r.exr; retex-render "$@" --full-precision --merge s1 --merge s2 -o m.exr; cmp m.exr f.exr; [ $(stat -c %s r.exr) -lt $(stat -c %s f.exr) ] && echo smaller; rm ?.exr s1 s2
+$ set -- -q --size 32x24 --spp 8 -t floor scenes/cornell-box/cornell-box.pov; retex-render "$@" -o r.exr; retex-render "$@" --full-precision -o f.exr; retex-render "$@" --plain -o p.pfm; retex-diff -q p.pfm f.exr --fail-abs 1e-6 && echo exact; retex-diff -q p.pfm r.exr --fail-abs 1e-6 || echo rounded; for i in 1 2; do retex-render "$@" --shard $i/2 -o s$i; done; retex-render "$@" --merge s1 --merge s2 -o m.exr; cmp m.exr r.exr; retex-render "$@" --full-precision --merge s1 --merge s2 -o m.exr; cmp m.exr f.exr; [ $(stat -c %s r.exr) -lt $(stat -c %s f.exr) ] && echo smaller; rm ?.exr s1 s2
 > exact
 > rounded
 > smaller
