@@ -16,8 +16,8 @@
 
 enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
 
-/* Fractions were chosen so that no picture of docs/storage.md's scenes loses .02 dB against truth, finest steps so that
- * nothing is lost in pictures without noise. */
+/* Fractions are such that rounding adds little to the noise that a picture has anyway, finest steps such that nothing
+ * is seen in pictures without noise. */
 const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
     [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
     [RETEX_PRECISION_CORRECTION] = {0.1, 1.0 / 8192, 1.0 / 256},
@@ -264,7 +264,7 @@ static double relative_noise(double noise, double light)
 /* The variance of UV along an axis over all clusters of the kind that a pixel has. */
 static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int first, size_t at, int axis)
 {
-    const int broad_periodic = p->footprints[first].periodic[axis];
+    const int periodic = p->footprints[first].periodic[axis];
     double weight = 0, mean = 0, square = 0, origin = 0;
     for (int i = first; i < p->nfootprints; i++) {
         const Footprint *f = &p->footprints[i];
@@ -274,7 +274,7 @@ static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int f
         if (!(uv[2] > 0))
             continue;
         origin = weight > 0 ? origin : (double)uv[axis];
-        const double d = retex_uv_stats_difference((double)uv[axis], origin, broad_periodic);
+        const double d = retex_uv_stats_difference((double)uv[axis], origin, periodic);
         weight += (double)uv[2];
         mean += (double)uv[2] * d;
         square += (double)uv[2] * (d * d + (double)(spread[axis] * spread[axis]));

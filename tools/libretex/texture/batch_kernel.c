@@ -7,20 +7,8 @@
 
 void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels)
 {
-    size_t size = texel_size(texture->narrow);
-    for (int j = 0; j < 4; j++) {
-        RetexLevelRow row = find_row(texture, level, y + j, 0);
-        for (int i = 0; i < 4; i++, texels += size) {
-            int at = wrap_index(x + i, level->width, texture->spec.wrap[0]);
-            const char *p = NULL;
-            if (row.texels)
-                p = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
-            if (p)
-                memcpy(texels, p, size);
-            else
-                memset(texels, 0, size);
-        }
-    }
+    for (int j = 0; j < 4; j++)
+        copy_texels(texture, level, x, y + j, 4, texels + (size_t)(4 * j) * texel_size(texture->narrow));
 }
 
 /* The widest vectors that every processor has. */

@@ -231,22 +231,6 @@ static int add_level(RetexTexture *texture, int nthreads)
 
 /* ---- small levels, padded ---- */
 
-static void pad_row(const RetexTexture *texture, const RetexTextureLevel *level, int y, char *to)
-{
-    const size_t size = texel_size(texture->narrow);
-    const RetexLevelRow row = find_row(texture, level, y, 0);
-    for (int x = -level->padding; x < level->width + level->padding; x++, to += size) {
-        const int at = wrap_index(x, level->width, texture->spec.wrap[0]);
-        const char *texel = NULL;
-        if (row.texels)
-            texel = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
-        if (texel)
-            memcpy(to, texel, size);
-        else
-            memset(to, 0, size);
-    }
-}
-
 static int pad_level(const RetexTexture *texture, RetexTextureLevel *level)
 {
     const int width = level->width + 2 * PADDING, height = level->height + 2 * PADDING;
@@ -256,8 +240,8 @@ static int pad_level(const RetexTexture *texture, RetexTextureLevel *level)
         return -1;
     level->padding = PADDING;
     for (int y = 0; y < height; y++)
-        pad_row(texture, level, y - PADDING,
-                (char *)level->padded + (size_t)y * (size_t)width * texel_size(texture->narrow));
+        copy_texels(texture, level, -PADDING, y - PADDING, width,
+                    (char *)level->padded + (size_t)y * (size_t)width * texel_size(texture->narrow));
     return 0;
 }
 

@@ -97,6 +97,24 @@ static inline RetexLevelRow find_row(const RetexTexture *texture, const RetexTex
     return row;
 }
 
+/* Copy `count` texels of row y from x on; those beyond the edges are as the wrap modes say. */
+static inline void copy_texels(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, int count,
+                               char *to)
+{
+    const size_t size = texel_size(texture->narrow);
+    const RetexLevelRow row = find_row(texture, level, y, 0);
+    for (const int end = x + count; x < end; x++, to += size) {
+        const int at = wrap_index(x, level->width, texture->spec.wrap[0]);
+        const char *texel = NULL;
+        if (row.texels)
+            texel = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
+        if (texel)
+            memcpy(to, texel, size);
+        else
+            memset(to, 0, size);
+    }
+}
+
 /* Wraps a coordinate of a repeating axis into its first period, for the precision of floats. */
 static inline double first_period(double x, int texels, RetexWrap wrap)
 {
