@@ -1,6 +1,6 @@
 #!/bin/sh
 # retex-combine --error: what it expects, against what a retexture is really off by from --replace at the same seed. In
-# every scene of the house, with all bits of sets, measured over seeds 1 to 5:
+# every scene of the house, with all bits of sets, measured over seeds 1 to 4:
 #
 # - the expected error of the whole picture is the true one to a factor of 1.4. It was 0.77 to 0.82 times that under
 #   glass, and 0.82 to 1.14 times elsewhere.
