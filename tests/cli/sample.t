@@ -139,3 +139,7 @@ $ sh -c 'trap "" XFSZ; ulimit -f 8; TMPDIR=full retex-sample -q big.exr --textur
 $ retex-sample -q big.exr --texture floor=brick.jpg 2>err | sh -c 'trap "" XFSZ; ulimit -f 8; TMPDIR=full retex-combine -q - -o full/x.jpg'; echo $?; ls -A full
 > 2
 ! retex-combine: error: cannot write a temporary file in full: File too large
+
+# A width is in scene units along each axis: where a unit of u spans 2 of them and one of v 3, width=1,.5 is scale=2,6.
+$ cp "$SCENES/textures/brick.jpg" .; printf '%s\n' 'camera { location <1, 1.5, -4> look_at <1, 1.5, 0> } light_source { <1, 1, -5> rgb 1 }' '#declare Wide = mesh2 { vertex_vectors { 4, <0,0,0>, <2,0,0>, <2,3,0>, <0,3,0> } uv_vectors { 4, <0,0>, <1,0>, <1,1>, <0,1> } face_indices { 2, <0,1,2>, <0,2,3> } uv_mapping pigment { rgb 1 } } object { Wide }' >wide.pov
+$ retex-render -q --size 32x24 --spp 4 -t Wide wide.pov -o wide.exr; for spec in width=1,.5 scale=2,6; do retex-sample -q wide.exr --texture:$spec Wide=brick.jpg | retex-combine -q - -o $spec.exr; done; retex-diff -q width=1,.5.exr scale=2,6.exr --fail-psnr 80
