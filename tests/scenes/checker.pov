@@ -4,7 +4,7 @@
 // L is the pigment. Left (x < 0): cells of 0.5 in x and z, at y = 0.25 of the cell: (1, 0.5, 0) where the sum of the cell's
 // whole numbers is even, (0, 0.5, 1) where it is odd. Right: from (0, 0, 1) at x = 0 to (1, 0, 0) at x = 1, then again.
 //
-// size 65x65  spp 16  tolerance 1e-2 absolute
+// size 65x65  spp 16  tolerance 2e-3 absolute
 // expect 4,4 0 0.5 1
 // expect 12,4 1 0.5 0
 // expect 20,20 0 0.5 1

@@ -4,7 +4,7 @@
 // The camera looks straight down; the ground is 0.5 under the box's upper face, and the box goes deeper: L = e t with
 // t = exp(-(1 - fade_color) 0.5 / 0.4).
 //
-// size 65x65  spp 16  tolerance 2e-3 relative
+// size 65x65  spp 16  tolerance 1e-5 relative
 // expect 32,32 0.264749 0.160578 0.110364
 // expect 10,32 0.264749 0.160578 0.110364
 // expect 50,50 0.264749 0.160578 0.110364

@@ -2,7 +2,7 @@
 //
 // Convex, so that light is reflected once: L = albedo * background on it, background beside it.
 //
-// size 65x65  spp 64  tolerance 1e-3 absolute
+// size 65x65  spp 64  tolerance 1e-6 absolute
 // expect 32,32 0.4 0.5 0.4
 // expect 16,32 0.4 0.5 0.4
 // expect 45,40 0.4 0.5 0.4

@@ -2,7 +2,7 @@
 //
 // Smooth, clear, ior 1.5: what is not reflected goes through, and out again with the factor of the way in undone. L = 1.
 //
-// size 65x65  spp 256  tolerance 1e-2 absolute
+// size 65x65  spp 256  tolerance 1e-6 absolute
 // expect 32,32 1 1 1
 // expect 16,32 1 1 1
 // expect 45,40 1 1 1

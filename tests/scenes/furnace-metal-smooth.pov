@@ -3,7 +3,7 @@
 // Roughness 0: a mirror of Schlick's reflectance F = a + (1 - a) (1 - cos)^5 with a the pigment, L = F.
 // POV-Ray does not know the block: this scene is not for it.
 //
-// size 65x65  spp 4  tolerance 1e-3 absolute
+// size 65x65  spp 4  tolerance 2e-5 absolute
 // expect 32,32 1 0.6 0.2
 // expect 20,32 1 0.600012 0.200024
 // expect 45,40 1 0.600153 0.200306

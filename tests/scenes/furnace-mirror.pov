@@ -2,7 +2,7 @@
 //
 // Reflection 0.8, nothing else: L = 0.8 * background on the sphere.
 //
-// size 65x65  spp 4  tolerance 1e-5 absolute
+// size 65x65  spp 4  tolerance 1e-6 absolute
 // expect 32,32 0.4 0.8 1.6
 // expect 16,32 0.4 0.8 1.6
 // expect 0,0 0.5 1 2

@@ -2,7 +2,7 @@
 //
 // Albedo 1, background 1: the sphere cannot be told from the sky. L = 1 in every pixel.
 //
-// size 65x65  spp 64  tolerance 1e-3 absolute
+// size 65x65  spp 64  tolerance 1e-6 absolute
 // expect 32,32 1 1 1
 // expect 16,32 1 1 1
 // expect 45,40 1 1 1

@@ -3,7 +3,7 @@
 // Camera: looking straight down from height 2 with right = up = 4 at distance 2, so pixels see the plane where the other scenes do.
 // The reflected ray rises by d.y = 2 / sqrt(x^2 + z^2 + 4): with t = (d.y + 1) / 2, L = 0.8 (t, 0.25, 1 - t).
 //
-// size 65x65  spp 16  tolerance 2e-3 absolute
+// size 65x65  spp 16  tolerance 1e-4 absolute
 // expect 32,32 0.8 0.2 0
 // expect 10,32 0.731244 0.2 0.0687562
 // expect 50,50 0.714903 0.2 0.0850971

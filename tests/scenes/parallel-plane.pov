@@ -3,7 +3,7 @@
 // Camera: from above, orthographic, 4 by 4: pixel (i, j) of n by n sees x = 4 (i + 0.5) / n - 2, z = 2 - 4 (j + 0.5) / n.
 // L = albedo * c * cos a everywhere, tan a = 1 / 2: what lies behind the plane of the light throws no shadow.
 //
-// size 65x65  spp 4  tolerance 1e-3 relative
+// size 65x65  spp 4  tolerance 1e-5 relative
 // expect 32,32 0.715542 0.402492 0.107331
 // expect 10,32 0.715542 0.402492 0.107331
 // expect 50,50 0.715542 0.402492 0.107331

@@ -3,7 +3,7 @@
 // Camera: from above, orthographic, 4 by 4: pixel (i, j) of n by n sees x = 4 (i + 0.5) / n - 2, z = 2 - 4 (j + 0.5) / n.
 // From 60 degrees off the normal: L = albedo * c * 0.5 everywhere.
 //
-// size 65x65  spp 4  tolerance 1e-4 relative
+// size 65x65  spp 4  tolerance 1e-6 relative
 // expect 32,32 0.4 0.225 0.06
 // expect 10,32 0.4 0.225 0.06
 // expect 50,50 0.4 0.225 0.06

@@ -3,7 +3,7 @@
 // Camera: from above, orthographic, 4 by 4: pixel (i, j) of n by n sees x = 4 (i + 0.5) / n - 2, z = 2 - 4 (j + 0.5) / n.
 // L = albedo * c * h / d * 2 / (1 + (d / fade_distance)^fade_power), h = 1.5, fade_distance = 1.2, fade_power = 2.
 //
-// size 65x65  spp 4096  tolerance 1e-3 relative
+// size 65x65  spp 4096  tolerance 6e-4 relative
 // expect 32,32 0.539399 0.303412 0.0809099
 // expect 10,32 0.200486 0.112774 0.030073
 // expect 50,50 0.393505 0.221347 0.0590258

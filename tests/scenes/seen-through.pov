@@ -4,7 +4,7 @@
 // The pane is so thin and bends so little that L is the disc's emission, 0.3, to half a percent: the disc below the pane that only
 // mirrors leave out is seen, the one that the camera leaves out is not, and rays that go on in the pane are still the camera's.
 //
-// size 65x65  spp 256  tolerance 1e-2 absolute
+// size 65x65  spp 256  tolerance 1e-6 absolute
 // expect 32,32 0.3 0.2 0.1
 // expect 10,32 0.3 0.2 0.1
 // expect 50,50 0.3 0.2 0.1

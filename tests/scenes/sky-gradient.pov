@@ -4,7 +4,7 @@
 // radiance 1 / pi times the integral of L mu over the upper half of the sphere:
 //     red 2 * integral of (1 + mu) / 2 mu = 1/2 + 1/3 = 5/6, green 1/4, blue 1/2 - 1/3 = 1/6, times albedo.
 //
-// size 65x65  spp 4096  tolerance 1e-2 relative
+// size 65x65  spp 4096  tolerance 2e-5 relative
 // expect 32,32 0.666667 0.125 0.0333333
 // expect 10,32 0.666667 0.125 0.0333333
 // expect 64,0 0.666667 0.125 0.0333333

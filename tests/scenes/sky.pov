@@ -3,7 +3,7 @@
 // Camera along z with right = up = 2 at distance 1: d = normalised <2 (i + 0.5) / n - 1, 1 - 2 (j + 0.5) / n, 1>.
 // The gradient runs from y = -1 to y = 1: with t = (d.y + 1) / 2, L = (t, 0.25, 1 - t).
 //
-// size 65x65  spp 16  tolerance 2e-3 absolute
+// size 65x65  spp 16  tolerance 2e-4 absolute
 // expect 32,32 0.5 0.25 0.5
 // expect 10,32 0.5 0.25 0.5
 // expect 50,50 0.28199 0.25 0.71801

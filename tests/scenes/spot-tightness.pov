@@ -4,7 +4,7 @@
 // With a the angle off the axis: L = albedo * c * cos a * cos(a)^tightness * s, where s rises from 0 at the falloff angle to 1
 // at the radius as (3 - 2 t) t^2 of t = (cos a - cos falloff) / (cos radius - cos falloff). Height 2, radius 20, falloff 35.
 //
-// size 65x65  spp 16  tolerance 3e-3 absolute
+// size 65x65  spp 16  tolerance 2e-3 absolute
 // expect 32,32 0.8 0.45 0.12
 // expect 40,32 0.613936 0.345339 0.0920904
 // expect 48,32 0.215255 0.121081 0.0322882

@@ -3,7 +3,7 @@
 // Camera: from above, orthographic, 4 by 4: pixel (i, j) of n by n sees x = 4 (i + 0.5) / n - 2, z = 2 - 4 (j + 0.5) / n.
 // L = albedo * c * 0.4 cos(a)^brilliance, the light 1.5 behind the sheet, brilliance 3.
 //
-// size 65x65  spp 64  tolerance 6e-3 relative
+// size 65x65  spp 64  tolerance 1.5e-3 relative
 // expect 32,32 0.32 0.18 0.048
 // expect 10,32 0.130909 0.0736365 0.0196364
 // expect 50,50 0.105859 0.0595457 0.0158788
