@@ -1,6 +1,7 @@
 #!/bin/sh
 # Runs fuzz drivers, one after the other: run.sh SECONDS [SEED [NAME…]] (of fuzz_NAME.c; all by default). $BUILD holds
-# the sanitized programs; what is found goes into $KEEP. Exit 1 when something was found.
+# the sanitized programs; what is found goes into $KEEP. Exit 1 when something was found. FUZZ_LIST is a file with names of
+# more scenes to mutate, as they are below FUZZ_FOLDER; by default POV-Ray's samples.
 set -u
 seconds=$1 seed=${2-} here=$(pwd)
 shift; [ $# = 0 ] || shift
@@ -21,6 +22,17 @@ for texture in scenes/*/textures/*.jpg; do
 done
 scenes=
 for scene in tests/fuzz/seeds/*.pov tests/scenes/*.pov scenes/*/*.pov; do scenes="$scenes $here/$scene"; done
+
+# Samples, and what lies beside them; of two files that have one name the last.
+list=${FUZZ_LIST:-../shared/pov/known-scenes.txt} folder=${FUZZ_FOLDER:-/usr/share/doc/povray/examples}
+if [ -r "$list" ] && [ -d "$folder" ]; then
+    sed 's|[^/]*$||' "$list" | sort -u | while read -r place; do
+        find "$folder/$place" -maxdepth 1 -type f ! -name '*.pov' ! -name '*.ini' -size -200k -exec cp {} "$work" \;
+    done
+    while read -r scene; do
+        [ ! -r "$folder/$scene" ] || scenes="$scenes $folder/$scene"
+    done <"$list"
+fi
 
 cd "$work" || exit 2
 status=0
