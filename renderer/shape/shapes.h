@@ -13,6 +13,7 @@
     X(mesh)            \
     X(plane)           \
     X(sphere)          \
+    X(text)            \
     X(torus)
 
 /* POV-Ray's shapes that are read over, with a warning. */
@@ -33,8 +34,7 @@
     X(quartic)                \
     X(sor)                    \
     X(sphere_sweep)           \
-    X(superellipsoid)         \
-    X(text)
+    X(superellipsoid)
 
 #define X(name) extern const ShapeOps shape_##name;
 SHAPE_TABLE(X)

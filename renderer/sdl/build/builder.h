@@ -12,6 +12,7 @@
 #include <stdint.h>
 #include "sdl/lang/parser.h"
 #include "shape/shapes.h"
+#include "shape/text.h"
 
 /* ---- what is not supported ---- */
 
@@ -186,6 +187,7 @@ typedef struct Builder {
     const Mesh *placed_mesh_from;
     Transform placed_mesh_by;
     struct Tracer *tracer; /* trace.c: objects made ready for rays */
+    struct FontFiles *fonts; /* font.c */
 } Builder;
 
 static inline Builder *builder_of(Sdl *sdl)
@@ -269,6 +271,18 @@ SHAPE_KEYWORDS(X)
 #undef X
 const Object *parse_light_source(Sdl *sdl); /* after light_source */
 int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
+
+/* font.c: a font's letters, in units of its size. Each file is read and each letter is made once. */
+typedef struct Font Font;
+typedef struct Letter {
+    const Glyph *glyph; /* NULL: blank */
+    double advance;     /* to the next letter */
+    double bearing;     /* from the pen to the left edge */
+} Letter;
+Font *font_open(Sdl *sdl, const char *name);
+unsigned font_letter_index(Font *font, unsigned long character); /* 0: the font lacks it */
+const Letter *font_letter(Sdl *sdl, Font *font, unsigned index);
+double font_kerning(const Font *font, unsigned left, unsigned right);
 
 /* extent.c, trace.c, inside.c: see SdlBuilder */
 int object_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);

@@ -117,6 +117,9 @@ const char *sdl_find_file(Sdl *sdl, const char *name);
 const char *sdl_need_file(Sdl *sdl, const char *what, const char *name);
 void sdl_add_file(Sdl *sdl, const char *path); /* adds a file, before it is read, to the scene's files */
 
+/* The file's content, in the arena, with a NUL behind it. The file is added to the scene's. */
+const char *sdl_read_file(Sdl *sdl, const char *path, size_t *size);
+
 /* ---- interface of the builder ---- */
 
 /* Callbacks from the language to the builder. */

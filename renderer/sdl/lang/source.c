@@ -178,6 +178,18 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
     sdl_fail(sdl, RETEX_ENOMEM, "no memory to read `%s`", path);
 }
 
+const char *sdl_read_file(Sdl *sdl, const char *path, size_t *size)
+{
+    sdl_add_file(sdl, path);
+    char *bytes = read_all(sdl, path, size);
+    const char *kept = arena_string(sdl->arena, bytes, *size);
+    sdl_scene(sdl)->digest = digest_bytes(sdl_scene(sdl)->digest, bytes, *size);
+    free(bytes);
+    if (!kept)
+        sdl_fail_memory(sdl);
+    return kept;
+}
+
 /* The file's bytes must be freed if the arena has no memory for the tokens. This function catches that error and
  * returns NULL, and the caller reports it. */
 static Source *tokenize(Sdl *sdl, const char *path, const char *bytes, size_t size)
