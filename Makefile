@@ -15,6 +15,8 @@
 #   make bench-paper  size of the paper's AOVs and of ours; BENCH_DOCS=1: docs/paper-sizes.md
 #   make bench-storage    size and loss of sets and packs; BENCH_DOCS=1: docs/storage.md
 #   make bench-scale  time per path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
+#   make parity       compare POV-Ray's sample scenes with POV-Ray; SCENES='chess2 camera/' selects scenes by parts of
+#                     their names; BENCH_DOCS=1: docs/parity.md
 #   make fidelity     compare retextures with new renders; BENCH_DOCS=1: docs/fidelity.md; takes hours
 #   make fidelity-denoise   compare denoised sets with new renders; BENCH_DOCS=1: docs/denoise.md; takes hours
 #   make figures      the pages of measured figures in docs/, and those figures in README and man pages;

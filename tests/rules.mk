@@ -110,6 +110,12 @@ bench: $(BUILD)/tests/bench/bench
 bench-render: all $(BUILD)/tests/bench/embree_rays
 	@BUILD=$(BUILD) tests/bench/render/run.sh
 
+# POV-Ray's samples against POV-Ray: SCENES='…' chooses, BENCH_DOCS=1 puts the table of all into docs/.
+.PHONY: parity
+parity: all | $(BUILD)/test.mk
+	@tools/setup.sh parity
+	@BUILD=$(BUILD) SCENES='$(SCENES)' tests/parity/run.sh
+
 # What sets cost over plain pictures, and how costs grow; BENCH_DOCS=1 puts the pages into docs/.
 .PHONY: bench-overhead bench-scale
 bench-overhead: all

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs the Debian packages that retex needs to be built (`setup.sh build`) or tested (`setup.sh test`).
+# Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`) or compared with
+# POV-Ray (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
 # password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
@@ -37,6 +38,10 @@ command oiiotool openimageio-tools
 command transicc liblcms2-utils
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
+'
+needs_parity='
+command povray povray
+file /usr/share/doc/povray/examples povray-examples
 '
 
 CC=${CC:-gcc}
@@ -127,9 +132,10 @@ config() {
 case ${1-} in
 build) install_missing "$needs_build" ;;
 test) install_missing "$needs_test" ;;
+parity) install_missing "$needs_parity" ;;
 config) config ;;
 *)
-    echo "usage: $0 build | test | config" >&2
+    echo "usage: $0 build | test | parity | config" >&2
     exit 2
     ;;
 esac
