@@ -1,0 +1,172 @@
+/* Real roots of polynomials in an interval. */
+#include <float.h>
+#include <math.h>
+#include "base/polynomial.h"
+
+typedef struct Polynomial {
+    const double *c;
+    int degree;
+} Polynomial;
+
+double polynomial_value(const double *c, int degree, double x)
+{
+    double v = c[degree];
+
+    for (int i = degree - 1; i >= 0; i--)
+        v = v * x + c[i];
+    return v;
+}
+
+static double evaluate(const void *data, double x, double *slope)
+{
+    const Polynomial *p = data;
+    double v = p->c[p->degree], d = 0;
+
+    for (int i = p->degree - 1; i >= 0; i--) {
+        d = d * x + v;
+        v = v * x + p->c[i];
+    }
+    *slope = d;
+    return v;
+}
+
+double root_between(RootFunction *f, const void *data, double low, double high, int rising)
+{
+    double s = 0.5 * (low + high), step = high - low;
+
+    for (int i = 0; i < 200; i++) {
+        double d, v = f(data, s, &d), next;
+        if ((v > 0) == rising)
+            high = s;
+        else
+            low = s;
+        next = d != 0 ? s - v / d : low;
+        if (!(next > low && next < high) || fabs(next - s) > 0.5 * step)
+            next = 0.5 * (low + high);
+        step = fabs(next - s);
+        if (step <= 4 * DBL_EPSILON * fabs(s) || next <= low || next >= high)
+            return next;
+        s = next;
+    }
+    return s;
+}
+
+int roots_between_points(RootFunction *f, const void *data, const double *points, int count, double *roots)
+{
+    double slope;
+    int found = 0, before = f(data, points[0], &slope) > 0;
+
+    for (int i = 1; i < count; i++) {
+        int now = f(data, points[i], &slope) > 0;
+        if (now != before)
+            roots[found++] = root_between(f, data, points[i - 1], points[i], now);
+        before = now;
+    }
+    return found;
+}
+
+/* Of a linear or quadratic polynomial, without cancellation. */
+static int closed_form(const double *c, int degree, double low, double high, double *roots)
+{
+    double half = 0.5 * c[1], discriminant, q, r[2];
+    int count = 0;
+
+    if (degree == 1) {
+        r[0] = -c[0] / c[1];
+        r[1] = INFINITY;
+    } else {
+        discriminant = half * half - c[2] * c[0];
+        if (!(discriminant > 0))
+            return 0;
+        q = -(half + copysign(sqrt(discriminant), half));
+        r[0] = fmin(q / c[2], c[0] / q);
+        r[1] = fmax(q / c[2], c[0] / q);
+    }
+    for (int i = 0; i < 2; i++)
+        if (r[i] > low && r[i] < high)
+            roots[count++] = r[i];
+    return count;
+}
+
+static int roots_within(const double *c, int degree, double low, double high, double *roots);
+
+static int pieces(const double *c, int degree, double low, double high, double *points)
+{
+    double derivative[POLYNOMIAL_DEGREE];
+    int count;
+
+    for (int i = 1; i <= degree; i++)
+        derivative[i - 1] = i * c[i];
+    points[0] = low;
+    count = 1 + roots_within(derivative, degree - 1, low, high, points + 1);
+    points[count++] = high;
+    return count;
+}
+
+static int roots_within(const double *c, int degree, double low, double high, double *roots)
+{
+    double points[POLYNOMIAL_DEGREE + 1];
+
+    while (degree > 0 && c[degree] == 0)
+        degree--;
+    if (degree < 1)
+        return 0;
+    if (degree <= 2)
+        return closed_form(c, degree, low, high, roots);
+    const Polynomial p = {c, degree};
+    return roots_between_points(evaluate, &p, points, pieces(c, degree, low, high, points), roots);
+}
+
+/* The binary exponent of x, rounded up. */
+static int exponent(double x)
+{
+    int e;
+
+    frexp(x, &e);
+    return x == 0 ? -2000 : e;
+}
+
+/* No root, nor one of a derivative, is farther from 0: by powers of 2 above Fujiwara's bound (1916), and by the theorem
+ * of Gauss and Lucas. Where values would overflow it is as far as they stay finite. */
+static double reach(const double *c, int degree)
+{
+    int leading, most, bound = 0;
+
+    while (degree > 0 && c[degree] == 0)
+        degree--;
+    most = leading = exponent(c[degree]);
+    for (int i = 0; i < degree; i++) {
+        const int e = exponent(c[i]), over = e - leading + 1;
+        most = e > most ? e : most;
+        if (over > bound * (degree - i))
+            bound = over / (degree - i) + 1;
+    }
+    most = (1000 - most) / (degree + 1);
+    return ldexp(2, bound < most ? bound : most);
+}
+
+static void make_finite(const double *c, int degree, double *low, double *high)
+{
+    double far;
+
+    if (isfinite(*low) && isfinite(*high))
+        return;
+    far = reach(c, degree);
+    *low = fmax(*low, fmin(-far, *high));
+    *high = fmin(*high, fmax(far, *low));
+}
+
+int polynomial_roots(const double *c, int degree, double low, double high, double *roots)
+{
+    if (degree > 2)
+        make_finite(c, degree, &low, &high);
+    return low < high ? roots_within(c, degree, low, high, roots) : 0;
+}
+
+int polynomial_pieces(const double *c, int degree, double low, double high, double *points)
+{
+    make_finite(c, degree, &low, &high);
+    while (degree > 1 && c[degree] == 0)
+        degree--;
+    return pieces(c, degree, low, high, points);
+}
