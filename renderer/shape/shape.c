@@ -1,4 +1,4 @@
-/* What the files of shapes share: bounds of circles, areas under a transform. */
+/* What the files of shapes share: lines, bounds of circles, areas under a transform. */
 #include "shape/shape.h"
 
 double shape_turn(double x, double y)
@@ -6,6 +6,49 @@ double shape_turn(double x, double y)
     double turn = atan2(y, x) / (2 * PI);
 
     return turn < 0 ? turn + 1 : turn;
+}
+
+ShapeLine shape_line(const ShapeRay *ray, Vec3 centre)
+{
+    double length = vec_length(ray->direction), shift;
+    Vec3 d = vec_scale(ray->direction, 1 / length);
+
+    shift = vec_dot(vec_sub(centre, ray->origin), d);
+    return (ShapeLine){vec_mad(ray->origin, d, shift), d, shift, length};
+}
+
+static int clip_axis(double o, double d, double box_low, double box_high, double *low, double *high)
+{
+    double a, b;
+
+    if (d == 0)
+        return o >= box_low && o <= box_high;
+    a = (box_low - o) / d;
+    b = (box_high - o) / d;
+    *low = fmax(*low, fmin(a, b));
+    *high = fmin(*high, fmax(a, b));
+    return *low < *high;
+}
+
+int shape_line_clip(const ShapeLine *line, Vec3 box_low, Vec3 box_high, double *low, double *high)
+{
+    Vec3 o = line->origin, d = line->direction;
+
+    return clip_axis(o.x, d.x, box_low.x, box_high.x, low, high) &&
+           clip_axis(o.y, d.y, box_low.y, box_high.y, low, high) &&
+           clip_axis(o.z, d.z, box_low.z, box_high.z, low, high);
+}
+
+int shape_first_crossing(const ShapeRay *ray, const ShapeLine *line, const double *s, int count, double *t)
+{
+    for (int i = 0; i < count; i++) {
+        double at = shape_line_t(line, s[i]);
+        if (i + 1 < count && shape_line_t(line, s[i + 1]) == at)
+            i++;
+        else if (at > ray->tmin)
+            return shape_accept(ray, at, t) ? i : -1;
+    }
+    return -1;
 }
 
 void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p)

@@ -88,6 +88,30 @@ static inline int shape_accept(const ShapeRay *ray, double candidate, double *t)
     return 1;
 }
 
+/* A ray by length, counted from the point next to a centre: equations keep their digits there, however far away the ray
+ * begins and however long its direction is. */
+typedef struct ShapeLine {
+    Vec3 origin, direction; /* of unit length */
+    double shift, length;   /* t = (s + shift) / length */
+} ShapeLine;
+
+ShapeLine shape_line(const ShapeRay *ray, Vec3 centre);
+static inline double shape_line_t(const ShapeLine *line, double s)
+{
+    return (s + line->shift) / line->length;
+}
+/* The interval of s in which crossings are looked for: from the ray's origin on, and the same for every tmin from 0, so
+ * that the same crossing has the same t in every call. */
+static inline double shape_line_start(const ShapeLine *line, const ShapeRay *ray)
+{
+    return ray->tmin < 0 ? -INFINITY : -line->shift;
+}
+/* Narrows low..high to the part of the line in a box; 0 where there is none. */
+int shape_line_clip(const ShapeLine *line, Vec3 box_low, Vec3 box_high, double *low, double *high);
+/* The first of ascending crossings that is in range, as its index, with its t; -1 where there is none. Two with
+ * the same t are none. */
+int shape_first_crossing(const ShapeRay *ray, const ShapeLine *line, const double *s, int count, double *t);
+
 /* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
 double shape_turn(double x, double y);
 

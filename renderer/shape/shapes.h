@@ -12,6 +12,7 @@
     X(disc)            \
     X(mesh)            \
     X(plane)           \
+    X(poly)            \
     X(sphere)          \
     X(text)            \
     X(torus)
@@ -20,18 +21,13 @@
 #define UNSUPPORTED_SHAPES(X) \
     X(bicubic_patch)          \
     X(blob)                   \
-    X(cubic)                  \
     X(height_field)           \
     X(isosurface)             \
     X(julia_fractal)          \
     X(lathe)                  \
     X(ovus)                   \
     X(parametric)             \
-    X(poly)                   \
-    X(polynomial)             \
     X(prism)                  \
-    X(quadric)                \
-    X(quartic)                \
     X(sor)                    \
     X(sphere_sweep)           \
     X(superellipsoid)
