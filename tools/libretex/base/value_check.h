@@ -27,5 +27,7 @@ int retex_check_row_values(const RetexPart *part, const float *row, int x0, int 
 /* In value_check_kernel.c: 1 if any sample is infinite or NaN. */
 int retex_halves_have_nonfinite(const void *samples, size_t count);
 int retex_floats_have_nonfinite(const void *samples, size_t count);
+/* 1 if any is not 0. */
+int retex_floats_have_nonzero(const void *samples, size_t count);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "io/checksum.h"
 #include "base/half.h"
+#include "exr/planes_kernel.h"
 
 int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
 {
@@ -118,19 +119,21 @@ static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const
     return right ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
 }
 
-static void plane_to_float(float *row, const unsigned char *plane, uint16_t type, int width)
+/* The floats of a plane: itself, or row, which receives them. */
+static const void *plane_floats(float *row, const unsigned char *plane, uint16_t type, int width)
 {
+    if (type == EXR_PIXEL_FLOAT)
+        return plane;
     if (type == EXR_PIXEL_HALF) {
         retex_half_to_float(row, (const uint16_t *)(const void *)plane, (size_t)width);
-    } else if (type == EXR_PIXEL_FLOAT) {
-        memcpy(row, plane, (size_t)width * 4);
-    } else {
-        for (int x = 0; x < width; x++) {
-            uint32_t value;
-            memcpy(&value, plane + (size_t)x * 4, 4);
-            row[x] = (float)value;
-        }
+        return row;
     }
+    for (int x = 0; x < width; x++) {
+        uint32_t value;
+        memcpy(&value, plane + (size_t)x * 4, 4);
+        row[x] = (float)value;
+    }
+    return row;
 }
 
 /* Checks the values of one channel of a line; *bad receives the first that is not allowed, without its line. */
@@ -146,8 +149,9 @@ static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned cha
     if (first == (size_t)width)
         return 1;
     *bad = (RetexExrNonFinite){.x = (int)first, .channel = channel};
-    plane_to_float(&bad->value, samples + first * retex_exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored,
-                   1);
+    float value;
+    samples += first * retex_exr_channel_bytes(&plan->channels[channel]);
+    memcpy(&bad->value, plane_floats(&value, samples, (uint16_t)stored, 1), sizeof bad->value);
     return 0;
 }
 
@@ -156,10 +160,9 @@ static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned cha
 static int store_samples(const RetexExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x,
                          int y, int width, int height, RetexExrScratch *scratch, const RetexExrSums *sums)
 {
-    float *row = scratch->row;
-
     for (int line = 0; line < height; line++) {
         uint32_t *crc = sums ? sums->crc[(y + line - sums->top) / sums->lines] : NULL;
+        const void *planes[RETEX_EXR_LETTERS_MAX] = {NULL};
         for (int c = 0; c < plan->nchannels; c++) {
             const size_t plane = (size_t)width * retex_exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
@@ -170,15 +173,14 @@ static int store_samples(const RetexExrPlan *plan, RetexImage *image, int top, c
             }
             if (slot >= 0 && crc)
                 crc[slot] = retex_crc32(crc[slot], samples, plane);
-            if (slot >= 0 && image) {
-                float *restrict out = image->pixels + retex_image_index(image, x, y + line - top) + slot;
-                const size_t stride = (size_t)image->channels;
-                plane_to_float(row, samples, (uint16_t)plan->channels[c].pixel_type, width);
-                for (int i = 0; i < width; i++)
-                    out[(size_t)i * stride] = row[i];
-            }
+            if (slot >= 0 && image)
+                planes[slot] = plane_floats(scratch->rows + (size_t)width * (size_t)slot, samples,
+                                            (uint16_t)plan->channels[c].pixel_type, width);
             samples += plane;
         }
+        if (image)
+            retex_planes_interleave(image->pixels + retex_image_index(image, x, y + line - top), planes,
+                                    image->channels, (size_t)width);
     }
     return 1;
 }
@@ -201,7 +203,8 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
         code = EXR_ERR_BAD_CHUNK_LEADER;
     if (!code)
         code = chunk_samples(exr, plan, &chunk, scratch, &samples);
-    if (!code && !reserve((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
+    if (!code &&
+        !reserve((void **)&scratch->rows, &scratch->rows_count, (size_t)width * RETEX_EXR_LETTERS_MAX, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
     if (!code && !store_samples(plan, image, top, samples, x, y, width, height, scratch, sums))
         code = RETEX_EXR_NON_FINITE;
@@ -232,7 +235,7 @@ void retex_exr_scratch_free(RetexExrScratch *scratch)
     retex_zip_free(&scratch->zip);
     free(scratch->packed);
     free(scratch->raw);
-    free(scratch->row);
+    free(scratch->rows);
     *scratch = (RetexExrScratch){0};
 }
 

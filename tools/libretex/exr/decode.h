@@ -45,8 +45,8 @@ typedef struct RetexExrNonFinite {
 typedef struct RetexExrScratch {
     RetexZip zip;
     unsigned char *packed, *raw;
-    float *row;
-    size_t packed_bytes, raw_bytes, row_count;
+    float *rows; /* planes of a line */
+    size_t packed_bytes, raw_bytes, rows_count;
     RetexExrNonFinite bad;
 } RetexExrScratch;
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/value_check.h"
 #include "io/checksum.h"
 #include "exr/decode.h"
 
@@ -170,16 +171,6 @@ static int alloc_strip(Strip *strip, const RetexExrPlan *plan, RetexError *err)
     return retex_image_alloc(&strip->image, plan->width, lines, channels, err);
 }
 
-static int is_nonzero(const RetexImage *image, int y)
-{
-    const float *row = image->pixels + retex_image_index(image, 0, y);
-    const size_t count = retex_image_index(image, 0, 1);
-    for (size_t i = 0; i < count; i++)
-        if (row[i] != 0)
-            return 1;
-    return 0;
-}
-
 static int fail_chunk(const ExrReader *reader, const RetexExrPlan *plan, exr_result_t result, RetexError *err)
 {
     const ExrSource *source = reader->source;
@@ -221,9 +212,11 @@ static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
         code = check_bands(source, part, &strip->sums, y0, y1, err);
     if (code)
         return code;
+    const size_t length = retex_image_index(&strip->image, 0, 1);
     strip->number = number + 1;
     for (int y = y0; y < y1; y++)
-        strip->nonzero[y - y0] = (char)is_nonzero(&strip->image, y - y0);
+        strip->nonzero[y - y0] =
+            (char)retex_floats_have_nonzero(strip->image.pixels + retex_image_index(&strip->image, 0, y - y0), length);
     return RETEX_OK;
 }
 
