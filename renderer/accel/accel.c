@@ -10,6 +10,7 @@
 #include "accel/embree.h"
 #include "shade/material.h"
 #include "shade/pigment.h"
+#include "shape/csg.h"
 #include "shape/shape.h"
 
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: above it, building takes longer than tracing gains */
@@ -19,15 +20,25 @@ static double largest(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
+/* 0: there are none. */
+static int item_bounds(const Accel *accel, int item, Vec3 *low, Vec3 *high)
+{
+    if (item >= 0)
+        return shape_bounds(&accel->source->primitives[item], low, high);
+    const Csg *csg = accel->source->csgs[~item];
+    *low = csg->surface.low;
+    *high = csg->surface.high;
+    return bounds_is_finite(&csg->surface);
+}
+
 static void bound_curved(const struct RTCBoundsFunctionArguments *args)
 {
     const Accel *accel = args->geometryUserPtr;
-    const Primitive *primitive = &accel->source->primitives[accel->curved[args->primID]];
     struct RTCBounds *bounds = args->bounds_o;
     Vec3 low, high;
     double pad;
 
-    shape_bounds(primitive, &low, &high);
+    item_bounds(accel, accel->curved[args->primID], &low, &high);
     /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. And for that of rays that start
      * elsewhere in the scene, as far as it does not make the bounds larger to speak of. */
     pad = 2e-6 * (largest(low) + largest(high)) +
@@ -99,6 +110,38 @@ static void extend_bounds(Accel *accel, Vec3 low, Vec3 high)
     accel->high = vec3(fmax(accel->high.x, high.x), fmax(accel->high.y, high.y), fmax(accel->high.z, high.z));
 }
 
+static int is_traceable(Vec3 low, Vec3 high)
+{
+    return largest(low) < LARGEST_COORDINATE && largest(high) < LARGEST_COORDINATE;
+}
+
+static int fail_untraceable(const Scene *scene, int line, RetexError *err)
+{
+    return retex_fail_at(err, RETEX_EINVAL, scene->path, line, 0,
+                         "this object has coordinates that are not finite or beyond %g", LARGEST_COORDINATE);
+}
+
+/* CSGs are user geometry as curved shapes are. Their operands are no geometry by themselves. */
+static int classify_csgs(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+
+    for (int i = 0; i < scene->ncsgs; i++) {
+        Vec3 low, high;
+        if (bounds_is_empty(&scene->csgs[i]->surface))
+            continue;
+        if (!item_bounds(accel, ~i, &low, &high)) {
+            accel->planes[accel->nplanes++] = ~i;
+            continue;
+        }
+        if (!is_traceable(low, high))
+            return fail_untraceable(scene, scene->csgs[i]->line, err);
+        extend_bounds(accel, low, high);
+        accel->curved[accel->ncurved++] = ~i;
+    }
+    return 0;
+}
+
 /* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
 static int classify_primitives(Accel *accel, RetexError *err)
 {
@@ -110,6 +153,8 @@ static int classify_primitives(Accel *accel, RetexError *err)
         ShapeTriangles shape = {0, 0, NULL, NULL, 0, 0};
         Vec3 low, high;
         accel->flags[i] = primitive_flags(primitive);
+        if (primitive->csg)
+            continue;
         if (!shape_bounds(primitive, &low, &high)) {
             accel->planes[accel->nplanes++] = i;
             continue;
@@ -119,9 +164,8 @@ static int classify_primitives(Accel *accel, RetexError *err)
             if (shape.ntriangles == 0)
                 continue;
         }
-        if (!(largest(low) < LARGEST_COORDINATE && largest(high) < LARGEST_COORDINATE))
-            return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
-                                 "this object has coordinates that are not finite or beyond %g", LARGEST_COORDINATE);
+        if (!is_traceable(low, high))
+            return fail_untraceable(scene, primitive->line, err);
         extend_bounds(accel, low, high);
         if (shape.ntriangles == 0)
             accel->curved[accel->ncurved++] = i;
@@ -165,7 +209,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *primitive = &scene->primitives[i];
         ShapeTriangles shape;
-        if (!primitive->shape.ops->triangles)
+        if (primitive->csg || !primitive->shape.ops->triangles)
             continue;
         primitive->shape.ops->triangles(&primitive->shape, &shape);
         if (shape.ntriangles == 0)
@@ -315,7 +359,7 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
 
 int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err)
 {
-    size_t count = (size_t)scene->nprimitives + 1;
+    size_t count = (size_t)scene->nprimitives + (size_t)scene->ncsgs + 1;
     Accel *accel = calloc(1, sizeof(*accel));
     int status = 0;
 
@@ -331,6 +375,8 @@ int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudg
         status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     if (status == 0)
         status = classify_primitives(accel, err);
+    if (status == 0)
+        status = classify_csgs(accel, err);
     if (status == 0)
         status = reserve_geometry(accel, err);
     if (status == 0)

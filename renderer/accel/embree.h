@@ -31,7 +31,7 @@ struct Accel {
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;
-    int *curved, *planes; /* primitive indices */
+    int *curved, *planes; /* primitives, by index, and CSGs: ~index; without bounds: planes */
     int ncurved, nplanes;
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive */

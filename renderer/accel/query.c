@@ -23,6 +23,7 @@
 #include <float.h>
 #include <string.h>
 #include "accel/embree.h"
+#include "shape/csg.h"
 
 #define FLOAT_ERROR_BOUND 1e-3   /* bound of the relative error of a distance in float, for grazing triangles too */
 #define FLOAT_ERROR_TYPICAL 1e-6 /* usual relative error of a distance in float */
@@ -103,19 +104,70 @@ static inline void record_triangle_hit(QueryRay *query_ray, const Triangle *tria
     query_ray->hit->b1 = b1, query_ray->hit->b2 = b2;
 }
 
-/* 1 if the ray intersects a curved shape or a plane. */
-static inline int intersect_shape(const Accel *accel, const QueryRay *query_ray, int primitive, double *t, int *face)
+typedef struct Operands {
+    const Accel *accel;
+    QueryRay *query_ray;
+} Operands;
+
+static int is_visible_operand(void *context, int primitive)
 {
-    return is_visible(accel, query_ray, primitive) &&
-           shape_intersect(&accel->source->primitives[primitive], &query_ray->ray, t, face);
+    const Operands *of = context;
+
+    return is_visible(of->accel, of->query_ray, primitive);
 }
 
-static inline int test_shape(const Accel *accel, QueryRay *query_ray, int primitive)
+static int is_blocking_operand(void *context, int primitive)
+{
+    const Operands *of = context;
+
+    return is_visible(of->accel, of->query_ray, primitive) && !passes_through(of->accel, of->query_ray, primitive);
+}
+
+static __attribute__((noinline)) int test_csg(const Accel *accel, QueryRay *query_ray, int index)
+{
+    Operands operands = {accel, query_ray};
+    CsgQuery query = {.ray = query_ray->ray, .accept = is_visible_operand, .context = &operands};
+
+    if (!csg_intersect(accel->source->csgs[index], &query) ||
+        !record_hit(query_ray, query.t, query.leaf->index, query.face))
+        return 0;
+    shape_complete_hit(query.leaf->primitive, &query_ray->ray, query_ray->hit);
+    return 1;
+}
+
+static __attribute__((noinline)) int csg_blocks(const Accel *accel, QueryRay *query_ray, int index)
+{
+    Operands operands = {accel, query_ray};
+    CsgQuery query = {.ray = query_ray->ray, .accept = is_blocking_operand, .context = &operands, .any = 1};
+
+    return csg_intersect(accel->source->csgs[index], &query);
+}
+
+/* What is not made of triangles: a primitive, by index, or a CSG: ~index. Stores the nearest hit; returns 1 if that is
+ * new. */
+static inline int test_shape(const Accel *accel, QueryRay *query_ray, int item)
 {
     double t;
     int face;
 
-    return intersect_shape(accel, query_ray, primitive, &t, &face) && record_hit(query_ray, t, primitive, face);
+    if (item < 0)
+        return test_csg(accel, query_ray, ~item);
+    return is_visible(accel, query_ray, item) &&
+           shape_intersect(&accel->source->primitives[item], &query_ray->ray, &t, &face) &&
+           record_hit(query_ray, t, item, face);
+}
+
+/* 1 if it ends the ray, which is not asked where. */
+static inline int shape_blocks(const Accel *accel, QueryRay *query_ray, int item)
+{
+    double t;
+    int face;
+
+    if (item < 0)
+        return csg_blocks(accel, query_ray, ~item);
+    return is_visible(accel, query_ray, item) &&
+           shape_intersect(&accel->source->primitives[item], &query_ray->ray, &t, &face) &&
+           !passes_through(accel, query_ray, item);
 }
 
 /* A distance for Embree, rounded outward so that Embree tests all candidates that may be as near. */
@@ -173,11 +225,11 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
     const void *rays = args->rayhit, *hits = (const unsigned *)rays + HIT_HITS * args->N;
-    int primitive = query->accel->curved[args->primID];
+    int item = query->accel->curved[args->primID];
 
     for (unsigned i = 0; i < args->N; i++) {
         QueryRay *query_ray = &query->rays[ray_id(rays, args->N, i)];
-        if (!args->valid[i] || !test_shape(query->accel, query_ray, primitive))
+        if (!args->valid[i] || !test_shape(query->accel, query_ray, item))
             continue;
         /* A triangle at the same distance in float remains Embree's hit. The nearer one is chosen at the end, in
          * double. */
@@ -194,17 +246,15 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
 void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
-    int primitive = query->accel->curved[args->primID], face;
-    double t;
+    int item = query->accel->curved[args->primID];
 
     for (unsigned i = 0; i < args->N; i++) {
         QueryRay *query_ray = &query->rays[ray_id(args->ray, args->N, i)];
         if (!args->valid[i])
             continue;
         if (query_ray->hit)
-            test_shape(query->accel, query_ray, primitive);
-        else if (intersect_shape(query->accel, query_ray, primitive, &t, &face) &&
-                 !passes_through(query->accel, query_ray, primitive))
+            test_shape(query->accel, query_ray, item);
+        else if (shape_blocks(query->accel, query_ray, item))
             *ray_tfar(args->ray, args->N, i) = -INFINITY;
     }
 }
@@ -268,12 +318,8 @@ static inline int start_single(QueryRay *query_ray, struct RTCRay *to, const Acc
 /* 1 if an opaque plane occludes the ray. */
 static int plane_blocks(const Accel *accel, QueryRay *query_ray)
 {
-    double t;
-    int face;
-
     for (int i = 0; i < accel->nplanes; i++)
-        if (intersect_shape(accel, query_ray, accel->planes[i], &t, &face) &&
-            !passes_through(accel, query_ray, accel->planes[i]))
+        if (shape_blocks(accel, query_ray, accel->planes[i]))
             return 1;
     return 0;
 }

@@ -6,6 +6,7 @@
 #include "light/lights.h"
 #include "light/mesh_light.h"
 #include "shade/bsdf.h"
+#include "shape/csg.h"
 #include "shape/shape.h"
 
 #define EXACT_MAX 4   /* up to so many lights are chosen by an estimate of each; more by the tree */
@@ -92,7 +93,7 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
     }
     e.center = vec_scale(vec_add(low, high), 0.5);
     e.radius = vec_length(vec_sub(high, low)) / 2;
-    e.sphere = is_round_sphere(p, &r);
+    e.sphere = !p->csg && is_round_sphere(p, &r); /* what is cut off of an operand opens up its far side */
     if (e.sphere)
         e.radius = r;
     e.strength = NEUTRAL_ALBEDO * (float)power;
@@ -444,18 +445,17 @@ static const MeshLightFace *picked_face(const Lights *lights, const LightPick *p
     return f;
 }
 
-/* Sample a point of an emitter by area; returns its density. */
+/* Sample a point of an emitter by area; returns its density, or 0 where nothing is left of an operand of CSG. */
 static double sample_area(const Lights *lights, const LightPick *pick, float u1, float u2, Surface *surface)
 {
     const Entry *e = &lights->entries[pick->entry];
     const Primitive *p = &lights->scene->primitives[e->index];
     double density;
-    if (!e->mesh) {
+    if (!e->mesh)
         shape_sample(p, -1, u1, u2, surface, &density);
-        return density;
-    }
-    mesh_light_point(picked_face(lights, pick, &density), p, u1, u2, surface);
-    return density;
+    else
+        mesh_light_point(picked_face(lights, pick, &density), p, u1, u2, surface);
+    return p->csg && !csg_on_surface(p->csg, surface->position) ? 0 : density;
 }
 
 const MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density)
@@ -463,7 +463,7 @@ const MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *
     if (pick->entry < 0)
         return NULL;
     const Entry *e = &lights->entries[pick->entry];
-    if (!e->mesh || lights->scene->primitives[e->index].no_reflection)
+    if (!e->mesh || lights->scene->primitives[e->index].no_reflection || lights->scene->primitives[e->index].csg)
         return NULL;
     const MeshLightFace *f = picked_face(lights, pick, density);
     return f->uniform ? f : NULL;
@@ -479,7 +479,7 @@ static int sample_emitter(const Lights *lights, const LightPick *pick, Vec3 posi
     double pdf_area = sample_area(lights, pick, u1, u2, &sample->surface);
     Vec3 d = vec_sub(sample->surface.position, position);
     sample->distance = vec_length(d);
-    if (!(sample->distance > 0))
+    if (!(sample->distance > 0 && pdf_area > 0))
         return 0;
     sample->direction = vec_scale(d, 1 / sample->distance);
     double cosine = fabs(vec_dot(sample->direction, sample->surface.geometric_normal));

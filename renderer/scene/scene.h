@@ -148,6 +148,7 @@ typedef struct Mesh {
     const Texture **textures; /* in world space like all textures */
     int closed_inside;       /* inside_vector was given: has an inside */
     int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
+    const struct Bvh *tree;  /* over the faces, or NULL: see mesh_index */
 } Mesh;
 
 static inline int mesh_face_has_normals(const MeshFace *f)
@@ -174,6 +175,7 @@ typedef struct Primitive {
     const Texture *interior_texture; /* or NULL: the same on both sides */
     const Interior *interior; /* or NULL */
     int no_shadow, no_image, no_reflection, inverse, hollow;
+    const struct CsgNode *csg; /* its place in the tree of which it is an operand, or NULL; shape/csg.h */
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; meshes may override by face, see face_targets */
@@ -231,8 +233,9 @@ typedef struct Scene {
     Camera camera;
     Rgb background;
     SkySphere *sky;          /* or NULL */
-    int nprimitives, nlights, nimages;
+    int nprimitives, ncsgs, nlights, nimages;
     Primitive *primitives;
+    struct Csg **csgs;       /* trees over primitives; shape/csg.h */
     Light *lights;
     ImageMap **images;
     double assumed_gamma;

@@ -35,11 +35,11 @@ static double along(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* The box between its three pairs of planes. */
+/* The box between its three pairs of planes. A ray that starts on one of them, within rounding, does not meet it. */
 static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
 {
     double times[2] = {-INFINITY, INFINITY};
-    int faces[2] = {0, 0};
+    int faces[2] = {0, 0}, starts_on[2] = {0, 0};
 
     (void)primitive;
     for (int k = 0; k < 3; k++) {
@@ -50,12 +50,12 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
             continue;
         double near = ((d < 0) - o) / d, far = ((d > 0) - o) / d;
         if (near > times[0])
-            times[0] = near, faces[0] = 2 * k + (d < 0);
+            times[0] = near, faces[0] = 2 * k + (d < 0), starts_on[0] = fabs((d < 0) - o) <= ray->slack;
         if (far < times[1])
-            times[1] = far, faces[1] = 2 * k + (d > 0);
+            times[1] = far, faces[1] = 2 * k + (d > 0), starts_on[1] = fabs((d > 0) - o) <= ray->slack;
     }
     for (int i = 0; i < 2 && times[0] <= times[1]; i++)
-        if (shape_accept(ray, times[i], t)) {
+        if (!starts_on[i] && shape_accept(ray, times[i], t)) {
             *face = faces[i];
             return 1;
         }

@@ -53,6 +53,11 @@ static int inside(const Shape *shape, Vec3 p)
     return p.z < 0;
 }
 
+static void solid_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
+{
+    shape_bound_half_space(primitive, 2, low, high);
+}
+
 /* ---- sampling ---- */
 
 static double area(const Primitive *primitive)
@@ -82,6 +87,7 @@ const ShapeOps shape_disc = {
     .name = "disc",
     .properties = SHAPE_FLAT,
     .bounds = bounds,
+    .solid_bounds = solid_bounds,
     .intersect = intersect,
     .point = point,
     .uv = uv,

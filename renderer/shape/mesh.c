@@ -1,6 +1,8 @@
 /* Triangle meshes, in object space. A triangle's outward side is the one its vertex normals lie on; without them, the
- * one its winding gives, turned round for closed meshes that wind inward. They are traced as triangles only.
- * Natural parametrisation: uv_vectors. */
+ * one its winding gives, turned round for closed meshes that wind inward. Paths trace them as triangles; operands of
+ * CSG, trace() and inside() go by a tree over the faces. Natural parametrisation: uv_vectors. */
+#include <stdlib.h>
+#include "shape/bvh.h"
 #include "shape/shape.h"
 
 static void triangles(const Shape *shape, ShapeTriangles *out)
@@ -101,6 +103,118 @@ int mesh_winds_inward(const Mesh *mesh)
     return volume < 0 && vec_length(sum) < 1e-6 * area;
 }
 
+/* ---- in double, through a tree ---- */
+
+int mesh_index(Arena *arena, Mesh *mesh)
+{
+    Bounds *bounds;
+    Bvh *tree;
+    int made;
+
+    if (mesh->tree)
+        return 1;
+    tree = arena_alloc(arena, sizeof *tree);
+    bounds = malloc(((size_t)mesh->nfaces + 1) * sizeof *bounds);
+    for (int i = 0; bounds && i < mesh->nfaces; i++) {
+        bounds[i] = bounds_empty();
+        for (int k = 0; k < 3; k++)
+            bounds_add(&bounds[i], mesh->vertices[mesh->faces[i].vertex[k]]);
+        bounds[i] = bounds_padded(bounds[i]);
+    }
+    made = tree && bounds && bvh_create(tree, arena, bounds, mesh->nfaces);
+    free(bounds);
+    if (made)
+        mesh->tree = tree;
+    return made;
+}
+
+/* Where a ray meets a face, up to this far beyond its edges. A ray that starts on the face's plane does not. */
+static int meets_face(const Mesh *mesh, int face, const Ray *ray, double slack, double beyond, double *t)
+{
+    const int *v = mesh->faces[face].vertex;
+    Vec3 p0 = mesh->vertices[v[0]], e1 = vec_sub(mesh->vertices[v[1]], p0), e2 = vec_sub(mesh->vertices[v[2]], p0);
+    Vec3 across = vec_cross(ray->direction, e2), from = vec_sub(ray->origin, p0), over = vec_cross(from, e1);
+    double volume = vec_dot(e1, across), height = vec_dot(e2, over), b1, b2;
+
+    if (volume == 0 || fabs(height) <= slack * vec_length(vec_cross(e1, e2)))
+        return 0;
+    b1 = vec_dot(from, across) / volume;
+    b2 = vec_dot(ray->direction, over) / volume;
+    *t = height / volume;
+    return b1 >= -beyond && b2 >= -beyond && b1 + b2 <= 1 + beyond && *t > ray->tmin && *t < ray->tmax;
+}
+
+typedef struct FaceQuery {
+    const Mesh *mesh;
+    double slack;
+    int face, count;
+} FaceQuery;
+
+/* The edges belong to both faces: no crack between them. */
+static int nearest_face(void *context, Ray *ray, int face)
+{
+    FaceQuery *query = context;
+    double t;
+
+    if (meets_face(query->mesh, face, ray, query->slack, 1e-12, &t))
+        ray->tmax = t, query->face = face;
+    return 0;
+}
+
+static int count_face(void *context, Ray *ray, int face)
+{
+    FaceQuery *query = context;
+    double t;
+
+    query->count += meets_face(query->mesh, face, ray, 0, 0, &t);
+    return 0;
+}
+
+static void along_ray(const Mesh *mesh, Ray *ray, BvhRayVisit *visit, FaceQuery *query)
+{
+    if (mesh->tree)
+        bvh_along_ray(mesh->tree, ray, visit, query);
+    else
+        for (int i = 0; i < mesh->nfaces; i++)
+            visit(query, ray, i);
+}
+
+static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
+{
+    FaceQuery query = {primitive->shape.mesh, ray->slack, -1, 0};
+    Ray along = {ray->origin, ray->direction, ray->tmin, ray->tmax};
+
+    along_ray(primitive->shape.mesh, &along, nearest_face, &query);
+    if (query.face < 0)
+        return 0;
+    *t = along.tmax;
+    *face = query.face;
+    return 1;
+}
+
+/* An odd number of faces lies between p and far away. */
+static int inside(const Shape *shape, Vec3 p)
+{
+    FaceQuery query = {shape->mesh, 0, -1, 0};
+    Ray ray = {p, vec3(0.4472135, 0.8944272, 0.0031415), 0, INFINITY}; /* any that is along no edges */
+
+    if (!shape->mesh->closed_inside)
+        return 0;
+    along_ray(shape->mesh, &ray, count_face, &query);
+    return query.count & 1;
+}
+
+void mesh_barycentrics(const Mesh *mesh, int face, Vec3 p, double *b1, double *b2)
+{
+    const int *v = mesh->faces[face].vertex;
+    Vec3 p0 = mesh->vertices[v[0]], e1 = vec_sub(mesh->vertices[v[1]], p0), e2 = vec_sub(mesh->vertices[v[2]], p0);
+    Vec3 n = vec_cross(e1, e2), at = vec_sub(p, p0);
+    double scale = shape_inverse(vec_dot(n, n));
+
+    *b1 = fmin(fmax(vec_dot(vec_cross(at, e2), n) * scale, 0), 1);
+    *b2 = fmin(fmax(vec_dot(vec_cross(e1, at), n) * scale, 0), 1 - *b1);
+}
+
 /* ---- sampling: of a face that the caller chooses ---- */
 
 double mesh_face_area(const Primitive *primitive, int face)
@@ -139,7 +253,9 @@ const ShapeOps shape_mesh = {
     .name = "mesh",
     .properties = SHAPE_UV_NATURAL,
     .bounds = bounds,
+    .intersect = intersect,
     .uv = uv,
+    .inside = inside,
     .area = area,
     .sample = sample,
     .density = density,

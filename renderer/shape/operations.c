@@ -30,6 +30,21 @@ int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *
     return 1;
 }
 
+void shape_complete_hit(const Primitive *primitive, const Ray *ray, Hit *hit)
+{
+    const Mesh *mesh = primitive->shape.mesh;
+    Vec3 corner[3] = {{0, 0, 0}};
+    Vec3 p = transform_inverse_point(&primitive->transform, vec_mad(ray->origin, ray->direction, hit->t));
+
+    if (!primitive->shape.ops->face_normal)
+        return;
+    for (int k = 0; mesh && k < 3; k++)
+        corner[k] = transform_point(&primitive->transform, mesh->vertices[mesh->faces[hit->face].vertex[k]]);
+    hit->normal = primitive->shape.ops->face_normal(primitive, hit->face, corner);
+    if (mesh)
+        mesh_barycentrics(mesh, hit->face, p, &hit->b1, &hit->b2);
+}
+
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
 {
     *low = vec3(INFINITY, INFINITY, INFINITY);

@@ -22,9 +22,15 @@ static int inside(const Shape *shape, Vec3 p)
     return p.y < 0;
 }
 
+static void solid_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
+{
+    shape_bound_half_space(primitive, 1, low, high);
+}
+
 const ShapeOps shape_plane = {
     .name = "plane",
     .properties = SHAPE_FLAT,
+    .solid_bounds = solid_bounds,
     .intersect = intersect,
     .point = point,
     .inside = inside,

@@ -72,6 +72,20 @@ void shape_bound_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, 
     shape_bound_point(low, high, vec_add(p, half));
 }
 
+void shape_bound_half_space(const Primitive *primitive, int axis, Vec3 *low, Vec3 *high)
+{
+    Vec3 n = shape_world_normal(primitive, vec3(axis == 0, axis == 1, axis == 2));
+    Vec3 p = transform_point(&primitive->transform, vec3(0, 0, 0));
+    const double normal[3] = {n.x, n.y, n.z}, at[3] = {p.x, p.y, p.z};
+    double *ends[2][3] = {{&low->x, &low->y, &low->z}, {&high->x, &high->y, &high->z}};
+
+    *low = vec3(-INFINITY, -INFINITY, -INFINITY);
+    *high = vec_neg(*low);
+    for (int i = 0; i < 3; i++)
+        if (fabs(normal[(i + 1) % 3]) + fabs(normal[(i + 2) % 3]) < 1e-15)
+            *ends[normal[i] > 0][i] = at[i];
+}
+
 double shape_stretch(const Transform *t, Vec3 e, Vec3 f)
 {
     return vec_length(vec_cross(transform_vector(t, e), transform_vector(t, f)));

@@ -49,8 +49,11 @@ struct ShapeOps {
     unsigned properties; /* bits of ShapeProperty */
     /* Bounding box in the world. NULL: there is none, and every ray is tested against the shape. */
     void (*bounds)(const Primitive *primitive, Vec3 *low, Vec3 *high);
+    /* The box beyond which nothing is inside, `inverse` applied; infinite where there is no end. NULL: as bounds; then
+     * what is beyond is outside, or inside where the primitive is inverse. */
+    void (*solid_bounds)(const Primitive *primitive, Vec3 *low, Vec3 *high);
     /* The nearest t in (tmin, tmax), and the face there where there is more than one: returns 1; else 0, and t is left
-     * as it was. NULL: by its triangles only. */
+     * as it was. */
     int (*intersect)(const Primitive *primitive, const ShapeRay *ray, double *t, int *face);
     /* The point of the face next to p, which is near the surface, in canonical space. */
     void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
@@ -111,6 +114,10 @@ int shape_line_clip(const ShapeLine *line, Vec3 box_low, Vec3 box_high, double *
 /* The first of ascending crossings that is in range, as its index, with its t; -1 where there is none. Two with
  * the same t are none. */
 int shape_first_crossing(const ShapeRay *ray, const ShapeLine *line, const double *s, int count, double *t);
+
+/* For solid_bounds: the half space below the plane in canonical space that the axis (0 x, 1 y, 2 z) stands on at its
+ * origin. */
+void shape_bound_half_space(const Primitive *primitive, int axis, Vec3 *low, Vec3 *high);
 
 /* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
 double shape_turn(double x, double y);

@@ -62,9 +62,11 @@ void surface_turn(Surface *surface, int backside);
 
 /* ---- operations of shapes (shape.h), by their table ---- */
 
-/* Intersect a shape that has an equation (all but meshes): the nearest t in (tmin, tmax). 1 if found, with face as in
- * Hit; else 0, and *t and *face are left as they were: they may be those of a nearer hit. */
+/* The nearest t in (tmin, tmax), in double. 1 if found, with face as in Hit; else 0, and *t and *face are left as they
+ * were: they may be those of a nearer hit. */
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
+/* The rest of a hit on a shape that has triangles, from t and face: what the tracer says of them itself. */
+void shape_complete_hit(const Primitive *primitive, const Ray *ray, Hit *hit);
 /* World-space bounding box; planes have none (returns 0). */
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
 
@@ -83,6 +85,11 @@ double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of
 double mesh_face_area(const Primitive *primitive, int face);
 /* The interpolated normal, of any length; 0 where the face has none. */
 Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2);
+/* Makes the tree that goes with intersecting it in double, if it is not there: without it each face is tested. 0
+ * without memory. */
+int mesh_index(Arena *arena, Mesh *mesh);
+/* Of a point on the face, in object space. */
+void mesh_barycentrics(const Mesh *mesh, int face, Vec3 p, double *b1, double *b2);
 /* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */
 int mesh_winds_inward(const Mesh *mesh);
 

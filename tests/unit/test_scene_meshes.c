@@ -1,5 +1,6 @@
-/* What the language builds: meshes and polygons, and refused ones. */
+/* What the language builds: meshes and polygons, and refused ones; groups. */
 #include "lib_scene_text.h"
+#include "shape/csg.h"
 #include "shape/shapes.h"
 
 #include <math.h>
@@ -141,18 +142,21 @@ static void test_star(void **state)
     scene_close(&scene);
 }
 
-/* ---- groups we cannot cut ---- */
+/* ---- groups ---- */
 
 static void test_csg(void **state)
 {
     (void)state;
     Scene *scene = parse(V37 "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
-                             "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
-    assert_int_equal(scene->nprimitives, 4);
-    assert_ptr_equal(scene->primitives[0].shape.ops, &shape_box);
-    assert_ptr_equal(scene->primitives[1].shape.ops, &shape_sphere);
-    assert_non_null(strstr(messages, "`difference` is not supported yet"));
-    assert_non_null(strstr(messages, "`intersection` is not supported yet"));
+                             "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}} "
+                             "union{sphere{0,1} sphere{x,1}} union{sphere{0,1} sphere{x,1} inverse}");
+    assert_int_equal(scene->nprimitives, 11);
+    assert_int_equal(scene->ncsgs, 4);
+    for (int i = 0; i < 11; i++) {
+        assert_int_equal(scene->primitives[i].csg == NULL, i == 7 || i == 8);
+        assert_int_equal(scene->primitives[i].inverse, i == 1 || i > 8);
+    }
+    assert_int_equal(scene->primitives[9].csg->parent->kind, CSG_INTERSECTION);
     scene_close(&scene);
     scene = parse(V37 "blob{threshold .5 sphere{0,1,1} texture{pigment{rgb 1}}} sphere{0,1}");
     assert_int_equal(scene->nprimitives, 1);

@@ -11,6 +11,7 @@
 
 #include <stdint.h>
 #include "sdl/lang/parser.h"
+#include "shape/csg.h"
 #include "shape/shapes.h"
 #include "shape/text.h"
 
@@ -32,10 +33,6 @@
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
     X(DISPERSION, "dispersion", "one ior is used for all colours") \
-    X(DIFFERENCE, "difference", "its first object is used whole") \
-    X(INTERSECTION, "intersection", "its first object that is not a plane is used whole") \
-    X(MERGE, "merge", "it is treated as a union") \
-    X(CLIPPED_BY, "clipped_by", "the object stays whole") \
     X(LIGHT_GROUP, "light_group", "its lights light everything") \
     X(PROJECTED_THROUGH, "projected_through", "the light shines everywhere")
 
@@ -119,12 +116,26 @@ typedef struct ParsedMaterial {
 /* ---- objects ---- */
 
 typedef enum ObjectKind { OBJECT_EMPTY, OBJECT_SHAPE, OBJECT_GROUP, OBJECT_LIGHT } ObjectKind;
-enum { OBJECT_NO_SHADOW = 1, OBJECT_NO_IMAGE = 2, OBJECT_NO_REFLECTION = 4, OBJECT_INVERSE = 8, OBJECT_HOLLOW = 16 };
+enum {
+    OBJECT_NO_SHADOW = 1,
+    OBJECT_NO_IMAGE = 2,
+    OBJECT_NO_REFLECTION = 4,
+    OBJECT_INVERSE = 8,
+    OBJECT_HOLLOW = 16,
+    OBJECT_CUTAWAY_TEXTURES = 32
+};
 
 typedef struct ObjectList {
     const struct Object *object;
     struct ObjectList *next;
 } ObjectList;
+
+/* Objects of clipped_by or bounded_by, each added before the others. */
+typedef struct ClipList {
+    const struct Object *object;
+    Transform written; /* the clipped object's transform where they were written: what moves it later moves them */
+    const struct ClipList *next;
+} ClipList;
 
 typedef struct Object {
     ObjectKind kind;
@@ -132,7 +143,10 @@ typedef struct Object {
     int single_triangle;        /* not of a mesh: may be gathered into one with its neighbours */
     int polygon;      /* the mesh is a polygon */
     const Light *light;
+    CsgKind csg;                /* of a group */
+    int difference;             /* an intersection written as one */
     const ObjectList *children; /* of a group; of a light: what it looks like */
+    const ClipList *clips, *bounds;
     Transform transform;        /* canonical shape, or the children's space, to here */
     MovedTexture texture, interior_texture;
     const ParsedInterior *interior;
@@ -166,6 +180,11 @@ typedef struct PlacedTexture {
     Transform by;
 } PlacedTexture;
 
+typedef struct CsgRoot {
+    CsgNode *root;
+    int line;
+} CsgRoot;
+
 typedef struct Builder {
     const ParsedTexture *default_texture;
     ParsedCamera camera;
@@ -182,6 +201,8 @@ typedef struct Builder {
     ParsedImage *images;
     int primitive_capacity, light_capacity;
     unsigned char *single_triangle; /* of each primitive */
+    CsgRoot *csg_roots;             /* placed, to be completed with the scene */
+    int ncsg_roots, csg_capacity;
     PlacedTexture placed[PLACED_CACHE];
     Mesh *placed_mesh; /* the last mesh whose own textures were placed */
     const Mesh *placed_mesh_from;
@@ -285,11 +306,10 @@ unsigned font_letter_index(Font *font, unsigned long character); /* 0: the font 
 const Letter *font_letter(Sdl *sdl, Font *font, unsigned index);
 double font_kerning(const Font *font, unsigned left, unsigned right);
 
-/* extent.c, trace.c, inside.c: see SdlBuilder */
+/* extent.c, trace.c: see SdlBuilder */
 int object_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
 int object_trace(Sdl *sdl, const Value *object, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
 int object_inside(Sdl *sdl, const Value *object, Vec3 p);
-int mesh_contains(Sdl *sdl, const Mesh *mesh, Vec3 p); /* an odd number of faces lies between p and far away */
 
 /* camera.c, global.c */
 void camera_default(ParsedCamera *camera);
@@ -299,8 +319,20 @@ void parse_global_settings(Sdl *sdl);
 void parse_background(Sdl *sdl);
 const ParsedSky *parse_sky_sphere(Sdl *sdl);
 
+/* csg.c */
+typedef struct SolidLeaf {
+    Primitive primitive; /* first: a leaf's primitive is one of these */
+    const Object *object;
+} SolidLeaf;
+Csg *csg_of_object(Sdl *sdl, const Object *object); /* an object that is not placed, in its own space */
+/* The object's own node, with its clips and bounds. outer: from around the object to the world. */
+CsgNode *object_csg_node(Sdl *sdl, const Object *object, const Transform *outer, unsigned inverse, CsgNode *parent);
+Csg *csg_complete(Sdl *sdl, CsgNode *root);
+void index_mesh(Sdl *sdl, const Mesh *mesh); /* once: for what is intersected in double */
+
 /* place.c, finalize.c */
 void place_object(Sdl *sdl, const Object *object);
+void complete_csgs(Sdl *sdl);
 void gather_triangles(Sdl *sdl);
 void finalize_scene(Sdl *sdl);         /* everything that waits for the end of the scene */
 Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */

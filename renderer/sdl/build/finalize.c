@@ -358,6 +358,7 @@ void finalize_scene(Sdl *sdl)
         camera_use(sdl, &builder_of(sdl)->camera);
     build_sky(sdl);
     gather_triangles(sdl);
+    complete_csgs(sdl);
     load_images(sdl);
     each_texture(sdl, visit_layers, NULL);
     each_texture(sdl, visit_albedo, NULL);

@@ -35,6 +35,14 @@ void object_count_child(Sdl *sdl, Object *object, const Object *child)
         sdl_error(sdl, "an object of more than %.0f parts", MAX_PARTS);
 }
 
+/* A private copy: the modifiers that follow must not reach the identifier. */
+static Object *copy_of(Sdl *sdl, const Object *known)
+{
+    Object *object = sdl_alloc(sdl, sizeof *object);
+    *object = *known;
+    return object;
+}
+
 static void moved_texture_move(MovedTexture *moved, const Transform *by)
 {
     if (!moved->texture)
@@ -77,10 +85,10 @@ static int accept_flag(Sdl *sdl, Object *object)
         {"no_image", OBJECT_NO_IMAGE},
         {"no_reflection", OBJECT_NO_REFLECTION},
         {"hollow", OBJECT_HOLLOW},
+        {"cutaway_textures", OBJECT_CUTAWAY_TEXTURES},
     };
-    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy",
-                                          "no_radiosity",      "split_union",   "no_bump_scale",
-                                          "cutaway_textures",  "global_lights", NULL};
+    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy",     "no_radiosity",
+                                          "split_union",       "no_bump_scale", "global_lights", NULL};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (sdl_accept(sdl, flags[i].word)) {
             if (sdl_optional_bool(sdl, 1))
@@ -100,15 +108,45 @@ static int accept_flag(Sdl *sdl, Object *object)
     return 1;
 }
 
-static int accept_skipped(Sdl *sdl, Object *object)
+/* The objects of clipped_by or bounded_by, with the transforms that follow them. */
+static const ClipList *parse_clips(Sdl *sdl, const Object *object, const ClipList *list)
 {
-    if (sdl_is(sdl, "bounded_by") || sdl_is(sdl, "photons") || sdl_is(sdl, "radiosity"))
-        skip_statement(sdl);
-    else if (sdl_is(sdl, "clipped_by")) {
-        gaps_add(&object->gaps, GAP_CLIPPED_BY);
-        skip_statement(sdl);
-    } else
+    const ClipList *before = list;
+    const Object *one;
+    Transform by;
+    while ((one = accept_object(sdl))) {
+        ClipList *clip = sdl_alloc(sdl, sizeof *clip);
+        *clip = (ClipList){copy_of(sdl, one), object->transform, list};
+        list = clip;
+        sdl_optional_comma(sdl);
+    }
+    while (accept_transform(sdl, &by))
+        for (const ClipList *clip = list; clip != before; clip = clip->next)
+            object_move((Object *)clip->object, &by);
+    sdl_expect(sdl, "}");
+    return list;
+}
+
+static int accept_clips(Sdl *sdl, Object *object)
+{
+    const int clips = sdl_accept(sdl, "clipped_by");
+    if (!clips && !sdl_accept(sdl, "bounded_by"))
         return 0;
+    const ClipList **list = clips ? &object->clips : &object->bounds, *other = clips ? object->bounds : object->clips;
+    sdl_expect(sdl, "{");
+    if (sdl_accept(sdl, clips ? "bounded_by" : "clipped_by")) {
+        *list = other;
+        sdl_expect(sdl, "}");
+    } else
+        *list = parse_clips(sdl, object, *list);
+    return 1;
+}
+
+static int accept_skipped(Sdl *sdl)
+{
+    if (!sdl_is(sdl, "photons") && !sdl_is(sdl, "radiosity"))
+        return 0;
+    skip_statement(sdl);
     return 1;
 }
 
@@ -155,7 +193,7 @@ int accept_object_modifier(Sdl *sdl, Object *object)
         object_move(object, &by);
         return 1;
     }
-    if (accept_surface(sdl, object) || accept_flag(sdl, object) || accept_skipped(sdl, object))
+    if (accept_surface(sdl, object) || accept_flag(sdl, object) || accept_clips(sdl, object) || accept_skipped(sdl))
         return 1;
     /* The colour of previews, and of very old scenes: `sphere{0,1 color Red}`. */
     if (sdl_is(sdl, "color") || sdl_is(sdl, "colour")) {
@@ -174,61 +212,49 @@ void parse_object_modifiers(Sdl *sdl, Object *object)
 
 /* ---- groups ---- */
 
-typedef enum GroupKind { GROUP_UNION, GROUP_FIRST, GROUP_FIRST_BOUNDED } GroupKind;
-
 static const struct {
     const char *word;
-    GroupKind kind;
-    int gap;
+    CsgKind csg;
+    int difference, gap;
 } groups[] = {
-    {"union", GROUP_UNION, -1},
-    {"merge", GROUP_UNION, GAP_MERGE},
-    {"light_group", GROUP_UNION, GAP_LIGHT_GROUP},
-    {"difference", GROUP_FIRST, GAP_DIFFERENCE},
-    {"intersection", GROUP_FIRST_BOUNDED, GAP_INTERSECTION},
+    {"union", CSG_UNION, 0, -1},
+    {"merge", CSG_MERGE, 0, -1},
+    {"light_group", CSG_UNION, 0, GAP_LIGHT_GROUP},
+    {"difference", CSG_INTERSECTION, 1, -1},
+    {"intersection", CSG_INTERSECTION, 0, -1},
 };
 
-static int is_unbounded(const Object *object)
+static const Object *turned_inside_out(Sdl *sdl, const Object *object)
 {
-    return object->kind == OBJECT_SHAPE && !object->shape.ops->bounds;
+    Object *turned = copy_of(sdl, object);
+    turned->flags ^= OBJECT_INVERSE;
+    return turned;
 }
 
-/* Whether a group of this kind keeps the object, having kept `kept` of them. */
-static int keeps(GroupKind kind, const Object *object, int seen, int kept)
-{
-    switch (kind) {
-    case GROUP_FIRST:
-        return seen == 0 || object->kind == OBJECT_LIGHT;
-    case GROUP_FIRST_BOUNDED:
-        return (kept == 0 && !is_unbounded(object)) || object->kind == OBJECT_LIGHT;
-    default:
-        return 1;
-    }
-}
-
-static void add_children(Sdl *sdl, Object *group, GroupKind kind)
+static void add_children(Sdl *sdl, Object *group)
 {
     ObjectList **end = (ObjectList **)&group->children;
     const Object *child;
-    int seen = 0, kept = 0;
+    int seen = 0;
     while ((child = accept_object(sdl))) {
         sdl_optional_comma(sdl);
-        if (keeps(kind, child, seen++, kept)) {
-            kept += child->kind != OBJECT_EMPTY;
-            object_count_child(sdl, group, child);
-            *end = sdl_alloc(sdl, sizeof **end);
-            (*end)->object = child;
-            end = &(*end)->next;
-        }
+        object_count_child(sdl, group, child);
+        *end = sdl_alloc(sdl, sizeof **end);
+        if (child->kind != OBJECT_LIGHT && seen++ > 0 && group->difference)
+            child = turned_inside_out(sdl, child);
+        (*end)->object = child;
+        end = &(*end)->next;
     }
 }
 
 static Object *group(Sdl *sdl, int which)
 {
     Object *object = object_new(sdl, OBJECT_GROUP);
+    object->csg = groups[which].csg;
+    object->difference = groups[which].difference;
     if (groups[which].gap >= 0)
         gaps_add(&object->gaps, (Gap)groups[which].gap);
-    add_children(sdl, object, groups[which].kind);
+    add_children(sdl, object);
     return object;
 }
 
@@ -253,14 +279,6 @@ static const Object *known_object(Sdl *sdl)
 {
     const Object *known = accept_ident(sdl, VALUE_OBJECT);
     return known ? known : accept_ident(sdl, VALUE_LIGHT);
-}
-
-/* A private copy: the modifiers that follow must not reach the identifier. */
-static Object *copy_of(Sdl *sdl, const Object *known)
-{
-    Object *object = sdl_alloc(sdl, sizeof *object);
-    *object = *known;
-    return object;
 }
 
 /* After the keyword of a shape or group, whose braces may also hold an identifier of such an object. */

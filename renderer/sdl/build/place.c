@@ -3,6 +3,7 @@
  * placed. */
 #include <string.h>
 #include "sdl/build/builder.h"
+#include "shape/shape.h"
 
 /* What a child inherits from the groups around it. */
 typedef struct Inherited {
@@ -12,6 +13,7 @@ typedef struct Inherited {
     int uv_mapping;
     unsigned flags;
     const IdentList *idents;
+    CsgNode *csg; /* the node that it is an operand of, or NULL */
 } Inherited;
 
 /* ---- textures in world space ---- */
@@ -128,6 +130,7 @@ static Primitive *primitive_new(Sdl *sdl)
     return primitive;
 }
 
+/* in->csg: its leaf, where it is an operand. */
 static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
 {
     const ParsedTexture *texture = in->texture ? in->texture : builder_of(sdl)->default_texture;
@@ -141,9 +144,12 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     report_texture(sdl, inside);
     if (interior)
         gaps_report(sdl, &interior->gaps);
+    if (in->csg && object->shape.mesh)
+        index_mesh(sdl, object->shape.mesh);
     const Mesh *mesh = object->shape.mesh ? placed_mesh(sdl, object, &in->to_world) : NULL;
     Primitive *p = primitive_new(sdl);
-    builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] = (unsigned char)object->single_triangle;
+    builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] = object->single_triangle && !in->csg;
+    p->csg = in->csg;
     p->shape = object->shape;
     p->shape.mesh = mesh;
     p->transform = in->to_world;
@@ -193,7 +199,71 @@ static void place_looks_like(Sdl *sdl, const Object *object, const Inherited *he
     Inherited look = *here;
     look.to_world = transform_then(transform_translate(object->light->location), here->to_world);
     look.flags |= OBJECT_NO_SHADOW;
+    look.csg = NULL;
     place_children(sdl, object->children, &look);
+}
+
+/* What the other operands of an intersection or difference lack, cut faces most of all, is as with the first one: the
+ * interior, for that is what lies behind them, and with cutaway_textures the texture. */
+static void place_operands(Sdl *sdl, const Object *object, const Inherited *around)
+{
+    const Scene *scene = sdl_scene(sdl);
+    Inherited here = *around;
+    for (const ObjectList *list = object->children; list; list = list->next) {
+        const int before = scene->nprimitives;
+        place(sdl, list->object, &here);
+        if (scene->nprimitives == before)
+            continue;
+        const Primitive *first = &scene->primitives[before];
+        if (object->csg == CSG_INTERSECTION && !here.interior)
+            here.interior = (const ParsedInterior *)first->interior;
+        if ((here.flags & OBJECT_CUTAWAY_TEXTURES) && !here.texture)
+            here.texture = (const ParsedTexture *)first->texture;
+    }
+}
+
+/* Whether an object that is no operand is a tree of CSG. A plain union is its children one by one. */
+static int begins_csg(const Object *object, unsigned flags)
+{
+    switch (object->kind) {
+    case OBJECT_SHAPE:
+        return object->clips || (object->bounds && !object->shape.ops->bounds);
+    case OBJECT_GROUP:
+        return object->clips || object->csg != CSG_UNION ||
+               ((flags & OBJECT_INVERSE) && object->children && object->children->next);
+    default:
+        return 0;
+    }
+}
+
+static void add_root(Sdl *sdl, CsgNode *root, int line)
+{
+    Builder *builder = builder_of(sdl);
+    builder->csg_roots =
+        builder_grow(sdl, builder->csg_roots, builder->ncsg_roots, &builder->csg_capacity, sizeof *builder->csg_roots);
+    builder->csg_roots[builder->ncsg_roots++] = (CsgRoot){root, line};
+}
+
+/* What there is of the object itself and in it; here.csg is its own node. */
+static void place_contents(Sdl *sdl, const Object *object, const Inherited *here)
+{
+    switch (object->kind) {
+    case OBJECT_SHAPE:
+        place_shape(sdl, object, here);
+        break;
+    case OBJECT_GROUP:
+        if (object->csg == CSG_UNION)
+            place_children(sdl, object->children, here);
+        else
+            place_operands(sdl, object, here);
+        break;
+    case OBJECT_LIGHT:
+        place_light(sdl, object, &here->to_world);
+        place_looks_like(sdl, object, here);
+        break;
+    case OBJECT_EMPTY:
+        break;
+    }
 }
 
 static void place(Sdl *sdl, const Object *object, const Inherited *around)
@@ -201,7 +271,7 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
     Inherited here = *around;
     sdl_step(sdl, 1);
     object_report(sdl, object);
-    if (object->kind == OBJECT_EMPTY)
+    if (object->kind == OBJECT_EMPTY && !around->csg)
         return;
     here.to_world = transform_then(object->transform, around->to_world);
     here.uv_mapping = object->uv_mapping;
@@ -218,24 +288,34 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
         here.interior = object->interior;
     here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
-    switch (object->kind) {
-    case OBJECT_SHAPE:
-        place_shape(sdl, object, &here);
-        break;
-    case OBJECT_GROUP:
-        place_children(sdl, object->children, &here);
-        break;
-    case OBJECT_LIGHT:
-        place_light(sdl, object, &here.to_world);
-        place_looks_like(sdl, object, &here);
-        break;
-    case OBJECT_EMPTY:
-        break;
-    }
+    if (object->kind != OBJECT_LIGHT && (around->csg || begins_csg(object, here.flags)))
+        here.csg = object_csg_node(sdl, object, &around->to_world, here.flags & OBJECT_INVERSE, around->csg);
+    place_contents(sdl, object, &here);
+    if (here.csg && !around->csg)
+        add_root(sdl, here.csg, object->line);
 }
 
 void place_object(Sdl *sdl, const Object *object)
 {
     const Inherited world = {.to_world = transform_identity()};
     place(sdl, object, &world);
+}
+
+/* Primitives stay where they are from now on. */
+void complete_csgs(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    const Builder *builder = builder_of(sdl);
+    for (int i = 0; i < scene->nprimitives; i++)
+        if (scene->primitives[i].csg) {
+            CsgNode *leaf = (CsgNode *)scene->primitives[i].csg;
+            leaf->primitive = &scene->primitives[i];
+            leaf->index = i;
+        }
+    scene->csgs = sdl_alloc(sdl, (size_t)(builder->ncsg_roots + 1) * sizeof *scene->csgs);
+    for (int i = 0; i < builder->ncsg_roots; i++) {
+        scene->csgs[i] = csg_complete(sdl, builder->csg_roots[i].root);
+        scene->csgs[i]->line = builder->csg_roots[i].line;
+    }
+    scene->ncsgs = builder->ncsg_roots;
 }
