@@ -1,81 +1,250 @@
-/* Noise over space, for vturbulence and f_noise3d: each point of the integer lattice has a random value and a random
- * gradient, blended by smooth steps between them. As smooth as POV-Ray's and of the same range and spread, but not the
- * same numbers: those come out of POV-Ray's own tables. */
+/* Noise over space: each point of the integer lattice has a value and a gradient, blended by smooth steps between them.
+ * Generators 1 and 2 take both from one list of numbers, at a place that a hash of the lattice point gives; 2 stretches
+ * the result so that it fills 0 to 1. Generator 3 is Perlin's: unit gradients, no values.
+ *
+ * The tables are made as POV-Ray's were: by its linear congruential generator, and the list of numbers as checksums of
+ * lattice points. */
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdint.h>
+#include <string.h>
 #include "base/noise.h"
 
-/* Chosen so that the mean square is that of POV-Ray's, .0162 about .5 and .065 about 0. */
-#define SCALAR_SPREAD 0.308
-#define VECTOR_SPREAD 0.621
+enum { HASHES = 4096, NUMBERS = 267, GRADIENTS = 2048 };
 
-static uint32_t mix(uint32_t h)
+static uint16_t hash[2 * HASHES]; /* a permutation, twice */
+static double numbers[NUMBERS];
+static int permutation[2 * (GRADIENTS + 1)];
+static Vec3 gradients[2 * (GRADIENTS + 1)];
+
+/* ---- tables ---- */
+
+/* 15 bits of POV-Ray's generator. */
+static int next_random(uint32_t *state)
 {
-    h = (h ^ h >> 16) * 0x7feb352du;
-    h = (h ^ h >> 15) * 0x846ca68bu;
-    return h ^ h >> 16;
+    *state = *state * 1812433253u + 12345u;
+    return (int)(*state >> 16 & 0x7fff);
 }
 
-/* The next of a corner's random numbers, -1 to 1. */
-static double next(uint32_t *h)
+static void make_hash(void)
 {
-    *h = mix(*h + 0x9e3779b9u);
-    return *h / 2147483647.5 - 1;
-}
-
-static uint32_t lattice(double x)
-{
-    return (uint32_t)(int64_t)fmod(x, 4294967296.0);
-}
-
-/* Without scale; each salt another noise. */
-static double noise(Vec3 p, uint32_t salt)
-{
-    const double cell[3] = {floor(p.x), floor(p.y), floor(p.z)};
-    const double at[3] = {p.x - cell[0], p.y - cell[1], p.z - cell[2]};
-    double sum = 0;
-    for (int corner = 0; corner < 8; corner++) {
-        uint32_t h = salt;
-        double weight = 1, away[3];
-        for (int k = 0; k < 3; k++) {
-            int up = corner >> k & 1;
-            h = mix(h ^ lattice(cell[k] + up)) + (uint32_t)k;
-            away[k] = at[k] - up;
-            double s = 1 - fabs(away[k]);
-            weight *= s * s * (3 - 2 * s);
-        }
-        double value = next(&h);
-        for (int k = 0; k < 3; k++)
-            value += next(&h) * away[k];
-        sum += weight * value;
+    uint32_t state = 0;
+    for (int i = 0; i < HASHES; i++)
+        hash[i] = (uint16_t)i;
+    for (int i = HASHES - 1; i >= 0; i--) {
+        const int j = next_random(&state) % HASHES;
+        const uint16_t swapped = hash[i];
+        hash[i] = hash[j];
+        hash[j] = swapped;
     }
+    memcpy(hash + HASHES, hash, HASHES * sizeof *hash);
+}
+
+/* CRC-16 of the coordinates of a point, as big-endian doubles. */
+static unsigned checksum(double coordinate)
+{
+    uint64_t bits;
+    unsigned crc = 0;
+    memcpy(&bits, &coordinate, sizeof bits);
+    for (int byte = 0; byte < 24; byte++) {
+        crc ^= (unsigned)(bits >> (56 - byte % 8 * 8)) & 0xff;
+        for (int k = 0; k < 8; k++)
+            crc = crc & 1 ? crc >> 1 ^ 0xa001 : crc >> 1;
+    }
+    return crc;
+}
+
+/* Checksums of points on the diagonal, as numbers of -1 to 1 with six significant digits. */
+static void make_numbers(void)
+{
+    for (int i = 0; i < NUMBERS; i++) {
+        const double value = checksum(i * 0.12345) * (2.0 / 65535) - 1;
+        const double unit = pow(10, 5 - floor(log10(fabs(value))));
+        numbers[i] = rint(value * unit) / unit;
+    }
+}
+
+/* Random unit vectors, and a shuffle that is no permutation, for it also swaps with an entry beyond the end, of 0. */
+static void make_gradients(void)
+{
+    uint32_t state = 1;
+    for (int i = 0; i < GRADIENTS; i++) {
+        double v[3], square;
+        do {
+            for (int k = 0; k < 3; k++)
+                v[k] = (next_random(&state) % (2 * GRADIENTS) - GRADIENTS) / (double)GRADIENTS;
+            square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        } while (square > 1 || square < 1e-5);
+        gradients[i] = vec_scale(vec3(v[0], v[1], v[2]), 1 / sqrt(square));
+    }
+    for (int i = 0; i < GRADIENTS; i++)
+        permutation[i] = i;
+    for (int i = GRADIENTS; i > 0; i -= 2) {
+        const int j = next_random(&state) % GRADIENTS, swapped = permutation[i];
+        permutation[i] = permutation[j];
+        permutation[j] = swapped;
+    }
+    for (int i = 0; i < GRADIENTS + 2; i++) {
+        permutation[GRADIENTS + i] = permutation[i];
+        gradients[GRADIENTS + i] = gradients[i];
+    }
+}
+
+static atomic_int ready;
+
+static void make_tables(void)
+{
+    make_hash();
+    make_numbers();
+    make_gradients();
+    atomic_store_explicit(&ready, 1, memory_order_release);
+}
+
+static inline void need_tables(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    if (!atomic_load_explicit(&ready, memory_order_acquire))
+        pthread_once(&once, make_tables);
+}
+
+/* ---- generators 1 and 2, and the noise of vectors ---- */
+
+/* A coordinate's cell, and where in it the point is. The cell of a whole negative number is that number, and so is that
+ * of a number less than 1e-10 below it. */
+static inline unsigned cell_of(double x, double *at)
+{
+    const double whole = trunc(x >= 0 ? x : x - (1 - 1e-10));
+    const int cell = fabs(whole) < 2147483648.0 ? (int)whole : INT32_MIN;
+    *at = x - cell;
+    return ((unsigned)cell + 10000u) & (HASHES - 1);
+}
+
+static inline double smooth_step(double t)
+{
+    return t * t * (3 - 2 * t);
+}
+
+typedef struct Corner {
+    double weight, x, y, z; /* of the corner's numbers; from the corner to the point */
+    const double *numbers;
+} Corner;
+
+static inline void find_corners(Vec3 p, Corner corners[8])
+{
+    double x, y, z;
+    const unsigned ix = cell_of(p.x, &x), iy = cell_of(p.y, &y), iz = cell_of(p.z, &z);
+    const double sx = smooth_step(x), sy = smooth_step(y), sz = smooth_step(z);
+    const double wx[2] = {1 - sx, sx}, wy[2] = {1 - sy, sy}, wz[2] = {1 - sz, sz};
+    for (unsigned i = 0; i < 8; i++) {
+        const unsigned up_x = i & 1, up_y = i >> 1 & 1, up_z = i >> 2;
+        const unsigned column = hash[hash[ix + up_x] ^ (iy + up_y)];
+        corners[i].weight = wx[up_x] * wy[up_y] * wz[up_z];
+        corners[i].x = x - up_x;
+        corners[i].y = y - up_y;
+        corners[i].z = z - up_z;
+        corners[i].numbers = &numbers[hash[column ^ (iz + up_z)] & 0xff];
+    }
+}
+
+static inline double corner_noise(const Corner *c, const double *n)
+{
+    return c->weight * (0.5 * n[0] + n[1] * c->x + n[2] * c->y + n[3] * c->z);
+}
+
+static double lattice_noise(Vec3 p)
+{
+    Corner corners[8];
+    double sum = 0;
+    find_corners(p, corners);
+    for (int i = 0; i < 8; i++)
+        sum += corner_noise(&corners[i], corners[i].numbers);
     return sum;
 }
+
+/* ---- generator 3 ---- */
+
+static inline int gradient_cell(double x, double *at)
+{
+    const double moved = x + 10000000.023157213, whole = floor(moved); /* away from 0, where points often lie */
+    const int cell = fabs(whole) < 2147483648.0 ? (int)whole : INT32_MIN;
+    *at = moved - cell;
+    return cell & (GRADIENTS - 1);
+}
+
+static inline double blend(double t, double a, double b)
+{
+    return a + t * (b - a);
+}
+
+static double perlin_noise(Vec3 p)
+{
+    Vec3 at;
+    const int x0 = gradient_cell(p.x, &at.x), y0 = gradient_cell(p.y, &at.y), z0 = gradient_cell(p.z, &at.z);
+    const int x1 = (x0 + 1) & (GRADIENTS - 1), y1 = (y0 + 1) & (GRADIENTS - 1), z1 = (z0 + 1) & (GRADIENTS - 1);
+    const double sx = smooth_step(at.x), sy = smooth_step(at.y), sz = smooth_step(at.z);
+    double layer[2];
+    for (int up_z = 0; up_z < 2; up_z++) {
+        double row[2];
+        for (int up_y = 0; up_y < 2; up_y++) {
+            const int y = up_y ? y1 : y0, z = up_z ? z1 : z0;
+            const Vec3 a = vec3(at.x, at.y - up_y, at.z - up_z), b = vec3(at.x - 1, a.y, a.z);
+            row[up_y] = blend(sx, vec_dot(a, gradients[permutation[permutation[x0] + y] + z]),
+                              vec_dot(b, gradients[permutation[permutation[x1] + y] + z]));
+        }
+        layer[up_z] = blend(sy, row[0], row[1]);
+    }
+    return blend(sz, layer[0], layer[1]);
+}
+
+/* ---- the calls ---- */
 
 static int is_finite(Vec3 p)
 {
     return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
 }
 
-double noise_scalar(Vec3 p)
+double noise_value(Vec3 p, int generator)
 {
-    return is_finite(p) ? fmin(1, fmax(0, 0.5 + SCALAR_SPREAD * noise(p, 1))) : 0;
+    double value;
+    if (!is_finite(p))
+        return 0;
+    need_tables();
+    if (generator == NOISE_PERLIN)
+        value = 0.5 * (1.59 * perlin_noise(p) + 0.985);
+    else if (generator == NOISE_RANGE_CORRECTED)
+        value = (lattice_noise(p) + 1.05242) * 0.48985582;
+    else
+        value = lattice_noise(p) + 0.5;
+    return value < 0 ? 0 : value > 1 ? 1 : value;
 }
 
-static Vec3 noise_vector(Vec3 p)
+Vec3 noise_vector(Vec3 p)
 {
-    return is_finite(p) ? vec_scale(vec3(noise(p, 2), noise(p, 3), noise(p, 4)), VECTOR_SPREAD) : vec3(0, 0, 0);
+    Corner corners[8];
+    Vec3 sum = {0, 0, 0};
+    if (!is_finite(p))
+        return sum;
+    need_tables();
+    find_corners(p, corners);
+    for (int i = 0; i < 8; i++) {
+        sum.x += corner_noise(&corners[i], corners[i].numbers);
+        sum.y += corner_noise(&corners[i], corners[i].numbers + 4);
+        sum.z += corner_noise(&corners[i], corners[i].numbers + 8);
+    }
+    return sum;
 }
 
+/* POV-Ray keeps lambda and omega as floats. */
 Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves)
 {
     const int count = octaves >= 10 ? 10 : octaves >= 1 ? (int)octaves : 1; /* POV-Ray's bounds */
     Vec3 sum = noise_vector(p);
-    double frequency = lambda, share = omega;
+    double frequency = (float)lambda, share = (float)omega;
     for (int i = 1; i < count; i++) {
         sum = vec_mad(sum, noise_vector(vec_scale(p, frequency)), share);
-        frequency *= lambda;
-        share *= omega;
+        frequency *= (float)lambda;
+        share *= (float)omega;
     }
     return sum;
 }

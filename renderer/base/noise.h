@@ -1,10 +1,13 @@
-/* Noise over space. */
+/* POV-Ray's noise over space, of its three generators, to the last bit but for rounding. */
 #ifndef RENDERER_BASE_NOISE_H
 #define RENDERER_BASE_NOISE_H
 
 #include "base/vec.h"
 
-double noise_scalar(Vec3 p); /* 0 to 1 */
-Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves);
+enum { NOISE_ORIGINAL = 1, NOISE_RANGE_CORRECTED = 2, NOISE_PERLIN = 3 }; /* generators; 2 is the default */
+
+double noise_value(Vec3 p, int generator); /* 0 to 1; numbers that are no generator are the original one */
+Vec3 noise_vector(Vec3 p);                 /* about 0; the same for all generators */
+Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves); /* octaves of noise_vector, 1 to 10 */
 
 #endif

@@ -239,6 +239,7 @@ typedef struct Scene {
     Light *lights;
     ImageMap **images;
     double assumed_gamma;
+    int noise_generator;     /* of noise that names none: 1 to 3, see base/noise.h */
     Rgb ambient_light;
     /* every identifier that textures, pigments, materials or objects in use came through */
     int nidents;

@@ -1,4 +1,4 @@
-/* The functions of the language that query objects, trace and inside, and its noise. Expected values are those of
+/* The functions of the language that query objects, trace and inside. Expected values are those of
  * POV-Ray 3.7 unless a comment says otherwise. */
 #include "lib_test.h"
 
@@ -159,38 +159,11 @@ static void test_inside(void **state)
     expect("I(triangle{0,x,y},<.2,.2,0>) I(mesh{triangle{0,x,y}},<.2,.2,-1>)", "0\n0\n");
 }
 
-/* Numbers of our own; their mean and mean square are POV-Ray's. */
-static void test_noise(void **state)
-{
-    (void)state;
-    SdlOptions options = SDL_OPTIONS_INIT;
-    RetexError err = {0};
-    const char *text =
-        "#declare F=function{internal(76)} #declare S=seed(1); #declare A=0; #declare B=0; #declare C=0; #declare D=0;"
-        "#for(i,1,20000) #declare P=<rand(S),rand(S),rand(S)>*100-50; #declare K=vturbulence(2,.5,1,P);"
-        "#declare A=A+K.x; #declare B=B+K.y*K.y; #declare H=F(P.x,P.y,P.z); #declare C=C+H; #declare D=D+pow(H-.5,2);"
-        "#if (H<0|H>1) #error \"range\" #end"
-        /* smooth: no jump anywhere */
-        "#if (vlength(vturbulence(2,.5,1,P+.00001)-K)>.0003 | abs(F(P.x+.00001,P.y,P.z)-H)>.0003) #error \"jump\" #end"
-        "#end #debug concat(str(abs(A/20000)<.01,0,0),str(abs(B/20000-.065)<.003,0,0),str(abs(C/20000-.5)<.005,0,0),"
-        "str(abs(D/20000-.0162)<.001,0,0))";
-    if (run(text, &options, &err))
-        fail_msg("line %d column %d: %s", err.line, err.column, err.message);
-    assert_string_equal(strchr(messages, ' '), " warning: `POV-Ray's own noise` is not supported yet: "
-                                               "noise of the same kind gives other values\n1111\n");
-    /* octaves: whole ones, 1 to 10 */
-    text = "#declare P=<1.2,2,3>; #declare A=vturbulence(3,.4,1,P); #declare B=vturbulence(3,.4,1,P*3);"
-           "#debug str(vlength(A+.4*B-vturbulence(3,.4,2.9,P))<1e-9 & vlength(A-vturbulence(3,.4,0,P))=0"
-           " & vlength(vturbulence(3,.4,10,P)-vturbulence(3,.4,99,P))=0,0,0)";
-    assert_int_equal(run(text, &options, &err), 0);
-    assert_string_equal(strrchr(messages, '\n') - 1, "1\n");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_trace_solids),  cmocka_unit_test(test_trace_triangles), cmocka_unit_test(test_trace_many),
-        cmocka_unit_test(test_trace_details), cmocka_unit_test(test_inside),          cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_trace_details), cmocka_unit_test(test_inside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 #include "pattern/pattern.h"
 #include "sdl/build/build.h"
+#include "base/noise.h"
 #include "sdl/build/builder.h"
 
 #define MAX_NESTING 200
@@ -128,6 +129,7 @@ static void begin(Sdl *sdl)
     Scene *scene = sdl_scene(sdl);
     scene->assumed_gamma = 1;
     scene->ambient_light = rgb_grey(1);
+    scene->noise_generator = NOISE_RANGE_CORRECTED;
 }
 
 static void finish(Sdl *sdl)
@@ -368,4 +370,5 @@ const SdlBuilder scene_builder = {
     .extent = object_extent,
     .trace = object_trace,
     .inside = object_inside,
+    .field = parse_field,
 };

@@ -258,6 +258,9 @@ int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
 void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
 
+/* field.c: see SdlBuilder */
+int parse_field(Sdl *sdl, const char *word, FunctionForeign *function);
+
 /* finish.c */
 ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from /* or NULL: the built-in one */);
 ParsedFinish *parse_finish(Sdl *sdl, const ParsedFinish *from);

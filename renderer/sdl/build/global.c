@@ -23,7 +23,7 @@ static void ignored(Sdl *sdl)
             return;
         }
     static const char *const settings[] = {
-        "adc_bailout", "number_of_waves", "noise_generator", "irid_wavelength", "max_intersections",
+        "adc_bailout", "number_of_waves", "irid_wavelength", "max_intersections",
         "mm_per_unit", "max_trace_level", "hf_gray_16",      "charset",         NULL};
     for (int i = 0; settings[i]; i++)
         if (sdl_accept(sdl, settings[i])) {
@@ -48,6 +48,11 @@ void parse_global_settings(Sdl *sdl)
         else if (sdl_accept(sdl, "ambient_light")) {
             Rgbft c = sdl_color(sdl);
             scene->ambient_light = rgb(c.r, c.g, c.b);
+        } else if (sdl_accept(sdl, "noise_generator")) {
+            const double generator = sdl_float(sdl);
+            if (!(generator >= 1 && generator < 4))
+                sdl_error(sdl, "noise_generator %g: there are 1, 2 and 3", generator);
+            scene->noise_generator = (int)generator;
         } else
             ignored(sdl);
         sdl_optional_comma(sdl);

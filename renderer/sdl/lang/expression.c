@@ -52,24 +52,27 @@ static char operator_next(Sdl *sdl, int frame)
     return token && token->kind == TOKEN_PUNCT ? token->punct : 0;
 }
 
-void num_component(Sdl *sdl, Num *num, const char *name)
+int component_index(const char *name)
 {
     static const char *const names[] = {"x", "u", "red", "y", "v", "green", "z", "blue", "t", "filter", "transmit"};
     static const int index[] = {0, 0, 0, 1, 1, 1, 2, 2, 3, 3, 4};
-    int count = num->count;
-    num_promote(num, 5);
-    if (strcmp(name, "gray") == 0) {
-        *num = num_float(0.297 * num->n[0] + 0.589 * num->n[1] + 0.114 * num->n[2]);
-        return;
-    }
+    if (strcmp(name, "gray") == 0)
+        return -1;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0) {
-            if (count > 1 && index[i] >= count)
-                sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
-            *num = num_float(num->n[index[i]]);
-            return;
-        }
-    sdl_error(sdl, "expected a component such as x or red after the `.`, found `%s`", name);
+        if (strcmp(name, names[i]) == 0)
+            return index[i];
+    return -2;
+}
+
+void num_component(Sdl *sdl, Num *num, const char *name)
+{
+    const int count = num->count, index = component_index(name);
+    if (index < -1)
+        sdl_error(sdl, "expected a component such as x or red after the `.`, found `%s`", name);
+    if (count > 1 && index >= count)
+        sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
+    num_promote(num, 5);
+    *num = num_float(index >= 0 ? num->n[index] : 0.297 * num->n[0] + 0.589 * num->n[1] + 0.114 * num->n[2]);
 }
 
 /* Vector literal `< … >` after its `<`: two to five numbers, with optional commas. */

@@ -1,10 +1,11 @@
 /* Built-in constants and the built-in functions that return numbers. String functions are in function_string.c. User
- * functions are in function_user.c, which calls builtin_float too. */
+ * functions are in function_user.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include "base/noise.h"
+#include "function/function.h"
 #include "sdl/lang/internal.h"
 
 enum {
@@ -31,40 +32,6 @@ enum {
     ID_FINAL_CLOCK,
     ID_NOW,
     ID_VERSION,
-    /* functions of floats that return a float */
-    ID_ABS,
-    ID_ACOS,
-    ID_ACOSH,
-    ID_ASIN,
-    ID_ASINH,
-    ID_ATAN,
-    ID_ATANH,
-    ID_ATAN2,
-    ID_CEIL,
-    ID_COS,
-    ID_COSH,
-    ID_DEGREES,
-    ID_DIV,
-    ID_EXP,
-    ID_FLOOR,
-    ID_INT,
-    ID_LN,
-    ID_LOG,
-    ID_MAX,
-    ID_MIN,
-    ID_MOD,
-    ID_POW,
-    ID_RADIANS,
-    ID_SELECT,
-    ID_SIN,
-    ID_SINH,
-    ID_SQR,
-    ID_SQRT,
-    ID_TAN,
-    ID_TANH,
-    ID_BITWISE_AND,
-    ID_BITWISE_OR,
-    ID_BITWISE_XOR,
     /* functions with arguments of other types */
     ID_ASC,
     ID_DEFINED,
@@ -138,39 +105,39 @@ const Builtin builtins[] = {
     CONSTANT("final_clock", ID_FINAL_CLOCK),
     CONSTANT("now", ID_NOW),
     CONSTANT("version", ID_VERSION),
-    FLOAT("abs", ID_ABS, 1, 1),
-    FLOAT("acos", ID_ACOS, 1, 1),
-    FLOAT("acosh", ID_ACOSH, 1, 1),
-    FLOAT("asin", ID_ASIN, 1, 1),
-    FLOAT("asinh", ID_ASINH, 1, 1),
-    FLOAT("atan", ID_ATAN, 1, 1),
-    FLOAT("atanh", ID_ATANH, 1, 1),
-    FLOAT("atan2", ID_ATAN2, 2, 2),
-    FLOAT("ceil", ID_CEIL, 1, 1),
-    FLOAT("cos", ID_COS, 1, 1),
-    FLOAT("cosh", ID_COSH, 1, 1),
-    FLOAT("degrees", ID_DEGREES, 1, 1),
-    FLOAT("div", ID_DIV, 2, 2),
-    FLOAT("exp", ID_EXP, 1, 1),
-    FLOAT("floor", ID_FLOOR, 1, 1),
-    FLOAT("int", ID_INT, 1, 1),
-    FLOAT("ln", ID_LN, 1, 1),
-    FLOAT("log", ID_LOG, 1, 1),
-    FLOAT("max", ID_MAX, 1, ANY),
-    FLOAT("min", ID_MIN, 1, ANY),
-    FLOAT("mod", ID_MOD, 2, 2),
-    FLOAT("pow", ID_POW, 2, 2),
-    FLOAT("radians", ID_RADIANS, 1, 1),
-    FLOAT("select", ID_SELECT, 3, 4),
-    FLOAT("sin", ID_SIN, 1, 1),
-    FLOAT("sinh", ID_SINH, 1, 1),
-    FLOAT("sqr", ID_SQR, 1, 1),
-    FLOAT("sqrt", ID_SQRT, 1, 1),
-    FLOAT("tan", ID_TAN, 1, 1),
-    FLOAT("tanh", ID_TANH, 1, 1),
-    FLOAT("bitwise_and", ID_BITWISE_AND, 2, ANY),
-    FLOAT("bitwise_or", ID_BITWISE_OR, 2, ANY),
-    FLOAT("bitwise_xor", ID_BITWISE_XOR, 2, ANY),
+    FLOAT("abs", FUNCTION_ABS, 1, 1),
+    FLOAT("acos", FUNCTION_ACOS, 1, 1),
+    FLOAT("acosh", FUNCTION_ACOSH, 1, 1),
+    FLOAT("asin", FUNCTION_ASIN, 1, 1),
+    FLOAT("asinh", FUNCTION_ASINH, 1, 1),
+    FLOAT("atan", FUNCTION_ATAN, 1, 1),
+    FLOAT("atanh", FUNCTION_ATANH, 1, 1),
+    FLOAT("atan2", FUNCTION_ATAN2, 2, 2),
+    FLOAT("ceil", FUNCTION_CEIL, 1, 1),
+    FLOAT("cos", FUNCTION_COS, 1, 1),
+    FLOAT("cosh", FUNCTION_COSH, 1, 1),
+    FLOAT("degrees", FUNCTION_DEGREES, 1, 1),
+    FLOAT("div", FUNCTION_DIV, 2, 2),
+    FLOAT("exp", FUNCTION_EXP, 1, 1),
+    FLOAT("floor", FUNCTION_FLOOR, 1, 1),
+    FLOAT("int", FUNCTION_INT, 1, 1),
+    FLOAT("ln", FUNCTION_LN, 1, 1),
+    FLOAT("log", FUNCTION_LOG, 1, 1),
+    FLOAT("max", FUNCTION_MAX, 1, ANY),
+    FLOAT("min", FUNCTION_MIN, 1, ANY),
+    FLOAT("mod", FUNCTION_MOD, 2, 2),
+    FLOAT("pow", FUNCTION_POW, 2, 2),
+    FLOAT("radians", FUNCTION_RADIANS, 1, 1),
+    FLOAT("select", FUNCTION_SELECT, 3, 4),
+    FLOAT("sin", FUNCTION_SIN, 1, 1),
+    FLOAT("sinh", FUNCTION_SINH, 1, 1),
+    FLOAT("sqr", FUNCTION_SQR, 1, 1),
+    FLOAT("sqrt", FUNCTION_SQRT, 1, 1),
+    FLOAT("tan", FUNCTION_TAN, 1, 1),
+    FLOAT("tanh", FUNCTION_TANH, 1, 1),
+    FLOAT("bitwise_and", FUNCTION_BITWISE_AND, 2, ANY),
+    FLOAT("bitwise_or", FUNCTION_BITWISE_OR, 2, ANY),
+    FLOAT("bitwise_xor", FUNCTION_BITWISE_XOR, 2, ANY),
     NUMBER("asc", ID_ASC),
     NUMBER("defined", ID_DEFINED),
     NUMBER("dimensions", ID_DIMENSIONS),
@@ -280,99 +247,24 @@ Num builtin_constant(Sdl *sdl, int id)
     }
 }
 
-static double bitwise(int id, const double *args, int count)
+static double call_select(const double *args, int count)
 {
-    int64_t bits = 0;
-    for (int i = 0; i < count; i++) {
-        int64_t value = fabs(args[i]) < 9e18 ? (int64_t)args[i] : 0;
-        if (!i)
-            bits = value;
-        else
-            bits = id == ID_BITWISE_AND ? bits & value : id == ID_BITWISE_OR ? bits | value : bits ^ value;
-    }
-    return (double)bits;
-}
-
-static double extreme(int id, const double *args, int count)
-{
-    double best = args[0];
-    for (int i = 1; i < count; i++)
-        best = id == ID_MAX ? fmax(best, args[i]) : fmin(best, args[i]);
-    return best;
+    return args[0] < 0 ? args[1] : args[0] == 0 || count == 3 ? args[2] : args[3];
 }
 
 double builtin_float(Sdl *sdl, int id, const double *args, int count)
 {
-    double a = args[0], b = count > 1 ? args[1] : 0;
-    switch (id) {
-    case ID_ABS:
-        return fabs(a);
-    case ID_ACOS:
-        return acos(fmin(1, fmax(-1, a)));
-    case ID_ACOSH:
-        return acosh(a);
-    case ID_ASIN:
-        return asin(fmin(1, fmax(-1, a)));
-    case ID_ASINH:
-        return asinh(a);
-    case ID_ATAN:
-        return atan(a);
-    case ID_ATANH:
-        return atanh(a);
-    case ID_ATAN2:
-        return atan2(a, b);
-    case ID_CEIL:
-        return ceil(a);
-    case ID_COS:
-        return cos(a);
-    case ID_COSH:
-        return cosh(a);
-    case ID_DEGREES:
-        return a * (180 / PI);
-    case ID_DIV:
-        return trunc(a / b);
-    case ID_EXP:
-        return exp(a);
-    case ID_FLOOR:
-        return floor(a);
-    case ID_INT:
-        return trunc(a);
-    case ID_LN:
-        if (a <= 0)
-            sdl_error(sdl, "ln of %g: only numbers above 0 have a logarithm", a);
-        return log(a);
-    case ID_LOG:
-        if (a <= 0)
-            sdl_error(sdl, "log of %g: only numbers above 0 have a logarithm", a);
-        return log10(a);
-    case ID_MAX:
-    case ID_MIN:
-        return extreme(id, args, count);
-    case ID_MOD:
-        return fmod(a, b);
-    case ID_POW:
-        return pow(a, b);
-    case ID_RADIANS:
-        return a * (PI / 180);
-    case ID_SELECT:
-        return a < 0 ? b : a == 0 || count == 3 ? args[2] : args[3];
-    case ID_SIN:
-        return sin(a);
-    case ID_SINH:
-        return sinh(a);
-    case ID_SQR:
-        return a * a;
-    case ID_SQRT:
-        if (a < 0)
-            sdl_error(sdl, "sqrt of %g: a negative number has no square root", a);
-        return sqrt(a);
-    case ID_TAN:
-        return tan(a);
-    case ID_TANH:
-        return tanh(a);
-    default:
-        return bitwise(id, args, count);
-    }
+    const FunctionOp op = (FunctionOp)id;
+    if ((op == FUNCTION_LN || op == FUNCTION_LOG) && args[0] <= 0)
+        sdl_error(sdl, "%s of %g: only numbers above 0 have a logarithm", op == FUNCTION_LN ? "ln" : "log", args[0]);
+    if (op == FUNCTION_SQRT && args[0] < 0)
+        sdl_error(sdl, "sqrt of %g: a negative number has no square root", args[0]);
+    if (op == FUNCTION_SELECT)
+        return call_select(args, count);
+    double value = count == 1 ? function_apply(op, args[0], args[0]) : args[0];
+    for (int i = 1; i < count; i++)
+        value = function_apply(op, value, args[i]);
+    return value;
 }
 
 static Num call_float(Sdl *sdl, const Builtin *builtin)
@@ -506,7 +398,6 @@ static Num turbulence(Sdl *sdl)
     }
     Vec3 p = vector_argument(sdl, NULL);
     sdl_step(sdl, 10);
-    sdl_unsupported(sdl, "POV-Ray's own noise", "noise of the same kind gives other values");
     return num_vector(noise_turbulence(p, args[0], args[1], args[2]));
 }
 

@@ -1,73 +1,28 @@
-/* User functions: `function(a, b) { a*a + f(b) }` is compiled to a tree once and evaluated at each call. Floats and
- * vectors in the body have the values of the time of the declaration. Transforms and splines can be functions too.
- * Pattern and pigment functions are parsed; a call of one is reported as unsupported. */
-#include <math.h>
+/* User functions: `function(a, b) { a*a + f(b) }` is parsed to a tree, which function_compile.c makes a program of.
+ * Floats and vectors in the body have the values of the time of the declaration. Transforms, splines, patterns and
+ * pigments can be functions too. */
 #include <stdio.h>
 #include <string.h>
-#include "sdl/lang/internal.h"
-
-enum { MAX_VARIABLES = 64, MAX_HEIGHT = 2000 };
-
-typedef enum Op {
-    OP_NUMBER,
-    OP_VARIABLE,
-    OP_NEGATE,
-    OP_NOT,
-    OP_BINARY,
-    OP_CHOOSE,
-    OP_BUILTIN,
-    OP_CALL,
-    OP_SUM,
-    OP_PRODUCT
-} Op;
-
-typedef struct Node {
-    Op op;
-    int id; /* index of the variable, operator character, or id of the built-in function */
-    int count;
-    int height; /* height of the subtree, with called functions: limits the recursion */
-    double number;
-    struct Node **args;
-    const Function *function;
-    const char *component; /* component of a function that returns a vector */
-} Node;
-
-typedef enum FunctionKind {
-    FUNCTION_TREE,
-    FUNCTION_INTERNAL,
-    FUNCTION_TRANSFORM,
-    FUNCTION_SPLINE,
-    FUNCTION_UNSUPPORTED
-} FunctionKind;
-
-struct Function {
-    FunctionKind kind;
-    int nparameters;
-    const char *parameters[MAX_PARAMETERS];
-    Node *body;
-    int internal;
-    Transform transform;
-    Value spline;
-    const char *unsupported; /* keyword of an unsupported function's body */
-};
+#include "sdl/lang/function.h"
 
 /* Names that are visible in a function's body: parameters, and loop variables of sum and prod. */
 typedef struct Compiler {
     Sdl *sdl;
+    Function *function;
     const char *names[MAX_VARIABLES];
     int count, defaults; /* defaults: 1 if the parameters are x, y, z; then u and v are x and y */
 } Compiler;
 
 static Node *parse_full(Compiler *compiler);
-static double evaluate(Sdl *sdl, const Node *node, double *variables);
 
-static Node *node_new(Compiler *compiler, Op op, int id, int count)
+static Node *node_new(Compiler *compiler, NodeOp op, int id, int count)
 {
     Node *node = sdl_alloc(compiler->sdl, sizeof *node);
     node->op = op;
     node->id = id;
     node->count = count;
     node->height = 1;
+    node->size = 1;
     if (count)
         node->args = sdl_alloc(compiler->sdl, (size_t)count * sizeof *node->args);
     return node;
@@ -76,6 +31,7 @@ static Node *node_new(Compiler *compiler, Op op, int id, int count)
 static void set_arg(Compiler *compiler, Node *node, int index, Node *arg)
 {
     node->args[index] = arg;
+    node->size += arg->size;
     if (arg->height + 1 > node->height)
         node->height = arg->height + 1;
     if (node->height > MAX_HEIGHT)
@@ -89,9 +45,9 @@ static Node *constant(Compiler *compiler, double value)
     return node;
 }
 
-static Node *binary(Compiler *compiler, int op, Node *a, Node *b)
+static Node *binary(Compiler *compiler, FunctionOp op, Node *a, Node *b)
 {
-    Node *node = node_new(compiler, OP_BINARY, op, 2);
+    Node *node = node_new(compiler, OP_APPLY, (int)op, 2);
     set_arg(compiler, node, 0, a);
     set_arg(compiler, node, 1, b);
     return node;
@@ -110,7 +66,7 @@ static int find_variable(const Compiler *compiler, const char *name)
 }
 
 /* Parse `( a, b, … )` as a node's arguments. */
-static Node *parse_arguments(Compiler *compiler, Op op, int id)
+static Node *parse_arguments(Compiler *compiler, NodeOp op, int id)
 {
     Node *args[MAX_VARIABLES];
     int count = 0;
@@ -136,39 +92,57 @@ static const char *component_name(Sdl *sdl)
     return token->text;
 }
 
+/* How many numbers it gives. */
+static int results_of(const Function *function)
+{
+    return function->kind == FUNCTION_KIND_FOREIGN ? function->foreign.nresults : 1;
+}
+
 static int arguments_wanted(const Function *function)
 {
     switch (function->kind) {
-    case FUNCTION_TREE:
+    case FUNCTION_KIND_TREE:
         return function->nparameters;
-    case FUNCTION_INTERNAL:
-        return -1;
-    case FUNCTION_SPLINE:
-        return 1;
+    case FUNCTION_KIND_FOREIGN:
+        return function->foreign.nargs;
     default:
-        return function->kind == FUNCTION_TRANSFORM ? 3 : -1;
+        return -1;
     }
+}
+
+/* The number of arguments is what the function takes. */
+static void check_arguments(Sdl *sdl, const Function *function, int given)
+{
+    const int wanted = arguments_wanted(function);
+    if (wanted >= 0 && given != wanted)
+        sdl_error(sdl, "the function takes %d arguments, %d given", wanted, given);
+    const int least = function->kind == FUNCTION_KIND_INTERNAL ? function_internal_arguments(function->internal) : 0;
+    if (given < least)
+        sdl_error(sdl, "the function needs %d arguments, %d given", least, given);
 }
 
 static Node *parse_call(Compiler *compiler, const Function *function)
 {
     Sdl *sdl = compiler->sdl;
     Node *node = parse_arguments(compiler, OP_CALL, 0);
-    int wanted = arguments_wanted(function);
-    if (wanted >= 0 && node->count != wanted)
-        sdl_error(sdl, "the function takes %d arguments, %d given", wanted, node->count);
+    check_arguments(sdl, function, node->count);
     node->function = function;
+    if (function->unsupported && !compiler->function->unsupported)
+        compiler->function->unsupported = function->unsupported;
     if (function->body && function->body->height + node->height > MAX_HEIGHT)
         sdl_fail(sdl, RETEX_ELIMIT, "a function nested more than %d deep", MAX_HEIGHT);
     if (function->body)
         node->height += function->body->height;
-    if (sdl_accept(sdl, "."))
+    if (sdl_accept(sdl, ".")) {
         node->component = component_name(sdl);
+        Num any = {{0}, results_of(function), 0}; /* is there such a component? */
+        num_component(sdl, &any, node->component);
+    }
     return node;
 }
 
 /* Parse the arguments of sum or prod: `(i, from, to, term)`. */
-static Node *parse_loop(Compiler *compiler, Op op)
+static Node *parse_loop(Compiler *compiler, NodeOp op)
 {
     Sdl *sdl = compiler->sdl;
     if (compiler->count == MAX_VARIABLES)
@@ -195,7 +169,7 @@ static Node *parse_builtin(Compiler *compiler, const Builtin *builtin)
     Sdl *sdl = compiler->sdl;
     if (builtin->kind == BUILTIN_FLOAT) {
         sdl_next(sdl);
-        Node *node = parse_arguments(compiler, OP_BUILTIN, builtin->id);
+        Node *node = parse_arguments(compiler, OP_APPLY, builtin->id);
         if (node->count < builtin->min || node->count > builtin->max)
             sdl_error(sdl, "`%s` does not take %d arguments", builtin->name, node->count);
         return node;
@@ -223,8 +197,8 @@ static Node *parse_identifier(Compiler *compiler)
         return parse_call(compiler, value.data);
     if (value.kind == VALUE_SPLINE) {
         Function *function = sdl_alloc(sdl, sizeof *function);
-        function->kind = FUNCTION_SPLINE;
-        function->spline = value;
+        function->kind = FUNCTION_KIND_FOREIGN;
+        function->foreign = spline_foreign(&value);
         return parse_call(compiler, function);
     }
     if (value.kind != VALUE_FLOAT && value.kind != VALUE_VECTOR)
@@ -282,8 +256,8 @@ static Node *parse_unary(Compiler *compiler)
     if (sdl_accept(sdl, "+"))
         node = parse_unary(compiler);
     else if (sdl_is(sdl, "-") || sdl_is(sdl, "!")) {
-        Op op = sdl_next(sdl)->punct == '-' ? OP_NEGATE : OP_NOT;
-        node = node_new(compiler, op, 0, 1);
+        const FunctionOp op = sdl_next(sdl)->punct == '-' ? FUNCTION_NEGATE : FUNCTION_NOT;
+        node = node_new(compiler, OP_APPLY, (int)op, 1);
         set_arg(compiler, node, 0, parse_unary(compiler));
     } else
         node = parse_primary(compiler);
@@ -291,41 +265,44 @@ static Node *parse_unary(Compiler *compiler)
     return node;
 }
 
-/* Precedence level. 0: & |, 1: comparisons, 2: + -, 3: * /. */
-static int operator_level(const Token *token)
+static const struct {
+    char punct;
+    char level; /* of precedence */
+    FunctionOp op;
+} operators[] = {
+    {'&', 0, FUNCTION_AND},
+    {'|', 0, FUNCTION_OR},
+    {'<', 1, FUNCTION_LESS},
+    {'>', 1, FUNCTION_GREATER},
+    {'=', 1, FUNCTION_EQUAL},
+    {PUNCT_LE, 1, FUNCTION_LESS_EQUAL},
+    {PUNCT_GE, 1, FUNCTION_GREATER_EQUAL},
+    {PUNCT_NE, 1, FUNCTION_NOT_EQUAL},
+    {'+', 2, FUNCTION_ADD},
+    {'-', 2, FUNCTION_SUBTRACT},
+    {'*', 3, FUNCTION_MULTIPLY},
+    {'/', 3, FUNCTION_DIVIDE},
+};
+enum { LEVELS = 4 };
+
+/* The index of the operator that the token is, or -1. */
+static int find_operator(const Token *token)
 {
-    if (token->kind != TOKEN_PUNCT)
-        return -1;
-    switch (token->punct) {
-    case '&':
-    case '|':
-        return 0;
-    case '<':
-    case '>':
-    case '=':
-    case PUNCT_LE:
-    case PUNCT_GE:
-    case PUNCT_NE:
-        return 1;
-    case '+':
-    case '-':
-        return 2;
-    case '*':
-    case '/':
-        return 3;
-    default:
-        return -1;
-    }
+    for (int i = 0; i < (int)(sizeof operators / sizeof *operators) && token->kind == TOKEN_PUNCT; i++)
+        if (operators[i].punct == token->punct)
+            return i;
+    return -1;
 }
 
 static Node *parse_level(Compiler *compiler, int level)
 {
-    if (level == 4)
+    if (level == LEVELS)
         return parse_unary(compiler);
     Node *node = parse_level(compiler, level + 1);
-    while (operator_level(sdl_peek(compiler->sdl)) == level) {
-        int op = sdl_next(compiler->sdl)->punct;
-        node = binary(compiler, op, node, parse_level(compiler, level + 1));
+    int found;
+    while ((found = find_operator(sdl_peek(compiler->sdl))) >= 0 && operators[found].level == level) {
+        sdl_next(compiler->sdl);
+        node = binary(compiler, operators[found].op, node, parse_level(compiler, level + 1));
     }
     return node;
 }
@@ -371,21 +348,29 @@ static void parse_parameters(Sdl *sdl, Function *function)
     }
 }
 
+static void call_transform(const void *data, const double *args, double *results)
+{
+    const Vec3 p = transform_point(data, vec3(args[0], args[1], args[2]));
+    results[0] = p.x, results[1] = p.y, results[2] = p.z;
+}
+
 /* The function of a `transform { … }`, which the builder parses. */
 static void parse_transform(Sdl *sdl, Function *function)
 {
     Value value = {.kind = VALUE_NONE};
     if (!sdl->builder->declare(sdl, &value) || value.kind != VALUE_TRANSFORM || !value.data)
         sdl_error(sdl, "expected a transform");
-    function->kind = FUNCTION_TRANSFORM;
-    function->transform = *(const Transform *)value.data;
+    function->kind = FUNCTION_KIND_FOREIGN;
+    function->foreign = (FunctionForeign){call_transform, value.data, 3, 3};
 }
 
 static void parse_spline(Sdl *sdl, Function *function)
 {
+    Value value;
     sdl_next(sdl);
-    function->kind = FUNCTION_SPLINE;
-    spline_declare(sdl, &function->spline);
+    spline_declare(sdl, &value);
+    function->kind = FUNCTION_KIND_FOREIGN;
+    function->foreign = spline_foreign(&value);
 }
 
 static void parse_internal(Sdl *sdl, Function *function)
@@ -394,21 +379,34 @@ static void parse_internal(Sdl *sdl, Function *function)
     sdl_expect(sdl, "(");
     double number = expression_parameter(sdl);
     sdl_expect(sdl, ")");
-    function->kind = FUNCTION_INTERNAL;
+    function->kind = FUNCTION_KIND_INTERNAL;
     function->internal = number >= 0 && number < 1000 ? (int)number : -1;
+    if (!function_internal_arguments(function->internal)) {
+        char name[32];
+        snprintf(name, sizeof name, "internal(%d)", function->internal);
+        function->unsupported = word_intern(sdl, name, strlen(name))->text;
+    }
+}
+
+/* A pattern or pigment as a function, which the builder parses. 1 if it is one. */
+static int accept_field(Sdl *sdl, Function *function)
+{
+    static const char *const words[] = {"pattern", "pigment"};
+    for (int i = 0; i < 2; i++)
+        if (sdl_accept(sdl, words[i])) {
+            function->kind = FUNCTION_KIND_FOREIGN;
+            function->foreign = (FunctionForeign){NULL, NULL, 3, i ? 5 : 1};
+            if (!sdl->builder->field(sdl, words[i], &function->foreign))
+                function->unsupported = i ? "function{pigment}" : "function{pattern}";
+            return 1;
+        }
+    return 0;
 }
 
 static void parse_body(Sdl *sdl, Function *function)
 {
-    static const char *const foreign[] = {"pattern", "pigment"};
-    for (int i = 0; i < 2; i++)
-        if (sdl_is(sdl, foreign[i])) {
-            sdl_next(sdl);
-            sdl_skip_block(sdl);
-            function->kind = FUNCTION_UNSUPPORTED;
-            function->unsupported = foreign[i];
-            return;
-        }
+    if (accept_field(sdl, function))
+        return;
     if (sdl_is(sdl, "transform"))
         parse_transform(sdl, function);
     else if (sdl_is(sdl, "spline"))
@@ -416,11 +414,12 @@ static void parse_body(Sdl *sdl, Function *function)
     else if (sdl_is(sdl, "internal"))
         parse_internal(sdl, function);
     else {
-        Compiler compiler = {.sdl = sdl, .count = function->nparameters};
+        Compiler compiler = {.sdl = sdl, .function = function, .count = function->nparameters};
         for (int i = 0; i < function->nparameters; i++)
             compiler.names[i] = function->parameters[i];
         compiler.defaults = function->nparameters == 3 && strcmp(function->parameters[0], "x") == 0;
         function->body = parse_full(&compiler);
+        function->program = function_compile(sdl, function->body, function->nparameters);
     }
 }
 
@@ -447,113 +446,23 @@ void function_declare(Sdl *sdl, Value *value)
 
 /* ---- evaluation ---- */
 
-static Num apply_function(Sdl *sdl, const Function *function, const double *args, int count)
+static Num apply_function(Sdl *sdl, const Function *function, const double *args)
 {
-    double variables[MAX_VARIABLES] = {0};
-    switch (function->kind) {
-    case FUNCTION_TREE:
-        memcpy(variables, args, (size_t)count * sizeof *args);
-        return num_float(evaluate(sdl, function->body, variables));
-    case FUNCTION_TRANSFORM: {
-        Vec3 p = transform_point(&function->transform, vec3(args[0], args[1], args[2]));
-        return (Num){{p.x, p.y, p.z}, 3, 0};
-    }
-    case FUNCTION_SPLINE:
-        return spline_value(sdl, &function->spline, args[0]);
-    case FUNCTION_INTERNAL:
-        if (internal_arguments(function->internal) > count)
-            sdl_error(sdl, "the function needs %d arguments, %d given", internal_arguments(function->internal), count);
-        return num_float(internal_call(sdl, function->internal, args, count));
-    default: {
-        char name[64];
-        snprintf(name, sizeof name, "function{%s}", function->unsupported);
-        sdl_unsupported(sdl, name, "it gives 0");
-        return strcmp(function->unsupported, "pigment") == 0 ? (Num){{0}, 5, 1} : num_float(0);
-    }
-    }
-}
-
-/* Sum or product over integers, from the first argument to the second. */
-static double evaluate_loop(Sdl *sdl, const Node *node, double *variables)
-{
-    double from = evaluate(sdl, node->args[0], variables), to = evaluate(sdl, node->args[1], variables);
-    double total = node->op == OP_SUM ? 0 : 1;
-    double hidden = variables[node->id];
-    for (double i = floor(from); i <= to; i += 1) {
-        variables[node->id] = i;
-        double value = evaluate(sdl, node->args[2], variables);
-        total = node->op == OP_SUM ? total + value : total * value;
-    }
-    variables[node->id] = hidden;
-    return total;
-}
-
-static double evaluate_binary(Sdl *sdl, const Node *node, double *variables)
-{
-    double a = evaluate(sdl, node->args[0], variables), b = evaluate(sdl, node->args[1], variables);
-    switch (node->id) {
-    case '+':
-        return a + b;
-    case '-':
-        return a - b;
-    case '*':
-        return a * b;
-    case '/':
-        return a / b;
-    case '<':
-        return a < b;
-    case '>':
-        return a > b;
-    case '=':
-        return a == b;
-    case '&':
-        return a != 0 && b != 0;
-    case '|':
-        return a != 0 || b != 0;
-    case PUNCT_LE:
-        return a <= b;
-    case PUNCT_GE:
-        return a >= b;
-    default:
-        return a != b;
-    }
-}
-
-static double evaluate_call(Sdl *sdl, const Node *node, double *variables)
-{
-    double args[MAX_VARIABLES] = {0};
-    for (int i = 0; i < node->count; i++)
-        args[i] = evaluate(sdl, node->args[i], variables);
-    if (node->op == OP_BUILTIN)
-        return builtin_float(sdl, node->id, args, node->count);
-    Num num = apply_function(sdl, node->function, args, node->count);
-    if (node->component)
-        num_component(sdl, &num, node->component);
-    return num.n[0];
-}
-
-static double evaluate(Sdl *sdl, const Node *node, double *variables)
-{
+    Num num = {{0}, results_of(function), 0};
+    num.color = num.count == 5;
+    if (function->unsupported)
+        sdl_unsupported(sdl, function->unsupported, "it gives 0");
+    if (function->kind == FUNCTION_KIND_TREE) {
+        const long most = sdl->options.max_steps > 0 ? sdl->options.max_steps : 1;
+        long steps = most;
+        num.n[0] = function_evaluate(function->program, args, &steps);
+        sdl_step(sdl, most - steps);
+    } else if (function->kind == FUNCTION_KIND_INTERNAL && !function->unsupported)
+        num.n[0] = function_internal(function->internal, args, sdl->scene->noise_generator);
+    else if (function->kind == FUNCTION_KIND_FOREIGN && function->foreign.call)
+        function->foreign.call(function->foreign.data, args, num.n);
     sdl_step(sdl, 1);
-    switch (node->op) {
-    case OP_NUMBER:
-        return node->number;
-    case OP_VARIABLE:
-        return variables[node->id];
-    case OP_NEGATE:
-        return -evaluate(sdl, node->args[0], variables);
-    case OP_NOT:
-        return evaluate(sdl, node->args[0], variables) == 0;
-    case OP_BINARY:
-        return evaluate_binary(sdl, node, variables);
-    case OP_CHOOSE:
-        return evaluate(sdl, node->args[evaluate(sdl, node->args[0], variables) != 0 ? 1 : 2], variables);
-    case OP_SUM:
-    case OP_PRODUCT:
-        return evaluate_loop(sdl, node, variables);
-    default:
-        return evaluate_call(sdl, node, variables);
-    }
+    return num;
 }
 
 Value sdl_function(Sdl *sdl)
@@ -568,7 +477,7 @@ Num function_call(Sdl *sdl, const Value *value)
 {
     const Function *function = value->data;
     double args[MAX_PARAMETERS] = {0};
-    int count = 0, wanted = arguments_wanted(function);
+    int count = 0;
     sdl_expect(sdl, "(");
     if (!sdl_is(sdl, ")"))
         do {
@@ -577,7 +486,23 @@ Num function_call(Sdl *sdl, const Value *value)
             args[count++] = expression_parameter(sdl);
         } while (sdl_accept(sdl, ","));
     sdl_expect(sdl, ")");
-    if (wanted >= 0 && count != wanted)
-        sdl_error(sdl, "the function takes %d arguments, %d given", wanted, count);
-    return apply_function(sdl, function, args, count);
+    check_arguments(sdl, function, count);
+    return apply_function(sdl, function, args);
+}
+
+const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *value, int nargs)
+{
+    const Function *function = value->data;
+    if (function->unsupported)
+        sdl_unsupported(sdl, function->unsupported, "it gives 0");
+    if (function->kind == FUNCTION_KIND_TREE && function->nparameters == nargs)
+        return function->program;
+    /* a call of it */
+    Compiler compiler = {.sdl = sdl, .count = nargs};
+    Node *node = node_new(&compiler, OP_CALL, 0, nargs);
+    for (int i = 0; i < nargs; i++)
+        set_arg(&compiler, node, i, node_new(&compiler, OP_VARIABLE, i, 0));
+    check_arguments(sdl, function, nargs);
+    node->function = function;
+    return function_compile(sdl, node, nargs);
 }

@@ -304,6 +304,7 @@ Value value_from_num(Num num);
 Num num_float(double value);
 void num_promote(Num *num, int count);
 void num_component(Sdl *sdl, Num *num, const char *name);
+int component_index(const char *name); /* of a vector; -1: gray, a sum of the first three; -2: there is none */
 
 /* color.c */
 Num color_parse(Sdl *sdl); /* a colour as a vector of 5 components */
@@ -325,7 +326,7 @@ struct Builtin {
 extern const Builtin builtins[];
 int builtin_count(void);
 Num builtin_constant(Sdl *sdl, int id);
-double builtin_float(Sdl *sdl, int id, const double *args, int count);
+double builtin_float(Sdl *sdl, int id /* FunctionOp */, const double *args, int count);
 Num builtin_number(Sdl *sdl, const Builtin *builtin); /* parses what follows the name */
 /* function_string.c */
 const char *builtin_string(Sdl *sdl, const Builtin *builtin);
@@ -334,13 +335,9 @@ const char *builtin_string(Sdl *sdl, const Builtin *builtin);
 void function_declare(Sdl *sdl, Value *value);      /* after `function` */
 Num function_call(Sdl *sdl, const Value *function); /* parses the arguments from `(` on */
 
-/* function_internal.c */
-double internal_call(Sdl *sdl, int number, const double *args, int count);
-int internal_arguments(int number);
-
 /* spline.c */
 void spline_declare(Sdl *sdl, Value *value);    /* after `spline` */
 Num spline_call(Sdl *sdl, const Value *spline); /* parses the arguments from `(` on */
-Num spline_value(Sdl *sdl, const Value *spline, double at);
+FunctionForeign spline_foreign(const Value *spline);
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef RENDERER_SDL_LANG_PARSER_H
 #define RENDERER_SDL_LANG_PARSER_H
 
+#include "function/function.h"
 #include "scene/scene.h"
 #include "sdl/lang/options.h"
 
@@ -104,6 +105,9 @@ const char *sdl_string(Sdl *sdl);
 int sdl_is_expression_start(Sdl *sdl); /* 1 if a number, vector, numeric identifier or function is next */
 Value sdl_expression(Sdl *sdl);        /* a float, vector or string */
 Value sdl_function(Sdl *sdl);          /* parses from the word `function` on, with parameters and body */
+Value sdl_function_body(Sdl *sdl);     /* … without that word, parameters and braces */
+/* The function as a program of so many arguments; an error where it takes another number. */
+const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *function, int nargs);
 
 /* The identifier list with one more name. */
 const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line);
@@ -137,6 +141,9 @@ typedef struct SdlBuilder {
     int (*extent)(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
     int (*trace)(Sdl *sdl, const Value *object, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
     int (*inside)(Sdl *sdl, const Value *object, Vec3 p);
+    /* Parse the block after `pattern` or `pigment` as a function of a point: fills call and data. Returns 0 if
+     * something of it is not supported. */
+    int (*field)(Sdl *sdl, const char *word, FunctionForeign *function);
 } SdlBuilder;
 
 /* The builder's own state, which the language stores. */

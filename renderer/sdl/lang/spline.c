@@ -171,10 +171,15 @@ static Num value_at(const Spline *spline, double at)
     return num;
 }
 
-Num spline_value(Sdl *sdl, const Value *value, double at)
+static void call_spline(const void *data, const double *args, double *results)
 {
-    sdl_step(sdl, 1);
-    return value_at(value->data, at);
+    const Num num = value_at(data, args[0]);
+    memcpy(results, num.n, (size_t)num.count * sizeof *results);
+}
+
+FunctionForeign spline_foreign(const Value *value)
+{
+    return (FunctionForeign){call_spline, value->data, 1, ((const Spline *)value->data)->components};
 }
 
 Num spline_call(Sdl *sdl, const Value *value)
