@@ -1,4 +1,5 @@
 /* What the files of shapes share: lines, bounds of circles, areas under a transform. */
+#include <float.h>
 #include "shape/shape.h"
 
 double shape_turn(double x, double y)
@@ -49,6 +50,55 @@ int shape_first_crossing(const ShapeRay *ray, const ShapeLine *line, const doubl
             return shape_accept(ray, at, t) ? i : -1;
     }
     return -1;
+}
+
+int shape_crossings_end(const ShapeCrossings *c, const Primitive *primitive, double size, double *t, int *face)
+{
+    const double length = vec_length(c->ray->direction);
+    double found = c->first;
+    int of = c->first_face;
+
+    if (found == c->near && found * length < 1e-3 * size) {
+        ShapePoint on = {.p = c->ray->origin};
+        primitive->shape.ops->point(primitive, c->ray->origin, c->near_face, &on);
+        if (vec_length(vec_sub(on.p, c->ray->origin)) <= 2 * c->ray->slack + 16 * DBL_EPSILON * size)
+            found = c->second, of = c->second_face;
+    }
+    if (!shape_accept(c->ray, found, t))
+        return 0;
+    *face = of;
+    return 1;
+}
+
+/* Newton's steps from outside: of a convex function they never pass the root. */
+static int approach(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double *s, double end, double sign)
+{
+    const double scale = fabs(*s) + fabs(end);
+
+    for (int i = 0; i < 200; i++) {
+        Vec3 gradient;
+        double v = f(shape, vec_mad(line->origin, line->direction, *s), &gradient), step,
+               slope = sign * vec_dot(gradient, line->direction);
+        if (v <= 0)
+            return 1;
+        if (!(slope < 0))
+            return 0;
+        step = -v / slope;
+        *s += sign * step;
+        if (sign * (end - *s) < 0)
+            return 0;
+        if (step <= 2 * DBL_EPSILON * scale)
+            return 1;
+    }
+    return 1;
+}
+
+int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low, double high,
+                           double s[2])
+{
+    s[0] = low;
+    s[1] = high;
+    return approach(shape, f, line, &s[0], high, 1) && approach(shape, f, line, &s[1], s[0], -1) && s[0] < s[1];
 }
 
 void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p)

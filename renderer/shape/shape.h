@@ -119,6 +119,40 @@ int shape_first_crossing(const ShapeRay *ray, const ShapeLine *line, const doubl
  * origin. */
 void shape_bound_half_space(const Primitive *primitive, int axis, Vec3 *low, Vec3 *high);
 
+/* The first crossings in range of those that a shape finds in any order, and the one next to the ray's origin: that is
+ * no crossing where the ray begins on the surface. */
+typedef struct ShapeCrossings {
+    const ShapeRay *ray;
+    double first, second, near;
+    int first_face, second_face, near_face;
+} ShapeCrossings;
+
+static inline ShapeCrossings shape_crossings(const ShapeRay *ray)
+{
+    return (ShapeCrossings){ray, INFINITY, INFINITY, INFINITY, 0, 0, 0};
+}
+static inline void shape_add_crossing(ShapeCrossings *c, double t, int face)
+{
+    if (fabs(t) < fabs(c->near))
+        c->near = t, c->near_face = face;
+    if (!(t > c->ray->tmin && t < c->second))
+        return;
+    if (t < c->first) {
+        c->second = c->first, c->second_face = c->first_face;
+        c->first = t, c->first_face = face;
+    } else {
+        c->second = t, c->second_face = face;
+    }
+}
+/* What intersect returns. size: about that of the shape, in canonical space. */
+int shape_crossings_end(const ShapeCrossings *crossings, const Primitive *primitive, double size, double *t, int *face);
+
+/* A function that is convex, negative inside and positive outside, grows with distance by its gradient. */
+typedef double ShapeConvex(const Shape *shape, Vec3 p, Vec3 *gradient);
+/* Where the line enters and leaves; low and high lie outside. 0 where it misses. */
+int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low, double high,
+                           double s[2]);
+
 /* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
 double shape_turn(double x, double y);
 

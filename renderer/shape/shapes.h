@@ -11,9 +11,11 @@
     X(cone)            \
     X(disc)            \
     X(mesh)            \
+    X(ovus)            \
     X(plane)           \
     X(poly)            \
     X(sphere)          \
+    X(superellipsoid)  \
     X(text)            \
     X(torus)
 
@@ -25,12 +27,10 @@
     X(isosurface)             \
     X(julia_fractal)          \
     X(lathe)                  \
-    X(ovus)                   \
     X(parametric)             \
     X(prism)                  \
     X(sor)                    \
-    X(sphere_sweep)           \
-    X(superellipsoid)
+    X(sphere_sweep)
 
 #define X(name) extern const ShapeOps shape_##name;
 SHAPE_TABLE(X)

@@ -107,6 +107,32 @@ void parse_torus(Sdl *sdl, Object *object)
         empty(sdl, object, "a torus of minor radius 0");
 }
 
+void parse_superellipsoid(Sdl *sdl, Object *object)
+{
+    Vec2 exponents = sdl_vector2(sdl);
+    object->shape.ops = &shape_superellipsoid;
+    /* 2/e beyond what powers can take is a box. */
+    object->shape.r0 = fmax(exponents.u, 1e-3);
+    object->shape.r1 = fmax(exponents.v, 1e-3);
+    if (!(exponents.u > 0 && exponents.v > 0))
+        sdl_error(sdl, "the exponents of a superellipsoid are greater than 0");
+}
+
+/* One whose upper sphere holds the lower one is that sphere. */
+void parse_ovus(Sdl *sdl, Object *object)
+{
+    double bottom = length_of(sdl), top = length_of(sdl);
+    object->shape.ops = &shape_ovus;
+    object->shape.r0 = bottom;
+    object->shape.r1 = top;
+    if (bottom == 0 && top == 0)
+        empty(sdl, object, "an ovus without radius");
+    else if (top >= 2 * bottom) {
+        object->shape.ops = &shape_sphere;
+        frame(sdl, object, vec3(top, 0, 0), vec3(0, top, 0), vec3(0, 0, top), vec3(0, bottom, 0));
+    }
+}
+
 void parse_disc(Sdl *sdl, Object *object)
 {
     Vec3 centre = sdl_vector(sdl), s, t;
