@@ -180,8 +180,11 @@ static void bound_group(CsgNode *node)
         node->surface = bounds_join(node->surface, child->surface);
         combine_solids(node, child, decides);
     }
-    /* What decides against points beyond its bounds does so for the surfaces of its siblings. */
-    if (node->kind != CSG_UNION && node->outside == decides)
+    /* What decides against points beyond its bounds does so for the surfaces of its siblings; its own are within its
+     * bounds. Unions keep surfaces that lie inside. */
+    if (node->kind == CSG_UNION)
+        node->solid = bounds_join(node->solid, node->surface);
+    else if (node->outside == decides)
         node->surface = bounds_meet(node->surface, node->solid);
 }
 
