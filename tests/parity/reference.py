@@ -4,7 +4,7 @@ picture with its time. Kept in a folder for each scene, because POV-Ray's pictur
 POV-Ray has no such pictures of its own. They are made thus, with one ray for each pixel and linear OpenEXR:
 - albedo: quality 1, which shows pigments alone, without what is behind transparent ones; of layers the bottom one.
 - depth: fog is added to the scene. What fog adds to a pixel is C (1 - exp(-depth / D)); the same picture with black fog is
-  subtracted. With max_trace_level 1, nothing is seen in mirrors or through transparent surfaces.
+  subtracted, in the darkest channel. With max_trace_level 1, nothing is seen in mirrors or through transparent surfaces.
 - normal: one parallel light is added, at quality 2, which has neither shadows nor highlights, along each axis.
 
 These pictures are made of prepared copies of the scenes: fog of their own is moved out of sight, cameras have no focal
@@ -18,6 +18,7 @@ EXAMPLES = '/usr/share/doc/povray/examples'
 INCLUDES = '/usr/share/povray-3.7/include'
 FOG = 6e4           # its colour, near the largest half
 FAR = 4.2           # depths beyond so many D are 'far': too little of the fog's colour is missing there
+HALF_MAX = 65000    # depths beyond are far, too: half floats do not have them
 LIGHT = 100.0
 TIMEOUT = 600
 
@@ -127,7 +128,9 @@ class Reference:
         if options:
             frame = options.get('frame_number', '0')
             clock = options.get('clock', '0')
-            self.frames = [f'+KFI{frame}', f'+KFF{frame}', f'+KI{clock}', f'+KF{clock}']
+            # an animation of two frames, of which the first is rendered: one frame alone has number 0
+            self.frames = [f'+KFI{frame}', f'+KFF{int(frame) + 1}', f'+SF{frame}', f'+EF{frame}', f'+KI{clock}',
+                           f'+KF{clock}']
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -166,21 +169,24 @@ class Reference:
 
     def fog(self, distance, colour):
         return self.wrapped(9, f'global_settings {{ max_trace_level 1 }} fog {{ distance {distance:g} '
-                               f'color rgb {colour:g} }}', f'fog{colour:g}')[:, :, 1]
+                               f'color rgb {colour:g} }}', f'fog{colour:g}')
 
     def depth(self, guess):
         """Depth by pixel, infinite where it is far or nothing is met, and what is far."""
         distance = 300 * guess if guess else 1e4
         for _ in range(4):
-            share = (self.fog(distance, FOG) - self.fog(distance, 0)) / FOG
-            seen = share[share < 0.999]
+            black = self.fog(distance, 0)
+            darkest = black.argmin(axis=2)[:, :, None] # the channel that half floats keep best
+            share = np.take_along_axis((self.fog(distance, FOG) - black) / FOG, darkest, 2)[:, :, 0]
+            seen = share[(share < 0.999) & (share > 0)]
             middle = np.median(seen) if seen.size else 0.003
             if 3e-4 < middle < 0.1:
                 break
             distance *= 300 * -np.log1p(-min(max(middle, 1e-6), 0.99))
         depth = -distance * np.log1p(-np.clip(share, 0, 1 - 1e-9))
-        depth[depth > FAR * distance] = np.inf
-        return depth, FAR * distance
+        far = min(FAR * distance, HALF_MAX)
+        depth[(depth > far) | (share <= 0)] = np.inf # 0: the camera has no ray there
+        return depth, far
 
     def normal(self, pool):
         """Normals, towards the camera, and 0 where no light of the six is seen."""
