@@ -170,7 +170,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     path->prev_context = (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k)};
     ray->origin = matte_get(&bounces->origin, k);
     ray->direction = matte_get(&bounces->direction, k);
-    ray->tmin = 0;
+    ray->tmin = 0, ray->tmax = INFINITY;
     path_next_segment(path, bounces->pdf[k], bounces->pdf[k]);
     return 1;
 }

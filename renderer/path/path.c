@@ -4,6 +4,7 @@
  * trace_path tells it from top to bottom, for one path. Most paths go by packet.c, which takes the same steps for many
  * paths of a pixel at once. */
 #include <string.h>
+#include "camera/camera.h"
 #include "path/internal.h"
 #include "shade/material.h"
 
@@ -98,7 +99,7 @@ static void add_sky(PathWorker *w, Path *path, Vec3 direction)
 int add_emission(PathWorker *w, Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
 {
     if (hit->primitive < 0) {
-        if (!w->context->white || path->segments > 1)
+        if (camera_ray_exists(ray) && (!w->context->white || path->segments > 1))
             add_sky(w, path, ray->direction);
         return 0;
     }
@@ -173,7 +174,7 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     path->prev_context = light_sample_context(s);
     ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next->wi);
     ray->direction = next->wi;
-    ray->tmin = 0;
+    ray->tmin = 0, ray->tmax = INFINITY;
     path_next_segment(path, pdf, next->pdf);
     return 1;
 }

@@ -17,6 +17,7 @@ typedef struct Sampler {
 enum {
     DIMENSION_PIXEL = 0,
     DIMENSION_PATH = 1,
+    DIMENSION_CAMERA = 0x40000000, /* beyond those of all vertices; only of cameras that need it */
     VERTEX_LOBE = 0,        /* u: which lobe, v: Russian roulette */
     VERTEX_DIRECTION = 1,
     VERTEX_LIGHT_CHOICE = 2, /* u: which light, v: which part of it */

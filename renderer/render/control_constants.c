@@ -4,7 +4,7 @@
 #include <retex/combine.h>
 #include <retex/parallel.h>
 #include <retex/samples.h>
-#include "path/camera.h"
+#include "camera/camera.h"
 #include "render/control_constants.h"
 #include "path/path.h"
 
@@ -39,7 +39,9 @@ static void color_row(void *context, int y, int thread)
         int counts[RETEX_MAX_TARGETS] = {0};
         for (int k = 0; k < GRID * GRID; k++) {
             double dx = (k % GRID + 0.5) / GRID, dy = (k / GRID + 0.5) / GRID;
-            Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + dx, w->y0 + y + dy);
+            const float lens[2] = {(float)((k * 7 % (GRID * GRID) + 0.5) / (GRID * GRID)), /* a lattice of its own */
+                                   (float)((k * 3 % (GRID * GRID) + 0.5) / (GRID * GRID))};
+            Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + dx, w->y0 + y + dy, lens);
             Hit hit;
             Shading s;
             if (!accel_intersect(w->accel, &ray, RAY_CAMERA, &hit))

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
-#include "path/camera.h"
+#include "camera/camera.h"
 #include "render/first_hit.h"
 #include "path/path.h"
 #include "shape/shape.h"
@@ -81,7 +81,7 @@ typedef struct AovJob {
 
 static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
 {
-    Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5);
+    Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5, NULL);
     if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit))
         return 0;
     shading_at(s, w->scene, w->variants, 1, &ray, hit);

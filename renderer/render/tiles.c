@@ -1,7 +1,7 @@
 /* Distribution of tiles to threads, and the sample loop of each pixel. */
 #include <retex/clock.h>
 #include <retex/parallel.h>
-#include "path/camera.h"
+#include "camera/camera.h"
 #include "render/internal.h"
 
 /* Offset of a sample within the pixel filter: uniform, or with the density of the Gaussian. All samples have the
@@ -46,7 +46,12 @@ static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sa
     *sampler = start->samplers[half];
     sampler->sample = (uint32_t)sample >> (r->context.halves == 2);
     pixel_offset(r, &start->offsets[half], sampler->sample, &dx, &dy);
-    return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
+    float lens[2];
+    const Camera *camera = &r->scene->camera;
+    const int varies = camera_needs_sample(camera);
+    if (varies)
+        sampler_pair(sampler, DIMENSION_CAMERA, &lens[0], &lens[1]);
+    return camera_ray(camera, r->width, r->height, start->x + dx, start->y + dy, varies ? lens : NULL);
 }
 
 /* Trace all samples of a pixel, or stop early if the render is stopped. */

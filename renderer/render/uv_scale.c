@@ -1,7 +1,7 @@
 /* The length on the surface of a step in UV, measured for each target. See uv_scale.h. */
 #include <math.h>
 #include <stdlib.h>
-#include "path/camera.h"
+#include "camera/camera.h"
 #include "path/path.h"
 #include "render/uv_scale.h"
 
@@ -132,7 +132,7 @@ int uv_scale_measure(const Scene *scene, const Accel *accel, double scale[][2], 
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the scale of textures");
     for (int y = 0; y < GRID_HEIGHT; y++)
         for (int x = 0; x < GRID_WIDTH; x++) {
-            Ray ray = camera_ray(&scene->camera, GRID_WIDTH, GRID_HEIGHT, x + 0.5, y + 0.5);
+            Ray ray = camera_ray(&scene->camera, GRID_WIDTH, GRID_HEIGHT, x + 0.5, y + 0.5, NULL);
             add(scene, accel, &ray, RAY_CAMERA, NULL, all);
         }
     for (int t = 0; t < scene->ntargets; t++) {

@@ -200,12 +200,46 @@ typedef struct Light {
     int shadowless;
 } Light;
 
-typedef enum CameraKind { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraKind;
-/* A pixel at (x, y) of a w by h picture looks through location + direction + (x/w - 1/2) right + (1/2 - y/h) up;
- * orthographic rays start at location + … and run along direction. Transforms already applied. */
+/* The density of points on a lens, row by row: cumulative sums that end at 1. */
+typedef struct Bokeh {
+    int size; /* rows; cells of each */
+    float *rows, *cells;
+} Bokeh;
+
+typedef struct CameraLens {
+    double aperture;       /* POV-Ray's: the disc has a quarter of it as its radius; 0 = everything is sharp */
+    double focal_distance; /* along the direction of view */
+    const Bokeh *bokeh;    /* or NULL: a disc */
+} CameraLens;
+
+/* What the rays of a mesh_camera start from. */
+typedef struct CameraMesh {
+    const Mesh *mesh;
+    Transform transform; /* to the world */
+    int nfaces;
+    const int *faces;    /* those that have an area */
+} CameraMesh;
+typedef struct MeshCamera {
+    int rays;            /* for each pixel */
+    int distribution;    /* POV-Ray's distribution type, 0 to 3 */
+    int smooth;          /* along interpolated normals */
+    double length;       /* of rays; 0 = not limited */
+    int nmeshes;
+    const CameraMesh *meshes;
+    /* distribution 3: faces of the first mesh by columns times columns cells of UV; those of cell k are from starts[k]
+     * to starts[k + 1] in entries */
+    int columns;
+    const int *starts, *entries;
+} MeshCamera;
+
+typedef struct CameraOps CameraOps; /* camera/camera.h */
+/* Transforms already applied. What right, up and direction mean is told where the kinds are. */
 typedef struct Camera {
-    CameraKind kind;
+    const CameraOps *ops;
     Vec3 location, direction, right, up;
+    double angle, vertical_angle; /* degrees; of kinds that have them */
+    CameraLens lens;
+    const MeshCamera *mesh;       /* of a mesh_camera, and of nothing else */
 } Camera;
 
 typedef struct SkySphere {

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <retex/combine.h>
 #include <retex/samples.h>
+#include "camera/camera.h"
 #include "path/path.h"
 #include "render/render.h"
 
@@ -25,6 +26,12 @@ typedef struct Stage {
     const RenderVariant *variant; /* or NULL */
 } Stage;
 
+static Camera orthographic_camera(Vec3 location, Vec3 direction, Vec3 right, Vec3 up)
+{
+    return (Camera){
+        .ops = &camera_orthographic, .location = location, .direction = direction, .right = right, .up = up};
+}
+
 static void stage_open(Stage *s)
 {
     memset(s, 0, sizeof *s);
@@ -32,7 +39,11 @@ static void stage_open(Stage *s)
     s->scene = arena_alloc(arena, sizeof *s->scene);
     s->scene->arena = arena;
     s->scene->width = 16, s->scene->height = 12;
-    s->scene->camera = (Camera){CAMERA_PERSPECTIVE, {0, 0, -5}, {0, 0, 1}, {1.333, 0, 0}, {0, 1, 0}};
+    s->scene->camera = (Camera){.ops = &camera_perspective,
+                                .location = {0, 0, -5},
+                                .direction = {0, 0, 1},
+                                .right = {1.333, 0, 0},
+                                .up = {0, 1, 0}};
     s->scene->primitives = s->primitives;
     s->scene->lights = s->lights;
 }
@@ -133,7 +144,7 @@ static void point_light_over_a_plane(void **state)
     /* L = albedo * colour * cos: no 1/pi, no falloff, as POV-Ray has it; exact, per pixel */
     Stage s;
     stage_open(&s);
-    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+    s.scene->camera = orthographic_camera(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
     stage_add(&s, &shape_plane, transform_identity(), 0.5f, 0.25f, 1);
     s.scene->nlights = 1;
     s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
@@ -156,7 +167,7 @@ static void sphere_emitter_irradiance(void **state)
     /* a sphere of radius r at height h, radiance L: E = pi L (r/h)^2 straight below it */
     Stage s;
     stage_open(&s);
-    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 1, 0}, {0, -1, 0}, {0.02, 0, 0}, {0, 0, 0.015}};
+    s.scene->camera = orthographic_camera(vec3(0, 1, 0), vec3(0, -1, 0), vec3(0.02, 0, 0), vec3(0, 0, 0.015));
     stage_add(&s, &shape_plane, transform_identity(), 0.6f, 0.6f, 0.6f);
     stage_add(&s, &shape_sphere, at(0, 3, 0, 0.5), 1, 1, 1);
     s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(8);
@@ -176,7 +187,7 @@ static void slab_reflects_by_fresnel(void **state)
     /* a glass plane over a black ground under a sky of 1: head-on 0.04 */
     Stage s;
     stage_open(&s);
-    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+    s.scene->camera = orthographic_camera(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
     s.scene->background = rgb_grey(1);
     stage_add(&s, &shape_plane, transform_identity(), 1, 1, 1);
     stage_add(&s, &shape_plane, at(0, -1, 0, 1), 0, 0, 0);
@@ -285,7 +296,7 @@ static void a_pane_hides_no_walls(void **state)
             Finish dim;
             Texture inside;
             stage_open(&s);
-            s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 0, -5}, {0, 0, 1}, {0.02, 0, 0}, {0, 0.015, 0}};
+            s.scene->camera = orthographic_camera(vec3(0, 0, -5), vec3(0, 0, 1), vec3(0.02, 0, 0), vec3(0, 0.015, 0));
             stage_add(&s, &shape_disc, at(0, 0, 0, 2), 1, 1, 1)->shape.r1 = 0;
             Primitive *wall = stage_add(&s, &shape_cone, at(0, 0, -1, 1), 0, 0, 0);
             wall->shape.open = 1;
@@ -323,7 +334,7 @@ static void filters_have_their_width(void **state)
         RetexSet *set = NULL;
         Stage s;
         stage_open(&s);
-        s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 0, -5}, {0, 0, 1}, {16, 0, 0}, {0, 12, 0}};
+        s.scene->camera = orthographic_camera(vec3(0, 0, -5), vec3(0, 0, 1), vec3(16, 0, 0), vec3(0, 12, 0));
         stage_add(&s, &shape_box,
                   transform_then(transform_scale(vec3(20, 40, 1)), transform_translate(vec3(0, -20, 0))), 1, 1, 1);
         s.finishes[0].diffuse = 0, s.finishes[0].emission = rgb_grey(1);
@@ -466,7 +477,7 @@ static void irradiance_knows_no_material(void **state)
         RenderParams p = RENDER_PARAMS_INIT;
         RetexSet *set = NULL;
         stage_open(&s);
-        s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+        s.scene->camera = orthographic_camera(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
         stage_add(&s, &shape_plane, transform_identity(), 0, 0.25f, 1);
         s.finishes[0].diffuse = 0.3, s.finishes[0].emission = rgb_grey(2);
         s.finishes[0].reflection_max = rgb_grey(0.5f);

@@ -168,8 +168,11 @@ typedef struct ParsedSky {
 } ParsedSky;
 
 typedef struct ParsedCamera {
-    Camera camera;
+    Camera camera; /* without aperture and bokeh */
     Vec3 sky, look_at;
+    double aperture;
+    int blur;                   /* blur_samples is given: the aperture counts */
+    const ParsedPigment *bokeh; /* or NULL */
 } ParsedCamera;
 
 /* ---- the state ---- */
@@ -189,6 +192,7 @@ typedef struct Builder {
     const ParsedTexture *default_texture;
     ParsedCamera camera;
     const ParsedSky *sky;
+    const ParsedPigment *bokeh; /* of the camera in use, or NULL */
     int has_assumed_gamma;
     int gamma_srgb; /* `assumed_gamma srgb` */
     double assumed_gamma;
@@ -318,6 +322,7 @@ int object_inside(Sdl *sdl, const Value *object, Vec3 p);
 void camera_default(ParsedCamera *camera);
 const ParsedCamera *parse_camera(Sdl *sdl);
 void camera_use(Sdl *sdl, const ParsedCamera *camera);
+void camera_finish(Sdl *sdl); /* what of it waits for the end of the scene */
 void parse_global_settings(Sdl *sdl);
 void parse_background(Sdl *sdl);
 const ParsedSky *parse_sky_sphere(Sdl *sdl);

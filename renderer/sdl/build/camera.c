@@ -1,103 +1,39 @@
-/* camera: applied in POV-Ray's fixed order, whatever the order written: right, direction, angle, up, sky, location,
- * look_at; transforms come last, in theirs. */
+/* camera. From version 3.5 on, what is written in it is applied in POV-Ray's fixed order: right, direction, angle, up,
+ * sky, location, look_at, focal_point; transforms come last, in theirs. Older scenes have it applied as it is written.
+ */
 #include <string.h>
+#include "camera/camera.h"
 #include "sdl/build/builder.h"
+#include "shade/pigment.h"
+
+#define BOKEH_SIZE 128
 
 typedef struct Reading {
     ParsedCamera camera;
-    double angle;
-    int had_angle, had_up, had_right, had_look_at, other_kind;
+    double angle, direction_length; /* the length of direction as angle and look_at found it */
+    Vec3 focal_point;
+    int had_angle, had_up, had_right, had_look_at, had_focal_point;
+    int as_written; /* as in version 3.1 and before */
     Transform transform;
 } Reading;
 
 void camera_default(ParsedCamera *camera)
 {
     *camera = (ParsedCamera){
-        .camera = {CAMERA_PERSPECTIVE, {0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}},
+        .camera = {.ops = &camera_perspective,
+                   .direction = {0, 0, 1},
+                   .right = {1.33, 0, 0},
+                   .up = {0, 1, 0},
+                   .angle = 90,
+                   .lens.focal_distance = -1},
         .sky = {0, 1, 0},
         .look_at = {0, 0, 1},
     };
 }
 
-/* ---- reading ---- */
-
-static int accept_kind(Sdl *sdl, Reading *r)
+static int is_flat(const Reading *r)
 {
-    static const char *const others[] = {"fisheye",  "ultra_wide_angle", "omnimax",      "panoramic", "spherical",
-                                         "cylinder", "mesh_camera",      "user_defined", NULL};
-    if (sdl_accept(sdl, "perspective")) {
-        r->camera.camera.kind = CAMERA_PERSPECTIVE;
-        return 1;
-    }
-    if (sdl_accept(sdl, "orthographic")) {
-        r->camera.camera.kind = CAMERA_ORTHOGRAPHIC;
-        return 1;
-    }
-    for (int i = 0; others[i]; i++)
-        if (sdl_accept(sdl, others[i])) {
-            sdl_unsupported(sdl, others[i], "a perspective camera is used");
-            r->camera.camera.kind = CAMERA_PERSPECTIVE;
-            r->other_kind = 1;
-            if (strcmp(others[i], "cylinder") == 0)
-                sdl_float(sdl);
-            if (strcmp(others[i], "mesh_camera") == 0 || strcmp(others[i], "user_defined") == 0)
-                sdl_skip_block(sdl);
-            return 1;
-        }
-    return 0;
-}
-
-/* focal_blur and its like: everything is sharp. */
-static int accept_blur(Sdl *sdl)
-{
-    static const char *const floats[] = {"blur_samples", "confidence", "variance", NULL};
-    for (int i = 0; floats[i]; i++)
-        if (sdl_accept(sdl, floats[i])) {
-            sdl_float(sdl);
-            sdl_optional_comma(sdl);
-            optional_float(sdl, 0);
-            return 1;
-        }
-    if (sdl_accept(sdl, "aperture")) {
-        if (sdl_float(sdl) != 0)
-            sdl_unsupported(sdl, "aperture", "everything is sharp");
-    } else if (sdl_accept(sdl, "focal_point"))
-        sdl_vector(sdl);
-    else if (sdl_accept(sdl, "bokeh"))
-        sdl_skip_block(sdl);
-    else if (sdl_accept(sdl, "normal")) {
-        sdl_unsupported(sdl, "normal of a camera", "the view is not disturbed");
-        sdl_skip_block(sdl);
-    } else
-        return 0;
-    return 1;
-}
-
-static void item(Sdl *sdl, Reading *r)
-{
-    Camera *c = &r->camera.camera;
-    Transform by;
-    if (accept_transform(sdl, &by))
-        r->transform = transform_then(r->transform, by);
-    else if (sdl_accept(sdl, "location"))
-        c->location = sdl_vector(sdl);
-    else if (sdl_accept(sdl, "direction"))
-        c->direction = sdl_vector(sdl);
-    else if (sdl_accept(sdl, "right"))
-        c->right = sdl_vector(sdl), r->had_right = 1;
-    else if (sdl_accept(sdl, "up"))
-        c->up = sdl_vector(sdl), r->had_up = 1;
-    else if (sdl_accept(sdl, "sky"))
-        r->camera.sky = sdl_vector(sdl);
-    else if (sdl_accept(sdl, "look_at"))
-        r->camera.look_at = sdl_vector(sdl), r->had_look_at = 1;
-    else if (sdl_accept(sdl, "angle")) {
-        r->angle = optional_float(sdl, 0);
-        r->had_angle = 1;
-        sdl_optional_comma(sdl);
-        optional_float(sdl, 0); /* the vertical angle of a spherical camera */
-    } else if (!accept_kind(sdl, r) && !accept_blur(sdl))
-        sdl_expected(sdl, "a camera modifier or }");
+    return (r->camera.camera.ops->properties & CAMERA_FLAT) != 0;
 }
 
 /* ---- applying ---- */
@@ -105,17 +41,19 @@ static void item(Sdl *sdl, Reading *r)
 static void apply_angle(Sdl *sdl, Reading *r)
 {
     Camera *c = &r->camera.camera;
-    if (!r->had_angle || r->angle == 0)
+    if (!r->had_angle)
         return;
     if (r->angle < 0)
         sdl_error(sdl, "a camera's angle cannot be negative");
+    c->angle = r->angle;
+    if (r->angle == 0 || !is_flat(r) || (r->as_written && c->ops == &camera_orthographic))
+        return;
     if (r->angle >= 180) {
-        /* Fine for a fisheye, which we do not have: as wide as a perspective is of use. */
         sdl_warn(sdl, "the camera's angle of %g degrees is taken as 150", r->angle);
         r->angle = 150;
     }
-    double length = vec_length(c->right) / tan(r->angle * PI / 360) / 2;
-    c->direction = vec_scale(vec_normalize(c->direction), length);
+    r->direction_length = vec_length(c->right) / tan(r->angle * PI / 360) / 2;
+    c->direction = vec_scale(vec_normalize(c->direction), r->direction_length);
 }
 
 static void apply_look_at(Sdl *sdl, Reading *r)
@@ -135,6 +73,7 @@ static void apply_look_at(Sdl *sdl, Reading *r)
         side = c->right;
     }
     side = vec_normalize(side);
+    r->direction_length = direction;
     c->direction = vec_scale(towards, direction);
     c->up = vec_scale(vec_cross(towards, side), up);
     c->right = vec_scale(side, handedness > 0 ? right : -right);
@@ -145,7 +84,7 @@ static void apply_look_at(Sdl *sdl, Reading *r)
 static void apply_orthographic(Reading *r)
 {
     Camera *c = &r->camera.camera;
-    if (c->kind != CAMERA_ORTHOGRAPHIC || ((r->had_up || r->had_right) && !r->had_angle))
+    if (c->ops != &camera_orthographic || ((r->had_up || r->had_right) && !r->had_angle && !r->as_written))
         return;
     double distance = vec_length(vec_sub(r->camera.look_at, c->location)), length = vec_length(c->direction);
     if (distance > 1e-10 && length > 1e-10) {
@@ -154,46 +93,218 @@ static void apply_orthographic(Reading *r)
     }
 }
 
-/* What stands in for a camera of another kind, whose right and up may not have the measure of a picture's sides. */
-static void apply_stand_in(Reading *r)
+static void apply_focal_point(Reading *r)
+{
+    CameraLens *lens = &r->camera.camera.lens;
+    if (r->had_focal_point)
+        lens->focal_distance = vec_length(vec_sub(r->focal_point, r->camera.camera.location));
+}
+
+static void apply_transform(Reading *r, const Transform *by)
 {
     Camera *c = &r->camera.camera;
-    double aspect = vec_length(c->right) / vec_length(c->up);
-    if (!r->other_kind || (aspect > 0.25 && aspect < 4))
-        return;
-    c->right = vec_scale(vec_normalize(c->right), 4.0 / 3);
-    c->up = vec_normalize(c->up);
+    c->location = transform_point(by, c->location);
+    c->direction = transform_vector(by, c->direction);
+    c->right = transform_vector(by, c->right);
+    c->up = transform_vector(by, c->up);
+}
+
+/* ---- reading ---- */
+
+/* After `mesh_camera`: rays for each pixel, distribution, the longest distance, meshes. */
+static void parse_mesh_camera(Sdl *sdl, Reading *r)
+{
+    MeshCamera *mesh = sdl_alloc(sdl, sizeof *mesh);
+    CameraMesh *meshes = NULL;
+    int capacity = 0;
+    sdl_expect(sdl, "{");
+    mesh->rays = (int)fmin(fmax(sdl_float(sdl), 0), 1e6);
+    sdl_optional_comma(sdl);
+    mesh->distribution = (int)fmin(fmax(sdl_float(sdl), -1), 4);
+    sdl_optional_comma(sdl);
+    mesh->length = optional_float(sdl, 0);
+    if (mesh->rays < 1 || mesh->distribution < 0 || mesh->distribution > 3 ||
+        (mesh->distribution > 1 && mesh->rays != 1))
+        sdl_error(sdl, "a mesh_camera has at least one ray for each pixel, and distribution 0 to 3; "
+                       "2 and 3 have one ray");
+    while (sdl_optional_comma(sdl), sdl_is(sdl, "mesh") || sdl_is(sdl, "mesh2")) {
+        const Object *object = accept_object(sdl);
+        if (object->kind != OBJECT_SHAPE || !object->shape.mesh)
+            sdl_error(sdl, "a mesh_camera needs meshes with triangles");
+        meshes = builder_grow(sdl, meshes, mesh->nmeshes, &capacity, sizeof *meshes);
+        meshes[mesh->nmeshes++] = (CameraMesh){.mesh = object->shape.mesh, .transform = object->transform};
+    }
+    mesh->smooth = sdl_accept(sdl, "smooth");
+    sdl_expect(sdl, "}");
+    mesh->meshes = meshes;
+    if (mesh->nmeshes < (mesh->distribution == 0 ? mesh->rays : 1))
+        sdl_error(sdl, "a mesh_camera needs a mesh, with distribution 0 one for each ray");
+    if (mesh->smooth && mesh->distribution != 3)
+        sdl_error(sdl, "smooth needs distribution 3");
+    if (!(r->camera.camera.mesh = mesh_camera_create(sdl_arena(sdl), mesh)))
+        sdl_error(sdl, "out of memory for a mesh_camera");
+}
+
+static const CameraOps *parse_type(Sdl *sdl)
+{
+    static const CameraOps *const types[] = {&camera_cylinder_1, &camera_cylinder_2, &camera_cylinder_3,
+                                             &camera_cylinder_4};
+    const double type = sdl_float(sdl);
+    if (!(type >= 1 && type < 5))
+        sdl_error(sdl, "a cylinder camera has type 1 to 4");
+    return types[(int)type - 1];
+}
+
+static int accept_kind(Sdl *sdl, Reading *r)
+{
+    static const CameraOps *const kinds[] = {
+#define X(name) &camera_##name,
+        CAMERA_TABLE(X)
+#undef X
+    };
+    const CameraOps **ops = &r->camera.camera.ops;
+    if (sdl_accept(sdl, "cylinder")) {
+        *ops = parse_type(sdl);
+        return 1;
+    }
+    if (sdl_accept(sdl, "user_defined")) {
+        sdl_unsupported(sdl, "user_defined", "a perspective camera is used");
+        *ops = &camera_perspective;
+        sdl_skip_block(sdl);
+        return 1;
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (sdl_accept(sdl, kinds[i]->name)) {
+            *ops = kinds[i];
+            if (*ops == &camera_mesh_camera)
+                parse_mesh_camera(sdl, r);
+            if (r->as_written)
+                apply_orthographic(r);
+            return 1;
+        }
+    return 0;
+}
+
+static void parse_bokeh(Sdl *sdl, Reading *r)
+{
+    sdl_expect(sdl, "{");
+    while (sdl_accept(sdl, "pigment"))
+        r->camera.bokeh = parse_pigment(sdl, default_pigment(sdl));
+    sdl_expect(sdl, "}");
+}
+
+/* Focal blur. How many samples there are is said elsewhere; but without blur_samples everything is sharp. */
+static int accept_blur(Sdl *sdl, Reading *r)
+{
+    if (sdl_accept(sdl, "blur_samples")) {
+        double samples = sdl_float(sdl);
+        sdl_optional_comma(sdl);
+        r->camera.blur = fmax(samples, optional_float(sdl, 0)) > 0;
+    } else if (sdl_accept(sdl, "confidence") || sdl_accept(sdl, "variance"))
+        sdl_float(sdl);
+    else if (sdl_accept(sdl, "aperture"))
+        r->camera.aperture = sdl_float(sdl);
+    else if (sdl_accept(sdl, "focal_point"))
+        r->focal_point = sdl_vector(sdl), r->had_focal_point = 1;
+    else if (sdl_accept(sdl, "bokeh"))
+        parse_bokeh(sdl, r);
+    else if (sdl_accept(sdl, "normal")) {
+        sdl_unsupported(sdl, "normal of a camera", "the view is not disturbed");
+        sdl_skip_block(sdl);
+    } else
+        return 0;
+    if (r->as_written)
+        apply_focal_point(r), r->had_focal_point = 0;
+    return 1;
+}
+
+static int accept_vector(Sdl *sdl, Reading *r)
+{
+    Camera *c = &r->camera.camera;
+    if (sdl_accept(sdl, "location"))
+        c->location = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "direction"))
+        c->direction = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "right"))
+        c->right = sdl_vector(sdl), r->had_right = 1;
+    else if (sdl_accept(sdl, "up"))
+        c->up = sdl_vector(sdl), r->had_up = 1;
+    else if (sdl_accept(sdl, "sky"))
+        r->camera.sky = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "look_at"))
+        r->camera.look_at = sdl_vector(sdl), r->had_look_at = 1;
+    else
+        return 0;
+    if (r->as_written)
+        apply_look_at(sdl, r), r->had_look_at = 0;
+    return 1;
+}
+
+/* The second angle is the vertical one of a spherical camera. */
+static void parse_angle(Sdl *sdl, Reading *r)
+{
+    r->angle = optional_float(sdl, 0);
+    r->had_angle = 1;
+    sdl_optional_comma(sdl);
+    r->camera.camera.vertical_angle = optional_float(sdl, r->angle / 2);
+    if (r->camera.camera.vertical_angle < 0)
+        sdl_error(sdl, "a camera's angle cannot be negative");
+    if (r->as_written)
+        apply_angle(sdl, r), r->had_angle = 0;
+}
+
+static void item(Sdl *sdl, Reading *r)
+{
+    Transform by;
+    if (accept_transform(sdl, &by)) {
+        if (r->as_written)
+            apply_transform(r, &by);
+        else
+            r->transform = transform_then(r->transform, by);
+    } else if (sdl_accept(sdl, "angle"))
+        parse_angle(sdl, r);
+    else if (!accept_vector(sdl, r) && !accept_kind(sdl, r) && !accept_blur(sdl, r))
+        sdl_expected(sdl, "a camera modifier or }");
 }
 
 /* Numbers beyond what a ray can hold, as 1/0 makes them, would only show as an empty picture. */
-static void check_finite(Sdl *sdl, const Camera *c)
+static void check_finite(Sdl *sdl, const ParsedCamera *parsed)
 {
-    const Vec3 all[4] = {c->location, c->direction, c->right, c->up};
-    for (int i = 0; i < 4; i++)
+    const Camera *c = &parsed->camera;
+    const Vec3 all[5] = {c->location, c->direction, c->right, c->up,
+                         vec3(parsed->aperture, c->lens.focal_distance, c->angle + c->vertical_angle)};
+    for (int i = 0; i < 5; i++)
         if (!(fabs(all[i].x) < 1e18 && fabs(all[i].y) < 1e18 && fabs(all[i].z) < 1e18))
             sdl_error(sdl, "the camera's place or direction is not finite");
 }
 
 const ParsedCamera *parse_camera(Sdl *sdl)
 {
-    Reading r = {.camera = builder_of(sdl)->camera, .transform = transform_identity()};
+    Reading r = {.camera = builder_of(sdl)->camera, .transform = transform_identity(), .direction_length = 1};
     ParsedCamera *camera = sdl_alloc(sdl, sizeof *camera);
+    r.as_written = sdl_version(sdl) < 3.5;
     sdl_expect(sdl, "{");
     const ParsedCamera *known = accept_ident(sdl, VALUE_CAMERA);
     if (known)
         r.camera = *known;
     while (!sdl_accept(sdl, "}"))
         item(sdl, &r), sdl_optional_comma(sdl);
-    Camera *c = &r.camera.camera;
-    apply_stand_in(&r);
-    apply_angle(sdl, &r);
-    apply_look_at(sdl, &r);
-    apply_orthographic(&r);
-    c->location = transform_point(&r.transform, c->location);
-    c->direction = transform_vector(&r.transform, c->direction);
-    c->right = transform_vector(&r.transform, c->right);
-    c->up = transform_vector(&r.transform, c->up);
-    check_finite(sdl, c);
+    if (!r.as_written) {
+        apply_angle(sdl, &r);
+        apply_look_at(sdl, &r);
+        if (!known) /* whose right and up have their size already */
+            apply_orthographic(&r);
+        apply_focal_point(&r);
+        apply_transform(&r, &r.transform);
+    }
+    CameraLens *lens = &r.camera.camera.lens;
+    if (lens->focal_distance < 0)
+        lens->focal_distance = r.direction_length;
+    if (lens->focal_distance == 0)
+        lens->focal_distance = 1;
+    if (r.camera.camera.ops == &camera_spherical && r.camera.camera.vertical_angle == 0)
+        r.camera.camera.angle = 360, r.camera.camera.vertical_angle = 180;
+    check_finite(sdl, &r.camera);
     *camera = r.camera;
     return camera;
 }
@@ -205,7 +316,7 @@ static void picture_size(Sdl *sdl, const Camera *c)
 {
     Scene *scene = sdl_scene(sdl);
     double right = vec_length(c->right), up = vec_length(c->up);
-    if (!(right > 0 && up > 0 && vec_length(c->direction) > 0))
+    if (!(right > 0 && up > 0 && (vec_length(c->direction) > 0 || c->ops == &camera_mesh_camera)))
         sdl_error(sdl, "the camera's direction, right and up must not be zero");
     double aspect = right / up;
     if (fabs(aspect - 1.33) < 0.005)
@@ -216,6 +327,25 @@ static void picture_size(Sdl *sdl, const Camera *c)
 
 void camera_use(Sdl *sdl, const ParsedCamera *camera)
 {
-    sdl_scene(sdl)->camera = camera->camera;
-    picture_size(sdl, &camera->camera);
+    Camera *c = &sdl_scene(sdl)->camera;
+    *c = camera->camera;
+    c->lens.aperture = camera->blur && !(c->ops->properties & CAMERA_MESH) ? camera->aperture : 0;
+    builder_of(sdl)->bokeh = c->lens.aperture != 0 ? camera->bokeh : NULL;
+    picture_size(sdl, c);
+}
+
+void camera_finish(Sdl *sdl)
+{
+    const ParsedPigment *pigment = builder_of(sdl)->bokeh;
+    if (!pigment)
+        return;
+    gaps_report(sdl, &pigment->gaps);
+    float *weights = sdl_alloc(sdl, sizeof *weights * BOKEH_SIZE * BOKEH_SIZE);
+    for (int k = 0; k < BOKEH_SIZE * BOKEH_SIZE; k++) {
+        const Vec3 p = vec3((k % BOKEH_SIZE + 0.5) / BOKEH_SIZE, (k / BOKEH_SIZE + 0.5) / BOKEH_SIZE, 0);
+        const Rgbft c = pigment_eval(&pigment->pigment, p, (Vec2){p.x, p.y});
+        weights[k] = at_most(not_negative(0.297f * c.r + 0.589f * c.g + 0.114f * c.b), 1);
+    }
+    if (!(sdl_scene(sdl)->camera.lens.bokeh = bokeh_create(sdl_arena(sdl), weights, BOKEH_SIZE)))
+        sdl_error(sdl, "out of memory for a bokeh");
 }

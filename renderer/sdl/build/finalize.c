@@ -350,6 +350,9 @@ static void load_images(Sdl *sdl)
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
         if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
             load_image(sdl, (ParsedImage *)scene->sky->pigments[i]->image, 1, &capacity);
+    const ParsedPigment *bokeh = builder_of(sdl)->bokeh;
+    if (bokeh && bokeh->pigment.kind == PIGMENT_IMAGE)
+        load_image(sdl, (ParsedImage *)bokeh->pigment.image, 0, &capacity);
 }
 
 void finalize_scene(Sdl *sdl)
@@ -363,6 +366,7 @@ void finalize_scene(Sdl *sdl)
     each_texture(sdl, visit_layers, NULL);
     each_texture(sdl, visit_albedo, NULL);
     decode_colors(sdl);
+    camera_finish(sdl);
     find_matte_finishes(sdl);
     set_emission(sdl);
     list_all_names(sdl);
