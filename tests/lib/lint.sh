@@ -77,8 +77,7 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retext
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
 back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 4:camera 5:accel 5:light 5:sdl/build \
-    6:sdl 6:film \
-    7:film/footprints 7:film/paper 8:path 9:render 10:job)
+    6:sdl 6:film 7:film/footprints 7:film/paper 8:path 9:render 10:job)
 [ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
 $back"
 
