@@ -86,7 +86,7 @@ static int always_refracts(const Primitive *primitive)
                  : finish && finish->retex.present  ? 1
                  : primitive->interior              ? primitive->interior->ior
                                                     : 1;
-    int several = primitive->interior_texture || (primitive->shape.mesh && primitive->shape.mesh->ntextures > 0);
+    int several = primitive->interior_texture || primitive->shape.textures;
 
     return !several && ior != 1 && ior > 0;
 }
@@ -97,8 +97,8 @@ static unsigned char primitive_flags(const Primitive *primitive)
                      (primitive->no_reflection ? 0u : RAY_BOUNCE);
     int through = may_transmit(primitive->texture) || may_transmit(primitive->interior_texture);
 
-    for (int i = 0; primitive->shape.mesh && i < primitive->shape.mesh->ntextures; i++)
-        through |= may_transmit(primitive->shape.mesh->textures[i]);
+    for (int i = 0; primitive->shape.textures && i < primitive->shape.textures->count; i++)
+        through |= may_transmit(primitive->shape.textures->list[i]);
     if (!through)
         return (unsigned char)flags;
     return (unsigned char)(flags | TRANSPARENT | (always_refracts(primitive) ? 0 : STRAIGHT));

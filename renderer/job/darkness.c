@@ -25,8 +25,8 @@ static int any_surface(const Scene *scene, int (*has)(const Finish *))
         const Primitive *p = &scene->primitives[k];
         if (texture_is(p->texture, has) || texture_is(p->interior_texture, has))
             return 1;
-        for (int f = 0; p->shape.mesh && f < p->shape.mesh->ntextures; f++)
-            if (texture_is(p->shape.mesh->textures[f], has))
+        for (int f = 0; p->shape.textures && f < p->shape.textures->count; f++)
+            if (texture_is(p->shape.textures->list[f], has))
                 return 1;
     }
     return 0;

@@ -7,7 +7,7 @@ int job_target_is_empty(const Scene *scene, int t)
         const Primitive *p = &scene->primitives[k];
         if (p->target == t)
             return 0;
-        for (int f = 0; p->face_targets && f < p->shape.mesh->ntextures; f++)
+        for (int f = 0; p->face_targets && f < p->shape.textures->count; f++)
             if (p->face_targets[f] == t)
                 return 0;
     }

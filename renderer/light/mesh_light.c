@@ -7,8 +7,14 @@
 
 static const Texture *face_texture(const Primitive *p, int face)
 {
-    int t = p->shape.mesh->ntextures > 0 ? p->shape.mesh->faces[face].texture : -1;
-    return t < 0 ? p->texture : p->shape.mesh->textures[t];
+    int t = p->shape.textures ? p->shape.mesh->faces[face].texture : -1;
+    return t < 0 ? p->texture : p->shape.textures->list[t];
+}
+
+/* Faces that blend textures are not sampled: paths find them. */
+static int is_sampled(const Primitive *p, int face)
+{
+    return !rgb_is_black(face_texture(p, face)->finish->emission) && !mesh_face_blends(p->shape.mesh, face);
 }
 
 /* The radiance of one side, if it is uniform. */
@@ -67,7 +73,7 @@ static int count_faces(const Primitive *p)
 {
     int count = 0;
     for (int k = 0; k < p->shape.mesh->nfaces; k++)
-        count += !rgb_is_black(face_texture(p, k)->finish->emission);
+        count += is_sampled(p, k);
     return count;
 }
 
@@ -107,7 +113,7 @@ int mesh_light_create(MeshLight **out, const Primitive *p, RetexError *err)
     }
     for (int k = 0; k < p->shape.mesh->nfaces; k++) {
         light->of_face[k] = -1;
-        if (!rgb_is_black(face_texture(p, k)->finish->emission) && fill_face(&light->faces[light->count], p, k))
+        if (is_sampled(p, k) && fill_face(&light->faces[light->count], p, k))
             light->of_face[k] = light->count++;
     }
     if (light->count == 0) {

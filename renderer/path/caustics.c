@@ -84,11 +84,11 @@ static int finish_casts(const Finish *f, const Primitive *p, const Texture *text
 
 static int primitive_casts(const Primitive *p)
 {
-    const Mesh *mesh = p->shape.mesh;
+    const FaceTextures *textures = p->shape.textures;
     if (finish_casts(p->texture->finish, p, p->texture))
         return 1;
-    for (int k = 0; mesh && k < mesh->ntextures; k++)
-        if (finish_casts(mesh->textures[k]->finish, p, mesh->textures[k]))
+    for (int k = 0; textures && k < textures->count; k++)
+        if (finish_casts(textures->list[k]->finish, p, textures->list[k]))
             return 1;
     return 0;
 }

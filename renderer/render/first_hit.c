@@ -217,7 +217,7 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
         if (inside)
             closes(p, p->interior_texture->pigment, &u, &v);
         any |= p->target == t || inside;
-        for (int j = 0; p->face_targets && j < p->shape.mesh->ntextures; j++)
+        for (int j = 0; p->face_targets && j < p->shape.textures->count; j++)
             if (p->face_targets[j] == t)
                 u = v = 0;
     }

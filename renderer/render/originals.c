@@ -18,7 +18,7 @@ static const Primitive *first_primitive(const Scene *scene, int target)
             return &scene->primitives[k];
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        for (int j = 0; p->face_targets && j < p->shape.mesh->ntextures; j++)
+        for (int j = 0; p->face_targets && j < p->shape.textures->count; j++)
             if (p->face_targets[j] == target)
                 return p;
     }
@@ -27,9 +27,9 @@ static const Primitive *first_primitive(const Scene *scene, int target)
 
 static const Texture *target_texture(const Primitive *p, int target)
 {
-    for (int j = 0; p->target != target && p->face_targets && j < p->shape.mesh->ntextures; j++)
+    for (int j = 0; p->target != target && p->face_targets && j < p->shape.textures->count; j++)
         if (p->face_targets[j] == target)
-            return p->shape.mesh->textures[j];
+            return p->shape.textures->list[j];
     return p->target != target && is_inside(p, target) ? p->interior_texture : p->texture;
 }
 

@@ -158,13 +158,13 @@ static int mark(Scene *scene, Primitive *p, RetexError *err)
     p->target = target_of(scene, p->texture->idents, p->idents);
     p->interior_target = p->interior_texture ? target_of(scene, p->interior_texture->idents, p->idents) : -1;
     p->face_targets = NULL;
-    if (!p->shape.mesh || p->shape.mesh->ntextures == 0)
+    if (!p->shape.textures)
         return 0;
-    int8_t *targets = arena_alloc(scene->arena, (size_t)p->shape.mesh->ntextures);
+    int8_t *targets = arena_alloc(scene->arena, (size_t)p->shape.textures->count);
     if (!targets)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets of a mesh");
-    for (int i = 0; i < p->shape.mesh->ntextures; i++)
-        targets[i] = (int8_t)target_of(scene, p->shape.mesh->textures[i]->idents, p->idents);
+    for (int i = 0; i < p->shape.textures->count; i++)
+        targets[i] = (int8_t)target_of(scene, p->shape.textures->list[i]->idents, p->idents);
     p->face_targets = targets;
     return 0;
 }

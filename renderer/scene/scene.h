@@ -137,15 +137,15 @@ typedef struct Texture {
 /* Triangles. Indices are into the arrays; a normal or UV index of -1 means that the corner has none. */
 typedef struct MeshFace {
     int vertex[3], normal[3], uv[3];
-    int texture;             /* index into the primitive's textures; -1 = the primitive's own texture */
+    int texture;             /* index into the shape's textures; -1 = the primitive's own texture */
 } MeshFace;
 typedef struct Mesh {
     int nvertices, nnormals, nuvs, nfaces;
     Vec3 *vertices, *normals;
     Vec2 *uvs;
     MeshFace *faces;
-    int ntextures;
-    const Texture **textures; /* in world space like all textures */
+    int (*corner_textures)[2]; /* of each face: textures of corners 1 and 2, where `texture` is that of corner 0; or
+                                  NULL: each face has one texture */
     int closed_inside;       /* inside_vector was given: has an inside */
     int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
     const struct Bvh *tree;  /* over the faces, or NULL: see mesh_index */
@@ -157,7 +157,19 @@ static inline int mesh_face_has_normals(const MeshFace *f)
 }
 static inline int mesh_face_has_uvs(const MeshFace *f) { return f->uv[0] >= 0 && f->uv[1] >= 0 && f->uv[2] >= 0; }
 
+static inline int mesh_face_blends(const Mesh *mesh, int face)
+{
+    const int *others = mesh->corner_textures ? mesh->corner_textures[face] : NULL;
+    return others && (others[0] != mesh->faces[face].texture || others[1] != mesh->faces[face].texture);
+}
+
 typedef struct ShapeOps ShapeOps; /* shape/shape.h */
+
+/* Textures of parts of a shape, in world space like all textures. ShapeOps.texture says which a point has. */
+typedef struct FaceTextures {
+    int count;
+    const Texture **list;
+} FaceTextures;
 
 /* A shape in its canonical space, which shape/NAME.c describes, with its parameters there. */
 typedef struct Shape {
@@ -166,6 +178,7 @@ typedef struct Shape {
     int open;                /* of a cone: without caps */
     const Mesh *mesh;        /* of a mesh, and of nothing else; shared by copies that differ in transform only */
     const void *data;        /* what else the shape's operations read */
+    const FaceTextures *textures; /* or NULL: the primitive's own is on all of it */
 } Shape;
 
 typedef struct Primitive {
@@ -178,9 +191,9 @@ typedef struct Primitive {
     const struct CsgNode *csg; /* its place in the tree of which it is an operand, or NULL; shape/csg.h */
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
-    int target;              /* index into scene->targets, or -1; meshes may override by face, see face_targets */
+    int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
-    const int8_t *face_targets; /* per mesh texture (ntextures long), or NULL: those faces' targets instead */
+    const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
 } Primitive;
 
 /* ---- lights, camera, sky ---- */

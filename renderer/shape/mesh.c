@@ -1,6 +1,7 @@
 /* Triangle meshes, in object space. A triangle's outward side is the one its vertex normals lie on; without them, the
  * one its winding gives, turned round for closed meshes that wind inward. Paths trace them as triangles; operands of
- * CSG, trace() and inside() go by a tree over the faces. Natural parametrisation: uv_vectors. */
+ * CSG, trace() and inside() go by a tree over the faces. Between corners with textures of their own these are blended:
+ * a point has each with the corner's barycentric weight as its probability. Natural parametrisation: uv_vectors. */
 #include <stdlib.h>
 #include "shape/bvh.h"
 #include "shape/shape.h"
@@ -83,6 +84,19 @@ static void uv(const Surface *surface, ShapeUv *out)
         out->uv.v = b0 * a->v + b1 * b->v + b2 * c->v;
         out->natural = out->uv;
     }
+}
+
+static int texture(const Surface *surface)
+{
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    const int own = mesh->faces[surface->face].texture;
+
+    if (!mesh_face_blends(mesh, surface->face))
+        return own;
+    const double share = shape_share(surface->position);
+    if (share < surface->b1)
+        return mesh->corner_textures[surface->face][0];
+    return share < surface->b1 + surface->b2 ? mesh->corner_textures[surface->face][1] : own;
 }
 
 int mesh_winds_inward(const Mesh *mesh)
@@ -256,6 +270,7 @@ const ShapeOps shape_mesh = {
     .intersect = intersect,
     .uv = uv,
     .inside = inside,
+    .texture = texture,
     .area = area,
     .sample = sample,
     .density = density,

@@ -1,5 +1,6 @@
 /* What the files of shapes share: lines, bounds of circles, areas under a transform. */
 #include <float.h>
+#include <string.h>
 #include "shape/shape.h"
 
 double shape_turn(double x, double y)
@@ -99,6 +100,20 @@ int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *
     s[0] = low;
     s[1] = high;
     return approach(shape, f, line, &s[0], high, 1) && approach(shape, f, line, &s[1], s[0], -1) && s[0] < s[1];
+}
+
+double shape_share(Vec3 position)
+{
+    uint64_t bits[3], hash = 0;
+
+    memcpy(bits, &position, sizeof(bits));
+    for (int i = 0; i < 3; i++) { /* Steele's mixing function of SplitMix64 */
+        hash += bits[i] + 0x9e3779b97f4a7c15u;
+        hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9u;
+        hash = (hash ^ hash >> 27) * 0x94d049bb133111ebu;
+        hash ^= hash >> 31;
+    }
+    return (double)(hash >> 11) * 0x1p-53;
 }
 
 void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p)

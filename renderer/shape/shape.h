@@ -58,6 +58,9 @@ struct ShapeOps {
     /* The point of the face next to p, which is near the surface, in canonical space. */
     void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
     void (*uv)(const Surface *surface, ShapeUv *out);
+    /* Which of the shape's textures the surface has where it is; -1: the primitive's own. Asked where there are any.
+     * Where textures are blended, each has a share of the points there, at random: see shape_share. */
+    int (*texture)(const Surface *surface);
     /* 1 for points inside, in canonical space; as POV-Ray's inside(). */
     int (*inside)(const Shape *shape, Vec3 p);
     /* Emitters; NULL where they cannot be sampled. area: of the surface in the world, 0 where it cannot be sampled.
@@ -152,6 +155,9 @@ typedef double ShapeConvex(const Shape *shape, Vec3 p, Vec3 *gradient);
 /* Where the line enters and leaves; low and high lie outside. 0 where it misses. */
 int shape_convex_crossings(const Shape *shape, ShapeConvex *f, const ShapeLine *line, double low, double high,
                            double s[2]);
+
+/* A number in 0..1 that a position always has, and that tells nothing of those of others. */
+double shape_share(Vec3 position);
 
 /* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
 double shape_turn(double x, double y);

@@ -7,6 +7,7 @@
 
 /* By keyword: shape_NAME are the operations. */
 #define SHAPE_TABLE(X) \
+    X(blob)            \
     X(box)             \
     X(cone)            \
     X(disc)            \
@@ -22,7 +23,6 @@
 /* POV-Ray's shapes that are read over, with a warning. */
 #define UNSUPPORTED_SHAPES(X) \
     X(bicubic_patch)          \
-    X(blob)                   \
     X(height_field)           \
     X(isosurface)             \
     X(julia_fractal)          \

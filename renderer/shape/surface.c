@@ -2,25 +2,26 @@
  * its UVs and whose texture and target it is. */
 #include "shape/shape.h"
 
-/* The face's texture and target. */
-static void set_material(Surface *surface, const Primitive *primitive, int face)
+/* The texture and target there. All else of the surface but the side it is seen from is set. */
+static void set_material(Surface *surface)
 {
-    const Mesh *mesh = primitive->shape.mesh;
-    int of_mesh = mesh && mesh->ntextures > 0 ? mesh->faces[face].texture : -1;
+    const Primitive *primitive = surface->primitive;
+    const Shape *shape = &primitive->shape;
+    int own = shape->textures ? shape->ops->texture(surface) : -1;
 
-    surface->primitive = primitive;
-    surface->face = face;
-    surface->texture = of_mesh >= 0 ? mesh->textures[of_mesh] : primitive->texture;
-    surface->target = of_mesh >= 0 && primitive->face_targets ? primitive->face_targets[of_mesh] : primitive->target;
+    surface->texture = own >= 0 ? shape->textures->list[own] : primitive->texture;
+    surface->target = own >= 0 && primitive->face_targets ? primitive->face_targets[own] : primitive->target;
     surface->backside = 0;
 }
 
 void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point)
 {
-    set_material(surface, primitive, face);
+    surface->primitive = primitive;
+    surface->face = face;
     surface->position = transform_point(&primitive->transform, point->p);
     surface->geometric_normal = surface->shading_normal = shape_world_normal(primitive, point->normal);
     surface->b1 = point->b1, surface->b2 = point->b2;
+    set_material(surface);
 }
 
 void surface_turn(Surface *surface, int backside)
@@ -48,10 +49,12 @@ static Vec3 smooth_normal(const Primitive *primitive, const Hit *hit)
 
 static void triangle_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
 {
-    set_material(surface, primitive, hit->face);
+    surface->primitive = primitive;
+    surface->face = hit->face;
     surface->position = vec_mad(ray->origin, ray->direction, hit->t);
     surface->geometric_normal = surface->shading_normal = hit->normal;
     surface->b1 = hit->b1, surface->b2 = hit->b2;
+    set_material(surface);
     if (primitive->shape.mesh && mesh_face_has_normals(&primitive->shape.mesh->faces[hit->face]))
         surface->shading_normal = smooth_normal(primitive, hit);
 }

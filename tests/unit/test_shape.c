@@ -425,6 +425,7 @@ static void mesh_faces_have_their_targets(void **state)
     static const int8_t targets[2] = {5, -1};
     Texture of_face[2] = {{0}, {0}};
     const Texture *textures[2] = {&of_face[0], &of_face[1]};
+    const FaceTextures own = {2, textures};
     Vec3 corners[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     Primitive p = shape(&shape_mesh, 0, 0, transform_identity());
     ShapePoint point = {.normal = {0, 0, 1}};
@@ -434,8 +435,7 @@ static void mesh_faces_have_their_targets(void **state)
         MeshFace face = {.vertex = {0, 1, 2}, .normal = {-1, -1, -1}, .uv = {-1, -1, -1}, .texture = k};
         Mesh mesh = {.vertices = corners, .nvertices = 3, .faces = &face, .nfaces = 1};
         Surface s;
-        mesh.textures = textures, mesh.ntextures = 2;
-        p.shape.mesh = &mesh, p.face_targets = targets;
+        p.shape.mesh = &mesh, p.shape.textures = &own, p.face_targets = targets;
         surface_from_point(&s, &p, 0, &point);
         assert_true(s.texture == (k < 0 ? p.texture : &of_face[k]) && s.target == (k < 0 ? 3 : targets[k]));
         p.face_targets = NULL;

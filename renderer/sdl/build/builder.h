@@ -139,7 +139,7 @@ typedef struct ClipList {
 
 typedef struct Object {
     ObjectKind kind;
-    Shape shape;      /* textures of its mesh are ParsedTextures in the mesh's own space */
+    Shape shape;      /* its textures are ParsedTextures in the shape's own space */
     int single_triangle;        /* not of a mesh: may be gathered into one with its neighbours */
     int polygon;      /* the mesh is a polygon */
     const Light *light;
@@ -208,9 +208,8 @@ typedef struct Builder {
     CsgRoot *csg_roots;             /* placed, to be completed with the scene */
     int ncsg_roots, csg_capacity;
     PlacedTexture placed[PLACED_CACHE];
-    Mesh *placed_mesh; /* the last mesh whose own textures were placed */
-    const Mesh *placed_mesh_from;
-    Transform placed_mesh_by;
+    const FaceTextures *placed_textures, *placed_textures_from; /* the last that were placed */
+    Transform placed_textures_by;
     struct Tracer *tracer; /* trace.c: objects made ready for rays */
     struct FontFiles *fonts; /* font.c */
 } Builder;

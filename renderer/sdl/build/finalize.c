@@ -208,9 +208,8 @@ static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
         visit(sdl, &p->texture, context);
         if (p->interior_texture)
             visit(sdl, &p->interior_texture, context);
-        if (p->shape.mesh)
-            for (int j = 0; j < p->shape.mesh->ntextures; j++)
-                visit(sdl, &p->shape.mesh->textures[j], context);
+        for (int j = 0; p->shape.textures && j < p->shape.textures->count; j++)
+            visit(sdl, &p->shape.textures->list[j], context);
     }
 }
 
@@ -317,8 +316,8 @@ static void list_all_names(Sdl *sdl)
             list_names(sdl, &names, last_texture = p->texture->idents);
         if (p->interior_texture)
             list_names(sdl, &names, p->interior_texture->idents);
-        for (int j = 0; p->shape.mesh && j < p->shape.mesh->ntextures; j++)
-            list_names(sdl, &names, p->shape.mesh->textures[j]->idents);
+        for (int j = 0; p->shape.textures && j < p->shape.textures->count; j++)
+            list_names(sdl, &names, p->shape.textures->list[j]->idents);
         if (p->idents != last_object)
             list_names(sdl, &names, last_object = p->idents);
     }

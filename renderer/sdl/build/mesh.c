@@ -74,14 +74,15 @@ static int texture_index(Sdl *sdl, int ntextures)
     return (int)index;
 }
 
-static void texture_list(Sdl *sdl, Mesh *mesh)
+static const FaceTextures *texture_list(Sdl *sdl)
 {
-    mesh->ntextures = list_count(sdl, "texture_list");
-    mesh->textures = sdl_alloc(sdl, (size_t)(mesh->ntextures + 1) * sizeof *mesh->textures);
-    for (int i = 0; i < mesh->ntextures; i++) {
+    FaceTextures *textures = sdl_alloc(sdl, sizeof *textures);
+    textures->count = list_count(sdl, "texture_list");
+    textures->list = sdl_alloc(sdl, (size_t)(textures->count + 1) * sizeof *textures->list);
+    for (int i = 0; i < textures->count; i++) {
         if (sdl_accept(sdl, "material")) {
             const ParsedMaterial *material = parse_material(sdl);
-            mesh->textures[i] =
+            textures->list[i] =
                 &texture_named(sdl, material->texture ? material->texture : builder_of(sdl)->default_texture,
                                material->idents)
                      ->texture;
@@ -89,14 +90,35 @@ static void texture_list(Sdl *sdl, Mesh *mesh)
             const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
             if (!known)
                 sdl_expect(sdl, "texture");
-            mesh->textures[i] = &(known ? known : parse_texture(sdl))->texture;
+            textures->list[i] = &(known ? known : parse_texture(sdl))->texture;
         }
         sdl_optional_comma(sdl);
     }
-    list_end(sdl, "texture_list", mesh->ntextures);
+    list_end(sdl, "texture_list", textures->count);
+    return textures->count > 0 ? textures : NULL;
 }
 
-static void face_indices(Sdl *sdl, Mesh *mesh)
+/* One texture for the face, or one for each corner. */
+static void face_textures(Sdl *sdl, Mesh *mesh, int index, int ntextures)
+{
+    int of_corner[3], count = 0;
+    for (; ntextures > 0 && count < 3 && is_float_start(sdl); count++) {
+        of_corner[count] = texture_index(sdl, ntextures);
+        sdl_optional_comma(sdl);
+    }
+    mesh->faces[index].texture = count > 0 ? of_corner[0] : -1;
+    if (count < 3 && !mesh->corner_textures)
+        return;
+    if (!mesh->corner_textures) {
+        mesh->corner_textures = sdl_alloc(sdl, (size_t)mesh->nfaces * sizeof *mesh->corner_textures);
+        for (int i = 0; i < index; i++)
+            mesh->corner_textures[i][0] = mesh->corner_textures[i][1] = mesh->faces[i].texture;
+    }
+    for (int j = 0; j < 2; j++)
+        mesh->corner_textures[index][j] = count == 3 ? of_corner[j + 1] : mesh->faces[index].texture;
+}
+
+static void face_indices(Sdl *sdl, Mesh *mesh, const FaceTextures *textures)
 {
     mesh->nfaces = list_count(sdl, "face_indices");
     mesh->faces = sdl_alloc(sdl, (size_t)(mesh->nfaces + 1) * sizeof *mesh->faces);
@@ -106,16 +128,9 @@ static void face_indices(Sdl *sdl, Mesh *mesh)
             sdl_error(sdl, "face_indices: %d elements announced, but only %d are there", mesh->nfaces, i);
         triple(sdl, "face_indices", i, mesh->nvertices, "vertex", face->vertex);
         sdl_optional_comma(sdl);
-        face->texture = -1;
         for (int j = 0; j < 3; j++)
             face->normal[j] = face->uv[j] = -1;
-        /* One texture for the face, or three to blend between: the first of those is taken. */
-        for (int j = 0; mesh->ntextures > 0 && j < 3 && is_float_start(sdl); j++) {
-            int index = texture_index(sdl, mesh->ntextures);
-            if (j == 0)
-                face->texture = index;
-            sdl_optional_comma(sdl);
-        }
+        face_textures(sdl, mesh, i, textures ? textures->count : 0);
     }
     list_end(sdl, "face_indices", mesh->nfaces);
 }
@@ -158,9 +173,9 @@ void parse_mesh2(Sdl *sdl, Object *object)
         else if (sdl_accept(sdl, "uv_vectors"))
             mesh->uvs = vectors2(sdl, "uv_vectors", &mesh->nuvs);
         else if (sdl_accept(sdl, "texture_list"))
-            texture_list(sdl, mesh);
+            object->shape.textures = texture_list(sdl);
         else if (sdl_accept(sdl, "face_indices"))
-            face_indices(sdl, mesh);
+            face_indices(sdl, mesh, object->shape.textures);
         else if (sdl_accept(sdl, "normal_indices"))
             normal_indices +=
                 indices(sdl, mesh, "normal_indices", mesh->nnormals, "normal", offsetof(MeshFace, normal));
@@ -189,18 +204,21 @@ void parse_mesh2(Sdl *sdl, Object *object)
 
 typedef struct MeshLists {
     Mesh *mesh;
-    int vertex_capacity, normal_capacity, uv_capacity, face_capacity, texture_capacity;
+    FaceTextures *textures;
+    int (*corner_textures)[2];
+    int blends; /* some face has three textures */
+    int vertex_capacity, normal_capacity, uv_capacity, face_capacity, texture_capacity, corner_capacity;
 } MeshLists;
 
 static int mesh_texture(Sdl *sdl, MeshLists *b, const ParsedTexture *texture)
 {
-    Mesh *mesh = b->mesh;
-    for (int i = mesh->ntextures; i-- > 0 && i >= mesh->ntextures - 64;)
-        if (mesh->textures[i] == &texture->texture)
+    FaceTextures *all = b->textures;
+    for (int i = all->count; i-- > 0 && i >= all->count - 64;)
+        if (all->list[i] == &texture->texture)
             return i;
-    mesh->textures = builder_grow(sdl, mesh->textures, mesh->ntextures, &b->texture_capacity, sizeof *mesh->textures);
-    mesh->textures[mesh->ntextures] = &texture->texture;
-    return mesh->ntextures++;
+    all->list = builder_grow(sdl, all->list, all->count, &b->texture_capacity, sizeof *all->list);
+    all->list[all->count] = &texture->texture;
+    return all->count++;
 }
 
 static void mesh_uvs(Sdl *sdl, MeshLists *b, MeshFace *face)
@@ -234,38 +252,60 @@ static void mesh_corners(Sdl *sdl, MeshLists *b, MeshFace *face, int smooth)
     }
 }
 
+/* Textures of the corners, after texture_list: one, or three. */
+static int triangle_textures(Sdl *sdl, MeshLists *b, int of_corner[3])
+{
+    int count = 0;
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
+        if (!known)
+            sdl_expect(sdl, "texture");
+        const int index = mesh_texture(sdl, b, known ? known : parse_texture(sdl));
+        if (count < 3)
+            of_corner[count++] = index;
+        sdl_optional_comma(sdl);
+    }
+    return count;
+}
+
+static void add_triangle(Sdl *sdl, MeshLists *b, MeshFace face, int ntextures, const int of_corner[3])
+{
+    Mesh *mesh = b->mesh;
+    face.texture = ntextures > 0 ? of_corner[0] : -1;
+    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_capacity, sizeof *mesh->faces);
+    b->corner_textures =
+        builder_grow(sdl, b->corner_textures, mesh->nfaces, &b->corner_capacity, sizeof *b->corner_textures);
+    for (int j = 0; j < 2; j++)
+        b->corner_textures[mesh->nfaces][j] = ntextures == 3 ? of_corner[j + 1] : face.texture;
+    if (ntextures == 3)
+        b->blends = 1;
+    mesh->faces[mesh->nfaces++] = face;
+}
+
 static void mesh_triangle(Sdl *sdl, MeshLists *b, int smooth)
 {
     MeshFace face = {.texture = -1};
+    int of_corner[3], ntextures = 0;
     sdl_expect(sdl, "{");
     mesh_corners(sdl, b, &face, smooth);
     while (!sdl_accept(sdl, "}")) {
         if (sdl_accept(sdl, "uv_vectors"))
             mesh_uvs(sdl, b, &face);
-        else if (sdl_accept(sdl, "texture"))
-            face.texture = mesh_texture(sdl, b, parse_texture(sdl));
-        else if (sdl_accept(sdl, "texture_list")) {
-            /* three to blend between: the first */
-            sdl_expect(sdl, "{");
-            for (int i = 0; !sdl_accept(sdl, "}"); i++) {
-                const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
-                if (!known)
-                    sdl_expect(sdl, "texture");
-                int index = mesh_texture(sdl, b, known ? known : parse_texture(sdl));
-                face.texture = i == 0 ? index : face.texture;
-                sdl_optional_comma(sdl);
-            }
-        } else
+        else if (sdl_accept(sdl, "texture")) {
+            of_corner[0] = mesh_texture(sdl, b, parse_texture(sdl));
+            ntextures = 1;
+        } else if (sdl_accept(sdl, "texture_list"))
+            ntextures = triangle_textures(sdl, b, of_corner);
+        else
             sdl_expected(sdl, "uv_vectors, texture or } in a mesh's triangle");
     }
-    Mesh *mesh = b->mesh;
-    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_capacity, sizeof *mesh->faces);
-    mesh->faces[mesh->nfaces++] = face;
+    add_triangle(sdl, b, face, ntextures, of_corner);
 }
 
 void parse_mesh(Sdl *sdl, Object *object)
 {
-    MeshLists b = {.mesh = sdl_alloc(sdl, sizeof(Mesh))};
+    MeshLists b = {.mesh = sdl_alloc(sdl, sizeof(Mesh)), .textures = sdl_alloc(sdl, sizeof(FaceTextures))};
     object->shape.ops = &shape_mesh;
     for (;;) {
         if (sdl_accept(sdl, "triangle"))
@@ -281,6 +321,8 @@ void parse_mesh(Sdl *sdl, Object *object)
         sdl_optional_comma(sdl);
     }
     object->shape.mesh = b.mesh;
+    object->shape.textures = b.textures->count > 0 ? b.textures : NULL;
+    b.mesh->corner_textures = b.blends ? b.corner_textures : NULL;
     b.mesh->inward = mesh_winds_inward(b.mesh);
     if (b.mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;

@@ -77,32 +77,31 @@ static void report_texture(Sdl *sdl, const ParsedTexture *texture)
 
 /* ---- shapes ---- */
 
-/* A mesh with textures of its own gets a copy of its head, with those textures in world space. */
-static const Mesh *placed_mesh(Sdl *sdl, const Object *object, const Transform *to_world)
+/* A shape's own textures in world space. */
+static const FaceTextures *placed_textures(Sdl *sdl, const Object *object, const Transform *to_world)
 {
     Builder *builder = builder_of(sdl);
-    if (object->shape.mesh->ntextures == 0)
-        return object->shape.mesh;
+    const FaceTextures *from = object->shape.textures;
     const Transform by = object->uv_mapping ? transform_identity() : *to_world;
-    if (builder->placed_mesh_from == object->shape.mesh && !object->uv_mapping &&
-        memcmp(&builder->placed_mesh_by, &by, sizeof by) == 0)
-        return builder->placed_mesh;
-    Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
-    *mesh = *object->shape.mesh;
-    mesh->textures = sdl_alloc(sdl, (size_t)mesh->ntextures * sizeof *mesh->textures);
-    for (int i = 0; i < mesh->ntextures; i++) {
-        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)object->shape.mesh->textures[i], &by);
+    if (!from || (builder->placed_textures_from == from && !object->uv_mapping &&
+                  memcmp(&builder->placed_textures_by, &by, sizeof by) == 0))
+        return from ? builder->placed_textures : NULL;
+    FaceTextures *textures = sdl_alloc(sdl, sizeof *textures);
+    textures->count = from->count;
+    textures->list = sdl_alloc(sdl, (size_t)from->count * sizeof *textures->list);
+    for (int i = 0; i < from->count; i++) {
+        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)from->list[i], &by);
         if (object->uv_mapping)
             texture = uv_mapped(sdl, texture);
         report_texture(sdl, texture);
-        mesh->textures[i] = &texture->texture;
+        textures->list[i] = &texture->texture;
     }
     if (!object->uv_mapping) {
-        builder->placed_mesh_from = object->shape.mesh;
-        builder->placed_mesh_by = by;
-        builder->placed_mesh = mesh;
+        builder->placed_textures_from = from;
+        builder->placed_textures_by = by;
+        builder->placed_textures = textures;
     }
-    return mesh;
+    return textures;
 }
 
 /* Old scenes write the index of refraction in the finish. */
@@ -146,12 +145,12 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
         gaps_report(sdl, &interior->gaps);
     if (in->csg && object->shape.mesh)
         index_mesh(sdl, object->shape.mesh);
-    const Mesh *mesh = object->shape.mesh ? placed_mesh(sdl, object, &in->to_world) : NULL;
+    const FaceTextures *textures = placed_textures(sdl, object, &in->to_world);
     Primitive *p = primitive_new(sdl);
     builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] = object->single_triangle && !in->csg;
     p->csg = in->csg;
     p->shape = object->shape;
-    p->shape.mesh = mesh;
+    p->shape.textures = textures;
     p->transform = in->to_world;
     p->texture = &texture->texture;
     p->interior_texture = inside ? &inside->texture : NULL;
