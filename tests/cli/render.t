@@ -226,3 +226,10 @@ $ set -- --denoise --size 2000x2000 --spp 4096 ball.pov; for o in --no-denoise-d
 ! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
 ! retex-render: error: --denoise and --control-data exclude each other
 ! retex-render: error: --denoise needs at least two samples per pixel: one does not show the noise
+
+# Names are listed by their share of the picture, those of one share by the alphabet.
+$ printf '%s\n' 'camera { orthographic location <0,0,-5> look_at 0 right 4*x up 4*y } light_source { <0,0,-9> rgb 1 }' '#declare Pine = texture { pigment { rgb 1 } } #declare Ash = texture { pigment { rgb 1 } } #declare Oak = texture { pigment { rgb 1 } }' 'box { <-2,-2,0>, <-1,2,1> texture { Pine } } box { <-1,-2,0>, <0,2,1> texture { Ash } } box { <0,-2,0>, <2,2,1> texture { Oak } }' >shares.pov
+$ retex-render -q --list-targets --size 8x8 shares.pov
+>  50.00%  Oak
+>  25.00%  Ash
+>  25.00%  Pine
