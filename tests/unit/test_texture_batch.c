@@ -99,9 +99,9 @@ static void test_same_bits(void **state)
         RetexTexture *wide = make_cut_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4), cut);
         RetexTexture *textures[2] = {wide, narrowed(wide)};
         scatter(size[0], size[1], 0.05, 30, 40, (uint32_t)n);
-        for (int i = 0; i < 4; i++) {
-            const RetexTexture *texture = textures[i / 2];
-            RetexTextureFilter shape = i % 2 ? RETEX_TEXTURE_GAUSSIAN : RETEX_TEXTURE_DISC;
+        for (int i = 0; i < 6; i++) {
+            const RetexTexture *texture = textures[i / 3];
+            RetexTextureFilter shape = (RetexTextureFilter)(i % 3);
             retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba, 4);
             for (int k = 0; k <= level; k++) {
                 retex_texture_filter_batches(retex_texture_batch_kernels[k], texture, shape, footprints.uv,
@@ -211,6 +211,41 @@ static void test_needles_alike(void **state)
         for (int c = 0; c < 3; c++)
             assert_true(fabs(d.bias[c]) < 3e-4);
     }
+    retex_texture_close(&texture);
+}
+
+/* Broad footprints: those more than twice as long as wide are filtered as if they were as much wider as takes them
+ * there, on coarser levels than others. */
+static void test_broad(void **state)
+{
+    (void)state;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexTexture *texture;
+    RetexError err = {0};
+    strcpy(spec.image, "scenes/textures/walnut-herringbone.jpg");
+    test_must(retex_texture_load(&texture, &spec, 0, &err), &err);
+    double squares = 0;
+    int count = 0;
+    uint32_t seed = 9;
+    for (int i = 0; i < COUNT; i++) {
+        const double longer = 1 + 30 * test_random(&seed), ratio = 1 + 10 * test_random(&seed);
+        const double shorter = longer / ratio, lacks = fmax(longer * longer / 4 - shorter * shorter, 0);
+        double cov[3], wide[3], unit = 1.0 / 1024;
+        float is[4], should[4], uv[3] = {(float)test_random(&seed), (float)test_random(&seed), 1};
+        test_turned_covariance(cov, longer, shorter, M_PI * test_random(&seed));
+        for (int k = 0; k < 3; k++)
+            wide[k] = (cov[k] + (k == 1 ? 0 : lacks)) * unit * unit;
+        const float spread[3] = {(float)(sqrt(cov[0]) * unit), (float)(sqrt(cov[2]) * unit),
+                                 (float)(cov[1] / sqrt(cov[0] * cov[2]))};
+        retex_texture_filter(texture, RETEX_TEXTURE_BROAD, uv, spread, 3, 1, is, 4);
+        retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], wide, should);
+        for (int c = 0; c < 3; c++, count++) {
+            const double e = encode((double)is[c]) - encode((double)should[c]);
+            squares += e * e;
+        }
+    }
+    print_message("broad: %.1f dB\n", -10 * log10(squares / count));
+    assert_true(-10 * log10(squares / count) > 55);
     retex_texture_close(&texture);
 }
 
@@ -334,7 +369,7 @@ static void test_small_levels_padded(void **state)
     for (int n = 0; n < 16; n++) {
         RetexImage im = {0};
         int padded = 0;
-        test_random_image(&im, 300, 277, 4, (uint32_t)n, 0, 1);
+        test_random_image(&im, 700, 577, 4, (uint32_t)n, 0, 1);
         RetexTexture *texture = make_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4));
         assert_null(texture->levels[0].padded);
         for (int l = 0; l < texture->nlevels; l++) {
@@ -351,7 +386,7 @@ static void test_small_levels_padded(void **state)
                 }
             padded += level->padded != NULL;
         }
-        assert_true(padded >= 6);
+        assert_true(padded >= 8);
         retex_texture_close(&texture);
     }
 }
@@ -418,7 +453,7 @@ static void test_odd(void **state)
     spec.constant = 1;
     spec.color[1] = 7;
     test_must(retex_texture_load(&constant, &spec, 1, &err), &err);
-    for (int shape = 0; shape < 2; shape++)
+    for (int shape = 0; shape < 3; shape++)
         for (int k = 0; k < 2; k++) {
             retex_texture_filter(k ? constant : texture, (RetexTextureFilter)shape, footprints.uv, footprints.spread, 3,
                                  COUNT, footprints.rgba, 4);
@@ -440,15 +475,11 @@ static void test_odd(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_pictures_alike),
-        cmocka_unit_test(test_needles_alike),
-        cmocka_unit_test(test_edges_alike),
-        cmocka_unit_test(test_borders_alike),
-        cmocka_unit_test(test_cut_alike),
-        cmocka_unit_test(test_small_levels_padded),
-        cmocka_unit_test(test_steady),
-        cmocka_unit_test(test_odd),
+        cmocka_unit_test(test_same_bits),     cmocka_unit_test(test_pictures_alike),
+        cmocka_unit_test(test_needles_alike), cmocka_unit_test(test_broad),
+        cmocka_unit_test(test_edges_alike),   cmocka_unit_test(test_borders_alike),
+        cmocka_unit_test(test_cut_alike),     cmocka_unit_test(test_small_levels_padded),
+        cmocka_unit_test(test_steady),        cmocka_unit_test(test_odd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

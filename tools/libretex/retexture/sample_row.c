@@ -8,6 +8,8 @@
 
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
+    if (footprint->kind == RETEX_FOOTPRINT_BROAD || footprint->kind == RETEX_FOOTPRINT_INTERREFLECTION)
+        return RETEX_TEXTURE_BROAD;
     int even = footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
     return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
 }

@@ -15,7 +15,7 @@ typedef struct RetexFootprintRow {
 } RetexFootprintRow;
 
 /* The filter for a footprint: a footprint that is seen sharply through a box pixel filter is averaged evenly over its
- * ellipse, any other over a Gaussian. */
+ * ellipse, any other over a Gaussian, which of light that was scattered before is not a thin one. */
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint);
 
 /* Read row y of a footprint; uv is NULL where no pixel of the row has it. with_albedo: 1 = also read the original

@@ -7,6 +7,12 @@
 
 #include "texture/texture_kernel.h"
 
+/* Gaussians: the least ratio of the smaller variance to the larger, and the smaller variance in texels of the level
+ * that is chosen, with interpolation. The few paths of a broad footprint hardly determine its shape. */
+static const struct {
+    float narrowest, least;
+} gaussians[] = {[RETEX_TEXTURE_GAUSSIAN] = {1.0f / 64, 0.35f}, [RETEX_TEXTURE_BROAD] = {1.0f / 4, 0.2f}};
+
 #define LEAST_ALPHA 1e-20f /* alpha below this has no colour that a float can hold */
 
 /* The number of usable levels: only a level whose texels have about the same size along both axes stands for the
@@ -37,7 +43,10 @@ static RetexBatchLimit find_limit(const RetexTexture *texture, const RetexBatchT
 static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
 {
     const RetexTextureLevel *image = &texture->levels[0];
-    *t = (RetexBatchTexture){.texture = texture, .gaussian = shape == RETEX_TEXTURE_GAUSSIAN};
+    *t = (RetexBatchTexture){.texture = texture,
+                             .gaussian = shape != RETEX_TEXTURE_DISC,
+                             .narrowest = gaussians[shape].narrowest,
+                             .least = gaussians[shape].least};
     t->size[0] = image->width;
     t->size[1] = image->height;
     t->levels = count_levels(texture);
@@ -72,10 +81,10 @@ static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, co
 {
     double correlation = spreads == 3 ? (double)spread[2] : 0, u = (double)spread[0], v = (double)spread[1];
     double covariance[3] = {u * u, correlation * u * v, v * v};
-    if (shape == RETEX_TEXTURE_GAUSSIAN)
-        retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], covariance, rgba);
-    else
+    if (shape == RETEX_TEXTURE_DISC)
         retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
+    else
+        retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], covariance, rgba);
 }
 
 /* Divides by alpha; without alpha out stays 0. */

@@ -24,6 +24,7 @@ typedef struct RetexBatchLimit {
 typedef struct RetexBatchTexture {
     const RetexTexture *texture;
     int gaussian;
+    float narrowest, least; /* see batch.c */
     double matrix[2][2], offset[2];      /* from surface UV to image UV, in images, y down */
     double period[2];                    /* period of the image along x and y; 0: it does not repeat */
     double size[2];                      /* texels of level 0 */

@@ -30,7 +30,7 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define MAX_BANDS 36
 #define MAX_BLOCKS 4 /* blocks across in a band */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
-#define NKEYS (4 * MAX_BANDS * MAX_BLOCKS)
+#define NKEYS (8 * MAX_BANDS * MAX_BLOCKS)
 #define NODES 2 /* chords between two lines */
 #define BATCH_BOX_VARIANCE (1.0f / 12)
 #define BATCH_TENT_VARIANCE (1.0f / 6)
@@ -38,14 +38,12 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
-#define MAX_RATIO 8.0f     /* limit of the ratio of a Gaussian's standard deviations */
 #define LEAST_KEPT 1e-3f   /* share of a cut Gaussian that must remain; with less the reference ignores the limit */
 #define LEAST_RADIUS 0.02f /* texels */
-/* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves .9267 of its variance. */
-#define GAUSSIAN_REACH 3.25f
-#define GAUSSIAN_EDGE 0.0050865f
-#define GAUSSIAN_VARIANCE 0.926732f
-#define GAUSSIAN_LEAST 0.35f /* the smaller variance, with interpolation, of a Gaussian that is sampled at texels */
+/* A Gaussian ends at 2.5 standard deviations, lowered so that it is 0 there, which leaves .7383 of its variance. */
+#define GAUSSIAN_REACH 2.5f
+#define GAUSSIAN_EDGE 0.043975f
+#define GAUSSIAN_VARIANCE 0.737975f
 /* With a smaller variance two discs that have the Gaussian's second and fourth moments replace it. */
 #define INNER_DISC 0.54119610f
 #define OUTER_DISC 1.30656296f
@@ -159,7 +157,7 @@ typedef struct Group {
     int turned, fine, bands, blocks, lines, columns;
     Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three are whole numbers */
     Mask level;
-    int cut;               /* 1: the surface ends within some of the windows */
+    int cut;               /* 1: the surface ends within the windows */
     Lanes low[2], high[2]; /* limits of the surface, in lines and texels from the mean */
     Lanes total, whole;    /* sum of weights within the limits, and of all weights */
     float sums[LANES][16]; /* sums of RGBA, one for each of four neighbouring texels */
@@ -266,7 +264,7 @@ RETEX_CPU_INLINE void NAME(weigh_boxes)(Group *g, Band *band)
     }
 }
 
-/* exp(-x) with an error below 4e-5 for 0 <= x <= 5.28125: the eighth power of a fitted polynomial; less than
+/* exp(-x) with an error below 4e-5 for 0 <= x <= 3.125: the eighth power of a fitted polynomial; less than
  * GAUSSIAN_EDGE at the end. */
 RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
 {
@@ -332,19 +330,16 @@ RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 
 #include "texture/batch_sum.h"
 
-/* Loads the limits of the surface; 0 if there is none within the windows. */
-RETEX_CPU_INLINE int NAME(load_ends)(Group *g)
+/* Loads the limits of the surface. */
+RETEX_CPU_INLINE void NAME(load_ends)(Group *g)
 {
     const Places *p = g->places;
-    int cut = 0;
-    for (int lane = 0; lane < LANES && g->texture->limited; lane++)
-        cut |= p->cut[g->index[lane]];
-    for (int k = 0; k < 2 && cut; k++)
-        for (int lane = 0; lane < LANES; lane++) {
-            g->low[k][lane] = p->low[k][g->index[lane]];
-            g->high[k][lane] = p->high[k][g->index[lane]];
-        }
-    return cut;
+    Mask index;
+    LOAD(index, g->index);
+    for (int k = 0; k < 2; k++) {
+        g->low[k] = PICK(p->low[k], index);
+        g->high[k] = PICK(p->high[k], index);
+    }
 }
 
 RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
@@ -374,7 +369,8 @@ RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
     g->line = values[8];
     g->texel = values[9];
     g->level = (Mask)values[10];
-    g->cut = NAME(load_ends)(g);
+    if (g->cut)
+        NAME(load_ends)(g);
     g->total = g->whole = NAME(all)(0);
     memset(g->sums, 0, sizeof g->sums);
     for (int b = 0; b < g->bands; b++) {
@@ -415,7 +411,8 @@ RETEX_CPU_INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, i
 RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
 {
     const int key = g->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
-    g->turned = key / (2 * kinds);
+    g->cut = key / (4 * kinds);
+    g->turned = key / (2 * kinds) % 2;
     g->fine = key / kinds % 2;
     g->bands = key / MAX_BLOCKS % MAX_BANDS + 1;
     g->blocks = key % MAX_BLOCKS + 1;

@@ -16,17 +16,19 @@ RETEX_CPU_INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lane
     return (Ends){MIN(a, b), MAX(a, b)};
 }
 
-/* Converts the limits to lines and texels of a line; length and width are the half sizes of the window. */
-RETEX_CPU_INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
+/* Converts the limits to lines and texels of a line; length and width are the half sizes of the window. Returns which
+ * footprints are cut: none where all is beyond a limit, which the reference ignores then. */
+RETEX_CPU_INLINE Mask NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};
     Lanes high[2] = {SELECT(turned, ends[0].high, ends[1].high), SELECT(turned, ends[1].high, ends[0].high)};
     Mask inside = (low[0] < -length) & (high[0] > length) & (low[1] < -width) & (high[1] > width);
-    for (int k = 0; k < 2; k++) { /* a footprint that is not cut must not depend on others in its group */
-        STORE(p->low[k] + i, SELECT(inside, NAME(all)(-INFINITY), low[k]));
-        STORE(p->high[k] + i, SELECT(inside, NAME(all)(INFINITY), high[k]));
+    Mask outside = (low[0] > length + 1) | (high[0] < -1 - length) | (low[1] > width + 1) | (high[1] < -1 - width);
+    for (int k = 0; k < 2; k++) {
+        STORE(p->low[k] + i, low[k]);
+        STORE(p->high[k] + i, high[k]);
     }
-    STORE(p->cut + i, ~inside);
+    return ~(inside | outside);
 }
 
 /* The share of a texel, or of a line of texels, that is on the surface; exactly 1 far from the limits. */

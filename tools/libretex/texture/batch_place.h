@@ -15,7 +15,6 @@ typedef struct Places {
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
     float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* for batch_cut.h: limits of the surface, from the mean */
-    int cut[BATCH_SIZE];                           /* -1: the ellipse goes beyond a limit */
 } Places;
 
 /* Finds the mean in the image; u and v too far away become 0. */
@@ -67,13 +66,13 @@ RETEX_CPU_INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, 
                     c * c * uu + 2 * c * d * uv + d * d * vv};
 }
 
-/* Widens a Gaussian that is longer than MAX_RATIO times its width: the level chosen by its width would have far more
- * texels in it than others have, and the few paths that it stands for hardly determine how narrow it is. */
-RETEX_CPU_INLINE void NAME(widen)(Spread *s)
+/* Widens a Gaussian that is too long for its width: the level chosen by its width would have far more texels in it than
+ * others have. */
+RETEX_CPU_INLINE void NAME(widen)(Spread *s, float narrowest)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy;
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
-    Lanes lacks = MAX((sum + root) * (0.5f / (MAX_RATIO * MAX_RATIO)) - 0.5f * (sum - root), NAME(all)(0));
+    Lanes lacks = MAX(0.5f * (sum + root) * narrowest - 0.5f * (sum - root), NAME(all)(0));
     s->xx += lacks;
     s->yy += lacks;
 }
@@ -85,8 +84,8 @@ RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Sprea
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
     Lanes smaller = 0.5f * (sum - root), larger = MAX(0.5f * (sum + root), NAME(all)(1e-12f));
     if (t->gaussian) {
-        needed = NAME(all)(GAUSSIAN_LEAST + 1.0f / 12);
-        *fine = smaller < GAUSSIAN_LEAST - BATCH_TENT_VARIANCE;
+        needed = NAME(all)(t->least + 1.0f / 12);
+        *fine = smaller < t->least - BATCH_TENT_VARIANCE;
     } else {
         needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
         *fine = smaller < BOX_FROM;
@@ -117,7 +116,7 @@ RETEX_CPU_INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axi
     Lanes box = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? 0 : BATCH_BOX_VARIANCE));
     Lanes rest = (variance + tent - blur) * OF_LEVEL(t->inverse_area[2 * axis], level) - box;
     /* A Gaussian is sampled at texels, so its window must contain some of them. */
-    Lanes least = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? GAUSSIAN_LEAST : 0));
+    Lanes least = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? t->least : 0));
     return MAX(rest * OF_LEVEL(t->spread[axis], level), least);
 }
 
@@ -163,6 +162,10 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS);
     Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) +
                ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
+    Mask cut = {0};
+    if (t->limited)
+        cut = NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
+    key += cut & (4 * MAX_BANDS * MAX_BLOCKS);
     key = ((key - MAX_BLOCKS - 1) & ~far) | (NKEYS & far);
 
     STORE(p->line + i, first + SELECT_INT(turned, column, row));
@@ -178,8 +181,6 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     STORE(p->lines + i, lines);
     STORE(p->columns + i, columns);
     STORE(p->key + i, key);
-    if (t->limited)
-        NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
 }
 
 /* All steps for the footprints from i on. */
@@ -204,7 +205,7 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
     s = (Spread){SELECT(far, none, s.xx), SELECT(far, none, s.xy), SELECT(far, none, s.yy)};
 
     if (t->gaussian)
-        NAME(widen)(&s);
+        NAME(widen)(&s, t->narrowest);
     Double mean[2][2];
     Mask level = NAME(choose_level)(t, &s, &fine);
     for (int axis = 0; axis < 2; axis++) {

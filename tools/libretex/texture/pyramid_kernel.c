@@ -8,7 +8,7 @@
 
 #define ROWS_A_JOB 16
 #define PADDING 56               /* texels: about half of the longest window */
-#define MOST_PADDED (256 * 256L) /* texels of a padded level */
+#define MOST_PADDED (640 * 640L) /* texels of a padded level */
 
 size_t retex_texture_texel_size(int narrow)
 {

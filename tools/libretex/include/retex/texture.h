@@ -129,7 +129,11 @@ void retex_texture_disc(const RetexTexture *texture, double u, double v, const d
 
 /* ---- many footprints at once ---- */
 
-typedef enum RetexTextureFilter { RETEX_TEXTURE_DISC, RETEX_TEXTURE_GAUSSIAN } RetexTextureFilter;
+typedef enum RetexTextureFilter {
+    RETEX_TEXTURE_DISC,
+    RETEX_TEXTURE_GAUSSIAN, /* widened where it is more than eight times as long as wide */
+    RETEX_TEXTURE_BROAD     /* coarser, and widened from twice on: for footprints that few paths determine */
+} RetexTextureFilter;
 
 /* n footprints as sets hold them, filtered as retex_texture_disc or retex_texture_gaussian would, some ten times as
  * fast. Colours differ from theirs by no more than can be seen; they do not depend on what is filtered beside them, nor
