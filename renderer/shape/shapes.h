@@ -11,6 +11,7 @@
     X(box)             \
     X(cone)            \
     X(disc)            \
+    X(isosurface)      \
     X(mesh)            \
     X(ovus)            \
     X(plane)           \
@@ -24,7 +25,6 @@
 #define UNSUPPORTED_SHAPES(X) \
     X(bicubic_patch)          \
     X(height_field)           \
-    X(isosurface)             \
     X(julia_fractal)          \
     X(lathe)                  \
     X(parametric)             \

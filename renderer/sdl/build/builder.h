@@ -12,6 +12,7 @@
 #include <stdint.h>
 #include "sdl/lang/parser.h"
 #include "shape/csg.h"
+#include "shape/isosurface.h"
 #include "shape/shapes.h"
 #include "shape/text.h"
 
@@ -297,6 +298,9 @@ typedef void ShapeParser(Sdl *sdl, Object *object);    /* what stands between `{
 SHAPE_TABLE(X)
 SHAPE_KEYWORDS(X)
 #undef X
+/* isosurface.c: also of other shapes that a function gives */
+int accept_container(Sdl *sdl, Container *container);
+double positive_or(Sdl *sdl, const char *what, double value, double instead); /* warns where it is not */
 const Object *parse_light_source(Sdl *sdl); /* after light_source */
 int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
 

@@ -9,6 +9,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
+#include <retex/cpu.h>
 #include "base/noise.h"
 
 enum { HASHES = 4096, NUMBERS = 267, GRADIENTS = 2048 };
@@ -111,55 +112,75 @@ static inline void need_tables(void)
 /* ---- generators 1 and 2, and the noise of vectors ---- */
 
 /* A coordinate's cell, and where in it the point is. The cell of a whole negative number is that number, and so is that
- * of a number less than 1e-10 below it. */
-static inline unsigned cell_of(double x, double *at)
+ * of a number less than 1e-10 below it. Numbers beyond the range of int have the cell of the least one. */
+RETEX_CPU_INLINE unsigned cell_of(double x, double *at)
 {
-    const double whole = trunc(x >= 0 ? x : x - (1 - 1e-10));
-    const int cell = fabs(whole) < 2147483648.0 ? (int)whole : INT32_MIN;
+    const double down = x >= 0 ? x : x - (1 - 1e-10);
+    const int cell = fabs(down) < 2147483648.0 ? (int)down : INT32_MIN;
     *at = x - cell;
     return ((unsigned)cell + 10000u) & (HASHES - 1);
 }
 
-static inline double smooth_step(double t)
+RETEX_CPU_INLINE double smooth_step(double t)
 {
     return t * t * (3 - 2 * t);
 }
 
-typedef struct Corner {
-    double weight, x, y, z; /* of the corner's numbers; from the corner to the point */
-    const double *numbers;
-} Corner;
+/* A corner's value and gradient lie side by side in the list, and so do what they are multiplied with: a half, and the
+ * way from the corner to the point. */
+typedef double Four __attribute__((vector_size(32)));
 
-static inline void find_corners(Vec3 p, Corner corners[8])
+typedef struct Corners {
+    Four factors[8]; /* by corner: x fastest, then y; with its weight */
+    const double *numbers[8];
+} Corners;
+
+RETEX_CPU_INLINE void find_corners(Vec3 p, Corners *c)
 {
     double x, y, z;
     const unsigned ix = cell_of(p.x, &x), iy = cell_of(p.y, &y), iz = cell_of(p.z, &z);
     const double sx = smooth_step(x), sy = smooth_step(y), sz = smooth_step(z);
     const double wx[2] = {1 - sx, sx}, wy[2] = {1 - sy, sy}, wz[2] = {1 - sz, sz};
-    for (unsigned i = 0; i < 8; i++) {
-        const unsigned up_x = i & 1, up_y = i >> 1 & 1, up_z = i >> 2;
-        const unsigned column = hash[hash[ix + up_x] ^ (iy + up_y)];
-        corners[i].weight = wx[up_x] * wy[up_y] * wz[up_z];
-        corners[i].x = x - up_x;
-        corners[i].y = y - up_y;
-        corners[i].z = z - up_z;
-        corners[i].numbers = &numbers[hash[column ^ (iz + up_z)] & 0xff];
+    const Four from = {0.5, x, y, z};
+    const unsigned row[2] = {hash[ix], hash[ix + 1]};
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < 4; i++) {
+        const unsigned up_x = i & 1, up_y = i >> 1, column = hash[row[up_x] ^ (iy + up_y)];
+        const double weight = wx[up_x] * wy[up_y];
+        const Four below = from - (Four){0, up_x, up_y, 0}, above = from - (Four){0, up_x, up_y, 1};
+        c->numbers[i] = &numbers[hash[column ^ iz] & 0xff];
+        c->numbers[i + 4] = &numbers[hash[column ^ (iz + 1)] & 0xff];
+        c->factors[i] = below * (weight * wz[0]);
+        c->factors[i + 4] = above * (weight * wz[1]);
     }
 }
 
-static inline double corner_noise(const Corner *c, const double *n)
+/* The sum over corners, of the numbers from an offset on. */
+RETEX_CPU_INLINE double sum_corners(const Corners *c, int offset)
 {
-    return c->weight * (0.5 * n[0] + n[1] * c->x + n[2] * c->y + n[3] * c->z);
+    Four sum = {0, 0, 0, 0};
+#pragma GCC unroll 8
+    for (int i = 0; i < 8; i++) {
+        Four n;
+        memcpy(&n, c->numbers[i] + offset, sizeof n);
+        sum += n * c->factors[i];
+    }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static double lattice_noise(Vec3 p)
+RETEX_CPU_INLINE void lattice_noise_body(Vec3 p, double *noise)
 {
-    Corner corners[8];
-    double sum = 0;
-    find_corners(p, corners);
-    for (int i = 0; i < 8; i++)
-        sum += corner_noise(&corners[i], corners[i].numbers);
-    return sum;
+    Corners corners;
+    find_corners(p, &corners);
+    *noise = sum_corners(&corners, 0);
+}
+RETEX_CPU_KERNEL(lattice_noise, (Vec3 p, double *noise), (p, noise))
+
+static inline double lattice_noise(Vec3 p)
+{
+    double noise;
+    lattice_noise_by_level[retex_cpu_level()](p, &noise);
+    return noise;
 }
 
 /* ---- generator 3 ---- */
@@ -199,9 +220,9 @@ static double perlin_noise(Vec3 p)
 
 /* ---- the calls ---- */
 
-static int is_finite(Vec3 p)
+static inline int is_finite(Vec3 p)
 {
-    return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
+    return (p.x + p.y + p.z) * 0 == 0; /* a sum beyond the range of doubles is none for noise either */
 }
 
 double noise_value(Vec3 p, int generator)
@@ -221,18 +242,12 @@ double noise_value(Vec3 p, int generator)
 
 Vec3 noise_vector(Vec3 p)
 {
-    Corner corners[8];
-    Vec3 sum = {0, 0, 0};
+    Corners corners;
     if (!is_finite(p))
-        return sum;
+        return vec3(0, 0, 0);
     need_tables();
-    find_corners(p, corners);
-    for (int i = 0; i < 8; i++) {
-        sum.x += corner_noise(&corners[i], corners[i].numbers);
-        sum.y += corner_noise(&corners[i], corners[i].numbers + 4);
-        sum.z += corner_noise(&corners[i], corners[i].numbers + 8);
-    }
-    return sum;
+    find_corners(p, &corners);
+    return vec3(sum_corners(&corners, 0), sum_corners(&corners, 4), sum_corners(&corners, 8));
 }
 
 /* POV-Ray keeps lambda and omega as floats. */
