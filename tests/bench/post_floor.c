@@ -1,8 +1,9 @@
 /* The least that recombining a set can take: post_floor SET [THREADS]
  *
- * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at,
- * and keeps nothing: no texture, no arithmetic, no picture. Bands of rows are read side by side by all threads, what is
- * smaller than the picture before the rest, as in combining. Prints how many parts that were and their bytes as floats.
+ * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at
+ * where all targets have new textures without alpha, and keeps nothing: no texture, no arithmetic, no picture. Bands of
+ * rows are read side by side by all threads, what is smaller than the picture before the rest, as in combining. Prints
+ * how many parts that were and their bytes as floats.
  */
 #include <stdatomic.h>
 #include <stdio.h>
@@ -19,7 +20,8 @@ typedef struct Floor {
     char *wanted; /* by part */
     int is_small; /* parts smaller than the picture now, or those of its size */
     atomic_int code;
-    RetexError *errors; /* by thread */
+    RetexError *errors; /* by thread, as are: */
+    RetexRowReader **readers;
 } Floor;
 
 static void want(const Floor *work, int part)
@@ -33,7 +35,6 @@ static void want_footprint(const Floor *work, int footprint)
     const RetexFootprint *f = &work->set->footprints[footprint];
     want(work, f->uv);
     want(work, f->spread);
-    want(work, f->albedo);
 }
 
 static void want_mixture(const Floor *work, int mixture)
@@ -45,11 +46,13 @@ static void want_mixture(const Floor *work, int mixture)
     }
 }
 
-/* What all terms of the polynomial refer to, with new textures on every target. */
+/* What the terms of the polynomial refer to: of several targets none is left whose edit needs corrections. */
 static void choose(const Floor *work)
 {
     for (int t = 0; t < work->set->nterms; t++) {
         const RetexTerm *term = &work->set->terms[t];
+        if (term->edited && !(retex_correction_weight(work->set->ntargets, work->set->ntargets) > 0))
+            continue;
         want(work, term->radiance);
         want(work, term->gain ? term->gain : -1);
         for (int k = 0; k < term->nfactors; k++) {
@@ -80,14 +83,13 @@ static int read_band(const Floor *work, RetexRowReader *reader, int part, int ba
 static void read_job(void *context, int band, int thread)
 {
     Floor *work = context;
-    RetexRowReader *reader = NULL;
+    RetexRowReader **reader = &work->readers[thread];
     if (work->code)
         return;
-    int code = retex_row_reader_open(&reader, work->set, NULL, &work->errors[thread]);
+    int code = *reader ? RETEX_OK : retex_row_reader_open(reader, work->set, NULL, &work->errors[thread]);
     for (int part = 0; !code && part < work->set->nparts; part++)
         if (is_chosen(work, part))
-            code = read_band(work, reader, part, band, &work->errors[thread]);
-    retex_row_reader_close(&reader);
+            code = read_band(work, *reader, part, band, &work->errors[thread]);
     if (code)
         atomic_store(&work->code, code);
 }
@@ -97,9 +99,11 @@ static int read_all(Floor *work, int threads, RetexError *err)
     const int nbands = (work->set->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
     for (work->is_small = 1; !work->code && work->is_small >= 0; work->is_small--)
         retex_parallel(threads, nbands, read_job, work);
-    for (int i = 0; i < threads && work->code; i++)
-        if (work->errors[i].code)
+    for (int i = 0; i < threads; i++) {
+        retex_row_reader_close(&work->readers[i]);
+        if (work->code && work->errors[i].code)
             *err = work->errors[i];
+    }
     return work->code;
 }
 
@@ -119,8 +123,9 @@ int main(int argc, char **argv)
     if (!code) {
         Floor work = {.set = set,
                       .wanted = calloc((size_t)set->nparts + 1, 1),
-                      .errors = calloc((size_t)threads, sizeof *work.errors)};
-        code = work.wanted && work.errors ? RETEX_OK : retex_fail(&err, RETEX_ENOMEM, "no memory");
+                      .errors = calloc((size_t)threads, sizeof *work.errors),
+                      .readers = calloc((size_t)threads, sizeof *work.readers)};
+        code = work.wanted && work.errors && work.readers ? RETEX_OK : retex_fail(&err, RETEX_ENOMEM, "no memory");
         if (!code)
             choose(&work);
         if (!code)
@@ -132,6 +137,7 @@ int main(int argc, char **argv)
             }
         free(work.wanted);
         free(work.errors);
+        free(work.readers);
     }
     if (code)
         fprintf(stderr, "post_floor: %s: %s\n", argv[1], err.message);
