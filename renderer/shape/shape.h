@@ -18,6 +18,7 @@ typedef struct ShapeRay {
 typedef struct ShapePoint {
     Vec3 p, normal; /* canonical space; normal outward, of any length */
     double b1, b2;  /* as in Hit */
+    Vec3 shading_normal; /* where it is another one; else 0 */
 } ShapePoint;
 
 /* Its UVs. */

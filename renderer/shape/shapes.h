@@ -11,6 +11,7 @@
     X(box)             \
     X(cone)            \
     X(disc)            \
+    X(height_field)    \
     X(isosurface)      \
     X(mesh)            \
     X(ovus)            \
@@ -23,8 +24,6 @@
 
 /* POV-Ray's shapes that are read over, with a warning. */
 #define UNSUPPORTED_SHAPES(X) \
-    X(bicubic_patch)          \
-    X(height_field)           \
     X(julia_fractal)          \
     X(lathe)                  \
     X(parametric)             \

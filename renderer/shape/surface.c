@@ -14,6 +14,18 @@ static void set_material(Surface *surface)
     surface->backside = 0;
 }
 
+/* An interpolated normal, on the side of the face's own. Normals that cancel out, or lie in the face, tell nothing: the
+ * face's own stands in. */
+static Vec3 smooth_normal(const Primitive *primitive, Vec3 interpolated, Vec3 of_face)
+{
+    Vec3 n = shape_world_normal(primitive, interpolated);
+    double side = vec_dot(n, of_face);
+
+    if (fabs(side) < 1e-6)
+        return of_face;
+    return side < 0 ? vec_neg(n) : n;
+}
+
 void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point)
 {
     surface->primitive = primitive;
@@ -21,6 +33,8 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     surface->position = transform_point(&primitive->transform, point->p);
     surface->geometric_normal = surface->shading_normal = shape_world_normal(primitive, point->normal);
     surface->b1 = point->b1, surface->b2 = point->b2;
+    if (vec_dot(point->shading_normal, point->shading_normal) > 0)
+        surface->shading_normal = smooth_normal(primitive, point->shading_normal, surface->geometric_normal);
     set_material(surface);
 }
 
@@ -35,18 +49,6 @@ void surface_turn(Surface *surface, int backside)
     surface->target = primitive->interior_target;
 }
 
-/* A mesh's interpolated normal, on the side of the face's own. Normals that cancel out, or lie in the face, tell
- * nothing: the face's own stands in. */
-static Vec3 smooth_normal(const Primitive *primitive, const Hit *hit)
-{
-    Vec3 n = shape_world_normal(primitive, mesh_shading_normal(primitive->shape.mesh, hit->face, hit->b1, hit->b2));
-    double side = vec_dot(n, hit->normal);
-
-    if (fabs(side) < 1e-6)
-        return hit->normal;
-    return side < 0 ? vec_neg(n) : n;
-}
-
 static void triangle_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
 {
     surface->primitive = primitive;
@@ -56,7 +58,8 @@ static void triangle_at(Surface *surface, const Primitive *primitive, const Ray 
     surface->b1 = hit->b1, surface->b2 = hit->b2;
     set_material(surface);
     if (primitive->shape.mesh && mesh_face_has_normals(&primitive->shape.mesh->faces[hit->face]))
-        surface->shading_normal = smooth_normal(primitive, hit);
+        surface->shading_normal = smooth_normal(
+            primitive, mesh_shading_normal(primitive->shape.mesh, hit->face, hit->b1, hit->b2), hit->normal);
 }
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit)

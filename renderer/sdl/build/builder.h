@@ -260,6 +260,7 @@ int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
 /* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace list[]. */
 void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures);
+void accept_image_type(Sdl *sdl); /* before a file's name: `png` and the like, which is not looked at */
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
 
 /* field.c: see SdlBuilder */
@@ -293,7 +294,8 @@ void parse_object_modifiers(Sdl *sdl, Object *object); /* up to the closing brac
 typedef void ShapeParser(Sdl *sdl, Object *object);    /* what stands between `{` and the modifiers */
 /* Keywords that are not the name of a shape's operations. */
 #define SHAPE_KEYWORDS(X) \
-    X(cubic) X(cylinder) X(mesh2) X(polygon) X(polynomial) X(quadric) X(quartic) X(smooth_triangle) X(triangle)
+    X(bicubic_patch) X(cubic) X(cylinder) X(mesh2) X(polygon) X(polynomial) X(quadric) X(quartic) \
+    X(smooth_triangle) X(triangle)
 #define X(name) ShapeParser parse_##name;
 SHAPE_TABLE(X)
 SHAPE_KEYWORDS(X)

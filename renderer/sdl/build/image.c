@@ -4,10 +4,10 @@
 #include "sdl/build/builder.h"
 
 /* Before the file's name. The name's ending is not looked at: OpenImageIO looks into the file. */
-static void accept_type(Sdl *sdl)
+void accept_image_type(Sdl *sdl)
 {
     static const char *const types[] = {"png", "jpeg", "jpg", "gif", "tga", "tiff", "tif", "bmp",
-                                        "ppm", "pgm",  "pbm", "exr", "hdr", "iff",  "sys", NULL};
+                                        "ppm", "pgm",  "pbm", "exr", "hdr", "iff",  "sys", "pot", NULL};
     for (int i = 0; types[i]; i++)
         if (sdl_accept(sdl, types[i]))
             return;
@@ -110,7 +110,7 @@ void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
     }
     ParsedImage *image = sdl_alloc(sdl, sizeof *image);
     image->working = 1;
-    accept_type(sdl);
+    accept_image_type(sdl);
     image->file = sdl_peek(sdl)->file;
     image->line = sdl_peek(sdl)->line;
     const char *name = sdl_string(sdl);

@@ -327,14 +327,19 @@ static Node *parse_full(Compiler *compiler)
 
 /* ---- declaration ---- */
 
+static void default_parameters(Sdl *sdl, Function *function)
+{
+    static const char *const defaults[] = {"x", "y", "z"};
+    function->nparameters = 3;
+    for (int i = 0; i < 3; i++)
+        function->parameters[i] = word_intern(sdl, defaults[i], 1)->text;
+}
+
 /* The parameter list `(a, b)`. Without a list the parameters are x, y and z. */
 static void parse_parameters(Sdl *sdl, Function *function)
 {
-    static const char *const defaults[] = {"x", "y", "z"};
     if (!sdl_raw_accept(sdl, '(')) {
-        function->nparameters = 3;
-        for (int i = 0; i < 3; i++)
-            function->parameters[i] = word_intern(sdl, defaults[i], 1)->text;
+        default_parameters(sdl, function);
         return;
     }
     while (!sdl_raw_accept(sdl, ')')) {
@@ -423,6 +428,18 @@ static void parse_body(Sdl *sdl, Function *function)
     }
 }
 
+static void parse_definition(Sdl *sdl, Function *function)
+{
+    const Token *token = sdl_peek(sdl);
+    int function_follows = 0;
+    if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_FUNCTION)
+        function_follows = sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '}';
+    if (function_follows) { /* function { f } is the same function as f */
+        *function = *(const Function *)sdl_next(sdl)->value->data;
+    } else
+        parse_body(sdl, function);
+}
+
 void function_declare(Sdl *sdl, Value *value)
 {
     Function *function = sdl_alloc(sdl, sizeof *function);
@@ -432,16 +449,17 @@ void function_declare(Sdl *sdl, Value *value)
         sdl_raw(sdl);
     parse_parameters(sdl, function);
     sdl_expect(sdl, "{");
-    const Token *token = sdl_peek(sdl);
-    int function_follows = 0;
-    if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_FUNCTION)
-        function_follows = sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '}';
-    if (function_follows) { /* function { f } is the same function as f */
-        *function = *(const Function *)sdl_next(sdl)->value->data;
-    } else
-        parse_body(sdl, function);
+    parse_definition(sdl, function);
     sdl_expect(sdl, "}");
     *value = (Value){.kind = VALUE_FUNCTION, .data = function};
+}
+
+Value sdl_function_body(Sdl *sdl)
+{
+    Function *function = sdl_alloc(sdl, sizeof *function);
+    default_parameters(sdl, function);
+    parse_definition(sdl, function);
+    return (Value){.kind = VALUE_FUNCTION, .data = function};
 }
 
 /* ---- evaluation ---- */

@@ -1,0 +1,186 @@
+/* height_field: heights from a picture, as its numbers are, or from a function. */
+#include <string.h>
+#include <retex/image_file.h>
+#include "base/digest.h"
+#include "sdl/build/builder.h"
+#include "shade/pigment.h"
+#include "shape/height_field.h"
+#include "shape/shape.h"
+
+#define LARGEST 65536 /* points along a side */
+
+/* Of a value from 0 to 1. */
+static uint16_t units(double value)
+{
+    return (uint16_t)(value >= 1 ? HEIGHT_UNITS - 1 : value > 0 ? value * (HEIGHT_UNITS - 1) : 0);
+}
+
+static void set_size(Sdl *sdl, HeightField *field, double width, double height)
+{
+    if (!(width >= 2 && width <= LARGEST && height >= 2 && height <= LARGEST))
+        sdl_error(sdl, "a height_field of %g by %g points: there are 2 to %d", width, height, LARGEST);
+    field->width = (int)width;
+    field->height = (int)height;
+    field->heights = sdl_alloc(sdl, (size_t)field->width * (size_t)field->height * sizeof *field->heights);
+}
+
+/* ---- pictures ---- */
+
+/* Grey values; of colours red is the coarse and green the fine part of a number of 16 bits. */
+static uint16_t height_of_pixel(const float *p)
+{
+    if (p[0] == p[1] && p[1] == p[2])
+        return (uint16_t)fmin(fmax(p[0] * 65535.0 + 0.5, 0), 65535);
+    return (uint16_t)(256 * (int)fmin(fmax(p[0] * 255.0 + 0.5, 0), 255) + (int)fmin(fmax(p[1] * 255.0 + 0.5, 0), 255));
+}
+
+static void read_picture(Sdl *sdl, HeightField *field)
+{
+    accept_image_type(sdl);
+    const char *path = sdl_need_file(sdl, "image", sdl_string(sdl));
+    const SdlOptions *options = sdl_options(sdl);
+    const RetexReadParams params = {.size = sizeof params,
+                                    .colorspace = "linear",
+                                    .max_pixels = (long)LARGEST * LARGEST,
+                                    .access = sdl_access(sdl),
+                                    .budget = options->budget,
+                                    .pixel_bytes = 16 + 2 + 6};
+    RetexImage pixels = {0};
+    RetexError err = {0};
+    sdl_add_file(sdl, path);
+    if (retex_image_read(&pixels, path, &params, options->nthreads, &err))
+        sdl_error(sdl, "height_field: %s%s%s", err.file, err.file[0] ? ": " : "", err.message);
+    const int width = pixels.width, height = pixels.height;
+    uint16_t *heights = NULL;
+    if (width >= 2 && height >= 2 && width <= LARGEST && height <= LARGEST)
+        heights = arena_alloc(sdl_arena(sdl), (size_t)width * (size_t)height * sizeof *heights);
+    for (int j = 0; heights && j < height; j++) /* the picture's lowest row is at z = 0 */
+        for (int i = 0; i < width; i++)
+            heights[(size_t)j * (size_t)width + (size_t)i] =
+                height_of_pixel(pixels.pixels + retex_image_index(&pixels, i, height - 1 - j));
+    retex_image_free(&pixels);
+    if (!heights)
+        set_size(sdl, field, width, height); /* tells why not */
+    field->width = width;
+    field->height = height;
+    field->heights = heights ? heights : field->heights;
+    Scene *scene = sdl_scene(sdl);
+    scene->digest = digest_bytes(scene->digest, field->heights, (size_t)width * (size_t)height * sizeof *heights);
+}
+
+/* ---- functions ---- */
+
+/* A point of the grid is a point of the picture that the function draws from (0, 1) on top to (1, 0). */
+static void fill(Sdl *sdl, HeightField *field, const FunctionProgram *program, const Pigment *pigment)
+{
+    for (int j = 0; j < field->height; j++) {
+        sdl_step(sdl, 1 + field->width);
+        for (int i = 0; i < field->width; i++) {
+            const Vec3 p = vec3((double)i / (field->width - 1), 1 - (double)j / (field->height - 1), 0);
+            double value;
+            if (pigment) {
+                const Rgbft c = pigment_eval(pigment, p, (Vec2){p.x, p.y});
+                value = 0.297 * c.r + 0.589 * c.g + 0.114 * c.b;
+            } else
+                value = function_at(program, p);
+            field->heights[(size_t)j * (size_t)field->width + (size_t)i] = units(value);
+        }
+    }
+}
+
+static void read_function(Sdl *sdl, HeightField *field)
+{
+    const double width = sdl_float(sdl);
+    sdl_optional_comma(sdl);
+    set_size(sdl, field, width, sdl_float(sdl));
+    sdl_expect(sdl, "{");
+    if (sdl_accept(sdl, "pigment")) {
+        const ParsedPigment *pigment = parse_pigment(sdl, default_pigment(sdl));
+        gaps_report(sdl, &pigment->gaps);
+        if (pigment->pigment.kind == PIGMENT_IMAGE)
+            sdl_error(sdl, "a height_field of a pigment with an image_map: write the image itself");
+        fill(sdl, field, NULL, &pigment->pigment);
+    } else {
+        const Value function = sdl_function_body(sdl);
+        fill(sdl, field, sdl_function_program(sdl, &function, 3), NULL);
+    }
+    sdl_expect(sdl, "}");
+}
+
+/* ---- the tree ---- */
+
+static HeightRange joined(HeightRange a, HeightRange b)
+{
+    return (HeightRange){a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
+}
+
+static void first_level(const HeightField *field, HeightLevel *level)
+{
+    for (int j = 0; j < level->height; j++)
+        for (int i = 0; i < level->width; i++) {
+            const uint16_t *h = field->heights + (size_t)j * (size_t)field->width + (size_t)i;
+            const HeightRange front = joined((HeightRange){h[0], h[0]}, (HeightRange){h[1], h[1]});
+            h += field->width;
+            level->ranges[(size_t)j * (size_t)level->width + (size_t)i] =
+                joined(front, joined((HeightRange){h[0], h[0]}, (HeightRange){h[1], h[1]}));
+        }
+}
+
+static void next_level(const HeightLevel *below, HeightLevel *level)
+{
+    for (int j = 0; j < below->height; j++)
+        for (int i = 0; i < below->width; i++) {
+            HeightRange *to = &level->ranges[(size_t)(j / 2) * (size_t)level->width + (size_t)(i / 2)];
+            const HeightRange one = below->ranges[(size_t)j * (size_t)below->width + (size_t)i];
+            *to = i % 2 || j % 2 ? joined(*to, one) : one;
+        }
+}
+
+static void build_levels(Sdl *sdl, HeightField *field)
+{
+    int width = field->width - 1, height = field->height - 1;
+    for (int n = 0;; n++) {
+        HeightLevel *level = &field->levels[n];
+        *level = (HeightLevel){width, height, sdl_alloc(sdl, (size_t)width * (size_t)height * sizeof(HeightRange))};
+        if (n == 0)
+            first_level(field, level);
+        else
+            next_level(level - 1, level);
+        field->nlevels = n + 1;
+        if (width == 1 && height == 1)
+            return;
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+    }
+}
+
+static void skip_gamma(Sdl *sdl)
+{
+    if (!sdl_accept(sdl, "srgb") && !sdl_accept(sdl, "bt709") && !sdl_accept(sdl, "bt2020"))
+        sdl_float(sdl);
+}
+
+void parse_height_field(Sdl *sdl, Object *object)
+{
+    HeightField *field = sdl_alloc(sdl, sizeof *field);
+    field->water = -1; /* none: all is there */
+    if (sdl_accept(sdl, "function"))
+        read_function(sdl, field);
+    else
+        read_picture(sdl, field);
+    for (;;) {
+        if (sdl_accept(sdl, "water_level"))
+            field->water = sdl_float(sdl) * HEIGHT_UNITS;
+        else if (sdl_accept(sdl, "smooth"))
+            field->smooth = sdl_optional_bool(sdl, 1);
+        else if (sdl_accept(sdl, "premultiplied") || sdl_accept(sdl, "hierarchy"))
+            sdl_optional_bool(sdl, 1);
+        else if (sdl_accept(sdl, "gamma")) /* heights are numbers */
+            skip_gamma(sdl);
+        else
+            break;
+    }
+    build_levels(sdl, field);
+    object->shape.ops = &shape_height_field;
+    object->shape.data = field;
+}

@@ -1,0 +1,296 @@
+/* height_field: crossings against a loop over all of its triangles, heights and places as POV-Ray's trace() gives them,
+ * pictures of 8 and 16 bits; and bicubic_patch against the surface's own formula. */
+#include "lib_scene_text.h"
+#include "lib_shape.h"
+#include "shape/height_field.h"
+
+#include <retex/image_file.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static uint32_t state = 11;
+
+static double between(double low, double high)
+{
+    return low + (high - low) * test_random(&state);
+}
+
+/* ---- crossings ---- */
+
+/* Distance along the ray to a triangle; *doubtful where the ray meets its rim or is in its plane. */
+static int triangle(const Ray *ray, Vec3 a, Vec3 b, Vec3 c, double *t, int *doubtful)
+{
+    const Vec3 e1 = vec_sub(b, a), e2 = vec_sub(c, a), across = vec_cross(ray->direction, e2);
+    const Vec3 from = vec_sub(ray->origin, a), over = vec_cross(from, e1);
+    const double volume = vec_dot(e1, across), u = vec_dot(from, across) / volume;
+    const double v = vec_dot(ray->direction, over) / volume, least = fmin(fmin(u, v), 1 - u - v);
+
+    *t = vec_dot(e2, over) / volume;
+    *doubtful |= !(fabs(least) > 1e-7);
+    return least > 0 && *t > 0;
+}
+
+static Vec3 corner(const Primitive *p, int i, int j)
+{
+    const HeightField *f = p->shape.data;
+    const double height = (double)f->heights[j * f->width + i] / HEIGHT_UNITS;
+
+    return transform_point(&p->transform, vec3((double)i / (f->width - 1), height, (double)j / (f->height - 1)));
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static int all_triangles(const Primitive *p, const Ray *ray, double *list, int *doubtful)
+{
+    const HeightField *f = p->shape.data;
+    int count = 0;
+
+    for (int j = 0; j + 1 < f->height; j++)
+        for (int i = 0; i + 1 < f->width; i++) {
+            const Vec3 a = corner(p, i, j), b = corner(p, i + 1, j), c = corner(p, i, j + 1);
+            const Vec3 d = corner(p, i + 1, j + 1);
+            for (int k = 0; k < 2; k++)
+                if (triangle(ray, k ? d : a, b, c, &list[count], doubtful)) {
+                    const Vec3 at = vec_mad(ray->origin, ray->direction, list[count]);
+                    const double y = transform_inverse_point(&p->transform, at).y * HEIGHT_UNITS;
+                    *doubtful |= fabs(y - f->water) < 1e-3;
+                    count += y >= f->water;
+                }
+        }
+    qsort(list, (size_t)count, sizeof *list, by_value);
+    return count;
+}
+
+static void test_against_triangles(void **unused)
+{
+    static const int sizes[][2] = {{2, 2}, {5, 4}, {17, 9}, {20, 33}};
+    static const double scales[] = {1e-4, 1, 1e5};
+    int met = 0, doubts = 0;
+    (void)unused;
+    for (int n = 0; n < 24; n++) {
+        char text[400];
+        const double scale = scales[n % 3];
+        snprintf(text, sizeof text,
+                 V37 "height_field{function %d,%d{.5+.4*sin(%d*x+1)*cos(%d*y+x*9)} %s scale %g*<1,%g,1.5>"
+                     " rotate <20,%d,5> translate %g*y}",
+                 sizes[n % 4][0], sizes[n % 4][1], 5 + n, 40 - n, n % 5 == 4 ? "water_level .5" : "", scale,
+                 n % 2 ? .3 : 1., 30 * n, n % 7 == 6 ? 100 * scale : 0);
+        Scene *scene = parse(text);
+        const Primitive *p = only(scene);
+        for (int i = 0; i < 400; i++) {
+            static double expected[4000];
+            TestCrossing list[TEST_CROSSINGS];
+            const Vec3 aim = transform_point(&p->transform, vec3(between(0, 1), between(.1, .9), between(0, 1)));
+            Vec3 d = test_direction(&state);
+            if (i % 8 < 3)
+                d = vec_normalize(transform_vector(&p->transform, vec3(i % 8 == 0, i % 8 == 1 ? -1 : 0, i % 8 == 2)));
+            const Ray ray = {vec_mad(aim, d, -scale * (i % 3 == 0 ? .2 : i % 3 == 1 ? 3 : 300)), d, 0, INFINITY};
+            int doubtful = 0;
+            const int wanted = all_triangles(p, &ray, expected, &doubtful);
+            const int count = test_all_crossings(p, ray, list);
+            if (doubtful) {
+                doubts++;
+                continue;
+            }
+            if (count != wanted)
+                fail_msg("scene %d ray %d: %d crossings, not %d", n, i, count, wanted);
+            for (int k = 0; k < count; k++) {
+                assert_true(fabs(list[k].t - expected[k]) < 1e-9 * (scale + vec_length(ray.origin)));
+                met++;
+            }
+        }
+        scene_close(&scene);
+    }
+    assert_true(met > 5000 && doubts < 400);
+}
+
+/* ---- heights ---- */
+
+static void check_height(const Primitive *p, double x, double z, double y)
+{
+    const Ray ray = {vec3(x, 5, z), vec3(0, -1, 0), 0, 100};
+    double t;
+    int face;
+    assert_true(shape_intersect(p, &ray, &t, &face));
+    if (fabs(5 - t - y) > 2e-6)
+        fail_msg("height %.7f at %g %g, not %.7f", 5 - t, x, z, y);
+    assert_true(p->shape.ops->inside(&p->shape, vec3(x, y - 1e-5, z)));
+    assert_false(p->shape.ops->inside(&p->shape, vec3(x, y + 1e-5, z)));
+}
+
+/* Values of POV-Ray 3.7.0.10. */
+static void test_functions(void **unused)
+{
+    (void)unused;
+    Scene *scene =
+        parse(V37 "height_field{function 5,4{x*x*.5+y*.25}}"
+                  "height_field{function 5,4{pigment{gradient x color_map{[0 rgb <1,0,0>][1 rgb <0,1,1>]}}}}");
+    const Primitive *p = &scene->primitives[0];
+    check_height(p, .001, .001, .2498598);
+    check_height(p, .999, .001, .7488598);
+    check_height(p, .001, .999, .0003750);
+    check_height(p, .3, .6, .1499939);
+    check_height(p, .1, .15, .2249870);
+    check_height(p + 1, .001, .001, .2973878);
+    check_height(p + 1, .3, .6, .4187836);
+    assert_true(p->shape.ops->inside(&p->shape, vec3(.5, -7, .5)));
+    assert_false(p->shape.ops->inside(&p->shape, vec3(1.01, -7, .5)));
+    scene_close(&scene);
+}
+
+static const float rows[4][5] = {
+    {37, 235, 140, 72, 255}, {137, 203, 133, 79, 192}, {144, 129, 204, 71, 237}, {252, 134, 25, 178, 20}};
+
+static Scene *picture_scene(const char *folder, const char *name, int channels, const char *after)
+{
+    char path[200], text[300];
+    RetexImage image = {0};
+    RetexError err = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    const char *folders[] = {folder};
+    SdlOptions options = SDL_OPTIONS_INIT;
+    Scene *scene;
+
+    params.colorspace = "linear";
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_int_equal(retex_image_alloc(&image, 5, 4, channels, &err), 0);
+    for (int j = 0; j < 4; j++)
+        for (int i = 0; i < 5; i++)
+            for (int c = 0; c < channels; c++)
+                image.pixels[retex_image_index(&image, i, j) + (size_t)c] =
+                    (c == 1 ? rows[3 - j][i] : rows[j][i]) / 255;
+    if (retex_image_write(&image, path, &params, 1, &err))
+        fail_msg("%s", err.message);
+    retex_image_free(&image);
+    snprintf(text, sizeof text, V37 "height_field{\"%s\" %s}", name, after);
+    options.include_paths = folders;
+    options.ninclude_paths = 1;
+    if (parse_with(&scene, text, &options, &err))
+        fail_msg("%s", err.message);
+    unlink(path);
+    return scene;
+}
+
+static void test_pictures(void **unused)
+{
+    char folder[] = "/tmp/test_heights_XXXXXX";
+    (void)unused;
+    assert_non_null(mkdtemp(folder));
+    Scene *scene = picture_scene(folder, "grey.png", 1, "water_level .4");
+    const Primitive *p = only(scene);
+    const HeightField *f = p->shape.data;
+    assert_int_equal(f->heights[0], 252 * 257); /* the lowest row of the picture is at z = 0 */
+    check_height(p, .001, .001, .9850987);
+    check_height(p, .1, .15, .6125397);
+    check_height(p, .2, .05, .5545013);
+    const Ray under = {vec3(.999, 5, .001), vec3(0, -1, 0), 0, 100};
+    double t;
+    int face;
+    assert_false(shape_intersect(p, &under, &t, &face));
+    scene_close(&scene);
+    scene = picture_scene(folder, "colour.png", 3, "smooth");
+    f = only(scene)->shape.data;
+    assert_int_equal(f->heights[0], 252 * 256 + 37);
+    assert_int_equal(f->heights[4], 20 * 256 + 255);
+    assert_true(f->smooth);
+    scene_close(&scene);
+    rmdir(folder);
+}
+
+static void test_normals_of_fields(void **unused)
+{
+    (void)unused;
+    Scene *scene = parse(V37 "height_field{function 65,65{.5*x*x+.25*(1-y)} smooth scale <2,3,4>}");
+    const Primitive *p = only(scene);
+    for (int i = 0; i < 100; i++) {
+        const Ray ray = {vec3(between(.1, 1.9), 9, between(.1, 3.9)), vec3(0, -1, 0), 0, 100};
+        Hit hit = {.primitive = 0};
+        Surface s;
+        assert_true(shape_intersect(p, &ray, &hit.t, &hit.face));
+        surface_at(&s, scene, &ray, &hit);
+        /* y = 3/8 x^2 + 3/16 z, in the world */
+        const Vec3 exact = vec_normalize(vec3(-.75 * ray.origin.x, 1, -3. / 16));
+        assert_true(vec_length(vec_sub(s.shading_normal, exact)) < 2e-3);
+        assert_true(vec_length(vec_sub(s.geometric_normal, exact)) < 2e-2);
+        assert_true(fabs(surface_uv(&s).natural.u - ray.origin.x / 2) < 1e-12);
+        assert_true(fabs(surface_uv(&s).natural.v - ray.origin.z / 4) < 1e-12);
+    }
+    scene_close(&scene);
+}
+
+static void test_errors(void **unused)
+{
+    (void)unused;
+    expect_error(V37 "height_field{png \"nowhere.png\"}", "cannot find the image `nowhere.png`");
+    expect_error(V37 "height_field{png \"colors.inc\"}", "height_field: ");
+    expect_error(V37 "height_field{function 1,5{x}}", "a height_field of 1 by 5 points");
+    expect_error(V37 "height_field{function 70000,5{x}}", "a height_field of 70000 by 5 points");
+}
+
+/* ---- bicubic_patch ---- */
+
+#define BENT                                                                                                           \
+    "<0,0,0>,<1,0,2>,<2,0,2>,<3,0,0>,<0,1,0>,<1,1,2>,<2,1,2>,<3,1,0>,<0,2,0>,<1,2,2>,<2,2,2>,<3,2,0>,<0,3,0>,<1,3,2>," \
+    "<2,3,2>,<3,3,0>"
+
+/* z = 6 s (1 - s) at x = 3 s; steps as POV-Ray's trace() shows them. */
+static void test_patch(void **unused)
+{
+    static const struct {
+        const char *options;
+        int faces;
+        double error;
+    } cases[] = {{"type 0 flatness 0 u_steps 3 v_steps 3", 128, .0235},
+                 {"type 1 u_steps 0, v_steps 3", 16, .0235},
+                 {"type 1 flatness 0, u_steps 3", 16, 2},
+                 {"type 1 flatness .1 u_steps 5 v_steps 5", 32, .1},
+                 {"type 1", 2, 2}};
+    (void)unused;
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        char text[600];
+        double worst = 0;
+        snprintf(text, sizeof text, V37 "bicubic_patch{%s " BENT "}", cases[n].options);
+        Scene *scene = parse(text);
+        const Primitive *p = only(scene);
+        const Mesh *mesh = p->shape.mesh;
+        if (n != 3)
+            assert_int_equal(mesh->nfaces, cases[n].faces);
+        else
+            assert_true(mesh->nfaces > 2 && mesh->nfaces < 2048);
+        for (int i = 0; i < mesh->nvertices; i++) {
+            const double s = mesh->vertices[i].x / 3;
+            assert_true(fabs(mesh->vertices[i].z - 6 * s * (1 - s)) < 1e-12);
+            assert_near(mesh->uvs[i].u, s);
+            assert_near(mesh->uvs[i].v, mesh->vertices[i].y / 3);
+            const Vec3 exact = vec_normalize(vec3(2 * (1 - 2 * s), 0, -1));
+            assert_true(fabs(fabs(vec_dot(vec_normalize(mesh->normals[i]), exact)) - 1) < 1e-9);
+        }
+        for (int i = 0; i < 200; i++) {
+            const double s = between(.01, .99);
+            const Ray ray = {vec3(3 * s, between(.1, 2.9), -5), vec3(0, 0, 1), 0, 100};
+            double t;
+            int face;
+            assert_true(shape_intersect(p, &ray, &t, &face));
+            worst = fmax(worst, fabs(t - 5 - 6 * s * (1 - s)));
+        }
+        assert_true(worst <= cases[n].error && (n == 3 || worst > cases[n].error / 4));
+        scene_close(&scene);
+    }
+    expect_error(V37 "bicubic_patch{type 2 " BENT "}", "a bicubic_patch of type 2");
+    expect_error(V37 "bicubic_patch{type 1 u_steps 13 " BENT "}", "a bicubic_patch of 13 steps");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_against_triangles), cmocka_unit_test(test_functions), cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_normals_of_fields), cmocka_unit_test(test_errors),    cmocka_unit_test(test_patch),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
