@@ -159,6 +159,7 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
                  {"strict-paper", &render->strict_paper},
                  {"caustics-guide", &render->caustics_guide},
                  {"ambient", &sdl->ambient},
+                 {"lenient", &sdl->lenient},
                  {"strict", &sdl->strict}};
     const Option option = {render, sdl, name, value, err};
     for (size_t k = 0; k < sizeof flags / sizeof *flags; k++)

@@ -40,6 +40,7 @@ static int run(const unsigned char *bytes, size_t size)
     Scene *scene = NULL;
     FILE *file = fopen("fuzz.pov", "wb");
     fuzz_must(file && fwrite(bytes, 1, size, file) == size && fclose(file) == 0, "a file can be written");
+    options.lenient = 1;
     options.max_steps = 200000;
     options.max_memory = (size_t)256 << 20;
     options.message = message;

@@ -52,10 +52,14 @@ class Scene:
         again = os.environ.get('PARITY_TIMES') == 'again'
         if again and self.reference.read() and not self.reference.read().get('error'):
             self.reference.time_again()
-        status, result['cpu'], result['elapsed'] = self.render(['--spp', '1', '-o', at('one.exr')], at('log'))
+        once = ['--spp', '1', '-o', at('one.exr')]
+        status, result['cpu'], result['elapsed'] = self.render(once, at('log'))
+        result['stops'] = status != 0
+        if status: # what is missing is told, and the rest compared
+            status, result['cpu'], result['elapsed'] = self.render(['--lenient', *once], at('log'))
         if status == 0:
-            status, _, _ = self.render(['--spp', '16', '--aov', 'depth,albedo,normal', '--aov-dir', at('aov'), '-o',
-                                        at('one.exr')], at('log'))
+            status, _, _ = self.render(['--lenient', '--spp', '16', '--aov', 'depth,albedo,normal', '--aov-dir',
+                                        at('aov'), '-o', at('one.exr')], at('log'))
         with open(at('log'), encoding='latin-1') as file:
             log = file.read()
         result['missing'] = sorted(set(re.findall(r'warning: `([^`]*)` is not supported', log)))
@@ -113,6 +117,8 @@ def explanation(r, notes):
     if r['povray_error']:
         return 'no reference: ' + r['povray_error']
     words = [', '.join(f'`{m}`' for m in r['missing'])] if r['missing'] else []
+    if r['stops']:
+        words.insert(0, 'stops without --lenient')
     words += [notes[r['scene']]] if r['scene'] in notes else []
     return '; '.join(words) or ('' if r['depth'] >= ENOUGH else '**not explained**')
 
@@ -125,7 +131,7 @@ def totals(results):
     done = [r for r in results if 'depth' in r]
     timed = [r for r in results if not r['error'] and 'povray_cpu' in r]
     middle = lambda name: float(np.median([r[name] for r in done if r.get(name) is not None] or [0]))
-    return [('scenes', len(results)), ('scenes that render', sum(not r['error'] for r in results)),
+    return [('scenes', len(results)), ('scenes that render', sum(not r['stops'] for r in results)),
             ('scenes with 99 % of their pixels at POV-Ray\'s depth', sum(r['depth'] >= ENOUGH for r in done)),
             ('difference of albedo, median', f"{middle('albedo'):.3f}"),
             ('share of normals within 5 degrees, median', f"{100 * middle('normal'):.1f} %"),

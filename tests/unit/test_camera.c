@@ -233,6 +233,31 @@ static void test_old_order(void **state)
     scene_close(&scene);
 }
 
+/* A view that would be wrong stops, unless one is content with it; strict has precedence. */
+static void test_what_is_not_supported(void **state)
+{
+    (void)state;
+    static const char text[] = V37 "camera{user_defined{location{function{0}}} right 2*x}";
+    SdlOptions options = SDL_OPTIONS_INIT;
+    RetexError err = {0};
+    Scene *scene;
+    assert_int_equal(parse_with(&scene, text, &options, &err), RETEX_EUNSUPPORTED);
+    assert_non_null(strstr(err.message, "`user_defined` is not supported yet"));
+    assert_non_null(strstr(err.message, "--lenient"));
+    options.lenient = 1;
+    assert_int_equal(parse_with(&scene, text, &options, &err), 0);
+    assert_non_null(strstr(messages, "warning: `user_defined` is not supported yet: a perspective camera is used"));
+    assert_ptr_equal(scene->camera.ops, &camera_perspective);
+    scene_close(&scene);
+    options.strict = 1;
+    assert_int_equal(parse_with(&scene, text, &options, &err), RETEX_EUNSUPPORTED);
+    /* a bumpy view is as a bumpy surface: it only warns */
+    options.strict = options.lenient = 0;
+    assert_int_equal(parse_with(&scene, V37 "camera{normal{bumps 1}}", &options, &err), 0);
+    assert_non_null(strstr(messages, "normal of a camera"));
+    scene_close(&scene);
+}
+
 /* ---- the lens ---- */
 
 static void lens_point(int k, int count, float sample[2])
@@ -461,6 +486,7 @@ int main(void)
         cmocka_unit_test(test_cylinders),
         cmocka_unit_test(test_identifier_keeps_size),
         cmocka_unit_test(test_old_order),
+        cmocka_unit_test(test_what_is_not_supported),
         cmocka_unit_test(test_lens_blurs_an_edge),
         cmocka_unit_test(test_lens_of_other_kinds),
         cmocka_unit_test(test_lens_without_samples_is_sharp),

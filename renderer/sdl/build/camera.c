@@ -168,7 +168,7 @@ static int accept_kind(Sdl *sdl, Reading *r)
         return 1;
     }
     if (sdl_accept(sdl, "user_defined")) {
-        sdl_unsupported(sdl, "user_defined", "a perspective camera is used");
+        sdl_unsupported_geometry(sdl, "user_defined", "a perspective camera is used");
         *ops = &camera_perspective;
         sdl_skip_block(sdl);
         return 1;

@@ -21,7 +21,7 @@ void object_report(Sdl *sdl, const Object *object)
 {
     gaps_report(sdl, &object->gaps);
     if (object->unsupported)
-        sdl_unsupported(sdl, object->unsupported, "it is left out");
+        sdl_unsupported_geometry(sdl, object->unsupported, "it is left out");
 }
 
 void object_count_child(Sdl *sdl, Object *object, const Object *child)

@@ -346,7 +346,7 @@ static Num extent(Sdl *sdl, int high)
     Value object = object_argument(sdl);
     Vec3 bounds[2] = {{0, 0, 0}, {0, 0, 0}};
     if (!sdl->builder->extent(sdl, &object, &bounds[0], &bounds[1]))
-        sdl_unsupported(sdl, high ? "max_extent" : "min_extent", "of this object it is taken as <0,0,0>");
+        sdl_unsupported_geometry(sdl, high ? "max_extent" : "min_extent", "of this object it is taken as <0,0,0>");
     return num_vector(bounds[high]);
 }
 
@@ -366,7 +366,7 @@ static Num trace(Sdl *sdl)
         variable = sdl_next(sdl)->value;
     }
     if (!sdl->builder->trace(sdl, &object, from, direction, &point, &normal))
-        sdl_unsupported(sdl, "trace", "of this object it hits nothing");
+        sdl_unsupported_geometry(sdl, "trace", "of this object it hits nothing");
     if (variable)
         *variable = value_from_num(num_vector(normal));
     return num_vector(point);
@@ -464,7 +464,7 @@ static double is_inside(Sdl *sdl)
     sdl_optional_comma(sdl);
     int inside = sdl->builder->inside(sdl, &object, vector_argument(sdl, NULL));
     if (inside < 0)
-        sdl_unsupported(sdl, "inside", "of this object it is taken as 0");
+        sdl_unsupported_geometry(sdl, "inside", "of this object it is taken as 0");
     return inside > 0;
 }
 

@@ -512,7 +512,7 @@ const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *value, int na
 {
     const Function *function = value->data;
     if (function->unsupported)
-        sdl_unsupported(sdl, function->unsupported, "it gives 0");
+        sdl_unsupported_geometry(sdl, function->unsupported, "it gives 0");
     if (function->kind == FUNCTION_KIND_TREE && function->nparameters == nargs)
         return function->program;
     /* a call of it */

@@ -209,6 +209,13 @@ void sdl_warn_at(Sdl *sdl, const char *file, int line, const char *fmt, ...)
     va_end(args);
 }
 
+void sdl_unsupported_geometry(Sdl *sdl, const char *name, const char *instead)
+{
+    if (!sdl->options.lenient && !sdl->options.strict)
+        sdl_fail(sdl, RETEX_EUNSUPPORTED, "`%s` is not supported yet; with --lenient, %s", name, instead);
+    sdl_unsupported(sdl, name, instead);
+}
+
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)
 {
     if (sdl->options.strict)

@@ -13,6 +13,7 @@ typedef struct SdlOptions {
     const char *const *declares; /* "NAME=VALUE": VALUE is a float or a quoted string */
     int ndeclares;
     int strict;        /* 1: unsupported features are errors */
+    int lenient;       /* 1: unsupported shapes and cameras are not errors; strict has precedence */
     int ambient;       /* 1: `ambient` emits light, with radiance ambient * pigment */
     long max_steps;    /* limit of statements and evaluations; default 200 million */
     size_t max_memory; /* limit of the scene's arena in bytes; default 8 GiB */
@@ -27,7 +28,7 @@ typedef struct SdlOptions {
 } SdlOptions;
 #define SDL_OPTIONS_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0                          \
+        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0                       \
     }
 
 #endif

@@ -79,6 +79,9 @@ _Noreturn void sdl_error(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3); /* 
 _Noreturn void sdl_expected(Sdl *sdl, const char *what);                     /* "expected WHAT, found `…`" */
 /* Warn once per name: "FILE:LINE: warning: `NAME` is not supported yet: INSTEAD". With --strict it is an error. */
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead);
+/* The same of what gives objects and the view their shape and place: without --lenient it is an error, because the
+ * picture would be wrong. */
+void sdl_unsupported_geometry(Sdl *sdl, const char *name, const char *instead);
 void sdl_warn(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3);
 void sdl_warn_at(Sdl *sdl, const char *file, int line, const char *fmt, ...) RETEX_PRINTF(4, 5);
 
