@@ -20,9 +20,28 @@ static double largest(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
+/* Of a copy of a shared mesh: round the mesh's own box. */
+static void copy_bounds(const Accel *accel, int primitive, Vec3 *low, Vec3 *high)
+{
+    const Accel *mesh = accel->shared[primitive]->accel;
+    Bounds all = bounds_empty();
+
+    for (int k = 0; k < 8; k++) {
+        Vec3 corner = vec3(k & 1 ? mesh->high.x : mesh->low.x, k & 2 ? mesh->high.y : mesh->low.y,
+                           k & 4 ? mesh->high.z : mesh->low.z);
+        bounds_add(&all, transform_point(&accel->source->primitives[primitive].transform, corner));
+    }
+    *low = all.low;
+    *high = all.high;
+}
+
 /* 0: there are none. */
 static int item_bounds(const Accel *accel, int item, Vec3 *low, Vec3 *high)
 {
+    if (item >= 0 && accel->shared && accel->shared[item]) {
+        copy_bounds(accel, item, low, high);
+        return 1;
+    }
     if (item >= 0)
         return shape_bounds(&accel->source->primitives[item], low, high);
     const Csg *csg = accel->source->csgs[~item];
@@ -142,6 +161,14 @@ static int classify_csgs(Accel *accel, RetexError *err)
     return 0;
 }
 
+/* Whether its triangles are the scene's. */
+static int is_by_triangles(const Accel *accel, int index)
+{
+    const Primitive *primitive = &accel->source->primitives[index];
+
+    return primitive->shape.ops->triangles && !primitive->csg && !(accel->shared && accel->shared[index]);
+}
+
 /* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
 static int classify_primitives(Accel *accel, RetexError *err)
 {
@@ -155,11 +182,11 @@ static int classify_primitives(Accel *accel, RetexError *err)
         accel->flags[i] = primitive_flags(primitive);
         if (primitive->csg)
             continue;
-        if (!shape_bounds(primitive, &low, &high)) {
+        if (!item_bounds(accel, i, &low, &high)) {
             accel->planes[accel->nplanes++] = i;
             continue;
         }
-        if (primitive->shape.ops->triangles) {
+        if (is_by_triangles(accel, i)) {
             primitive->shape.ops->triangles(&primitive->shape, &shape);
             if (shape.ntriangles == 0)
                 continue;
@@ -209,7 +236,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *primitive = &scene->primitives[i];
         ShapeTriangles shape;
-        if (primitive->csg || !primitive->shape.ops->triangles)
+        if (!is_by_triangles(accel, i))
             continue;
         primitive->shape.ops->triangles(&primitive->shape, &shape);
         if (shape.ntriangles == 0)
@@ -292,6 +319,12 @@ static bool monitor_build(void *context, double done)
     return !retex_budget_is_stopped(accel->budget);
 }
 
+/* Whose fields Embree's callbacks of the device change. */
+static Accel *device_owner(Accel *accel)
+{
+    return accel->parent ? accel->parent : accel;
+}
+
 /* An error of Embree is one of the budget, if that is used up. */
 static int build_error(Accel *accel, RetexError *err)
 {
@@ -302,10 +335,9 @@ static int build_error(Accel *accel, RetexError *err)
     return status ? status : retex_fail(err, accel->error.code, "%s", accel->error.message);
 }
 
-static int build(Accel *accel, int nthreads, RetexError *err)
+static int open_device(Accel *accel, int nthreads, RetexError *err)
 {
     char config[64];
-    int status;
 
     snprintf(config, sizeof(config), "threads=%d", nthreads > 0 ? nthreads : 0);
     accel->device = rtcNewDevice(config);
@@ -316,6 +348,13 @@ static int build(Accel *accel, int nthreads, RetexError *err)
         rtcSetDeviceMemoryMonitorFunction(accel->device, charge_embree, accel);
     if (!rtcGetDeviceProperty(accel->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
         return retex_fail(err, RETEX_EUNSUPPORTED, "this Embree is built without filter functions");
+    return 0;
+}
+
+static int build(Accel *accel, RetexError *err)
+{
+    int status;
+
     accel->scene = rtcNewScene(accel->device);
     rtcSetSceneFlags(accel->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(accel->scene, accel->ntriangles <= SPATIAL_SPLIT_LIMIT ? RTC_BUILD_QUALITY_HIGH
@@ -331,7 +370,7 @@ static int build(Accel *accel, int nthreads, RetexError *err)
     if (accel->budget)
         rtcSetSceneProgressMonitorFunction(accel->scene, monitor_build, accel);
     rtcCommitScene(accel->scene);
-    return accel->error.code ? build_error(accel, err) : 0;
+    return device_owner(accel)->error.code ? build_error(device_owner(accel), err) : 0;
 }
 
 static int reserve_geometry(Accel *accel, RetexError *err)
@@ -357,17 +396,11 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
     return accel_create_within(out, scene, nthreads, NULL, err);
 }
 
-int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err)
+static int fill(Accel *accel, RetexError *err)
 {
-    size_t count = (size_t)scene->nprimitives + (size_t)scene->ncsgs + 1;
-    Accel *accel = calloc(1, sizeof(*accel));
+    const size_t count = (size_t)accel->source->nprimitives + (size_t)accel->source->ncsgs + 1;
     int status = 0;
 
-    *out = NULL;
-    if (!accel)
-        return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
-    accel->source = scene;
-    accel->budget = budget;
     accel->flags = calloc(count, 1);
     accel->curved = calloc(count, sizeof(int));
     accel->planes = calloc(count, sizeof(int));
@@ -382,9 +415,46 @@ int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudg
     if (status == 0)
         status = collect_triangles(accel, err);
     if (status == 0)
-        status = build(accel, nthreads, err);
+        status = build(accel, err);
     free(accel->vertices);
     accel->vertices = NULL;
+    return status;
+}
+
+/* Each shared mesh, with the device and the budget of the whole. */
+static int create_shared(Accel *accel, RetexError *err)
+{
+    int status = accel_find_shared(accel, err);
+
+    for (SharedMesh *mesh = accel->shared_meshes; mesh && status == 0; mesh = mesh->next) {
+        mesh->accel = calloc(1, sizeof(*mesh->accel));
+        if (!mesh->accel)
+            return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+        mesh->accel->source = mesh->scene;
+        mesh->accel->budget = accel->budget;
+        mesh->accel->parent = accel;
+        mesh->accel->device = accel->device;
+        rtcRetainDevice(accel->device);
+        status = fill(mesh->accel, err);
+    }
+    return status;
+}
+
+int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err)
+{
+    Accel *accel = calloc(1, sizeof(*accel));
+    int status;
+
+    *out = NULL;
+    if (!accel)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+    accel->source = scene;
+    accel->budget = budget;
+    status = open_device(accel, nthreads, err);
+    if (status == 0)
+        status = create_shared(accel, err);
+    if (status == 0)
+        status = fill(accel, err);
     if (status < 0)
         accel_close(&accel);
     *out = accel;
@@ -397,6 +467,9 @@ void accel_close(Accel **accel)
 
     if (!a)
         return;
+    for (SharedMesh *mesh = a->shared_meshes; mesh; mesh = mesh->next)
+        accel_close(&mesh->accel);
+    accel_free_shared(a);
     if (a->scene)
         rtcReleaseScene(a->scene);
     if (a->device)

@@ -23,7 +23,15 @@ typedef struct Triangle {
     int32_t primitive, face;
 } Triangle;
 
+/* shared.c: a mesh of many primitives, alone in a scene in its own space. */
+typedef struct SharedMesh {
+    Accel *accel;
+    Scene *scene;
+    struct SharedMesh *next;
+} SharedMesh;
+
 struct Accel {
+    Accel *parent; /* of a shared mesh: that of the whole scene, whose device it uses */
     RTCDevice device;
     RTCScene scene;
     const Scene *source;
@@ -33,6 +41,8 @@ struct Accel {
     size_t nvertices, ntriangles;
     int *curved, *planes; /* primitives, by index, and CSGs: ~index; without bounds: planes */
     int ncurved, nplanes;
+    SharedMesh **shared; /* by primitive: its mesh, or NULL; NULL: there are none */
+    SharedMesh *shared_meshes;
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive */
     double reach;         /* the triangles' largest coordinate */
@@ -43,6 +53,9 @@ struct Accel {
     atomic_int over_budget; /* Embree wanted more than the budget has */
 };
 
+/* shared.c: finds the meshes to be shared and makes their scenes; frees those. */
+int accel_find_shared(Accel *accel, RetexError *err);
+void accel_free_shared(Accel *accel);
 /* query.c: what Embree calls back. */
 void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args);
 void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args);

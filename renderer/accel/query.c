@@ -24,6 +24,7 @@
 #include <string.h>
 #include "accel/embree.h"
 #include "shape/csg.h"
+#include "shape/shape.h"
 
 #define FLOAT_ERROR_BOUND 1e-3   /* bound of the relative error of a distance in float, for grazing triangles too */
 #define FLOAT_ERROR_TYPICAL 1e-6 /* usual relative error of a distance in float */
@@ -104,6 +105,17 @@ static inline void record_triangle_hit(QueryRay *query_ray, const Triangle *tria
     query_ray->hit->b1 = b1, query_ray->hit->b2 = b2;
 }
 
+/* Single rays, below; moved: by how much they were moved when they were put into the space of a shared mesh. */
+static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit);
+static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, double moved);
+
+static double translation(const Primitive *primitive)
+{
+    const double(*m)[4] = primitive->transform.inverse;
+
+    return fabs(m[0][3]) + fabs(m[1][3]) + fabs(m[2][3]);
+}
+
 typedef struct Operands {
     const Accel *accel;
     QueryRay *query_ray;
@@ -143,6 +155,45 @@ static __attribute__((noinline)) int csg_blocks(const Accel *accel, QueryRay *qu
     return csg_intersect(accel->source->csgs[index], &query);
 }
 
+/* The ray in the space of a shared mesh. Lengths along it are a power of two longer: so they go there and back without
+ * rounding, and a ray that goes on from a hit does not meet it again. */
+static Ray ray_into(const Primitive *primitive, const Ray *ray, double *scale)
+{
+    Vec3 d = transform_inverse_vector(&primitive->transform, ray->direction);
+    int exponent;
+
+    frexp(vec_length(d), &exponent);
+    *scale = ldexp(1, exponent);
+    return (Ray){transform_inverse_point(&primitive->transform, ray->origin), vec_scale(d, 1 / *scale),
+                 ray->tmin * *scale, ray->tmax * *scale};
+}
+
+static __attribute__((noinline)) int test_copy(const Accel *accel, QueryRay *query_ray, int index)
+{
+    const Primitive *primitive = &accel->source->primitives[index];
+    double scale;
+    Ray ray = ray_into(primitive, &query_ray->ray, &scale);
+    Hit hit;
+
+    if (!intersect_from(accel->shared[index]->accel, &ray, RAY_CAMERA, translation(primitive), &hit) ||
+        !record_hit(query_ray, hit.t / scale, index, hit.face))
+        return 0;
+    query_ray->hit->normal = shape_world_normal(primitive, hit.normal);
+    query_ray->hit->b1 = hit.b1, query_ray->hit->b2 = hit.b2;
+    return 1;
+}
+
+static __attribute__((noinline)) int copy_blocks(const Accel *accel, QueryRay *query_ray, int index)
+{
+    const Primitive *primitive = &accel->source->primitives[index];
+    double scale;
+    Ray ray = ray_into(primitive, &query_ray->ray, &scale);
+
+    return trace_visibility(accel->shared[index]->accel, &ray, RAY_CAMERA, 0, translation(primitive)) !=
+               VISIBILITY_CLEAR &&
+           !passes_through(accel, query_ray, index);
+}
+
 /* What is not made of triangles: a primitive, by index, or a CSG: ~index. Stores the nearest hit; returns 1 if that is
  * new. */
 static inline int test_shape(const Accel *accel, QueryRay *query_ray, int item)
@@ -152,6 +203,8 @@ static inline int test_shape(const Accel *accel, QueryRay *query_ray, int item)
 
     if (item < 0)
         return test_csg(accel, query_ray, ~item);
+    if (accel->shared && accel->shared[item])
+        return is_visible(accel, query_ray, item) && test_copy(accel, query_ray, item);
     return is_visible(accel, query_ray, item) &&
            shape_intersect(&accel->source->primitives[item], &query_ray->ray, &t, &face) &&
            record_hit(query_ray, t, item, face);
@@ -165,6 +218,8 @@ static inline int shape_blocks(const Accel *accel, QueryRay *query_ray, int item
 
     if (item < 0)
         return csg_blocks(accel, query_ray, ~item);
+    if (accel->shared && accel->shared[item])
+        return is_visible(accel, query_ray, item) && copy_blocks(accel, query_ray, item);
     return is_visible(accel, query_ray, item) &&
            shape_intersect(&accel->source->primitives[item], &query_ray->ray, &t, &face) &&
            !passes_through(accel, query_ray, item);
@@ -285,7 +340,7 @@ static inline void start_query(Query *query, const Accel *accel, int side_by_sid
 /* Embree gets the ray in float, with its range widened by the error of float. The ray in double decides. Returns 0
  * if the ray certainly has no hit. */
 static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes,
-                            Hit *hit, float *tnear, float *tfar)
+                            double moved, Hit *hit, float *tnear, float *tfar)
 {
     double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
     double start = ray->tmin > 0 ? ray->tmin - FLOAT_ERROR_BOUND * (ray->tmin + size) : 0;
@@ -294,7 +349,7 @@ static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *
     query_ray->size = size;
     /* Each coordinate in the distance to the plane is at most reach + size. The normal's components sum to 1.8 at
      * most. */
-    query_ray->rounding = 28 * DBL_EPSILON * (accel->reach + size);
+    query_ray->rounding = 28 * DBL_EPSILON * (accel->reach + size + moved);
     query_ray->hit = hit;
     if (hit)
         hit->primitive = -1;
@@ -307,12 +362,12 @@ static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *
 }
 
 static inline int start_single(QueryRay *query_ray, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
-                               unsigned passes, Hit *hit)
+                               unsigned passes, double moved, Hit *hit)
 {
     to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
     to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
     to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
-    return start_ray(query_ray, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
+    return start_ray(query_ray, accel, ray, kind, passes, moved, hit, &to->tnear, &to->tfar);
 }
 
 /* 1 if an opaque plane occludes the ray. */
@@ -381,47 +436,52 @@ static inline int refine_triangle_hit(const Accel *accel, QueryRay *query_ray, c
 }
 
 /* The second trace: the nearest of all triangles and curved shapes along the ray, in double. */
-static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRay along;
 
     start_query(&query, accel, 0, &query_ray);
-    if (start_single(&query_ray, &along, accel, ray, kind, 0, hit)) {
+    if (start_single(&query_ray, &along, accel, ray, kind, 0, moved, hit)) {
         embree_occluded(&query, &along);
         test_planes(accel, &query_ray);
     }
     return hit->primitive >= 0;
 }
 
-int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRayHit rayhit;
 
     start_query(&query, accel, 0, &query_ray);
-    if (!start_single(&query_ray, &rayhit.ray, accel, ray, kind, 0, hit))
+    if (!start_single(&query_ray, &rayhit.ray, accel, ray, kind, 0, moved, hit))
         return 0;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree_intersect(&query, &rayhit);
     if (!refine_triangle_hit(accel, &query_ray, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar,
                              rayhit.hit.u, rayhit.hit.v))
-        return intersect_in_double(accel, ray, kind, hit);
+        return intersect_in_double(accel, ray, kind, moved, hit);
     test_planes(accel, &query_ray);
     return hit->primitive >= 0;
 }
 
-static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
+int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+{
+    return intersect_from(accel, ray, kind, 0, hit);
+}
+
+static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, double moved)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRay occluded;
 
     start_query(&query, accel, 0, &query_ray);
-    if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, NULL))
+    if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, moved, NULL))
         return VISIBILITY_CLEAR;
     if (plane_blocks(accel, &query_ray))
         return VISIBILITY_BLOCKED;
@@ -431,12 +491,12 @@ static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind k
 
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
-    return trace_visibility(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == VISIBILITY_BLOCKED;
+    return trace_visibility(accel, ray, kind, skip_transparent ? TRANSPARENT : 0, 0) == VISIBILITY_BLOCKED;
 }
 
 Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source)
 {
-    return trace_visibility(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT);
+    return trace_visibility(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT, 0);
 }
 
 /* ---- packets ---- */
@@ -462,7 +522,7 @@ static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, Ray
 {
     struct RTCRay16 *to = &p->rays.ray;
 
-    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, hit, &to->tnear[i], &to->tfar[i])) {
+    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, 0, hit, &to->tnear[i], &to->tfar[i])) {
         disable_lane(p, i);
         return;
     }
@@ -510,7 +570,7 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
                                 p.rays.ray.tfar[i], p.rays.hit.u[i], p.rays.hit.v[i]))
             test_planes(accel, &p.query_ray[i]);
         else
-            intersect_in_double(accel, &rays[i], kinds[i], &hits[i]);
+            intersect_in_double(accel, &rays[i], kinds[i], 0, &hits[i]);
     }
 }
 
