@@ -257,7 +257,6 @@ static void test_damaged_fonts(void **state)
 static void test_errors(void **state)
 {
     (void)state;
-    expect_error(V37 "text{ttf \"nowhere.ttf\" \"A\" 1, 0}", "cannot find the font `nowhere.ttf`");
     expect_error(V37 "text{ttf \"colors.inc\" \"A\" 1, 0}", "is no TrueType or OpenType font");
     expect_error(V37 "text{\"timrom.ttf\" \"A\" 1, 0}", "expected ttf or internal in text");
     Scene *scene = parse(V37 "text{ttf \"timrom.ttf\" \" \" 1, 0} text{ttf \"timrom.ttf\" \"A\" 0, 0}");
@@ -266,12 +265,32 @@ static void test_errors(void **state)
     scene_close(&scene);
 }
 
+/* A name without its ending is the same font; a font that is not there is cyrvetic.ttf, and the user is told. */
+static void test_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"cyrvetic.ttf", "cyrvetic", "nowhere.ttf"};
+    double widths[3];
+    for (int i = 0; i < 3; i++) {
+        char text[128];
+        Vec3 low, high;
+        snprintf(text, sizeof text, V37 "text{ttf \"%s\" \"W\" 1, 0}", names[i]);
+        Scene *scene = parse(text);
+        assert_int_equal(scene->nprimitives, 1);
+        assert_int_equal(shape_bounds(&scene->primitives[0], &low, &high), 1);
+        widths[i] = high.x - low.x;
+        assert_int_equal(strstr(messages, "the font `nowhere.ttf` is not in the folders") != NULL, i == 2);
+        scene_close(&scene);
+    }
+    assert_true(widths[0] == widths[1] && widths[0] == widths[2]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_outlines),    cmocka_unit_test(test_places),     cmocka_unit_test(test_crossings),
         cmocka_unit_test(test_along_edges), cmocka_unit_test(test_natural_uv), cmocka_unit_test(test_damaged_fonts),
-        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_errors),      cmocka_unit_test(test_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include FT_OUTLINE_H
 #include "sdl/build/builder.h"
 
+#define SUBSTITUTE "cyrvetic.ttf"
 enum { CUBIC_PIECES = 8 }; /* quadratic curves that stand for a cubic one; off by less than 1e-4 of its size */
 
 struct Font {
@@ -68,10 +69,30 @@ static int has_signature(const char *bytes, size_t size)
     return 0;
 }
 
+/* A font's file. Its name may lack the ending; in the place of a font that is not there comes POV-Ray's own. */
+static const char *font_path(Sdl *sdl, const char *name)
+{
+    static const char *const endings[] = {"", ".ttf", ".TTF"};
+    const size_t length = strlen(name);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char *full = sdl_alloc(sdl, length + strlen(endings[i]) + 1);
+        memcpy(full, name, length);
+        memcpy(full + length, endings[i], strlen(endings[i]));
+        const char *path = sdl_find_file(sdl, full);
+        if (path)
+            return path;
+    }
+    const char *substitute = sdl_find_file(sdl, SUBSTITUTE);
+    if (!substitute)
+        return sdl_need_file(sdl, "font", name);
+    sdl_warn(sdl, "the font `%s` is not in the folders that may be read: " SUBSTITUTE " is used", name);
+    return substitute;
+}
+
 Font *font_open(Sdl *sdl, const char *name)
 {
     struct FontFiles *files = font_files(sdl);
-    const char *path = sdl_need_file(sdl, "font", name);
+    const char *path = font_path(sdl, name);
     for (Font *known = files->first; known; known = known->next)
         if (strcmp(known->path, path) == 0)
             return known;
