@@ -26,7 +26,6 @@
 #define UNSUPPORTED_SHAPES(X) \
     X(julia_fractal)          \
     X(lathe)                  \
-    X(parametric)             \
     X(prism)                  \
     X(sor)                    \
     X(sphere_sweep)

@@ -294,8 +294,8 @@ void parse_object_modifiers(Sdl *sdl, Object *object); /* up to the closing brac
 typedef void ShapeParser(Sdl *sdl, Object *object);    /* what stands between `{` and the modifiers */
 /* Keywords that are not the name of a shape's operations. */
 #define SHAPE_KEYWORDS(X) \
-    X(bicubic_patch) X(cubic) X(cylinder) X(mesh2) X(polygon) X(polynomial) X(quadric) X(quartic) \
-    X(smooth_triangle) X(triangle)
+    X(bicubic_patch) X(cubic) X(cylinder) X(mesh2) X(parametric) X(polygon) X(polynomial) X(quadric) \
+    X(quartic) X(smooth_triangle) X(triangle)
 #define X(name) ShapeParser parse_##name;
 SHAPE_TABLE(X)
 SHAPE_KEYWORDS(X)

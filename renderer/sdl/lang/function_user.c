@@ -508,6 +508,13 @@ Num function_call(Sdl *sdl, const Value *value)
     return apply_function(sdl, function, args);
 }
 
+/* Without a list of parameters, a function of two has them as its first ones. */
+static int takes(const Function *function, int nargs)
+{
+    const int wanted = arguments_wanted(function);
+    return nargs == 2 && wanted == 3 ? 3 : nargs;
+}
+
 const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *value, int nargs)
 {
     const Function *function = value->data;
@@ -517,10 +524,10 @@ const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *value, int na
         return function->program;
     /* a call of it */
     Compiler compiler = {.sdl = sdl, .count = nargs};
-    Node *node = node_new(&compiler, OP_CALL, 0, nargs);
-    for (int i = 0; i < nargs; i++)
-        set_arg(&compiler, node, i, node_new(&compiler, OP_VARIABLE, i, 0));
-    check_arguments(sdl, function, nargs);
+    Node *node = node_new(&compiler, OP_CALL, 0, takes(function, nargs));
+    for (int i = 0; i < node->count; i++)
+        set_arg(&compiler, node, i, i < nargs ? node_new(&compiler, OP_VARIABLE, i, 0) : constant(&compiler, 0));
+    check_arguments(sdl, function, node->count);
     node->function = function;
     return function_compile(sdl, node, nargs);
 }

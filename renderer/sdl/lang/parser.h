@@ -108,8 +108,8 @@ const char *sdl_string(Sdl *sdl);
 int sdl_is_expression_start(Sdl *sdl); /* 1 if a number, vector, numeric identifier or function is next */
 Value sdl_expression(Sdl *sdl);        /* a float, vector or string */
 Value sdl_function(Sdl *sdl);          /* parses from the word `function` on, with parameters and body */
-Value sdl_function_body(Sdl *sdl);     /* … without that word, parameters and braces */
-/* The function as a program of so many arguments; an error where it takes another number. */
+Value sdl_function_body(Sdl *sdl);     /* … without that word, parameters and braces: an expression of x, y and z */
+/* The function as a program of so many arguments, an error where it takes another number; 3 may stand for 2. */
 const FunctionProgram *sdl_function_program(Sdl *sdl, const Value *function, int nargs);
 
 /* The identifier list with one more name. */
