@@ -60,9 +60,13 @@ int shape_crossings_end(const ShapeCrossings *c, const Primitive *primitive, dou
     int of = c->first_face;
 
     if (found == c->near && found * length < 1e-3 * size) {
-        ShapePoint on = {.p = c->ray->origin};
+        ShapePoint on = {.p = c->ray->origin, .normal = {0, 1, 0}};
         primitive->shape.ops->point(primitive, c->ray->origin, c->near_face, &on);
-        if (vec_length(vec_sub(on.p, c->ray->origin)) <= 2 * c->ray->slack + 16 * DBL_EPSILON * size)
+        /* Along the normal: in the surface, the nearest point is known less well. */
+        const Vec3 off = vec_sub(on.p, c->ray->origin);
+        if (fabs(vec_dot(off, on.normal)) <=
+                (2 * c->ray->slack + 16 * DBL_EPSILON * size) * vec_length(on.normal) &&
+            vec_length(off) < 1e-9 * size)
             found = c->second, of = c->second_face;
     }
     if (!shape_accept(c->ray, found, t))

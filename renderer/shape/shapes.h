@@ -13,22 +13,22 @@
     X(disc)            \
     X(height_field)    \
     X(isosurface)      \
+    X(lathe)           \
     X(mesh)            \
     X(ovus)            \
     X(plane)           \
     X(poly)            \
+    X(prism)           \
+    X(sor)             \
     X(sphere)          \
+    X(sphere_sweep)    \
     X(superellipsoid)  \
     X(text)            \
     X(torus)
 
 /* POV-Ray's shapes that are read over, with a warning. */
 #define UNSUPPORTED_SHAPES(X) \
-    X(julia_fractal)          \
-    X(lathe)                  \
-    X(prism)                  \
-    X(sor)                    \
-    X(sphere_sweep)
+    X(julia_fractal)         
 
 #define X(name) extern const ShapeOps shape_##name;
 SHAPE_TABLE(X)
