@@ -3,6 +3,11 @@
 #include <math.h>
 #include "base/polynomial.h"
 
+/* How far from a root, as a share of it, a search ends. Critical points only keep roots apart: by what a value differs
+ * there, which is the square of that. */
+#define ROOT_SHARE (4 * DBL_EPSILON)
+#define CRITICAL_SHARE 1e-9
+
 typedef struct Polynomial {
     const double *c;
     int degree;
@@ -30,7 +35,8 @@ static double evaluate(const void *data, double x, double *slope)
     return v;
 }
 
-double root_between(RootFunction *f, const void *data, double low, double high, int rising)
+/* Newton's steps, halving where they leave the bracket or are slow; to this share of the root. */
+static inline double bracketed(RootFunction *f, const void *data, double low, double high, int rising, double share)
 {
     double s = 0.5 * (low + high), step = high - low;
 
@@ -40,15 +46,20 @@ double root_between(RootFunction *f, const void *data, double low, double high, 
             high = s;
         else
             low = s;
-        next = d != 0 ? s - v / d : low;
-        if (!(next > low && next < high) || fabs(next - s) > 0.5 * step)
+        next = s - v / d;
+        if (!(next > low && next < high && fabs(next - s) <= 0.5 * step))
             next = 0.5 * (low + high);
         step = fabs(next - s);
-        if (step <= 4 * DBL_EPSILON * fabs(s) || next <= low || next >= high)
+        if (step <= share * fabs(s) || next <= low || next >= high)
             return next;
         s = next;
     }
     return s;
+}
+
+double root_between(RootFunction *f, const void *data, double low, double high, int rising)
+{
+    return bracketed(f, data, low, high, rising, ROOT_SHARE);
 }
 
 int roots_between_points(RootFunction *f, const void *data, const double *points, int count, double *roots)
@@ -63,6 +74,13 @@ int roots_between_points(RootFunction *f, const void *data, const double *points
         before = now;
     }
     return found;
+}
+
+double polynomial_root_between(const double *c, int degree, double low, double high, int rising)
+{
+    const Polynomial p = {c, degree};
+
+    return bracketed(evaluate, &p, low, high, rising, ROOT_SHARE);
 }
 
 /* Of a linear or quadratic polynomial, without cancellation. */
@@ -88,7 +106,22 @@ static int closed_form(const double *c, int degree, double low, double high, dou
     return count;
 }
 
-static int roots_within(const double *c, int degree, double low, double high, double *roots);
+/* roots_between_points of a polynomial, each to this share of it. */
+static int between_points(const double *c, int degree, const double *points, int count, double share, double *roots)
+{
+    const Polynomial p = {c, degree};
+    int found = 0, before = polynomial_value(c, degree, points[0]) > 0;
+
+    for (int i = 1; i < count; i++) {
+        int now = polynomial_value(c, degree, points[i]) > 0;
+        if (now != before)
+            roots[found++] = bracketed(evaluate, &p, points[i - 1], points[i], now, share);
+        before = now;
+    }
+    return found;
+}
+
+static int roots_within(const double *c, int degree, double low, double high, double share, double *roots);
 
 static int pieces(const double *c, int degree, double low, double high, double *points)
 {
@@ -98,12 +131,12 @@ static int pieces(const double *c, int degree, double low, double high, double *
     for (int i = 1; i <= degree; i++)
         derivative[i - 1] = i * c[i];
     points[0] = low;
-    count = 1 + roots_within(derivative, degree - 1, low, high, points + 1);
+    count = 1 + roots_within(derivative, degree - 1, low, high, CRITICAL_SHARE, points + 1);
     points[count++] = high;
     return count;
 }
 
-static int roots_within(const double *c, int degree, double low, double high, double *roots)
+static int roots_within(const double *c, int degree, double low, double high, double share, double *roots)
 {
     double points[POLYNOMIAL_DEGREE + 1];
 
@@ -113,8 +146,7 @@ static int roots_within(const double *c, int degree, double low, double high, do
         return 0;
     if (degree <= 2)
         return closed_form(c, degree, low, high, roots);
-    const Polynomial p = {c, degree};
-    return roots_between_points(evaluate, &p, points, pieces(c, degree, low, high, points), roots);
+    return between_points(c, degree, points, pieces(c, degree, low, high, points), share, roots);
 }
 
 /* The binary exponent of x, rounded up. */
@@ -160,7 +192,7 @@ int polynomial_roots(const double *c, int degree, double low, double high, doubl
 {
     if (degree > 2)
         make_finite(c, degree, &low, &high);
-    return low < high ? roots_within(c, degree, low, high, roots) : 0;
+    return low < high ? roots_within(c, degree, low, high, ROOT_SHARE, roots) : 0;
 }
 
 int polynomial_pieces(const double *c, int degree, double low, double high, double *points)

@@ -20,6 +20,8 @@ double polynomial_value(const double *c, int degree, double x);
  * where they leave the bracket or are slow. */
 double root_between(RootFunction *f, const void *data, double low, double high, int rising);
 
+double polynomial_root_between(const double *c, int degree, double low, double high, int rising);
+
 /* Roots of f, which is monotonic between points that follow each other; they ascend. Of a point at which f is 0 it
  * counts as negative there. Returns how many, at most count - 1. */
 int roots_between_points(RootFunction *f, const void *data, const double *points, int count, double *roots);

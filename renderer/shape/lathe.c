@@ -46,7 +46,7 @@ static double difference(const void *data, double u, double *slope)
 
     if (m->steep) {
         const double s = (p.v - m->y) / m->along, x = m->from.u + s * m->by.u, z = m->from.v + s * m->by.v,
-                     rho = hypot(x, z);
+                     rho = sqrt(x * x + z * z);
         *slope = 2 * ((x * m->by.u + z * m->by.v) * d.v / m->along - p.u * d.u);
         return (rho - fabs(p.u)) * (rho + fabs(p.u));
     }
@@ -82,6 +82,14 @@ static int pieces(const Meeting *m, int degree, double *points)
     return polynomial_pieces(c, 2 * degree, 0, 1, points);
 }
 
+/* The square of its distance from the axis. */
+static double square_at(const Meeting *m, double s)
+{
+    const double x = m->from.u + s * m->by.u, z = m->from.v + s * m->by.v;
+
+    return x * x + z * z;
+}
+
 /* Whether the line meets the ring that the segment lies in. */
 static int may_meet(const Meeting *m)
 {
@@ -95,10 +103,9 @@ static int may_meet(const Meeting *m)
     if (m->along == 0)
         return m->y >= s->low.v && m->y <= s->high.v && m->nearest <= outer;
     close = at > fmin(a, b) ? fmin(at, fmax(a, b)) : fmin(a, b);
-    least = hypot(m->from.u + close * m->by.u, m->from.v + close * m->by.v);
-    most = fmax(hypot(m->from.u + a * m->by.u, m->from.v + a * m->by.v),
-                hypot(m->from.u + b * m->by.u, m->from.v + b * m->by.v));
-    return least <= outer * (1 + 1e-9) && most >= inner * (1 - 1e-9);
+    least = square_at(m, close);
+    most = fmax(square_at(m, a), square_at(m, b));
+    return least <= outer * outer * (1 + 1e-9) && most >= inner * inner * (1 - 1e-9);
 }
 
 static void intersect_segment(const Meeting *m, int degree, const ShapeLine *line, double shift, int face,

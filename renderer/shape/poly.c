@@ -16,21 +16,43 @@ static void add_polynomial(double *sum, int *degree, const double *c, int more)
         sum[i] += c[i];
 }
 
-/* The polynomial along o + s d, in s: Horner's rule with x, y and z linear in s. Returns its degree. */
+static inline void add_constant(double *sum, int *degree, double c)
+{
+    if (*degree >= 0)
+        sum[0] += c;
+    else if (c != 0)
+        sum[ *degree = 0] = c;
+}
+
+/* Of degree 2, written out: quadrics are the most. */
+static int quadric_along_line(const double *c, Vec3 o, Vec3 d, double *out)
+{
+    out[0] = ((c[0] * o.x + c[1] * o.y + c[2] * o.z + c[3]) * o.x) + (c[4] * o.y + c[5] * o.z + c[6]) * o.y +
+             (c[7] * o.z + c[8]) * o.z + c[9];
+    out[1] = (2 * c[0] * o.x + c[1] * o.y + c[2] * o.z + c[3]) * d.x +
+             (c[1] * o.x + 2 * c[4] * o.y + c[5] * o.z + c[6]) * d.y +
+             (c[2] * o.x + c[5] * o.y + 2 * c[7] * o.z + c[8]) * d.z;
+    out[2] = (c[0] * d.x + c[1] * d.y + c[2] * d.z) * d.x + (c[4] * d.y + c[5] * d.z) * d.y + c[7] * d.z * d.z;
+    return 2;
+}
+
+/* The polynomial along o + s d, in s: Horner's rule with x, y and z linear in s; most terms of most scenes are 0.
+ * Returns its degree. */
 static int along_line(const Poly *poly, Vec3 o, Vec3 d, double *out)
 {
     const double *c = poly->c;
     double of_y[MOST], of_z[MOST];
     int nx = -1, ny, nz;
 
+    if (poly->degree == 2)
+        return quadric_along_line(c, o, d, out);
     for (int i = poly->degree; i >= 0; i--) {
         ny = -1;
         for (int j = poly->degree - i; j >= 0; j--) {
-            of_z[0] = *c++;
-            nz = 0;
-            for (int k = poly->degree - i - j; k > 0; k--) {
+            nz = -1;
+            for (int k = poly->degree - i - j; k >= 0; k--) {
                 nz = polynomial_times_linear(of_z, nz, o.z, d.z);
-                of_z[0] += *c++;
+                add_constant(of_z, &nz, *c++);
             }
             ny = polynomial_times_linear(of_y, ny, o.y, d.y);
             add_polynomial(of_y, &ny, of_z, nz);
@@ -38,6 +60,8 @@ static int along_line(const Poly *poly, Vec3 o, Vec3 d, double *out)
         nx = polynomial_times_linear(out, nx, o.x, d.x);
         add_polynomial(out, &nx, of_y, ny);
     }
+    if (nx < 0)
+        out[nx = 0] = 0;
     return nx;
 }
 
@@ -85,24 +109,45 @@ static int starts_on(const Poly *poly, const ShapeRay *ray, const double *c, int
     return fabs(value) <= ray->slack * vec_length(gradient) + 4 * DBL_EPSILON * (degree + 2) * magnitude;
 }
 
+/* The first root in range. Others are not computed: only their pieces, which are the same in every call. */
+static int first_root(const double *c, int degree, const ShapeRay *ray, const ShapeLine *line, double *t)
+{
+    double points[MOST], start = shape_line_start(line, ray);
+    int count, before;
+
+    if (degree <= 2) {
+        count = polynomial_roots(c, degree, start, INFINITY, points);
+        return shape_first_crossing(ray, line, points, count, t) >= 0;
+    }
+    count = polynomial_pieces(c, degree, start, INFINITY, points);
+    before = polynomial_value(c, degree, points[0]) > 0;
+    for (int i = 1; i < count && shape_line_t(line, points[i - 1]) < ray->tmax; i++) {
+        const int now = polynomial_value(c, degree, points[i]) > 0;
+        if (now != before && shape_line_t(line, points[i]) > ray->tmin) {
+            double at = shape_line_t(line, polynomial_root_between(c, degree, points[i - 1], points[i], now));
+            if (at > ray->tmin)
+                return shape_accept(ray, at, t);
+        }
+        before = now;
+    }
+    return 0;
+}
+
 static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
 {
     const Poly *poly = primitive->shape.data;
     ShapeLine line = shape_line(ray, vec3(0, 0, 0));
-    double c[MOST], roots[MOST];
-    int degree = along_line(poly, line.origin, line.direction, c), count;
+    double c[MOST];
+    int degree = along_line(poly, line.origin, line.direction, c);
 
     (void)face;
-    if (!starts_on(poly, ray, c, degree, -line.shift)) {
-        count = polynomial_roots(c, degree, shape_line_start(&line, ray), INFINITY, roots);
-    } else {
-        /* One root is where the ray begins: divided by it, the polynomial has the others. */
-        line.origin = ray->origin;
-        line.shift = 0;
-        degree = along_line(poly, line.origin, line.direction, c);
-        count = polynomial_roots(c + 1, degree - 1, shape_line_start(&line, ray), INFINITY, roots);
-    }
-    return shape_first_crossing(ray, &line, roots, count, t) >= 0;
+    if (!starts_on(poly, ray, c, degree, -line.shift))
+        return first_root(c, degree, ray, &line, t);
+    /* One root is where the ray begins: divided by it, the polynomial has the others. */
+    line.origin = ray->origin;
+    line.shift = 0;
+    degree = along_line(poly, line.origin, line.direction, c);
+    return first_root(c + 1, degree - 1, ray, &line, t);
 }
 
 static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)

@@ -2,7 +2,7 @@
  * segments of the curve. Natural parametrisation: u along the curve, by segments, v the angle around it from the
  * direction of y (of x where the curve runs along y).
  *
- * * A line meets the sphere of u from a - w to a + w, where w^2 is a polynomial. These intervals change steadily with
+ * A line meets the sphere of u from a - w to a + w, where w^2 is a polynomial. These intervals change steadily with
  * u: so from each run of u where w^2 is positive there is one interval, from the least a - w to the largest a + w, and
  * what the line has inside is the union of these. Crossings are the ends of that: always pairs. */
 #include <float.h>
