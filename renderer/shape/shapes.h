@@ -28,7 +28,7 @@
 
 /* POV-Ray's shapes that are read over, with a warning. */
 #define UNSUPPORTED_SHAPES(X) \
-    X(julia_fractal)         
+    X(julia_fractal)
 
 #define X(name) extern const ShapeOps shape_##name;
 SHAPE_TABLE(X)
