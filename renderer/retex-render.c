@@ -110,6 +110,17 @@ static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats 
     return code;
 }
 
+/* 1 if the render has the data for retex-denoise, which rounding reads too, and goes through a file. Sets in OpenEXR
+ * keep the data; so do shards, of which the output is not known, and packs that are made of them. Other packs omit it,
+ * and pictures without targets are only filtered here. */
+static int keeps_data(const Arguments *a, const char *output)
+{
+    if (!output || !a->ntargets || a->render.plain)
+        return 0;
+    const OutputKind kind = output_kind(a, output);
+    return a->render.nshards || kind == OUTPUT_SET || (a->nmerged && kind == OUTPUT_PACK);
+}
+
 /* Before the render: check that the output can be written and holds all that is asked for. */
 static void check_output(const Arguments *a, const char *output)
 {
@@ -226,9 +237,7 @@ int main(int argc, char **argv)
         check_output(&a, output), check_stats(&a);
     if (a.control)
         read_control(&a);
-    /* sets in OpenEXR keep the data for retex-denoise, which rounding reads too; packs omit it, and pictures without
-     * targets are only filtered here */
-    int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
+    const int keeps = keeps_data(&a, output);
     a.render.denoise_data = a.denoise || keeps;
     a.render.stored = keeps && !a.denoise;
     double started = retex_clock_seconds();

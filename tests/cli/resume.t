@@ -50,6 +50,8 @@ $ for k in 1 2 3; do ./render --shard $k/3 -o s$k; done; ./render --merge s2 --m
 > s1
 > s2
 > s3
+$ ./render --merge s2 --merge s1 --merge s3 -o m.retex; retex-pack -q ref.exr -o ref.retex; retex-diff --fail-abs 0 m.retex ref.retex >/dev/null && echo same; rm m.retex ref.retex
+> same
 $ rm m.exr; ./render --merge s2 --merge s3 -o m.exr
 ! retex-render: error: --merge: 3 of 8 bands are in none of the files: a shard is missing or damaged
 = 2
