@@ -62,9 +62,9 @@ int main(int argc, char **argv)
     double began = retex_clock_seconds();
     if (retex_set_open(input, &set, &earlier, cli.threads, &err))
         cli_fail(&cli, &err);
-    cli_check_pixels(&cli, set, input);
     if (!set)
         cli_die(&cli, "%s holds samples but no set", input);
+    cli_check_pixels(&cli, set, input);
     double read = retex_clock_seconds();
     if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
