@@ -159,11 +159,54 @@ static void test_inside(void **state)
     expect("I(triangle{0,x,y},<.2,.2,0>) I(mesh{triangle{0,x,y}},<.2,.2,-1>)", "0\n0\n");
 }
 
+/* Boxes that POV-Ray has too; where it turns a box, which grows by that, ours is tighter. */
+static void test_extent(void **state)
+{
+    (void)state;
+#define E                                                                                                              \
+    "#macro E(O) #debug concat(vstr(3,min_extent(O),\" \",0,4),\" | \",vstr(3,max_extent(O),\" \",0,4),\"\\n\") #end "
+    expect(E "#declare A=intersection{sphere{0,1} box{0,2}} E(A) #declare B=object{A translate <5,6,7>} E(B)",
+           "0.0000 0.0000 0.0000 | 1.0000 1.0000 1.0000\n5.0000 6.0000 7.0000 | 6.0000 7.0000 8.0000\n");
+    expect(
+        E
+        "#declare A=difference{sphere{0,1} box{0,2}} E(A) #declare B=intersection{sphere{0,1 inverse} box{-3,3}} E(B)",
+        "-1.0000 -1.0000 -1.0000 | 1.0000 1.0000 1.0000\n-3.0000 -3.0000 -3.0000 | 3.0000 3.0000 3.0000\n");
+    expect(E "#declare A=union{intersection{sphere{0,1} box{0,2}} translate 5*x rotate 90*z} E(A)"
+             "#declare B=merge{sphere{0,1} sphere{x,1}} E(B)",
+           "-1.0000 5.0000 0.0000 | 0.0000 6.0000 1.0000\n-1.0000 -1.0000 -1.0000 | 2.0000 1.0000 1.0000\n");
+    expect(E "#declare A=sphere{0,1 clipped_by{box{0,2}}} E(A) #declare B=sphere{0,1 inverse} E(B)",
+           "-1.0000 -1.0000 -1.0000 | 1.0000 1.0000 1.0000\n-1.0000 -1.0000 -1.0000 | 1.0000 1.0000 1.0000\n");
+    expect(E "#declare A=intersection{plane{y,1} plane{-y,1} sphere{0,5}} E(A)"
+             "#declare B=intersection{plane{y,1} plane{-y,1} plane{x,1} plane{-x,1} plane{z,1} plane{-z,2}} E(B)",
+           "-5.0000 -1.0000 -5.0000 | 5.0000 1.0000 5.0000\n-1.0000 -1.0000 -2.0000 | 1.0000 1.0000 1.0000\n");
+    expect("#macro F(O) #debug concat(str(max_extent(O).y/1e10,0,4),\"\\n\") #end F(plane{y,1})"
+           "#declare A=difference{plane{y,1} box{0,2}} F(A) #declare B=intersection{plane{y,1} plane{-y,1}} F(B)",
+           "1.0000\n1.0000\n1.0000\n");
+    expect(E "#declare A=isosurface{function{x} contained_by{sphere{<1,2,3>,2}} scale 2} E(A)"
+             "#declare B=intersection{sphere{0,1} sphere{5,1}} E(B)",
+           "-2.0000 0.0000 2.0000 | 6.0000 8.0000 10.0000\n0.0000 0.0000 0.0000 | 0.0000 0.0000 0.0000\n");
+#undef E
+}
+
+/* Isosurfaces in CSG answer like other shapes. */
+static void test_isosurface(void **state)
+{
+    (void)state;
+    expect("#declare A=isosurface{function{sqrt(x*x+y*y+z*z)-1} contained_by{box{-2,2}} max_gradient 1.1}"
+           "#declare B=difference{box{-2,2} object{A}}"
+           "T(A,-3*z,z) T(B,0,y) T(B,<0,0,-5>,z) I(A,0) I(A,<.8,.8,0>) I(B,0) I(B,<1.5,0,0>)",
+           "0.0000 0.0000 -1.0000 | 0.0000 0.0000 -1.0000\n"
+           "0.0000 1.0000 0.0000 | 0.0000 -1.0000 0.0000\n"
+           "0.0000 0.0000 -2.0000 | 0.0000 0.0000 -1.0000\n"
+           "1\n0\n0\n1\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_trace_solids),  cmocka_unit_test(test_trace_triangles), cmocka_unit_test(test_trace_many),
-        cmocka_unit_test(test_trace_details), cmocka_unit_test(test_inside),
+        cmocka_unit_test(test_trace_details), cmocka_unit_test(test_inside),          cmocka_unit_test(test_extent),
+        cmocka_unit_test(test_isosurface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

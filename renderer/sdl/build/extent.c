@@ -1,29 +1,69 @@
-/* The box around an object, for min_extent and max_extent. */
-#include <string.h>
+/* The box around an object, for min_extent and max_extent: as tight as the shapes' own. Of an intersection it is what
+ * the boxes of its operands have in common; operands that are inverse cut nothing off, but for half spaces. What
+ * reaches to infinity in one direction is taken to do so in all. As in POV-Ray, clipped_by and bounded_by do not
+ * count. */
 #include "sdl/build/builder.h"
-#include "shape/surface.h"
+#include "shape/shape.h"
 
 #define EVERYWHERE 1e10 /* what a plane reaches; POV-Ray's figure */
 
-static void widen(Vec3 *low, Vec3 *high, Vec3 p)
+static Bounds extent(Sdl *sdl, const Object *object, const Transform *outer, unsigned inverse);
+
+static int is_unbounded(const Object *object)
 {
-    *low = vec3(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
-    *high = vec3(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
+    return object->kind == OBJECT_SHAPE && !object->shape.ops->bounds;
 }
 
-static void extent(Sdl *sdl, const Object *object, const Transform *outer, Vec3 *low, Vec3 *high)
+static Bounds shape_extent(const Object *object, const Transform *to_world)
 {
-    Transform to_world = transform_then(object->transform, *outer);
+    const Primitive p = {.shape = object->shape, .transform = *to_world};
+    Bounds b;
+    return shape_bounds(&p, &b.low, &b.high) ? b : bounds_everywhere();
+}
+
+/* What an operand without bounds leaves of an intersection. */
+static Bounds solid_extent(const Object *object, const Transform *outer, unsigned inverse)
+{
+    const Primitive p = {.shape = object->shape,
+                         .transform = transform_then(object->transform, *outer),
+                         .inverse = (inverse ^ (object->flags & OBJECT_INVERSE)) != 0};
+    Bounds b = bounds_everywhere();
+    if (p.shape.ops->solid_bounds)
+        p.shape.ops->solid_bounds(&p, &b.low, &b.high);
+    return b;
+}
+
+static Bounds group_extent(Sdl *sdl, const Object *group, const Transform *to_world, unsigned inverse)
+{
+    const int meets = (group->csg == CSG_INTERSECTION) != (inverse != 0);
+    Bounds all = bounds_empty(), common = bounds_everywhere();
+    for (const ObjectList *list = group->children; list; list = list->next) {
+        const Object *operand = list->object;
+        const Bounds b = extent(sdl, operand, to_world, inverse);
+        all = bounds_join(all, b);
+        if (is_unbounded(operand))
+            common = bounds_meet(common, solid_extent(operand, to_world, inverse));
+        else if (!(inverse ^ (operand->flags & OBJECT_INVERSE)))
+            common = bounds_meet(common, b);
+    }
+    if (!meets)
+        return all;
+    return bounds_is_finite(&common) || bounds_is_empty(&common) ? common : bounds_everywhere();
+}
+
+static Bounds extent(Sdl *sdl, const Object *object, const Transform *outer, unsigned inverse)
+{
+    const Transform to_world = transform_then(object->transform, *outer);
+    inverse ^= object->flags & OBJECT_INVERSE;
     sdl_step(sdl, 1);
-    if (object->kind == OBJECT_SHAPE) {
-        Primitive p = {.shape = object->shape, .transform = to_world};
-        Vec3 a = vec3(-EVERYWHERE, -EVERYWHERE, -EVERYWHERE), b = vec_neg(a);
-        shape_bounds(&p, &a, &b);
-        widen(low, high, a);
-        widen(low, high, b);
-    } else if (object->kind == OBJECT_GROUP)
-        for (const ObjectList *list = object->children; list; list = list->next)
-            extent(sdl, list->object, &to_world, low, high);
+    if (object->kind == OBJECT_SHAPE)
+        return shape_extent(object, &to_world);
+    return object->kind == OBJECT_GROUP ? group_extent(sdl, object, &to_world, inverse) : bounds_empty();
+}
+
+static double limited(double x)
+{
+    return fmin(EVERYWHERE, fmax(-EVERYWHERE, x));
 }
 
 int object_extent(Sdl *sdl, const Value *value, Vec3 *low, Vec3 *high)
@@ -31,10 +71,10 @@ int object_extent(Sdl *sdl, const Value *value, Vec3 *low, Vec3 *high)
     if (value->kind != VALUE_OBJECT && value->kind != VALUE_LIGHT)
         return 0;
     const Transform none = transform_identity();
-    *low = vec3(INFINITY, INFINITY, INFINITY);
-    *high = vec3(-INFINITY, -INFINITY, -INFINITY);
-    extent(sdl, value->data, &none, low, high);
-    if (!(low->x <= high->x))
-        *low = *high = vec3(0, 0, 0); /* nothing there, or nothing that is supported */
+    Bounds b = extent(sdl, value->data, &none, 0);
+    if (bounds_is_empty(&b)) /* nothing there, or nothing that is supported */
+        b.low = b.high = vec3(0, 0, 0);
+    *low = vec3(limited(b.low.x), limited(b.low.y), limited(b.low.z));
+    *high = vec3(limited(b.high.x), limited(b.high.y), limited(b.high.z));
     return 1;
 }
