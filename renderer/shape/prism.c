@@ -122,7 +122,7 @@ static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
     const ProfileSegment *segment = &profile->segments[face - 2];
     double k = scale_at(shape, p.y), u;
     if (k == 0)
-        k = DBL_MIN;
+        k = 1e-100;
     u = profile_nearest(profile, segment, (Vec2){p.x / k, p.z / k});
     Vec2 at = profile_at(segment, u), n = profile_normal(profile, segment, u);
     out->p = vec3(k * at.u, p.y, k * at.v);

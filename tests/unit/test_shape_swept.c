@@ -374,6 +374,29 @@ static void uv_is_povray(void **unused)
     assert_uv(uv_along(p, vec3(9, 0.5, 1), vec3(-1, 0, 0)).natural, 0.375, 0.25);
 }
 
+/* Rings after the first begin at the right points: a hole is one. */
+static void splines_have_rings(void **unused)
+{
+    const char *const texts[] = {
+        V37 "prism{quadratic_spline 0, 1, 12, <-2,2>, <-2,-2>, <2,-2>, <2,2>, <-2,2>, <-2,-2>,"
+            "<-1,1>, <-1,-1>, <1,-1>, <1,1>, <-1,1>, <-1,-1>}",
+        V37 "prism{cubic_spline 0, 1, 14, <-2,2>, <-2,-2>, <2,-2>, <2,2>, <-2,2>, <-2,-2>, <2,-2>,"
+            "<-1,1>, <-1,-1>, <1,-1>, <1,1>, <-1,1>, <-1,-1>, <1,-1>}",
+        V37 "prism{bezier_spline 0, 1, 16, <-2,-2>, <0,-3>, <0,-3>, <2,-2>, <2,-2>, <3,3>, <3,3>, <-2,-2>,"
+            "<-1,-1>, <0,-1.5>, <0,-1.5>, <1,-1>, <1,-1>, <1,0.5>, <1,0.5>, <-1,-1>}"};
+
+    (void)unused;
+    for (int i = 0; i < 3; i++) {
+        Scene *scene = parse(texts[i]);
+        const Primitive *p = only(scene);
+        const double y = i == 2 ? -1 : 0;
+        assert_true(p->shape.ops->inside(&p->shape, vec3(1.5, 0.5, y)));
+        assert_false(p->shape.ops->inside(&p->shape, vec3(0.3, 0.5, y)));
+        assert_false(p->shape.ops->inside(&p->shape, vec3(3.5, 0.5, y)));
+        scene_close(&scene);
+    }
+}
+
 static void open_ends(void **unused)
 {
     Scene *scene = parse(V37 "prism{0, 2, 5, <0,0>, <4,0>, <4,2>, <0,2>, <0,0> open}"
@@ -393,11 +416,11 @@ static void open_ends(void **unused)
 static void errors_are_told(void **unused)
 {
     (void)unused;
-    expect_error("lathe{cubic_spline 3, <1,0>, <1,1>, <1,2>}", "4 points or more");
+    expect_error("lathe{cubic_spline 3, <1,0>, <1,1>, <1,2>}", "has 4 to");
     expect_error("lathe{bezier_spline 5, <1,0>, <1,1>, <1,2>, <1,3>, <1,4>}", "four points a segment");
     expect_error("prism{cubic_spline 0, 1, 5, <1,0>, <1,1>, <1,2>, <1,3>, <1,4>}", "not closed");
     expect_error("sor{4, <1,0>, <1,3>, <1,2>, <1,4>}", "go upward");
-    expect_error("sphere_sweep{b_spline 3, <1,0,0>, 1, <1,3,0>, 1, <1,2,0>, 1}", "4 spheres or more");
+    expect_error("sphere_sweep{b_spline 3, <1,0,0>, 1, <1,3,0>, 1, <1,2,0>, 1}", "has 4 to");
 }
 
 int main(void)
@@ -409,6 +432,7 @@ int main(void)
         cmocka_unit_test(sors_match_marching),
         cmocka_unit_test(sphere_sweeps_match_marching),
         cmocka_unit_test(uv_is_povray),
+        cmocka_unit_test(splines_have_rings),
         cmocka_unit_test(open_ends),
         cmocka_unit_test(errors_are_told),
     };

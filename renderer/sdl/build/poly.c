@@ -90,8 +90,21 @@ static int try_ellipsoid(Object *object, Poly *poly, double sign)
     return 1;
 }
 
+/* By a power of 2 that makes the largest coefficient about 1: then nothing overflows. */
+static void scale(Poly *poly)
+{
+    double most = 0;
+    int exponent;
+    for (int i = 0; i < poly_terms(poly->degree); i++)
+        most = fmax(most, fabs(poly->c[i]));
+    frexp(most, &exponent);
+    for (int i = 0; i < poly_terms(poly->degree); i++)
+        poly->c[i] = ldexp(poly->c[i], -exponent);
+}
+
 static void finish(Object *object, Poly *poly)
 {
+    scale(poly);
     if (poly->degree != 2 || try_ellipsoid(object, poly, 1))
         return;
     if (try_ellipsoid(object, poly, -1))

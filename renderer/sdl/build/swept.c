@@ -23,7 +23,7 @@ static Vec2 *parse_points(Sdl *sdl, int least, int *count)
 {
     const double n = sdl_float(sdl);
     if (!(n >= least && n <= MAX_POINTS))
-        sdl_error(sdl, "a spline of this kind has %d points or more", least);
+        sdl_error(sdl, "a spline of this kind has %d to %.0f points", least, MAX_POINTS);
     *count = (int)n;
     Vec2 *points = sdl_alloc(sdl, (size_t)(*count + 1) * sizeof *points); /* one more, to close a ring by */
     for (int i = 0; i < *count; i++) {
@@ -245,7 +245,7 @@ void parse_sphere_sweep(Sdl *sdl, Object *object)
     sdl_optional_comma(sdl);
     const double n = sdl_float(sdl);
     if (!(n >= points && n <= MAX_POINTS))
-        sdl_error(sdl, "a sphere_sweep of this kind has %d spheres or more", points);
+        sdl_error(sdl, "a sphere_sweep of this kind has %d to %.0f spheres", points, MAX_POINTS);
     const int count = (int)n;
     Vec3 *centres = sdl_alloc(sdl, (size_t)count * sizeof *centres);
     double *radii = sdl_alloc(sdl, (size_t)count * sizeof *radii);
