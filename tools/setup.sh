@@ -9,7 +9,8 @@ set -eu
 
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
-# reads and writes manifests, libisal-dev deflates and inflates, libfreetype-dev reads the fonts of text in scenes.
+# reads and writes manifests, libisal-dev deflates and inflates, libfreetype-dev reads the fonts of text in scenes,
+# libpng-dev palettes of pictures.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -27,6 +28,7 @@ pkg jansson libjansson-dev
 pkg zlib zlib1g-dev
 pkg libisal libisal-dev
 pkg freetype2 libfreetype-dev
+pkg libpng libpng-dev
 file /usr/share/fonts/truetype/povray/timrom.ttf fonts-povray
 file /usr/share/povray-3.7/include/colors.inc povray-includes
 '
@@ -125,8 +127,8 @@ config() {
         "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
-    echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z) $(cflags freetype2)"
-    echo "RENDER_LIBS := -l$embree_name $("$PKG_CONFIG" --libs freetype2)"
+    echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z) $(cflags freetype2 libpng)"
+    echo "RENDER_LIBS := -l$embree_name $("$PKG_CONFIG" --libs freetype2 libpng)"
 }
 
 case ${1-} in

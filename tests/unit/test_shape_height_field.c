@@ -203,6 +203,46 @@ static void test_pictures(void **unused)
     rmdir(folder);
 }
 
+/* 3 x 2 pixels of two bits: the indices 0 1 2 above 3 2 0, of a palette of four colours. */
+static const unsigned char indexed[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00,
+    0x03, 0x00, 0x00, 0x00, 0x02, 0x02, 0x03, 0x00, 0x00, 0x00, 0xe0, 0x1a, 0x8e, 0x89, 0x00, 0x00, 0x00, 0x0c, 0x50,
+    0x4c, 0x54, 0x45, 0x00, 0xff, 0x00, 0xff, 0x00, 0x00, 0x00, 0x00, 0xff, 0x09, 0x09, 0x09, 0x1f, 0x57, 0x96, 0xe4,
+    0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0x90, 0x60, 0x78, 0x00, 0x00, 0x01, 0x2c, 0x00,
+    0xf9, 0x37, 0xa9, 0xf0, 0xd9, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+/* Indices of a palette are heights, whatever the colours. As by POV-Ray's trace(). */
+static void test_palette(void **unused)
+{
+    char folder[] = "/tmp/test_heights_XXXXXX", path[200];
+    const char *folders[] = {folder};
+    SdlOptions options = SDL_OPTIONS_INIT;
+    RetexError err = {0};
+    Scene *scene;
+
+    (void)unused;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/indexed.png", folder);
+    options.include_paths = folders;
+    options.ninclude_paths = 1;
+    for (size_t size = sizeof indexed; size >= 26; size -= size > 60 ? 12 : 1) { /* whole, and cut off */
+        FILE *file = fopen(path, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(indexed, 1, size, file), size);
+        fclose(file);
+        const int status = parse_with(&scene, V37 "height_field{png \"indexed.png\"}", &options, &err);
+        assert_int_equal(status == 0, size > sizeof indexed - 13); /* the last chunk says only that it is the last */
+        if (status == 0) {
+            check_height(only(scene), .001, .001, .0116992);
+            check_height(only(scene), .3, .4, .0046875);
+            scene_close(&scene);
+        } else
+            assert_non_null(strstr(err.message, "indexed.png`: "));
+    }
+    unlink(path);
+    rmdir(folder);
+}
+
 static void test_normals_of_fields(void **unused)
 {
     (void)unused;
@@ -289,8 +329,13 @@ static void test_patch(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_triangles), cmocka_unit_test(test_functions), cmocka_unit_test(test_pictures),
-        cmocka_unit_test(test_normals_of_fields), cmocka_unit_test(test_errors),    cmocka_unit_test(test_patch),
+        cmocka_unit_test(test_against_triangles),
+        cmocka_unit_test(test_functions),
+        cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_palette),
+        cmocka_unit_test(test_normals_of_fields),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_patch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,10 +34,24 @@ static uint16_t height_of_pixel(const float *p)
     return (uint16_t)(256 * (int)fmin(fmax(p[0] * 255.0 + 0.5, 0), 255) + (int)fmin(fmax(p[1] * 255.0 + 0.5, 0), 255));
 }
 
-static void read_picture(Sdl *sdl, HeightField *field)
+/* Points of a picture from the top, whose lowest row is at z = 0. */
+static size_t point_at(const HeightField *field, int i, int j)
 {
-    accept_image_type(sdl);
-    const char *path = sdl_need_file(sdl, "image", sdl_string(sdl));
+    return (size_t)(field->height - 1 - j) * (size_t)field->width + (size_t)i;
+}
+
+/* An index of a palette is the height, as the coarse part of a number of 16 bits. */
+static void take_indices(Sdl *sdl, HeightField *field, const PaletteIndices *palette)
+{
+    set_size(sdl, field, palette->width, palette->height);
+    for (int j = 0; j < field->height; j++)
+        for (int i = 0; i < field->width; i++)
+            field->heights[point_at(field, i, j)] =
+                (uint16_t)(256 * palette->indices[(size_t)j * (size_t)field->width + (size_t)i]);
+}
+
+static void take_colors(Sdl *sdl, HeightField *field, const char *path)
+{
     const SdlOptions *options = sdl_options(sdl);
     const RetexReadParams params = {.size = sizeof params,
                                     .colorspace = "linear",
@@ -50,22 +64,31 @@ static void read_picture(Sdl *sdl, HeightField *field)
     sdl_add_file(sdl, path);
     if (retex_image_read(&pixels, path, &params, options->nthreads, &err))
         sdl_error(sdl, "height_field: %s%s%s", err.file, err.file[0] ? ": " : "", err.message);
-    const int width = pixels.width, height = pixels.height;
-    uint16_t *heights = NULL;
-    if (width >= 2 && height >= 2 && width <= LARGEST && height <= LARGEST)
-        heights = arena_alloc(sdl_arena(sdl), (size_t)width * (size_t)height * sizeof *heights);
-    for (int j = 0; heights && j < height; j++) /* the picture's lowest row is at z = 0 */
-        for (int i = 0; i < width; i++)
-            heights[(size_t)j * (size_t)width + (size_t)i] =
-                height_of_pixel(pixels.pixels + retex_image_index(&pixels, i, height - 1 - j));
+    field->width = pixels.width;
+    field->height = pixels.height;
+    if (pixels.width >= 2 && pixels.height >= 2 && pixels.width <= LARGEST && pixels.height <= LARGEST)
+        field->heights =
+            arena_alloc(sdl_arena(sdl), (size_t)field->width * (size_t)field->height * sizeof *field->heights);
+    for (int j = 0; field->heights && j < field->height; j++)
+        for (int i = 0; i < field->width; i++)
+            field->heights[point_at(field, i, j)] = height_of_pixel(pixels.pixels + retex_image_index(&pixels, i, j));
     retex_image_free(&pixels);
-    if (!heights)
-        set_size(sdl, field, width, height); /* tells why not */
-    field->width = width;
-    field->height = height;
-    field->heights = heights ? heights : field->heights;
+    if (!field->heights)
+        set_size(sdl, field, field->width, field->height); /* tells why not */
+}
+
+static void read_picture(Sdl *sdl, HeightField *field)
+{
+    accept_image_type(sdl);
+    const char *path = sdl_need_file(sdl, "image", sdl_string(sdl));
+    PaletteIndices palette;
+    if (read_palette_indices(sdl, path, LARGEST, &palette))
+        take_indices(sdl, field, &palette);
+    else
+        take_colors(sdl, field, path);
     Scene *scene = sdl_scene(sdl);
-    scene->digest = digest_bytes(scene->digest, field->heights, (size_t)width * (size_t)height * sizeof *heights);
+    scene->digest = digest_bytes(scene->digest, field->heights,
+                                 (size_t)field->width * (size_t)field->height * sizeof *field->heights);
 }
 
 /* ---- functions ---- */
