@@ -13,6 +13,7 @@
     X(disc)            \
     X(height_field)    \
     X(isosurface)      \
+    X(julia_fractal)   \
     X(lathe)           \
     X(mesh)            \
     X(ovus)            \
@@ -25,10 +26,6 @@
     X(superellipsoid)  \
     X(text)            \
     X(torus)
-
-/* POV-Ray's shapes that are read over, with a warning. */
-#define UNSUPPORTED_SHAPES(X) \
-    X(julia_fractal)
 
 #define X(name) extern const ShapeOps shape_##name;
 SHAPE_TABLE(X)

@@ -153,7 +153,6 @@ typedef struct Object {
     const ParsedInterior *interior;
     unsigned flags;
     int uv_mapping;
-    const char *unsupported; /* keyword of a shape that is left out */
     int depth;    /* of nested groups */
     double parts; /* objects in it, counted through identifiers */
     const IdentList *idents;

@@ -20,8 +20,6 @@ Object *object_new(Sdl *sdl, ObjectKind kind)
 void object_report(Sdl *sdl, const Object *object)
 {
     gaps_report(sdl, &object->gaps);
-    if (object->unsupported)
-        sdl_unsupported_geometry(sdl, object->unsupported, "it is left out");
 }
 
 void object_count_child(Sdl *sdl, Object *object, const Object *child)
@@ -269,12 +267,6 @@ static const struct {
 #undef X
 };
 
-static const char *const unsupported[] = {
-#define X(name) #name,
-    UNSUPPORTED_SHAPES(X)
-#undef X
-};
-
 static const Object *known_object(Sdl *sdl)
 {
     const Object *known = accept_ident(sdl, VALUE_OBJECT);
@@ -350,13 +342,6 @@ static const Object *statement(Sdl *sdl)
             return group_statement(sdl, (int)i);
     if (accept_word(sdl, next, "light_source"))
         return parse_light_source(sdl);
-    for (size_t i = 0; i < sizeof unsupported / sizeof *unsupported; i++)
-        if (accept_word(sdl, next, unsupported[i])) {
-            Object *object = object_new(sdl, OBJECT_EMPTY);
-            object->unsupported = unsupported[i];
-            sdl_skip_block(sdl);
-            return object;
-        }
     return NULL;
 }
 

@@ -1,0 +1,249 @@
+/* The julia_fractal: points within a ball about the origin whose iterates stay small, as POV-Ray's. Natural
+ * parametrisation: longitude and latitude about the origin, as a sphere has them. There is no uv_mapping.
+ *
+ * Outside, an estimate of the distance to the set tells how far a ray may go, but it goes at least a step; inside it
+ * goes by steps. Between a point outside and one inside, halving finds the crossing. The points are the same for each
+ * tmin, so that crossings are. */
+#include "shape/julia_fractal.h"
+#include "shape/shape.h"
+
+typedef struct Quad {
+    double v[4];
+} Quad;
+
+/* ---- iteration ---- */
+
+static Quad quad_of(const JuliaFractal *f, Vec3 p)
+{
+    const double w = (f->distance - f->slice[0] * p.x - f->slice[1] * p.y - f->slice[2] * p.z) / f->slice[3];
+
+    return (Quad){{p.x, p.y, p.z, w}};
+}
+
+static double norm_of(Quad z)
+{
+    return z.v[0] * z.v[0] + z.v[1] * z.v[1] + z.v[2] * z.v[2] + z.v[3] * z.v[3];
+}
+
+static double complex applied(const JuliaFractal *f, double complex z)
+{
+    const double complex exponent = f->exponent[0] + f->exponent[1] * I;
+
+    switch (f->function) {
+#define X(name, value)                                                                                                 \
+    case JULIA_##name:                                                                                                 \
+        return value;
+        JULIA_FUNCTIONS(X)
+#undef X
+    }
+    (void)exponent;
+    return 0;
+}
+
+static Quad hypercomplex_function(const JuliaFractal *f, Quad z)
+{
+    const double complex a = applied(f, z.v[0] - z.v[3] + (z.v[1] + z.v[2]) * I);
+    const double complex b = applied(f, z.v[0] + z.v[3] + (z.v[1] - z.v[2]) * I);
+
+    return (Quad){{0.5 * (creal(a) + creal(b)), 0.5 * (cimag(a) + cimag(b)), 0.5 * (cimag(a) - cimag(b)),
+                   0.5 * (creal(b) - creal(a))}};
+}
+
+/* A power of a quaternion keeps the direction of its imaginary part. */
+static Quad quaternion_function(const JuliaFractal *f, Quad z)
+{
+    const double r = z.v[0], rr = r * r, ii = norm_of(z) - rr;
+    const double real = f->function == JULIA_sqr ? rr - ii : r * (rr - 3 * ii);
+    const double imaginary = f->function == JULIA_sqr ? 2 * r : 3 * rr - ii;
+
+    return (Quad){{real, imaginary * z.v[1], imaginary * z.v[2], imaginary * z.v[3]}};
+}
+
+static Quad next_iterate(const JuliaFractal *f, Quad z)
+{
+    z = f->hypercomplex ? hypercomplex_function(f, z) : quaternion_function(f, z);
+    for (int k = 0; k < 4; k++)
+        z.v[k] += f->constant[k];
+    return z;
+}
+
+/* How much an iterate moves with the one before, at most. */
+static double growth(const JuliaFractal *f, Quad z)
+{
+    const double r = sqrt(norm_of(z));
+
+    switch (f->function) {
+    case JULIA_sqr:
+        return 2 * r;
+    case JULIA_cube:
+        return f->hypercomplex ? 2 * r : 3 * r * r;
+    default: {
+        const double h = 1e-6 * (1 + r);
+        Quad moved = z;
+        double most = 0;
+        for (int k = 0; k < 2; k++) {
+            moved.v[0] = z.v[0] + h * (1 - k), moved.v[3] = z.v[3] + h * k;
+            const Quad a = hypercomplex_function(f, z), b = hypercomplex_function(f, moved);
+            double sum = 0;
+            for (int i = 0; i < 4; i++)
+                sum += (b.v[i] - a.v[i]) * (b.v[i] - a.v[i]);
+            most = fmax(most, sqrt(sum) / h);
+        }
+        return most;
+    }
+    }
+}
+
+/* The first iterate that is not small, from 1 on; 0: all are. *distance: about how far away the set is. */
+static int escape(const JuliaFractal *f, Vec3 p, double *distance)
+{
+    Quad z = quad_of(f, p);
+    double slope = 1;
+
+    for (int k = 1;; k++) {
+        const double size = norm_of(z);
+        if (!(size <= f->limit)) {
+            if (distance)
+                *distance = isfinite(size) ? 0.25 * sqrt(size) * log(size) / slope : 0;
+            return k;
+        }
+        if (k == f->iterations)
+            return 0;
+        if (distance)
+            slope *= growth(f, z);
+        z = next_iterate(f, z);
+    }
+}
+
+static double size_after(const JuliaFractal *f, Vec3 p, int k)
+{
+    Quad z = quad_of(f, p);
+
+    for (int i = 1; i < k; i++)
+        z = next_iterate(f, z);
+    return norm_of(z);
+}
+
+/* ---- along a ray ---- */
+
+static int is_in(const JuliaFractal *f, const ShapeLine *line, double s, double *distance)
+{
+    return escape(f, vec_mad(line->origin, line->direction, s), distance) == 0;
+}
+
+/* Between low and high the state changes. */
+static double halved(const JuliaFractal *f, const ShapeLine *line, double low, double high, int low_is_in)
+{
+    for (int i = 0; i < 60 && high - low > 1e-13 * f->radius; i++) {
+        const double middle = 0.5 * (low + high);
+        if (is_in(f, line, middle, NULL) == low_is_in)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
+{
+    const JuliaFractal *f = primitive->shape.data;
+    const ShapeLine line = shape_line(ray, vec3(0, 0, 0));
+    const double reach = f->radius * f->radius - vec_dot(line.origin, line.origin);
+    double s, end, distance;
+    int in;
+
+    (void)face;
+    if (!(reach > 0))
+        return 0;
+    end = sqrt(reach);
+    s = fmax(-end, shape_line_start(&line, ray));
+    if (!(s < end))
+        return 0;
+    in = is_in(f, &line, s, &distance);
+    /* What reaches the ball ends there. */
+    if (in && s == -end && shape_accept(ray, shape_line_t(&line, s), t))
+        return 1;
+    while (s < end) {
+        const double next = fmin(end, s + (in ? f->step : fmax(distance, f->step)));
+        const int then = is_in(f, &line, next, &distance);
+        if (then != in && shape_accept(ray, shape_line_t(&line, halved(f, &line, s, next, in)), t))
+            return 1;
+        in = then;
+        s = next;
+    }
+    return in && shape_accept(ray, shape_line_t(&line, end), t);
+}
+
+static int inside(const Shape *shape, Vec3 p)
+{
+    const JuliaFractal *f = shape->data;
+
+    return vec_dot(p, p) <= f->radius * f->radius && escape(f, p, NULL) == 0;
+}
+
+/* The iterate that is about as large as it may be, and by how much it moves there. */
+static int iterate_at_limit(const JuliaFractal *f, Vec3 p, double *slope)
+{
+    Quad z = quad_of(f, p);
+    double moved = 1, best = INFINITY;
+    int found = 1;
+
+    for (int k = 1; k <= f->iterations; k++) {
+        const double off = fabs(norm_of(z) / f->limit - 1) / moved;
+        if (!isfinite(off))
+            break;
+        if (off < best) {
+            best = off;
+            found = k;
+            *slope = moved;
+        }
+        moved *= fmax(growth(f, z), 1e-3);
+        z = next_iterate(f, z);
+    }
+    return found;
+}
+
+static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
+{
+    const JuliaFractal *f = primitive->shape.data;
+    double slope = 1, change[3];
+
+    (void)face;
+    out->p = out->normal = p;
+    if (vec_length(p) > f->radius * (1 - 1e-9))
+        return;
+    const int k = iterate_at_limit(f, p, &slope);
+    const double h = 1e-4 / fmax(slope, 1e-2);
+    for (int i = 0; i < 3; i++) {
+        const Vec3 step = vec3(h * (i == 0), h * (i == 1), h * (i == 2));
+        change[i] = size_after(f, vec_add(p, step), k) - size_after(f, vec_sub(p, step), k);
+    }
+    const Vec3 gradient = vec_normalize(vec3(change[0], change[1], change[2]));
+    if (vec_length(gradient) > 0.5)
+        out->normal = gradient;
+}
+
+static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
+{
+    const JuliaFractal *f = primitive->shape.data;
+
+    shape_bound_circle(low, high, &primitive->transform, vec3(0, 0, 0), 0, 1, 0, f->radius);
+}
+
+static void uv(const Surface *surface, ShapeUv *out)
+{
+    const Vec3 p = shape_local_point(surface);
+
+    out->natural = (Vec2){shape_turn(p.x, p.z), 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI};
+    out->has_natural = 1;
+}
+
+const ShapeOps shape_julia_fractal = {
+    .name = "julia_fractal",
+    .properties = SHAPE_U_PERIODIC,
+    .bounds = bounds,
+    .intersect = intersect,
+    .point = point,
+    .uv = uv,
+    .inside = inside,
+};

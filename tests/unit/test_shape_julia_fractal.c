@@ -1,0 +1,128 @@
+/* julia_fractal: crossings as POV-Ray's trace() finds them, inside() against iterations written out, and crossings
+ * against inside(). */
+#include "lib_scene_text.h"
+#include "lib_shape.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Values of POV-Ray 3.7.0.10, which is as exact as a step of its search. */
+static void test_against_povray(void **state)
+{
+    static const struct {
+        const char *options;
+        double x, y, z; /* where rays along the axes enter, from -6 */
+    } cases[] = {{"hypercomplex sin max_iteration 2", -3.99375, -2.10775, -1.96775},
+                 {"hypercomplex sin max_iteration 3", -3.99375, -1.54775, -1.14775},
+                 {"hypercomplex exp max_iteration 3", -3.99375, -3.99175, -3.99375},
+                 {"pwr(2.5,.5) max_iteration 4 hypercomplex", -.61575, -.74775, -1.24775}};
+    (void)state;
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        char text[200];
+        snprintf(text, sizeof text, V37 "julia_fractal{<.1,.2,-.3,.15> %s precision 500}", cases[n].options);
+        Scene *scene = parse(text);
+        const Ray rays[3] = {{vec3(-6, .1, .2), vec3(1, 0, 0), 0, 100},
+                             {vec3(.1, -6, .2), vec3(0, 1, 0), 0, 100},
+                             {vec3(.1, .2, -6), vec3(0, 0, 1), 0, 100}};
+        const double expected[3] = {cases[n].x, cases[n].y, cases[n].z};
+        for (int k = 0; k < 3; k++) {
+            double t;
+            int face;
+            assert_true(shape_intersect(only(scene), &rays[k], &t, &face));
+            if (fabs(t - 6 - expected[k]) > 0.0025)
+                fail_msg("%s, axis %d: %.6f, not %.6f", cases[n].options, k, t - 6, expected[k]);
+        }
+        scene_close(&scene);
+    }
+}
+
+/* Quaternions by their product. */
+static void product(const double a[4], const double b[4], double out[4])
+{
+    out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+}
+
+static int stays_small(Vec3 p, int cube, int iterations)
+{
+    static const double c[4] = {.1, .2, -.3, .15};
+    double z[4] = {p.x, p.y, p.z, (.25 - .1 * p.x - .2 * p.y - .3 * p.z) / .8}, radius = 1 + sqrt(.1625);
+    for (int k = 0; k < iterations; k++) {
+        double power[4], more[4];
+        if (z[0] * z[0] + z[1] * z[1] + z[2] * z[2] + z[3] * z[3] > radius * radius)
+            return 0;
+        product(z, z, power);
+        if (cube) {
+            product(power, z, more);
+            memcpy(power, more, sizeof power);
+        }
+        for (int i = 0; i < 4; i++)
+            z[i] = power[i] + c[i];
+    }
+    return vec_length(p) <= radius;
+}
+
+static void test_iterations(void **state)
+{
+    uint32_t random = 9;
+    (void)state;
+    for (int cube = 0; cube < 2; cube++) {
+        char text[200];
+        int within = 0;
+        snprintf(text, sizeof text, V37 "julia_fractal{<.1,.2,-.3,.15> %s max_iteration 5 slice <.1,.2,.3,.8>,.25}",
+                 cube ? "cube" : "quaternion");
+        Scene *scene = parse(text);
+        for (int i = 0; i < 20000; i++) {
+            const Vec3 p = vec_scale(test_direction(&random), 1.5 * test_random(&random));
+            const int wanted = stays_small(p, cube, 5);
+            assert_int_equal(test_inside(only(scene), p), wanted);
+            within += wanted;
+        }
+        assert_true(within > 2000 && within < 18000);
+        scene_close(&scene);
+    }
+}
+
+/* Smooth ones, in steps that miss nothing. */
+static void test_crossings(void **state)
+{
+    static const double scales[] = {1e-4, 1, 1e5};
+    uint32_t random = 2;
+    int all = 0;
+    (void)state;
+    for (int n = 0; n < 6; n++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 V37
+                 "julia_fractal{<.1,.2,-.3,.15> %s max_iteration %d precision 1000 scale %g rotate 30 translate %g}",
+                 n < 3 ? "sqr" : "hypercomplex sinh", n < 3 ? 5 : 3, scales[n % 3], n == 1 ? 30. : 0);
+        Scene *scene = parse(text);
+        const Primitive *p = only(scene);
+        all += test_shape_crossings(p, transform_point(&p->transform, vec3(0, 0, 0)), (n < 3 ? 1.4 : 4) * scales[n % 3],
+                                    60, 2e-3, &random);
+        scene_close(&scene);
+    }
+    assert_true(all > 300);
+}
+
+static void test_errors(void **state)
+{
+    (void)state;
+    expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> sin}", "quaternions have sqr and cube only");
+    expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> max_iteration 0}", "max_iteration 0");
+    expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> precision 0}", "a precision of 0");
+    expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> slice <1,0,0,0>,1}", "the fourth number of slice");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_against_povray),
+        cmocka_unit_test(test_iterations),
+        cmocka_unit_test(test_crossings),
+        cmocka_unit_test(test_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
