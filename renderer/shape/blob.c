@@ -6,6 +6,7 @@
  * the density quartic. Between the ends of pieces that follow each other the sum is one polynomial. Its changes of sign
  * there are found with certainty; where two polynomials disagree by rounding about the sign at the end that they share,
  * the crossing is there. So crossings take turns: in, out, in, out. */
+#include <string.h>
 #include "base/polynomial.h"
 #include "shape/blob.h"
 #include "shape/shape.h"
@@ -136,6 +137,7 @@ typedef struct Search {
     Vec3 origin, direction;
     const ShapeRay *ray;
     double shift; /* from t of the search to the ray's */
+    double start; /* well before the ray's tmin: what ends before does not count */
     int inside;   /* at the point reached */
     double *t;
 } Search;
@@ -147,6 +149,52 @@ static int cross(Search *search, double t)
     return shape_accept(search->ray, t + search->shift, search->t);
 }
 
+static double quartic(const void *data, double x, double *slope)
+{
+    const double *c = data;
+
+    *slope = ((4 * c[4] * x + 3 * c[3]) * x + 2 * c[2]) * x + c[1];
+    return (((c[4] * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
+}
+
+/* Its roots between low and high, where b are its coefficients in Bernstein's form: where they change their sign but
+ * once, or never, so does it; else each half is looked at. Returns the number of roots so far. */
+static int bernstein_roots(const double c[5], const double b[5], double low, double high, int halvings, double roots[5],
+                           int count)
+{
+    double left[5], right[5];
+    const double middle = 0.5 * (low + high);
+    int changes = 0;
+
+    for (int i = 0; i < 4; i++)
+        changes += (b[i] > 0) != (b[i + 1] > 0);
+    if (changes == 1)
+        roots[count++] = root_between(quartic, c, low, high, b[4] > 0);
+    else if (changes > 1 && halvings == 0 && (b[0] > 0) != (b[4] > 0))
+        roots[count++] = middle;
+    if (changes <= 1 || halvings == 0)
+        return count;
+    memcpy(right, b, sizeof(right));
+    for (int k = 0; k < 5; k++) {
+        left[k] = right[0];
+        for (int i = 0; i + k < 4; i++)
+            right[i] = 0.5 * (right[i] + right[i + 1]);
+    }
+    count = bernstein_roots(c, left, low, middle, halvings - 1, roots, count);
+    return bernstein_roots(c, right, middle, high, halvings - 1, roots, count);
+}
+
+/* The quartic's roots in -half..half, as changes of sign, and its sign at -half. */
+static int quartic_roots(const double c[5], double half, double roots[5], int *begins)
+{
+    const double h2 = half * half, c1 = c[1] * half, c2 = c[2] * h2, c3 = c[3] * h2 * half, c4 = c[4] * h2 * h2;
+    const double b[5] = {c[0] - c1 + c2 - c3 + c4, c[0] - 0.5 * c1 + 0.5 * c3 - c4, c[0] - c2 / 3 + c4,
+                         c[0] + 0.5 * c1 - 0.5 * c3 - c4, c[0] + c1 + c2 + c3 + c4};
+
+    *begins = b[0] > 0;
+    return bernstein_roots(c, b, -half, half, MAX_HALVINGS, roots, 0);
+}
+
 static int search_pieces(Search *search, const Pieces *pieces)
 {
     double ends[2 * MAX_PIECES + 2], c[5], roots[5];
@@ -154,11 +202,15 @@ static int search_pieces(Search *search, const Pieces *pieces)
 
     for (int i = 0; i + 1 < count; i++) {
         const double from = ends[i], to = ends[i + 1], about = 0.5 * (from + to);
-        const int reaches = density_polynomial(pieces, search->blob->threshold, from, to, about, c);
-        const int begins = reaches && polynomial_value(c, 4, from - about) > 0;
+        int begins = 0, n = 0;
+        if (to < search->start)
+            continue;
+        if (density_polynomial(pieces, search->blob->threshold, from, to, about, c))
+            n = quartic_roots(c, 0.5 * (to - from), roots, &begins);
+        if (from < search->start)
+            search->inside = begins; /* what was before does not count */
         if (begins != search->inside && cross(search, from))
             return 1;
-        const int n = reaches ? polynomial_roots(c, 4, from - about, to - about, roots) : 0;
         for (int k = 0; k < n; k++)
             if (cross(search, roots[k] + about))
                 return 1;
@@ -186,7 +238,8 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
     const Vec3 middle = vec_scale(vec_add(blob->low, blob->high), 0.5), d = ray->direction;
     const double length = vec_length(d), reach = 0.51 * vec_length(vec_sub(blob->high, blob->low)) / length;
     const double shift = vec_dot(vec_sub(middle, ray->origin), d) / (length * length);
-    Search search = {blob, vec_mad(ray->origin, d, shift), d, ray, shift, 0, t};
+    const double start = ray->tmin - shift - 1e-9 * (fabs(shift) + reach);
+    Search search = {blob, vec_mad(ray->origin, d, shift), d, ray, shift, start, 0, t};
 
     (void)face;
     if (shift + reach < ray->tmin || shift - reach > ray->tmax)

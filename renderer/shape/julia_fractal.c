@@ -40,8 +40,18 @@ static double complex applied(const JuliaFractal *f, double complex z)
     return 0;
 }
 
+static Quad hypercomplex_square(Quad z)
+{
+    const double ar = z.v[0] - z.v[3], ai = z.v[1] + z.v[2], br = z.v[0] + z.v[3], bi = z.v[1] - z.v[2];
+    const double a = ar * ar - ai * ai, b = br * br - bi * bi;
+
+    return (Quad){{0.5 * (a + b), ar * ai + br * bi, ar * ai - br * bi, 0.5 * (b - a)}};
+}
+
 static Quad hypercomplex_function(const JuliaFractal *f, Quad z)
 {
+    if (f->function == JULIA_sqr || f->function == JULIA_cube)
+        return hypercomplex_square(z);
     const double complex a = applied(f, z.v[0] - z.v[3] + (z.v[1] + z.v[2]) * I);
     const double complex b = applied(f, z.v[0] + z.v[3] + (z.v[1] - z.v[2]) * I);
 
@@ -67,17 +77,16 @@ static Quad next_iterate(const JuliaFractal *f, Quad z)
     return z;
 }
 
-/* How much an iterate moves with the one before, at most. */
-static double growth(const JuliaFractal *f, Quad z)
+/* How much an iterate moves with the one before, at most, squared. */
+static double growth(const JuliaFractal *f, Quad z, double norm)
 {
-    const double r = sqrt(norm_of(z));
-
     switch (f->function) {
     case JULIA_sqr:
-        return 2 * r;
+        return 4 * norm;
     case JULIA_cube:
-        return f->hypercomplex ? 2 * r : 3 * r * r;
+        return f->hypercomplex ? 4 * norm : 9 * norm * norm;
     default: {
+        const double r = sqrt(norm);
         const double h = 1e-6 * (1 + r);
         Quad moved = z;
         double most = 0;
@@ -87,7 +96,7 @@ static double growth(const JuliaFractal *f, Quad z)
             double sum = 0;
             for (int i = 0; i < 4; i++)
                 sum += (b.v[i] - a.v[i]) * (b.v[i] - a.v[i]);
-            most = fmax(most, sqrt(sum) / h);
+            most = fmax(most, sum / (h * h));
         }
         return most;
     }
@@ -98,19 +107,19 @@ static double growth(const JuliaFractal *f, Quad z)
 static int escape(const JuliaFractal *f, Vec3 p, double *distance)
 {
     Quad z = quad_of(f, p);
-    double slope = 1;
+    double slope = 1; /* squared */
 
     for (int k = 1;; k++) {
         const double size = norm_of(z);
         if (!(size <= f->limit)) {
             if (distance)
-                *distance = isfinite(size) ? 0.25 * sqrt(size) * log(size) / slope : 0;
+                *distance = isfinite(size) ? 0.25 * log(size) * sqrt(size / slope) : 0;
             return k;
         }
         if (k == f->iterations)
             return 0;
         if (distance)
-            slope *= growth(f, z);
+            slope *= growth(f, z, size);
         z = next_iterate(f, z);
     }
 }
@@ -134,7 +143,7 @@ static int is_in(const JuliaFractal *f, const ShapeLine *line, double s, double 
 /* Between low and high the state changes. */
 static double halved(const JuliaFractal *f, const ShapeLine *line, double low, double high, int low_is_in)
 {
-    for (int i = 0; i < 60 && high - low > 1e-13 * f->radius; i++) {
+    for (int i = 0; i < 60 && high - low > 1e-11 * f->radius; i++) {
         const double middle = 0.5 * (low + high);
         if (is_in(f, line, middle, NULL) == low_is_in)
             low = middle;
@@ -197,7 +206,7 @@ static int iterate_at_limit(const JuliaFractal *f, Vec3 p, double *slope)
             found = k;
             *slope = moved;
         }
-        moved *= fmax(growth(f, z), 1e-3);
+        moved *= fmax(sqrt(growth(f, z, norm_of(z))), 1e-3);
         z = next_iterate(f, z);
     }
     return found;
