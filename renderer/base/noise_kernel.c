@@ -93,12 +93,14 @@ static void make_gradients(void)
 }
 
 static atomic_int ready;
+static RetexCpuLevel level; /* of vector instructions */
 
 static void make_tables(void)
 {
     make_hash();
     make_numbers();
     make_gradients();
+    level = retex_cpu_level();
     atomic_store_explicit(&ready, 1, memory_order_release);
 }
 
@@ -168,18 +170,18 @@ RETEX_CPU_INLINE double sum_corners(const Corners *c, int offset)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-RETEX_CPU_INLINE void lattice_noise_body(Vec3 p, double *noise)
+RETEX_CPU_INLINE void lattice_noise_body(double x, double y, double z, double *noise)
 {
     Corners corners;
-    find_corners(p, &corners);
+    find_corners(vec3(x, y, z), &corners);
     *noise = sum_corners(&corners, 0);
 }
-RETEX_CPU_KERNEL(lattice_noise, (Vec3 p, double *noise), (p, noise))
+RETEX_CPU_KERNEL(lattice_noise, (double x, double y, double z, double *noise), (x, y, z, noise))
 
 static inline double lattice_noise(Vec3 p)
 {
     double noise;
-    lattice_noise_by_level[retex_cpu_level()](p, &noise);
+    lattice_noise_by_level[level](p.x, p.y, p.z, &noise);
     return noise;
 }
 
@@ -228,8 +230,6 @@ static inline int is_finite(Vec3 p)
 double noise_value(Vec3 p, int generator)
 {
     double value;
-    if (!is_finite(p))
-        return 0;
     need_tables();
     if (generator == NOISE_PERLIN)
         value = 0.5 * (1.59 * perlin_noise(p) + 0.985);
@@ -237,7 +237,7 @@ double noise_value(Vec3 p, int generator)
         value = (lattice_noise(p) + 1.05242) * 0.48985582;
     else
         value = lattice_noise(p) + 0.5;
-    return value < 0 ? 0 : value > 1 ? 1 : value;
+    return value > 0 ? value < 1 ? value : 1 : 0; /* also of points that are not finite */
 }
 
 Vec3 noise_vector(Vec3 p)

@@ -197,6 +197,17 @@ static void test_calls(void **state)
                      .4 + 10 * (.297 * .2 + .589 * .4 + .114 * .6)));
 }
 
+/* What random arguments do not meet: a condition of exactly 0, ranges that do not begin or end at whole numbers. */
+static void test_edges(void **state)
+{
+    (void)state;
+    assert_true(number_of("#declare F=function(x){select(x,1,2,3)+10*select(x,4,5)} #debug str(F(0),0,9)") == 52);
+    assert_true(number_of("#declare F=function(x){select(x,1,2,3)+10*select(x,4,5)} #debug str(F(1),0,9)") == 53);
+    assert_true(number_of("#declare F=function(x){select(x,1,2,3)+10*select(x,4,5)} #debug str(F(-1),0,9)") == 41);
+    assert_true(number_of("#declare F=function(x){sum(i,x,2.7,i+1)} #debug str(F(.5),0,9)") == 6);
+    assert_true(number_of("#declare F=function(x){prod(i,x,1,i)+sum(i,3,x,i)} #debug str(F(2),0,9)") == 1);
+}
+
 static void test_limits(void **state)
 {
     (void)state;
@@ -225,8 +236,8 @@ static void test_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_internal), cmocka_unit_test(test_noise),  cmocka_unit_test(test_user),
-        cmocka_unit_test(test_calls),    cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_internal), cmocka_unit_test(test_noise), cmocka_unit_test(test_user),
+        cmocka_unit_test(test_calls),    cmocka_unit_test(test_edges), cmocka_unit_test(test_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

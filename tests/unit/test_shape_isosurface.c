@@ -121,6 +121,8 @@ static void test_options(void **unused)
     assert_true(near(t[0], 2) && near(t[1], 3.25));
     assert_int_equal(crossings(V37 "isosurface{function{z-.25} open}", behind, forward, t), 1);
     assert_true(near(t[0], 3.25));
+    assert_int_equal(crossings(V37 "isosurface{function{.25-z} open}", behind, forward, t), 1);
+    assert_true(near(t[0], 3.25));
     assert_int_equal(crossings(V37 "isosurface{function{.25-z} max_trace 3}", behind, forward, t), 2);
     assert_true(near(t[0], 3.25) && near(t[1], 4));
     /* from inside: out through the container, or through the surface */

@@ -39,3 +39,13 @@ mesh2 {
 union { object { Ball } object { Ball translate x } box { 0, 0.2 inverse }
   finish { emission 1 } bounded_by { box { -2, 2 } } }
 sphere { 4 * y, 0.3 pigment { rgb 1 } finish { ambient 2 diffuse 0 } }
+#declare Noise = function { internal(76) }
+#declare Ridges = function { internal(59) }
+#declare Bumps = function(a, b, c) { sqrt(a*a + b*b + c*c) - 1 + .3*Noise(a*3, b*3, c*3) - .1*sum(i, 1, 3, sin(i*a)) }
+isosurface { function { Bumps(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 accuracy .01 }
+isosurface { function { select(x - .2, y, z, Ridges(x, y, z, .9, 2, 3, .8, 2, 1)) } threshold .1 contained_by { box { -1, <1, 2, 1> } }
+    evaluate 1, 1.2, .9 open max_trace 3 all_intersections translate 2*x }
+difference { isosurface { function { x*x + y*y - .5 } } box { 0, 2 } }
+parametric { function { sin(u)*cos(v) } function { sin(u)*sin(v) } function { cos(u) } <0, 0>, <pi, 2*pi>
+    contained_by { box { -1, <1, 1, .7> } } accuracy .01 precompute 5 x, y, z }
+#declare Low = min_extent(intersection { sphere { 0, 1 } plane { y, .5 } });
