@@ -1,4 +1,4 @@
-/* CSG beside its hits: what emitting operands shine, whose interior and texture faces have, trace() and inside(). */
+/* CSG beside its hits: what emitting operands shine, whose interior and texture faces have, the language, limits. */
 #include <stdio.h>
 #include "lib_scene_text.h"
 #include <cmocka.h>
@@ -117,6 +117,31 @@ static void cut_faces_take_after_the_first_operand(void **unused)
     scene_close(&scene);
 }
 
+/* ---- the language ---- */
+
+static void identifiers_are_objects(void **unused)
+{
+    (void)unused;
+    Scene *scene = parse(V37 "#declare A = sphere{0,1} #declare B = plane{y,0} A "
+                             "object{A clipped_by{B translate y}} intersection{sphere{0,2} B}");
+    assert_int_equal(scene->nprimitives, 4);
+    assert_int_equal(scene->ncsgs, 2);
+    scene_close(&scene);
+    expect_error("union{#declare A = sphere{0,1} #declare B = plane{y,0} A B}", "expected");
+}
+
+static void nesting_has_an_end(void **unused)
+{
+    const char *loop = V37 "#declare A=sphere{0,1} #for (I,1,1000) #declare A=sphere{0,1 clipped_by{%s}} #end";
+    char text[256];
+
+    (void)unused;
+    snprintf(text, sizeof text, loop, "object{A}");
+    expect_error(text, "nested more than 400 deep");
+    snprintf(text, sizeof text, loop, "object{A} object{A}");
+    expect_error(text, "parts");
+}
+
 /* ---- the language's functions ---- */
 
 static void functions_see_what_is_left(void **unused)
@@ -141,6 +166,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(emitters_shine_where_they_are_left),
         cmocka_unit_test(cut_faces_take_after_the_first_operand),
+        cmocka_unit_test(identifiers_are_objects),
+        cmocka_unit_test(nesting_has_an_end),
         cmocka_unit_test(functions_see_what_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

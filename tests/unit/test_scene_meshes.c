@@ -98,11 +98,14 @@ static void test_loose_triangles(void **state)
     (void)state;
     Scene *scene = parse(V37 "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z}"
                              "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
-                             "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
-    assert_int_equal(scene->nprimitives, 4);
+                             "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z} "
+                             "triangle{0,y,z} object{Net}");
+    assert_int_equal(scene->nprimitives, 5);
+    assert_int_equal(scene->primitives[3].shape.mesh->nfaces, 2);
+    assert_ptr_equal(scene->primitives[4].shape.mesh, scene->primitives[0].shape.mesh);
     const Mesh *mesh = scene->primitives[0].shape.mesh;
     assert_int_equal(mesh->nfaces, 3);
-    assert_vec(mesh->vertices[3], 4, 0, 1);
+    assert_vec(transform_point(&scene->primitives[0].transform, mesh->vertices[3]), 4, 0, 1);
     assert_int_equal(mesh->faces[0].normal[0], -1);
     assert_vec(mesh->normals[mesh->faces[2].normal[1]], 0, 0, 1);
     assert_string_equal(scene->primitives[0].idents->name, "Net");

@@ -138,10 +138,13 @@ typedef struct ClipList {
     const struct ClipList *next;
 } ClipList;
 
+/* Of single triangles: not yet with neighbours in one mesh, or that mesh. */
+typedef enum TriangleKind { TRIANGLE_NOT, TRIANGLE_SINGLE, TRIANGLES_GATHERED } TriangleKind;
+
 typedef struct Object {
     ObjectKind kind;
     Shape shape;      /* its textures are ParsedTextures in the shape's own space */
-    int single_triangle;        /* not of a mesh: may be gathered into one with its neighbours */
+    TriangleKind single_triangle;
     int polygon;      /* the mesh is a polygon */
     const Light *light;
     CsgKind csg;                /* of a group */
@@ -353,6 +356,7 @@ void index_mesh(Sdl *sdl, const Mesh *mesh); /* once: for what is intersected in
 void place_object(Sdl *sdl, const Object *object);
 void complete_csgs(Sdl *sdl);
 void gather_triangles(Sdl *sdl);
+void gather_children(Sdl *sdl, Object *group);
 void finalize_scene(Sdl *sdl);         /* everything that waits for the end of the scene */
 Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */
 

@@ -107,13 +107,14 @@ static int accept_flag(Sdl *sdl, Object *object)
 }
 
 /* The objects of clipped_by or bounded_by, with the transforms that follow them. */
-static const ClipList *parse_clips(Sdl *sdl, const Object *object, const ClipList *list)
+static const ClipList *parse_clips(Sdl *sdl, Object *object, const ClipList *list)
 {
     const ClipList *before = list;
     const Object *one;
     Transform by;
     while ((one = accept_object(sdl))) {
         ClipList *clip = sdl_alloc(sdl, sizeof *clip);
+        object_count_child(sdl, object, one);
         *clip = (ClipList){copy_of(sdl, one), object->transform, list};
         list = clip;
         sdl_optional_comma(sdl);
@@ -253,6 +254,8 @@ static Object *group(Sdl *sdl, int which)
     if (groups[which].gap >= 0)
         gaps_add(&object->gaps, (Gap)groups[which].gap);
     add_children(sdl, object);
+    if (object->csg == CSG_UNION)
+        gather_children(sdl, object);
     return object;
 }
 
@@ -347,6 +350,8 @@ static const Object *statement(Sdl *sdl)
 
 const Object *accept_object(Sdl *sdl)
 {
+    if (sdl_peek(sdl)->kind == TOKEN_IDENT)
+        return known_object(sdl);
     if (sdl_peek(sdl)->kind != TOKEN_WORD)
         return NULL;
     statement_begin(sdl);

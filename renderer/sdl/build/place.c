@@ -147,7 +147,8 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
         index_mesh(sdl, object->shape.mesh);
     const FaceTextures *textures = placed_textures(sdl, object, &in->to_world);
     Primitive *p = primitive_new(sdl);
-    builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] = object->single_triangle && !in->csg;
+    builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] =
+        object->single_triangle == TRIANGLE_SINGLE && !in->csg;
     p->csg = in->csg;
     p->shape = object->shape;
     p->shape.textures = textures;

@@ -179,7 +179,7 @@ static Mesh *one_face(Sdl *sdl, const Vec3 points[3], const Vec3 *normals /* or 
 static void triangle(Sdl *sdl, Object *object, const Vec3 points[3], const Vec3 *normals)
 {
     object->shape.ops = &shape_mesh;
-    object->single_triangle = 1;
+    object->single_triangle = TRIANGLE_SINGLE;
     if (vec_length(vec_cross(vec_sub(points[1], points[0]), vec_sub(points[2], points[0]))) == 0)
         empty(sdl, object, "a triangle without area");
     else
