@@ -56,7 +56,7 @@ static int follow(GridRay *g, int i, int j, int upper, double from, double s)
         return 0;
     const double begin = above_triangle(g, i, j, upper, from), share = begin != end ? begin / (begin - end) : 1;
     const double at = from + (s - from) * fmin(fmax(share, 0), 1);
-    return g->oy + at * g->dy >= g->field->water && shape_accept(g->ray, shape_line_t(g->line, at), g->t);
+    return shape_accept(g->ray, shape_line_t(g->line, at), g->t);
 }
 
 static int cross_cell(GridRay *g, int i, int j, double from, double to)
@@ -108,6 +108,7 @@ static const HeightRange *whole_range(const HeightField *f)
     return f->levels[f->nlevels - 1].ranges;
 }
 
+/* What lies under water is outside, so that rays do not meet it. */
 static void local_bounds(const HeightField *f, Vec3 *low, Vec3 *high)
 {
     *low = vec3(0, fmin(fmax(whole_range(f)->low, f->water), whole_range(f)->high) / HEIGHT_UNITS, 0);
