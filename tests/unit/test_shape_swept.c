@@ -148,11 +148,12 @@ static double lathe(const Primitive *p, Vec3 q)
 
 #define RING "<0.4,-0.7>, <2.1,-0.8>, <1.5,0.1>, <1.9,0.9>, <1,0.5>"
 
+static const Point ring[] = {{{1, 0.5}},   {{0.4, -0.7}}, {{2.1, -0.8}}, {{1.5, 0.1}},
+                             {{1.9, 0.9}}, {{1, 0.5}},    {{0.4, -0.7}}, {{2.1, -0.8}}};
+
 /* Closed curves: those that end anywhere have no surface at their ends. */
 static void lathes_match_marching(void **unused)
 {
-    static const Point ring[] = {{{1, 0.5}},   {{0.4, -0.7}}, {{2.1, -0.8}}, {{1.5, 0.1}},
-                                 {{1.9, 0.9}}, {{1, 0.5}},    {{0.4, -0.7}}, {{2.1, -0.8}}};
     static const Point leaf[] = {{{0.4, -0.7}}, {{2.1, -1.1}}, {{1.8, 0.4}}, {{1.9, 0.9}},
                                  {{1.9, 0.9}},  {{1, 0.9}},    {{0.3, 0.3}}, {{0.4, -0.7}}};
 
@@ -180,6 +181,8 @@ static void lathes_have_level_rays(void **unused)
     const Primitive *p = only(scene);
 
     (void)unused;
+    ncurves = 0;
+    add_curves(CUBIC, ring, 0, 5, 1);
     for (int i = 0; i < 3000; i++) {
         const double tilt = i % 20 == 0 ? 0 : pow(10, -14 * test_random(&state)), y = 1.6 * test_random(&state) - 0.7;
         Ray ray = {{-5, y, 0.5 * test_random(&state)}, {1, 0, 0}, 0, INFINITY};
@@ -191,6 +194,13 @@ static void lathes_have_level_rays(void **unused)
             ray.tmin = seen[count++] = t;
         }
         assert_int_equal(count % 2, 0);
+        for (int k = 0; k < count; k++) {
+            const double gap = fmin(k > 0 ? seen[k] - seen[k - 1] : 1, k + 1 < count ? seen[k + 1] - seen[k] : 1);
+            Vec3 before = vec_mad(ray.origin, ray.direction, seen[k] - 1e-6),
+                 after = vec_mad(ray.origin, ray.direction, seen[k] + 1e-6);
+            if (gap > 1e-3)
+                assert_int_equal(lathe(p, before) > 0, lathe(p, after) < 0);
+        }
         if (count == 2 && tilt < 1e-6)
             assert_true(fabs(seen[0] + seen[1] - 10) < 1e-6);
     }
