@@ -65,7 +65,7 @@ double root_between(RootFunction *f, const void *data, double low, double high, 
 int roots_between_points(RootFunction *f, const void *data, const double *points, int count, double *roots)
 {
     double slope;
-    int found = 0, before = f(data, points[0], &slope) > 0;
+    int found = 0, before = count > 0 && f(data, points[0], &slope) > 0;
 
     for (int i = 1; i < count; i++) {
         int now = f(data, points[i], &slope) > 0;
@@ -201,4 +201,27 @@ int polynomial_pieces(const double *c, int degree, double low, double high, doub
     while (degree > 1 && c[degree] == 0)
         degree--;
     return pieces(c, degree, low, high, points);
+}
+
+int polynomial_unit_pieces(const double *c, int degree, double magnitude, double *points)
+{
+    double b[POLYNOMIAL_DEGREE + 1], choices = 1;
+    int certain = 1, changes = 0;
+
+    for (int i = 0; i <= degree; i++) {
+        b[i] = c[i] / choices;
+        choices = choices * (degree - i) / (i + 1);
+    }
+    for (int k = 1; k <= degree; k++)
+        for (int j = degree; j >= k; j--)
+            b[j] += b[j - 1];
+    for (int i = 0; i <= degree && certain; i++) {
+        certain = fabs(b[i]) > 64 * DBL_EPSILON * magnitude;
+        changes += i > 0 && (b[i] > 0) != (b[i - 1] > 0);
+    }
+    if (!certain || changes > 1)
+        return polynomial_pieces(c, degree, 0, 1, points);
+    points[0] = 0;
+    points[1] = 1;
+    return 2 * changes;
 }

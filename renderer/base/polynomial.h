@@ -23,7 +23,7 @@ double root_between(RootFunction *f, const void *data, double low, double high, 
 double polynomial_root_between(const double *c, int degree, double low, double high, int rising);
 
 /* Roots of f, which is monotonic between points that follow each other; they ascend. Of a point at which f is 0 it
- * counts as negative there. Returns how many, at most count - 1. */
+ * counts as negative there. Returns how many: fewer than points. */
 int roots_between_points(RootFunction *f, const void *data, const double *points, int count, double *roots);
 
 /* Ascending roots in low..high, which may be infinite. Returns how many, at most degree. */
@@ -32,6 +32,10 @@ int polynomial_roots(const double *c, int degree, double low, double high, doubl
 /* low, the ascending critical points within low..high, and high: what roots_between_points takes. Returns how many, at
  * most degree + 1. */
 int polynomial_pieces(const double *c, int degree, double low, double high, double *points);
+
+/* The same within 0..1, but 0 points where there is no root for certain, and 0 and 1 alone where there is one: by the
+ * signs of Bernstein's coefficients. magnitude: of what c was computed from, which rounding is a share of. */
+int polynomial_unit_pieces(const double *c, int degree, double magnitude, double *points);
 
 /* Polynomial times a + b x, in place: returns the new degree. degree -1 is the polynomial 0. */
 static inline int polynomial_times_linear(double *c, int degree, double a, double b)

@@ -64,22 +64,24 @@ static double level(const void *data, double u, double *slope)
     return profile_at(m->segment, u).v - m->y;
 }
 
-/* What the sign of `difference` is constant between: from the coefficients in u. */
+/* What `difference` is monotonic between: from the coefficients in u. */
 static int pieces(const Meeting *m, int degree, double *points)
 {
-    double c[DEGREE + 1] = {0}, a[3][PROFILE_DEGREE + 1];
+    double c[DEGREE + 1] = {0}, a[3][PROFILE_DEGREE + 1], sum[3] = {0, 0, 0};
 
     for (int i = 0; i <= degree; i++) {
         const Vec2 p = m->segment->c[i];
         const double y = p.v - (i ? 0 : m->y);
         a[0][i] = m->steep ? (i ? 0 : m->from.u) + m->by.u * y / m->along : m->across * y;
-        a[1][i] = m->steep ? (i ? 0 : m->from.v) + m->by.v * y / m->along : 0;
+        a[1][i] = m->steep ? (i ? 0 : m->from.v) + m->by.v * y / m->along : i ? 0 : m->along * m->nearest;
         a[2][i] = m->steep ? p.u : m->along * p.u;
+        for (int k = 0; k < 3; k++)
+            sum[k] += fabs(a[k][i]);
     }
     for (int i = 0; i <= degree; i++)
         for (int j = 0; j <= degree; j++)
             c[i + j] += a[0][i] * a[0][j] + a[1][i] * a[1][j] - a[2][i] * a[2][j];
-    return polynomial_pieces(c, 2 * degree, 0, 1, points);
+    return polynomial_unit_pieces(c, 2 * degree, sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2], points);
 }
 
 /* The square of its distance from the axis. */

@@ -154,6 +154,29 @@ static void joined_intervals_share_no_root(void **unused)
     }
 }
 
+/* Within 0..1, with and without Bernstein's coefficients. */
+static void unit_pieces_have_all_roots(void **unused)
+{
+    int none = 0, one = 0;
+
+    (void)unused;
+    for (int i = 0; i < 6000; i++) {
+        double c[POLYNOMIAL_DEGREE + 1], roots[POLYNOMIAL_DEGREE], points[POLYNOMIAL_DEGREE + 1], magnitude = 0;
+        int degree = 2 + i % 9, count, pieces, changes = 0;
+        random_polynomial(degree, 1, c);
+        for (int k = 0; k <= degree; k++)
+            magnitude += fabs(c[k]);
+        count = polynomial_roots(c, degree, 0, 1, roots);
+        pieces = polynomial_unit_pieces(c, degree, magnitude, points);
+        for (int k = 1; k < pieces; k++)
+            changes += (polynomial_value(c, degree, points[k]) > 0) != (polynomial_value(c, degree, points[k - 1]) > 0);
+        assert_int_equal(changes, count);
+        none += pieces == 0;
+        one += pieces == 2;
+    }
+    assert_true(none > 200 && one > 200);
+}
+
 static void products_with_linear_terms(void **unused)
 {
     double c[8] = {2, 0, 0, 0, 0, 0, 0, 0};
@@ -174,6 +197,7 @@ int main(void)
         cmocka_unit_test(infinite_intervals_have_all_roots),
         cmocka_unit_test(multiple_roots),
         cmocka_unit_test(joined_intervals_share_no_root),
+        cmocka_unit_test(unit_pieces_have_all_roots),
         cmocka_unit_test(products_with_linear_terms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
