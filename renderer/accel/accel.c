@@ -1,8 +1,9 @@
 /* Building what Embree traces.
  *
  * Shapes that have triangles (boxes, meshes) are one triangle geometry in world space; other shapes with bounds are
- * user geometry; those without bounds (planes) are tested beside Embree. The scene is ROBUST: it costs a tenth, but
- * without it 6 in 100 rays aimed at an edge between two triangles, and 1 in 100 000 at random, pass through. */
+ * user geometry; those without bounds (planes, polynomials) are tested beside Embree. The scene is ROBUST: it costs a
+ * tenth, but without it 6 in 100 rays aimed at an edge between two triangles, and 1 in 100 000 at random, pass
+ * through. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -67,7 +67,7 @@ void surface_turn(Surface *surface, int backside);
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
 /* The rest of a hit on a shape that has triangles, from t and face: what the tracer says of them itself. */
 void shape_complete_hit(const Primitive *primitive, const Ray *ray, Hit *hit);
-/* World-space bounding box; planes have none (returns 0). */
+/* World-space bounding box; planes and surfaces of polynomials have none (returns 0). */
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
 
 /* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled: planes,
