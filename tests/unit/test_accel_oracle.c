@@ -16,6 +16,7 @@
 #include "lib_test.h"
 #include <cmocka.h>
 #include "accel/accel.h"
+#include "lib_scene_text.h"
 #include "shape/shape.h"
 
 #define EDGE 2e-6
@@ -140,12 +141,27 @@ static void random_form(Primitive *p)
     }
 }
 
+/* Shapes with more than numbers, as scenes write them. */
+static Scene *written;
+
+static void parse_shapes(void)
+{
+    written =
+        parse(V37 "quadric{<1,-1,1>, <0,0.2,0>, <0,0,0.3>, -0.1} poly{3, <1,0,0,0,-3,0,0,0,0,0,0,0,0,0,0,0,0,0,-1,0>}"
+                  "superellipsoid{<0.3,0.6>} superellipsoid{<2.5,0.5>} ovus{0.6,0.4}"
+                  "lathe{cubic_spline 6, <0,-1>, <0.3,-0.8>, <1,-0.3>, <0.4,0.2>, <0.7,0.9>, <0,1.2>}"
+                  "prism{conic_sweep 0.2, 1, 5, <-1,-1>, <1,-0.8>, <0.2,0>, <0.5,1>, <-1,-1>}"
+                  "sor{5, <0.1,-1.3>, <0.8,-1>, <0.3,-0.2>, <0.9,0.5>, <0.2,1>}"
+                  "sphere_sweep{b_spline 5, <-2,0,0>, 0.3, <-1,1,0>, 0.2, <0,-1,1>, 0.3, <1,1,0>, 0.1, <2,0,1>, 0.3}");
+}
+
 /* Anywhere, or as the one before, or round the same middle: nested, or through each other. */
 static Primitive random_shape(const World *w, int index)
 {
     static const ShapeOps *const all[7] = {&shape_sphere, &shape_box,  &shape_plane, &shape_cone,
                                            &shape_torus,  &shape_disc, &shape_mesh};
-    Primitive p = {.shape.ops = all[index < 7 ? index : below(7)], .target = -1};
+    const int kind = index < 7 ? index : below(10);
+    Primitive p = {.shape.ops = all[kind < 7 ? kind : 0], .target = -1};
     const Primitive *before = index > 0 ? &w->shapes[below(index)] : NULL;
     double size = w->size * magnitude(0.05, 1);
 
@@ -158,6 +174,8 @@ static Primitive random_shape(const World *w, int index)
         p.transform = random_transform(size, vec_mad(w->centre, direction(), w->size * between(0, 1)));
     }
     random_form(&p);
+    if (kind >= 7)
+        p.shape = written->primitives[below(written->nprimitives)].shape;
     if (before && p.shape.ops == before->shape.ops)
         p.shape = before->shape;
     p.no_image = chance(0.12), p.no_shadow = chance(0.12), p.no_reflection = chance(0.12);
@@ -195,6 +213,8 @@ static void make_world(World *w, uint32_t seed)
 
     state = w->seed = seed;
     make_meshes();
+    if (!written)
+        parse_shapes();
     w->size = magnitude(1e-3, 1e3);
     far = chance(0.5) ? 0 : magnitude(0.1, 30);
     w->centre = vec_scale(direction(), w->size * far);
