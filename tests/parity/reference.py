@@ -8,7 +8,8 @@ POV-Ray has no such pictures of its own. They are made thus, with one ray for ea
 - normal: one parallel light is added, at quality 2, which has neither shadows nor highlights, along each axis.
 
 These pictures are made of prepared copies of the scenes: fog of their own is moved out of sight, cameras have no focal
-blur, finishes have no highlights and `brilliance` 1, quick_color is taken out. Shaded pictures are made of unchanged copies, because some scenes write files."""
+blur, finishes have no highlights and `brilliance` 1, quick_color is taken out. What is inverse is
+hollow. Shaded pictures are made of unchanged copies, because some scenes write files."""
 import concurrent.futures, glob, json, os, re, shutil, subprocess, time
 import numpy as np
 import OpenImageIO as oiio
@@ -89,6 +90,8 @@ def prepared(text):
             break
         text = text[:end] + '\n distance 1e25 ' + text[end:]
         at = fog.end()
+    # within what is not hollow, POV-Ray has no fog
+    text = re.sub(r'\binverse\b(?=\s*[}\s])', 'inverse hollow', text)
     text = re.sub(r'\bbrilliance\b(?=[\s(])', 'brilliance 1+0*', text)
     text = re.sub(r'\b(phong|specular)(\s+albedo)?\b(?=[\s(])', r'\1\2 0*', text)
     text = re.sub(r'\baperture\b(?=[\s(])', 'aperture 0*', text)
