@@ -168,7 +168,8 @@ static Scene *picture_scene(const char *folder, const char *name, int channels, 
     if (retex_image_write(&image, path, &params, 1, &err))
         fail_msg("%s", err.message);
     retex_image_free(&image);
-    snprintf(text, sizeof text, V37 "height_field{\"%s\" %s}", name, after);
+    snprintf(text, sizeof text, V37 "height_field{\"%.*s\" %s}", (int)strcspn(name, channels == 1 ? "." : ""), name,
+             after); /* grey.png as \"grey\" */
     options.include_paths = folders;
     options.ninclude_paths = 1;
     if (parse_with(&scene, text, &options, &err))

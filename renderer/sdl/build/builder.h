@@ -262,7 +262,9 @@ int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
 /* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace list[]. */
 void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures);
-void accept_image_type(Sdl *sdl); /* before a file's name: `png` and the like, which is not looked at */
+/* The name of an image and before it `png` and the like, which are not looked at: its file, also by a name without its
+ * ending; or an error. */
+const char *parse_image_path(Sdl *sdl);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
 
 /* field.c: see SdlBuilder */

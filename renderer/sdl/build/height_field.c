@@ -79,8 +79,7 @@ static void take_colors(Sdl *sdl, HeightField *field, const char *path)
 
 static void read_picture(Sdl *sdl, HeightField *field)
 {
-    accept_image_type(sdl);
-    const char *path = sdl_need_file(sdl, "image", sdl_string(sdl));
+    const char *path = parse_image_path(sdl);
     PaletteIndices palette;
     if (read_palette_indices(sdl, path, LARGEST, &palette))
         take_indices(sdl, field, &palette);

@@ -1,16 +1,24 @@
 /* image_map: a picture as a pigment. Files are found while reading and loaded at the end, once each, when the scene's
  * gamma is known and only if something uses them. */
+#include <stdio.h>
 #include <string.h>
 #include "sdl/build/builder.h"
 
 /* Before the file's name. The name's ending is not looked at: OpenImageIO looks into the file. */
-void accept_image_type(Sdl *sdl)
+const char *parse_image_path(Sdl *sdl)
 {
-    static const char *const types[] = {"png", "jpeg", "jpg", "gif", "tga", "tiff", "tif", "bmp",
-                                        "ppm", "pgm",  "pbm", "exr", "hdr", "iff",  "sys", "pot", NULL};
+    static const char *const types[] = {"png", "jpeg", "jpg", "gif", "tga", "tiff", "tif", "bmp", "ppm",
+                                        "pgm", "pbm",  "exr", "hdr", "iff", "sys",  "pot", NULL};
+    char longer[1024];
     for (int i = 0; types[i]; i++)
         if (sdl_accept(sdl, types[i]))
-            return;
+            break;
+    const char *name = sdl_string(sdl), *path = sdl_find_file(sdl, name);
+    for (int i = 0; !path && types[i] && !strchr(name, '.') && strlen(name) < sizeof longer - 8; i++) {
+        snprintf(longer, sizeof longer, "%s.%s", name, types[i]);
+        path = sdl_find_file(sdl, longer);
+    }
+    return path ? path : sdl_need_file(sdl, "image", name);
 }
 
 /* `filter all F`, `transmit all T`, or of one palette entry. */
@@ -110,11 +118,9 @@ void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
     }
     ParsedImage *image = sdl_alloc(sdl, sizeof *image);
     image->working = 1;
-    accept_image_type(sdl);
     image->file = sdl_peek(sdl)->file;
     image->line = sdl_peek(sdl)->line;
-    const char *name = sdl_string(sdl);
-    image->map.path = sdl_need_file(sdl, "image", name);
+    image->map.path = parse_image_path(sdl);
     while (!sdl_accept(sdl, "}"))
         if (!image_option(sdl, pigment, image))
             sdl_expected(sdl, "an option of image_map or }");
