@@ -14,6 +14,7 @@ import hashlib
 import os
 import queue
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -92,13 +93,15 @@ def mistakes(mutants):
 
 def run(tree, *command):
     """Exit status and output; a status of None where it took too long."""
-    try:
-        done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL, timeout=SECONDS, check=False,
-                              env={**os.environ, "BUILD": "build", "JOBS": "1", "CI": ""})
-        return done.returncode, done.stdout.decode(errors="replace")
-    except subprocess.TimeoutExpired:
-        return None, ""
+    with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdin=subprocess.DEVNULL, start_new_session=True,
+                          env={**os.environ, "BUILD": "build", "JOBS": "1", "CI": ""}) as process:
+        try:
+            output, _ = process.communicate(timeout=SECONDS)
+            return process.returncode, output.decode(errors="replace")
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)  # with all that it has started
+            return None, ""
 
 
 def source_key():
