@@ -85,4 +85,25 @@ if [ -e "$sample" ]; then
 else
     echo "$sample does not exist (package povray-examples): its pictures are unchanged" >&2
 fi
+
+# Samples of POV-Ray, from the top down as in samples.txt: POV-Ray's picture, ours, and a target retextured.
+examples=/usr/share/doc/povray/examples
+if [ -d "$examples" ] && command -v povray >/dev/null; then
+    rows=
+    while read -r what scene target texture; do
+        case $what in '#'*) continue ;; esac
+        base=$sets/sample-$what
+        [ -e "$base.exr" ] || retex-render -q --lenient --size 240x180 --spp "$spp" -t "$target" "$examples/$scene.pov" \
+            --denoise -o "$base.exr"
+        (cd "$(dirname "$examples/$scene")" &&
+            povray "${scene##*/}.pov" -D +A0.1 +W240 +H180 "+O$base-povray.png" >/dev/null 2>&1 </dev/null)
+        retex-combine -q "$base.exr" -o "$base.png"
+        retex-combine -q "$base.exr" --texture "$target=$textures/$texture" -o "$base-retextured.png"
+        rows="$rows $base-povray.png $base.png $base-retextured.png"
+    done <tests/long/samples.txt
+    # shellcheck disable=SC2086 # words wanted
+    oiiotool $rows --ch R,G,B --mosaic:pad=4 3x6 -o "$out/povray-samples.jpg"
+else
+    echo "there is no povray or no $examples: povray-samples.jpg is unchanged" >&2
+fi
 ls -l "$out"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# POV-Ray's samples, unchanged, retextured: scenes that were not made for this project. Prints TAP.
+# POV-Ray's samples of samples.txt, unchanged, retextured: scenes that were not made for this project. Prints TAP.
 #
 # - identity: the set recombined without textures is its picture;
 # - retexture: against a converged --replace, the retexture of a set of 128 samples is at most 0.3 dB worse than
@@ -8,17 +8,8 @@
 # SAMPLES='biscuit logo' selects scenes whose names contain a word.
 set -u
 . tests/lib/tap.sh
-examples=${POVRAY_EXAMPLES:-/usr/share/doc/povray/examples} spp=128 truth_spp=${SAMPLES_TRUTH_SPP:-4096}
-size=${SAMPLES_SIZE:-128x96}
-# What the scene has; scene; target; texture.
-table='
-CSG              incdemo/logo               Povray_Logo    brick.jpg
-text             advanced/blocks/stackerday O              brick.jpg
-height-field    objects/csg/hfclip         Column_Texture brick.jpg
-blob             advanced/biscuit           Chocolate      brick.jpg
-lathe            language/trace-wicker      BottleLathe    brick.jpg
-copies           advanced/chess2            Pawn           brick.jpg'
-
+examples=${POVRAY_EXAMPLES:-/usr/share/doc/povray/examples} spp=128 truth_spp=${SAMPLES_TRUTH_SPP:-1024}
+size=${SAMPLES_SIZE:-96x72}
 check() { # WHAT SCENE TARGET TEXTURE
     scene=$examples/$2.pov texture=$scenes/textures/$4 name="$1, $(basename "$2")"
     if [ ! -e "$scene" ]; then
@@ -42,12 +33,10 @@ check() { # WHAT SCENE TARGET TEXTURE
     result "$(at_least "$ours" "$again - 0.3")" "$name: as good as rendering again"
 }
 
-for row in $(echo "$table" | tr -s ' ' ','); do
-    # shellcheck disable=SC2046 # words wanted
-    set -- $(echo "$row" | tr ',' ' ')
-    wanted=${SAMPLES:-$2}
-    for word in $wanted; do
-        case $2 in *"$word"*) check "$@" ;; esac
+while read -r what scene target texture; do
+    case $what in '#'*) continue ;; esac
+    for word in ${SAMPLES:-$scene}; do
+        case $scene in *"$word"*) check "$what" "$scene" "$target" "$texture" ;; esac
     done
-done
+done <tests/long/samples.txt
 finish
