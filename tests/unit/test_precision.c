@@ -174,11 +174,11 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
         const double sd = (double)at(was, f->spread, x, y)[k], size = fabs((double)uv[k]);
         /* clusters lie within .3 and few samples are credited with no more; 16 significant bits are enough */
         const double wide = broad ? fmax(sd, 0.3) : sd;
-        const double step = fmax(step_of(wide, broad ? 1 : .5, 1. / 32, broad ? 1 : .5, noise, light),
+        const double step = fmax(step_of(wide, broad ? 1 : .5, 1. / 1024, broad ? 1 : .5, noise, light),
                                  size / 32768 <= sd / 2 || (double)uv[2] * was->spp < 8 ? size / 32768 : 0);
         expect_near((double)got[k], (double)uv[k], step / 2, "mean");
         expect_near((double)at(is, f->spread, x, y)[k], sd,
-                    step_of(sd, broad ? 1 : .25, 1. / 64, broad ? .5 : 1. / 16, noise, light) / 2, "deviation");
+                    step_of(sd, broad ? 1 : .25, 1. / 1024, broad ? .5 : 1. / 16, noise, light) / 2, "deviation");
     }
 }
 
@@ -204,7 +204,7 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
                 continue;
             for (int c = 0; c < 3; c++)
                 sum[kind][c] += light * ((double)at(set, f->albedo, x, y)[c] - (double)at(was, f->albedo, x, y)[c]);
-            step[kind] = fmax(step[kind], light * step_of(1, .1, 1. / 4096, .125, noise, light));
+            step[kind] = fmax(step[kind], light * step_of(1, .05, 1. / 4096, .0625, noise, light));
         }
         for (int k = 0; k < 9; k++) /* what original albedos reflect together is rounded once */
             expect_near(sum[k / 3][k % 3], 0, step[k / 3] / 2 + 1e-6, "reflected light");
