@@ -10,7 +10,6 @@ typedef enum PatternArguments {
     ARGUMENTS_FLOAT,  /* Pattern.number */
     ARGUMENTS_VECTOR, /* Pattern.vector, a direction of any length */
     /* read over so far */
-    ARGUMENTS_AVERAGE,
     ARGUMENTS_BLOCK,
     ARGUMENTS_FILE,
     ARGUMENTS_JULIA,

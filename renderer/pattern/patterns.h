@@ -15,7 +15,6 @@
 #define UNSUPPORTED_PATTERNS(X) \
     X(agate, NONE, 0, "agate") \
     X(aoi, NONE, 0, "aoi") \
-    X(average, AVERAGE, 0, "average") \
     X(boxed, NONE, 0, "boxed") \
     X(bozo, NONE, 0, "bozo") \
     X(brick, NONE, 2, "brick") \

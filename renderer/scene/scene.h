@@ -28,12 +28,26 @@ typedef struct IdentList {
 
 /* ---- pigments ---- */
 
-typedef enum PigmentKind { PIGMENT_COLOR, PIGMENT_IMAGE, PIGMENT_PATTERN } PigmentKind;
+typedef enum PigmentKind {
+    PIGMENT_COLOR,
+    PIGMENT_IMAGE,
+    PIGMENT_PATTERN,
+    PIGMENT_AVERAGE /* the mean of the map's entries, by their values as weights */
+} PigmentKind;
 typedef enum MapType { MAP_PLANAR = 0, MAP_SPHERICAL = 1, MAP_CYLINDRICAL = 2, MAP_TORUS = 5 } MapType;
 
+/* The space of which the scene's colours are numbers. Pigments blend in it. */
+typedef enum WorkingSpaceKind { WORKING_LINEAR, WORKING_SRGB, WORKING_POWER } WorkingSpaceKind;
+typedef struct WorkingSpace {
+    WorkingSpaceKind kind;
+    double gamma; /* of WORKING_POWER */
+} WorkingSpace;
+
+struct Pigment;
 typedef struct ColorMapEntry {
     double value;
-    Rgbft color;
+    Rgbft color;                   /* of the working space; of a pigment, its mean */
+    const struct Pigment *pigment; /* or NULL. It lies in the pattern space of the pigment with the map */
 } ColorMapEntry;
 typedef struct ColorMap {
     int count; /* entries sorted by value; two of one value make a step */
@@ -67,10 +81,11 @@ enum { PATTERN_COLORS = 6 }; /* the longest list of colours */
 
 typedef struct Pigment {
     PigmentKind kind;
-    Rgbft color;             /* PIGMENT_COLOR */
+    Rgbft color;             /* PIGMENT_COLOR, scene-linear */
     Pattern pattern;         /* PIGMENT_PATTERN */
-    Rgbft colors[PATTERN_COLORS]; /* of patterns that choose among colours */
-    ColorMap map;            /* of patterns that make a value 0..1; empty = black to white */
+    ColorMap map;            /* by the pattern's value; empty = black to white. Of patterns that choose among colours,
+                                colour i is entry i, with the value i */
+    const WorkingSpace *space; /* of the map's colours; NULL: linear */
     ImageMap *image;         /* PIGMENT_IMAGE */
     int uv_mapping;
     Transform transform;     /* pattern space to world; inverse takes a world point to where the pattern is evaluated.
@@ -285,7 +300,7 @@ typedef struct Scene {
     struct Csg **csgs;       /* trees over primitives; shape/csg.h */
     Light *lights;
     ImageMap **images;
-    double assumed_gamma;
+    WorkingSpace working_space;
     int noise_generator;     /* of noise that names none: 1 to 3, see base/noise.h */
     Rgb ambient_light;
     /* every identifier that textures, pigments, materials or objects in use came through */

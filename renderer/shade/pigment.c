@@ -2,6 +2,7 @@
  * the UV at which a replacement texture lies on a target. */
 #include "pattern/pattern.h"
 #include "shade/pigment_image.h"
+#include "shade/working_space.h"
 
 static Rgbft blend(const Rgbft *a, const Rgbft *b, float t)
 {
@@ -9,7 +10,14 @@ static Rgbft blend(const Rgbft *a, const Rgbft *b, float t)
                    a->filter + (b->filter - a->filter) * t, a->transmit + (b->transmit - a->transmit) * t};
 }
 
-static Rgbft map_color(const ColorMap *map, double value)
+/* An entry's colour at a point of the pattern space of the map's pigment. */
+static Rgbft entry_color(const ColorMapEntry *entry, Vec3 p, Vec2 uv)
+{
+    return entry->pigment ? pigment_in_working_space(entry->pigment, pigment_point(entry->pigment, p, uv), uv)
+                          : entry->color;
+}
+
+static Rgbft map_color(const ColorMap *map, double value, Vec3 p, Vec2 uv)
 {
     const ColorMapEntry *entry = map->entries;
     int last = map->count - 1, i = 0;
@@ -17,26 +25,59 @@ static Rgbft map_color(const ColorMap *map, double value)
     if (map->count == 0)
         return (Rgbft){(float)value, (float)value, (float)value, 0, 0};
     if (value >= entry[last].value)
-        return entry[last].color;
+        return entry_color(&entry[last], p, uv);
     if (value <= entry[0].value)
-        return entry[0].color;
+        return entry_color(&entry[0], p, uv);
     while (value > entry[i].value)
         i++;
+    const Rgbft above = entry_color(&entry[i], p, uv);
     /* Of several entries at exactly this value the first one counts. */
     if (value == entry[i].value)
-        return entry[i].color;
-    return blend(&entry[i - 1].color, &entry[i].color,
-                 (float)((value - entry[i - 1].value) / (entry[i].value - entry[i - 1].value)));
+        return above;
+    const Rgbft below = entry_color(&entry[i - 1], p, uv);
+    return blend(&below, &above, (float)((value - entry[i - 1].value) / (entry[i].value - entry[i - 1].value)));
 }
 
-Rgbft pigment_pattern(const Pigment *pigment, Vec3 p)
+static Rgbft average(const ColorMap *map, Vec3 p, Vec2 uv)
+{
+    Rgbft sum = {0};
+    double weights = 0;
+
+    for (int i = 0; i < map->count; i++) {
+        const Rgbft c = entry_color(&map->entries[i], p, uv);
+        const float w = (float)map->entries[i].value;
+
+        sum.r += w * c.r, sum.g += w * c.g, sum.b += w * c.b, sum.filter += w * c.filter,
+            sum.transmit += w * c.transmit;
+        weights += map->entries[i].value;
+    }
+    const float scale = weights != 0 ? (float)(1 / weights) : 0;
+    return (Rgbft){sum.r * scale, sum.g * scale, sum.b * scale, sum.filter * scale, sum.transmit * scale};
+}
+
+Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    switch (pigment->kind) {
+    case PIGMENT_COLOR:
+        break;
+    case PIGMENT_IMAGE:
+        return working_encode_pigment(pigment->space,
+                                      image_lookup(pigment->image, pigment_image_uv(pigment->image, p)));
+    case PIGMENT_PATTERN:
+        return map_color(&pigment->map, pattern_value(&pigment->pattern, p), p, uv);
+    case PIGMENT_AVERAGE:
+        return average(&pigment->map, p, uv);
+    }
+    return pigment->color;
+}
+
+Rgbft pigment_pattern(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
     if (pigment->kind == PIGMENT_IMAGE)
         return image_lookup(pigment->image, pigment_image_uv(pigment->image, p));
-    const double value = pattern_value(&pigment->pattern, p);
-    return pigment->pattern.ops->colors ? pigment->colors[(int)value] : map_color(&pigment->map, value);
+    return working_decode_pigment(pigment->space, pigment_in_working_space(pigment, p, uv));
 }
 
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)
@@ -48,7 +89,7 @@ Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
-    return pigment_pattern(pigment, pigment_point(pigment, p, uv));
+    return pigment_pattern(pigment, pigment_point(pigment, p, uv), uv);
 }
 
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
@@ -78,13 +119,8 @@ int pigment_is_constant(const Pigment *pigment)
         return 1;
     if (pigment->kind == PIGMENT_IMAGE)
         return image->width == 1 && image->height == 1 && !image->once;
-    for (int i = 1; i < pigment->pattern.ops->colors; i++)
-        if (!same_color(&pigment->colors[0], &pigment->colors[i]))
-            return 0;
-    if (pigment->pattern.ops->colors)
-        return 1;
-    for (int i = 1; i < pigment->map.count; i++)
-        if (!same_color(&entry[0].color, &entry[i].color))
+    for (int i = 0; i < pigment->map.count; i++)
+        if (entry[i].pigment || !same_color(&entry[0].color, &entry[i].color))
             return 0;
     return pigment->map.count > 0;
 }
@@ -97,16 +133,14 @@ static int is_opaque(const Rgbft *c)
 int pigment_is_opaque(const Pigment *pigment)
 {
     const ImageMap *image = pigment->image;
+    const ColorMapEntry *entry = pigment->map.entries;
 
     if (pigment->kind == PIGMENT_COLOR)
         return is_opaque(&pigment->color);
     if (pigment->kind == PIGMENT_IMAGE)
         return !image->has_alpha && !image->once && image->filter_all == 0 && image->transmit_all == 0;
-    for (int i = 0; i < pigment->pattern.ops->colors; i++)
-        if (!is_opaque(&pigment->colors[i]))
-            return 0;
-    for (int i = 0; !pigment->pattern.ops->colors && i < pigment->map.count; i++)
-        if (!is_opaque(&pigment->map.entries[i].color))
+    for (int i = 0; i < pigment->map.count; i++)
+        if (entry[i].pigment ? !pigment_is_opaque(entry[i].pigment) : !is_opaque(&entry[i].color))
             return 0;
     return 1;
 }

@@ -6,6 +6,8 @@
 
 /* World point p; uv is the shape's UV (used with uv_mapping). Thread-safe. */
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* The colour at a point of pattern space, in the scene's working space. */
+Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 pattern_point, Vec2 uv);
 /* The same point in pattern space. */
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The colour of an image's pigment at a point of pattern space, and target_uv's UV there. */

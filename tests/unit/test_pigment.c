@@ -15,8 +15,7 @@ static Pigment pigment(const PatternOps *ops)
 {
     return (Pigment){.kind = PIGMENT_PATTERN,
                      .pattern = {.ops = ops, .vector = {1, 0, 0}, .frequency = 1, .wave_exponent = 1},
-                     .transform = transform_identity(),
-                     .colors = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}}};
+                     .transform = transform_identity()};
 }
 
 static double value(const Pigment *p, double x, double y)
@@ -62,8 +61,10 @@ static void gradients_are_povray(void **state)
 
 static void color_maps(void **state)
 {
-    ColorMapEntry entries[] = {
-        {0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0.4f, 0}}};
+    ColorMapEntry entries[] = {{0.2, {1, 0, 0, 0, 0}, NULL},
+                               {0.5, {0, 0, 0, 0, 0}, NULL},
+                               {0.5, {0.5f, 0, 0, 0, 0.2f}, NULL},
+                               {0.7, {1, 1, 1, 0.4f, 0}, NULL}};
     Pigment p = pigment(&pattern_gradient);
 
     (void)state;
@@ -86,9 +87,11 @@ static void color_maps(void **state)
 
 static void checkers(void **state)
 {
+    ColorMapEntry colors[] = {{0, {1, 0, 0, 0, 0}, NULL}, {1, {0, 1, 0, 0, 0}, NULL}};
     Pigment p = pigment(&pattern_checker);
 
     (void)state;
+    p.map = (ColorMap){2, colors};
     assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 &&
                 value(&p, -0.5, -0.5) == 1);
     for (int z = -2; z < 3; z++)
@@ -101,9 +104,9 @@ static void checkers(void **state)
     p.transform = transform_scale(vec3(0.5, 0.5, 1));
     assert_true(pigment_eval(&p, vec3(9, 9, 9), (Vec2){0.75, 0.25}).g == 1);
     assert_false(pigment_is_constant(&p));
-    p.colors[1].filter = 0.5f;
+    colors[1].color.filter = 0.5f;
     assert_false(pigment_is_opaque(&p));
-    p.colors[0] = p.colors[1];
+    colors[0].color = colors[1].color;
     assert_true(pigment_is_constant(&p));
 }
 

@@ -38,11 +38,13 @@ static void find_brightest(Sdl *sdl, const Pigment *pigment, const Finish *finis
         consider_color(sdl, finish, pigment->color, found);
     if (pigment->kind != PIGMENT_PATTERN)
         return;
-    const int colors = pigment->pattern.ops->colors;
-    for (int i = 0; i < colors; i++)
-        consider_color(sdl, finish, pigment->colors[i], found);
-    for (int i = 0; !colors && i < pigment->map.count; i++)
-        consider_color(sdl, finish, pigment->map.entries[i].color, found);
+    for (int i = 0; i < pigment->map.count; i++) {
+        const ColorMapEntry *entry = &pigment->map.entries[i];
+        if (entry->pigment)
+            find_brightest(sdl, entry->pigment, finish, found);
+        else
+            consider_color(sdl, finish, entry->color, found);
+    }
 }
 
 static int was_warned_about(Sdl *sdl, const ParsedPigment *pigment)

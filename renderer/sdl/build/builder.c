@@ -127,7 +127,6 @@ static void begin(Sdl *sdl)
     texture->texture.finish = &finish_new(sdl, NULL)->finish;
     builder->default_texture = texture;
     Scene *scene = sdl_scene(sdl);
-    scene->assumed_gamma = 1;
     scene->ambient_light = rgb_grey(1);
     scene->noise_generator = NOISE_RANGE_CORRECTED;
 }

@@ -21,7 +21,6 @@
 #define GAP_TABLE(X) \
     X(TURBULENCE, "turbulence", "the pattern is left undisturbed") \
     X(WARP, "warp", "the pattern is left undisturbed") \
-    X(PIGMENT_MAP, "pigment_map", "each pigment's mean colour is used") \
     X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish") \
     X(MATERIAL_MAP, "material_map", "its first texture is used") \
     X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
@@ -62,24 +61,22 @@ typedef struct ParsedImage {
     struct ParsedImage *next;
 } ParsedImage;
 
-/* A pattern that is not supported becomes the mean of its map, or for `average` of the entries by their weights. */
-typedef enum Averaged { AVERAGED_NOT, AVERAGED, AVERAGED_BY_WEIGHT } Averaged;
-
 typedef struct ParsedPigment {
     Pigment pigment;   /* first: a Pigment* in the Scene is one of these */
-    Averaged averaged; /* then kind is a colour */
+    int averaged;      /* 1: the pattern is not supported; kind is a colour, the map's mean */
     int disturbed;     /* has turbulence or a warp */
     const char *file;  /* where its colour is written, for messages; line 0: nowhere */
     int line, warned;    /* warned: that it is no albedo */
+    int parts, depth;    /* of its map, see ParsedColorMap */
     Gaps gaps;
     struct ParsedPigment *next; /* all there are */
 } ParsedPigment;
 
 typedef struct ParsedColorMap {
     ColorMap map;
+    int parts, depth; /* entries, with those of its pigments' maps; how deep these are nested */
     Gaps gaps;
     const struct ParsedTexture *texture; /* of a texture_map: its first */
-    struct ParsedColorMap *next;
 } ParsedColorMap;
 
 typedef struct ParsedFinish {
@@ -203,7 +200,6 @@ typedef struct Builder {
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;
-    ParsedColorMap *maps;
     ParsedFinish *finishes;
     ParsedImage *images;
     int primitive_capacity, light_capacity;
@@ -251,17 +247,19 @@ int transform_is_identity(const Transform *t);
 ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
 ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
-Rgbft pigment_mean(const ParsedPigment *pigment);
+Rgbft pigment_mean(const Pigment *pigment);
 /* A pattern of whole textures (texture_map, tiles, texture lists): the pigment of their mean colours. */
 ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps);
 ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */
 ParsedColorMap *parse_pigment_map(Sdl *sdl); /* after pigment_map */
 ParsedColorMap *parse_texture_map(Sdl *sdl); /* after texture_map */
-Rgbft color_map_mean(const ColorMap *map);
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures);
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
-/* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace list[]. */
-void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures);
+ParsedColorMap *color_list_new(Sdl *sdl, int n); /* of the colours that POV-Ray takes where none are given */
+/* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace the map's entries. */
+void parse_color_list(Sdl *sdl, ParsedColorMap *map, int first_entry, int n, const ParsedTexture **first, int textures);
+void color_map_set(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedPigment *pigment);
+void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map);
 /* The name of an image and before it `png` and the like, which are not looked at: its file, also by a name without its
  * ending; or an error. */
 const char *parse_image_path(Sdl *sdl);

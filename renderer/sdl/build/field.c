@@ -13,18 +13,17 @@ static void call_pattern(const void *data, const double *args, double *results)
 
 static void call_pigment(const void *data, const double *args, double *results)
 {
-    const Rgbft c = pigment_eval(data, vec3(args[0], args[1], args[2]), (Vec2){args[0], args[1]});
+    const Vec2 uv = {args[0], args[1]};
+    const Vec3 p = pigment_point(data, vec3(args[0], args[1], args[2]), uv);
+    const Rgbft c = pigment_in_working_space(data, p, uv);
     results[0] = c.r, results[1] = c.g, results[2] = c.b, results[3] = c.filter, results[4] = c.transmit;
 }
 
-/* A copy that decode_color does not reach. */
+/* A copy whose colour is not decoded at the end of the scene. */
 static Pigment *as_written(Sdl *sdl, const Pigment *from)
 {
-    const size_t size = (size_t)from->map.count * sizeof *from->map.entries;
     Pigment *pigment = sdl_alloc(sdl, sizeof *pigment);
     *pigment = *from;
-    if (size)
-        pigment->map.entries = memcpy(sdl_alloc(sdl, size), from->map.entries, size);
     return pigment;
 }
 

@@ -14,76 +14,48 @@
 #include <retex/image_file.h>
 #include "base/digest.h"
 #include "sdl/build/builder.h"
+#include "shade/working_space.h"
 
 /* ---- the working space ---- */
 
-typedef enum Space { SPACE_LINEAR, SPACE_SRGB, SPACE_POWER } Space;
-
-static Space working_space(Sdl *sdl)
+static WorkingSpace working_space(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
     if (!builder->has_assumed_gamma)
-        return sdl_version(sdl) >= 3.7 ? SPACE_LINEAR : SPACE_SRGB;
+        return (WorkingSpace){sdl_version(sdl) >= 3.7 ? WORKING_LINEAR : WORKING_SRGB, 1};
     if (builder->gamma_srgb)
-        return SPACE_SRGB;
-    return fabs(builder->assumed_gamma - 1) < 1e-6 ? SPACE_LINEAR : SPACE_POWER;
-}
-
-static float decode(Space space, double gamma, float x)
-{
-    double v = fabs(x), out = v;
-    if (space == SPACE_SRGB)
-        out = retex_srgb_decode(v);
-    else if (space == SPACE_POWER)
-        out = pow(v, gamma);
-    return (float)copysign(out, x);
-}
-
-static Rgb decode_rgb(Space s, double g, Rgb c)
-{
-    return rgb(decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b));
-}
-
-/* Filter and transmit are shares, not colours. */
-static Rgbft decode_rgbft(Space s, double g, Rgbft c)
-{
-    return (Rgbft){decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b), c.filter, c.transmit};
+        return (WorkingSpace){WORKING_SRGB, 1};
+    return (WorkingSpace){fabs(builder->assumed_gamma - 1) < 1e-6 ? WORKING_LINEAR : WORKING_POWER,
+                          builder->assumed_gamma};
 }
 
 Rgb decode_color(Sdl *sdl, Rgb color)
 {
-    return decode_rgb(working_space(sdl), builder_of(sdl)->assumed_gamma, color);
+    const WorkingSpace space = working_space(sdl);
+    return working_decode(&space, color);
 }
 
+/* Until here the scene's space is linear: what is evaluated while reading gives numbers as written. */
 static void decode_colors(Sdl *sdl)
 {
     Builder *builder = builder_of(sdl);
     Scene *scene = sdl_scene(sdl);
-    const Space s = working_space(sdl);
-    const double g = builder->assumed_gamma;
-    scene->assumed_gamma = s == SPACE_LINEAR ? 1 : s == SPACE_SRGB ? 2.2 : g;
-    if (s == SPACE_LINEAR)
-        return;
-    for (ParsedPigment *p = builder->pigments; p; p = p->next) {
-        p->pigment.color = decode_rgbft(s, g, p->pigment.color);
-        for (int i = 0; i < PATTERN_COLORS; i++)
-            p->pigment.colors[i] = decode_rgbft(s, g, p->pigment.colors[i]);
-    }
-    for (ParsedColorMap *m = builder->maps; m; m = m->next)
-        for (int i = 0; i < m->map.count; i++)
-            m->map.entries[i].color = decode_rgbft(s, g, m->map.entries[i].color);
+    const WorkingSpace *space = &scene->working_space;
+    scene->working_space = working_space(sdl);
+    for (ParsedPigment *p = builder->pigments; p; p = p->next)
+        p->pigment.color = working_decode_pigment(space, p->pigment.color);
     for (ParsedFinish *f = builder->finishes; f; f = f->next) {
-        f->finish.ambient = decode_rgb(s, g, f->finish.ambient);
-        f->finish.emission = decode_rgb(s, g, f->finish.emission);
-        f->finish.reflection_min = decode_rgb(s, g, f->finish.reflection_min);
-        f->finish.reflection_max = decode_rgb(s, g, f->finish.reflection_max);
+        f->finish.ambient = working_decode(space, f->finish.ambient);
+        f->finish.emission = working_decode(space, f->finish.emission);
+        f->finish.reflection_min = working_decode(space, f->finish.reflection_min);
+        f->finish.reflection_max = working_decode(space, f->finish.reflection_max);
     }
     for (int i = 0; i < scene->nlights; i++)
-        scene->lights[i].color = decode_rgb(s, g, scene->lights[i].color);
-    scene->background = decode_rgb(s, g, scene->background);
-    scene->ambient_light = decode_rgb(s, g, scene->ambient_light);
+        scene->lights[i].color = working_decode(space, scene->lights[i].color);
+    scene->background = working_decode(space, scene->background);
+    scene->ambient_light = working_decode(space, scene->ambient_light);
     if (scene->sky)
-        scene->sky->emission = decode_rgb(s, g, scene->sky->emission);
+        scene->sky->emission = working_decode(space, scene->sky->emission);
 }
 
 /* ---- images ---- */
@@ -96,7 +68,7 @@ static const char *colorspace_of(Sdl *sdl, const ParsedImage *image)
     const char *dot = strrchr(image->map.path, '.');
     int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
                            strcmp(dot, ".HDR") == 0);
-    if (image->working && !is_float && version < 3.7 && working_space(sdl) == SPACE_LINEAR)
+    if (image->working && !is_float && version < 3.7 && working_space(sdl).kind == WORKING_LINEAR)
         return "linear";
     return image->colorspace[0] ? image->colorspace : NULL;
 }
@@ -189,11 +161,20 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity
                   err.message);
 }
 
+/* Also those of its map's pigments. */
+static void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light, int *capacity)
+{
+    if (pigment->kind == PIGMENT_IMAGE)
+        load_image(sdl, (ParsedImage *)pigment->image, is_light, capacity);
+    for (int i = 0; i < pigment->map.count; i++)
+        if (pigment->map.entries[i].pigment)
+            load_pigment_images(sdl, pigment->map.entries[i].pigment, is_light, capacity);
+}
+
 static void load_texture_images(Sdl *sdl, const Texture *texture, int *capacity)
 {
     for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below)
-        if (t->texture.pigment->kind == PIGMENT_IMAGE)
-            load_image(sdl, (ParsedImage *)t->texture.pigment->image, finish_is_emitter(t->texture.finish), capacity);
+        load_pigment_images(sdl, t->texture.pigment, finish_is_emitter(t->texture.finish), capacity);
 }
 
 /* ---- every texture in use ---- */
@@ -347,11 +328,10 @@ static void load_images(Sdl *sdl)
     int capacity = 0;
     each_texture(sdl, visit_load, &capacity);
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
-        if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
-            load_image(sdl, (ParsedImage *)scene->sky->pigments[i]->image, 1, &capacity);
+        load_pigment_images(sdl, scene->sky->pigments[i], 1, &capacity);
     const ParsedPigment *bokeh = builder_of(sdl)->bokeh;
-    if (bokeh && bokeh->pigment.kind == PIGMENT_IMAGE)
-        load_image(sdl, (ParsedImage *)bokeh->pigment.image, 0, &capacity);
+    if (bokeh)
+        load_pigment_images(sdl, &bokeh->pigment, 0, &capacity);
 }
 
 void finalize_scene(Sdl *sdl)

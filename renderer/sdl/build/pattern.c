@@ -6,59 +6,42 @@
 
 /* ---- lists of colours, pigments or textures ---- */
 
-static int list_item(Sdl *sdl, Rgbft *color, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+static void texture_item(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedTexture **first)
 {
-    if (textures && sdl_accept(sdl, "texture")) {
-        const ParsedTexture *texture = parse_texture(sdl);
-        const ParsedTexture *shown = texture_visible(texture);
-        const ParsedPigment *of = (const ParsedPigment *)shown->texture.pigment;
-        *color = pigment_mean(of);
-        gaps_join(&pigment->gaps, &of->gaps);
-        gaps_join(&pigment->gaps, &texture->gaps);
-        /* Textures of one finish and plain colours are the same as a pattern of those colours. */
-        if (of->pigment.kind != PIGMENT_COLOR || texture->below ||
-            (*first && memcmp((*first)->texture.finish, shown->texture.finish, sizeof(Finish)) != 0))
-            gaps_add(&pigment->gaps, GAP_TEXTURE_MAP);
-        if (!*first)
-            *first = texture;
-        return 1;
-    }
-    if (!textures && sdl_accept(sdl, "pigment")) {
-        ParsedPigment *of = parse_pigment(sdl, default_pigment(sdl));
-        *color = pigment_mean(of);
-        gaps_join(&pigment->gaps, &of->gaps);
-        if (of->pigment.kind != PIGMENT_COLOR)
-            gaps_add(&pigment->gaps, GAP_PIGMENT_MAP);
-        return 1;
-    }
-    if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl)) {
-        *color = sdl_color(sdl);
-        return 1;
-    }
-    return 0;
+    const ParsedTexture *texture = parse_texture(sdl);
+    const ParsedTexture *shown = texture_visible(texture);
+    const ParsedPigment *of = (const ParsedPigment *)shown->texture.pigment;
+    map->map.entries[entry].color = pigment_mean(&of->pigment);
+    gaps_join(&map->gaps, &of->gaps);
+    gaps_join(&map->gaps, &texture->gaps);
+    /* Textures of one finish and plain colours are the same as a pattern of those colours. */
+    if (of->pigment.kind != PIGMENT_COLOR || texture->below ||
+        (*first && memcmp((*first)->texture.finish, shown->texture.finish, sizeof(Finish)) != 0))
+        gaps_add(&map->gaps, GAP_TEXTURE_MAP);
+    if (!*first)
+        *first = texture;
 }
 
-void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+static int list_item(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedTexture **first, int textures)
 {
-    for (int i = 0; i < n && list_item(sdl, &list[i], pigment, first, textures); i++)
+    if (textures && sdl_accept(sdl, "texture"))
+        texture_item(sdl, map, entry, first);
+    else if (!textures && sdl_accept(sdl, "pigment"))
+        color_map_set(sdl, map, entry, parse_pigment(sdl, default_pigment(sdl)));
+    else if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl))
+        map->map.entries[entry].color = sdl_color(sdl);
+    else
+        return 0;
+    return 1;
+}
+
+void parse_color_list(Sdl *sdl, ParsedColorMap *map, int first_entry, int n, const ParsedTexture **first, int textures)
+{
+    for (int i = 0; i < n && list_item(sdl, map, first_entry + i, first, textures); i++)
         sdl_optional_comma(sdl);
 }
 
 /* ---- patterns ---- */
-
-static void set_average(Sdl *sdl, ParsedPigment *pigment, const Rgbft *list, int n)
-{
-    ParsedColorMap *map = sdl_alloc(sdl, sizeof *map);
-    map->map.count = 2 * n;
-    map->map.entries = sdl_alloc(sdl, 2 * (size_t)n * sizeof(ColorMapEntry));
-    for (int i = 0; i < n; i++) {
-        map->map.entries[2 * i] = (ColorMapEntry){(double)i / n, list[i]};
-        map->map.entries[2 * i + 1] = (ColorMapEntry){(double)(i + 1) / n, list[i]};
-    }
-    map->next = builder_of(sdl)->maps;
-    builder_of(sdl)->maps = map;
-    pigment->pigment.map = map->map;
-}
 
 static void slope_arguments(Sdl *sdl)
 {
@@ -111,7 +94,6 @@ static void pattern_arguments(Sdl *sdl, Pattern *pattern)
     case ARGUMENTS_SLOPE:
         slope_arguments(sdl);
         break;
-    case ARGUMENTS_AVERAGE:
     case ARGUMENTS_NONE:
     case ARGUMENTS_OBJECT:
         break;
@@ -121,32 +103,18 @@ static void pattern_arguments(Sdl *sdl, Pattern *pattern)
 /* object { OBJECT COLOURS }: a list of two, the first outside. */
 static void object_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
 {
-    Rgbft *colors = pigment->pigment.colors;
+    ParsedColorMap *map = color_list_new(sdl, 2);
     sdl_expect(sdl, "{");
     if (!accept_ident(sdl, VALUE_OBJECT) && !accept_object(sdl))
         sdl_expected(sdl, "an object");
     sdl_optional_comma(sdl);
-    parse_color_list(sdl, colors, 2, pigment, first, textures);
+    parse_color_list(sdl, map, 0, 2, first, textures);
     sdl_expect(sdl, "}");
-    set_average(sdl, pigment, colors, 1);
-}
-
-/* The mean of a pattern that is not supported: of its list, or of the map that follows. Of brick's colours the second
- * is the brick; the mortar between is thin. */
-static void average_pattern(Sdl *sdl, ParsedPigment *pigment)
-{
-    const PatternOps *ops = pigment->pigment.pattern.ops;
-    const int brick = strcmp(ops->keyword, "brick") == 0;
-    pigment->pigment.kind = PIGMENT_COLOR;
-    pigment->averaged = ops->arguments == ARGUMENTS_AVERAGE ? AVERAGED_BY_WEIGHT : AVERAGED;
-    if (ops->colors)
-        set_average(sdl, pigment, pigment->pigment.colors + brick, brick ? 1 : ops->colors);
+    pigment_set_map(pigment, map);
 }
 
 static void pattern_of(Sdl *sdl, int index, ParsedPigment *pigment, const ParsedTexture **first, int textures)
 {
-    static const Rgbft colors[PATTERN_COLORS] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
-                                                 {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
     const PatternOps *ops = pattern_at(index);
     Pigment *p = &pigment->pigment;
     p->kind = PIGMENT_PATTERN;
@@ -155,12 +123,13 @@ static void pattern_of(Sdl *sdl, int index, ParsedPigment *pigment, const Parsed
         p->pattern.wave = WAVE_RAMP;
     else
         gaps_add_pattern(&pigment->gaps, index);
-    memcpy(p->colors, colors, sizeof colors);
+    pigment->averaged = !ops->value;
     pattern_arguments(sdl, &p->pattern);
-    parse_color_list(sdl, p->colors, ops->colors, pigment, first, textures);
-    pigment->averaged = AVERAGED_NOT;
-    if (!ops->value)
-        average_pattern(sdl, pigment);
+    if (ops->colors) {
+        ParsedColorMap *map = color_list_new(sdl, ops->colors);
+        parse_color_list(sdl, map, 0, ops->colors, first, textures);
+        pigment_set_map(pigment, map);
+    }
     if (ops->arguments == ARGUMENTS_OBJECT)
         object_pattern(sdl, pigment, first, textures);
 }
@@ -174,10 +143,13 @@ int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first
         pattern_of(sdl, index, pigment, first, textures);
         return 1;
     }
-    if (!sdl_accept(sdl, "image_map"))
+    if (sdl_accept(sdl, "average"))
+        pigment->pigment.kind = PIGMENT_AVERAGE;
+    else if (sdl_accept(sdl, "image_map"))
+        parse_image_map(sdl, pigment);
+    else
         return 0;
-    parse_image_map(sdl, pigment);
-    pigment->averaged = AVERAGED_NOT;
+    pigment->averaged = 0;
     return 1;
 }
 

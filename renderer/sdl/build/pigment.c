@@ -1,4 +1,5 @@
-/* pigment: the colour of a surface. Colour maps, and the mean colours that stand in for what is not supported. */
+/* pigment: the colour of a surface. Maps of colours and pigments, and the mean colours that stand in for what is not
+ * supported. */
 #include <stdlib.h>
 #include <string.h>
 #include "pattern/pattern.h"
@@ -11,8 +12,10 @@ ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
     if (from)
         *pigment = *from;
     else
-        pigment->pigment = (Pigment){
-            .kind = PIGMENT_COLOR, .pattern = {.frequency = 1, .wave_exponent = 1}, .transform = transform_identity()};
+        pigment->pigment = (Pigment){.kind = PIGMENT_COLOR,
+                                     .pattern = {.frequency = 1, .wave_exponent = 1},
+                                     .space = &sdl_scene(sdl)->working_space,
+                                     .transform = transform_identity()};
     pigment->next = builder->pigments;
     builder->pigments = pigment;
     return pigment;
@@ -48,7 +51,7 @@ static Rgbft map_at(const ColorMap *map, double x)
 }
 
 /* Over 0..1, exact: the map is piecewise linear between its entries. */
-Rgbft color_map_mean(const ColorMap *map)
+static Rgbft map_mean(const ColorMap *map)
 {
     if (map->count == 0)
         return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
@@ -67,52 +70,88 @@ Rgbft color_map_mean(const ColorMap *map)
     return sum;
 }
 
-static Rgbft weighted_mean(const ColorMap *map)
+/* The mean of the entries, by their values or evenly. */
+static Rgbft entries_mean(const ColorMap *map, int weighted)
 {
     Rgbft sum = {0};
     double weights = 0;
     for (int i = 0; i < map->count; i++)
-        weights += map->entries[i].value;
-    for (int i = 0; i < map->count; i++)
-        add(&sum, map->entries[i].color, weights != 0 ? map->entries[i].value / weights : 1.0 / map->count);
+        weights += weighted ? map->entries[i].value : 1;
+    for (int i = 0; i < map->count && weights != 0; i++)
+        add(&sum, map->entries[i].color, (weighted ? map->entries[i].value : 1) / weights);
     return sum;
 }
 
-Rgbft pigment_mean(const ParsedPigment *pigment)
+Rgbft pigment_mean(const Pigment *pigment)
 {
-    const Pigment *p = &pigment->pigment;
-    if (p->kind == PIGMENT_COLOR)
-        return p->color;
-    if (p->kind == PIGMENT_IMAGE)
+    switch (pigment->kind) {
+    case PIGMENT_COLOR:
+        break;
+    case PIGMENT_IMAGE:
         return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
-    const int n = p->pattern.ops->colors;
-    if (n == 0)
-        return color_map_mean(&p->map);
-    Rgbft sum = {0};
-    for (int i = 0; i < n; i++)
-        add(&sum, p->colors[i], 1.0 / n);
-    return sum;
+    case PIGMENT_PATTERN:
+        return pigment->pattern.ops->colors ? entries_mean(&pigment->map, 0) : map_mean(&pigment->map);
+    case PIGMENT_AVERAGE:
+        return entries_mean(&pigment->map, 1);
+    }
+    return pigment->color;
 }
 
 /* ---- maps ---- */
 
+/* An identifier may be in a map several times, and its map has identifiers: they are counted as if written out. */
+enum { MAP_PARTS_MAX = 20000, MAP_DEPTH_MAX = 64 };
+
 static ParsedColorMap *map_new(Sdl *sdl)
 {
-    Builder *builder = builder_of(sdl);
-    ParsedColorMap *map = sdl_alloc(sdl, sizeof *map);
-    map->next = builder->maps;
-    builder->maps = map;
+    return sdl_alloc(sdl, sizeof(ParsedColorMap));
+}
+
+void color_map_set(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedPigment *pigment)
+{
+    ColorMapEntry *e = &map->map.entries[entry];
+    e->color = pigment_mean(&pigment->pigment);
+    e->pigment = pigment->pigment.kind == PIGMENT_COLOR ? NULL : &pigment->pigment;
+    gaps_join(&map->gaps, &pigment->gaps);
+    map->parts += 1 + pigment->parts;
+    if (map->depth < pigment->depth + 1)
+        map->depth = pigment->depth + 1;
+    if (map->parts > MAP_PARTS_MAX)
+        sdl_error(sdl, "a pigment_map of more than %d pigments", MAP_PARTS_MAX);
+    if (map->depth > MAP_DEPTH_MAX)
+        sdl_error(sdl, "pigments nested more than %d deep", MAP_DEPTH_MAX);
+}
+
+void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map)
+{
+    pigment->pigment.map = map->map;
+    pigment->parts = map->parts;
+    pigment->depth = map->depth;
+    gaps_join(&pigment->gaps, &map->gaps);
+}
+
+ParsedColorMap *color_list_new(Sdl *sdl, int n)
+{
+    static const Rgbft colors[PATTERN_COLORS] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
+                                                 {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
+    ParsedColorMap *map = map_new(sdl);
+    map->map.count = n;
+    map->map.entries = sdl_alloc(sdl, (size_t)n * sizeof *map->map.entries);
+    for (int i = 0; i < n; i++)
+        map->map.entries[i] = (ColorMapEntry){i, colors[i], NULL};
     return map;
 }
 
-static void map_add(Sdl *sdl, ParsedColorMap *map, int *capacity, double value, Rgbft color)
+/* Its index. */
+static int map_add(Sdl *sdl, ParsedColorMap *map, int *capacity, double value, Rgbft color)
 {
     map->map.entries = builder_grow(sdl, map->map.entries, map->map.count, capacity, sizeof(ColorMapEntry));
     int i = map->map.count++;
     /* In order of value, what was written first first. */
     for (; i > 0 && map->map.entries[i - 1].value > value; i--)
         map->map.entries[i] = map->map.entries[i - 1];
-    map->map.entries[i] = (ColorMapEntry){value, color};
+    map->map.entries[i] = (ColorMapEntry){value, color, NULL};
+    return i;
 }
 
 static Rgbft value_color(Sdl *sdl, const Value *value)
@@ -202,18 +241,15 @@ static ParsedColorMap *parse_map(Sdl *sdl, const char *word, MapEntryReader *rea
 
 static void read_pigment_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
 {
-    ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
-    map_add(sdl, map, capacity, value, pigment_mean(pigment));
-    gaps_join(&map->gaps, &pigment->gaps);
-    if (pigment->pigment.kind != PIGMENT_COLOR)
-        gaps_add(&map->gaps, GAP_PIGMENT_MAP);
+    const ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
+    color_map_set(sdl, map, map_add(sdl, map, capacity, value, pigment->pigment.color), pigment);
 }
 
 static void read_texture_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
 {
     const ParsedTexture *texture = parse_texture_body(sdl, ']');
     const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
-    map_add(sdl, map, capacity, value, pigment_mean(pigment));
+    map_add(sdl, map, capacity, value, pigment_mean(&pigment->pigment));
     gaps_join(&map->gaps, &texture->gaps);
     gaps_join(&map->gaps, &pigment->gaps);
     if (!map->texture)
@@ -245,8 +281,7 @@ static int accept_map(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **fi
         map = parse_texture_map(sdl);
     else
         return 0;
-    pigment->pigment.map = map->map;
-    gaps_join(&pigment->gaps, &map->gaps);
+    pigment_set_map(pigment, map);
     if (map->texture && first && !*first)
         *first = map->texture;
     return 1;
@@ -256,7 +291,7 @@ static void set_color(ParsedPigment *pigment, Rgbft color)
 {
     pigment->pigment.kind = PIGMENT_COLOR;
     pigment->pigment.color = color;
-    pigment->averaged = AVERAGED_NOT;
+    pigment->averaged = 0;
 }
 
 static int accept_named(Sdl *sdl, ParsedPigment *pigment)
@@ -305,11 +340,11 @@ static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture 
     while (!sdl_accept(sdl, closing))
         pigment_item(sdl, pigment, first, textures), sdl_optional_comma(sdl);
     statement_end(sdl);
-    if (pigment->averaged == AVERAGED_BY_WEIGHT)
-        pigment->pigment.color = weighted_mean(&pigment->pigment.map);
-    else if (pigment->averaged)
-        pigment->pigment.color = color_map_mean(&pigment->pigment.map);
-    else if (pigment->disturbed && pigment->pigment.kind != PIGMENT_COLOR)
+    if (pigment->averaged) {
+        pigment->pigment.kind = PIGMENT_PATTERN;
+        pigment->pigment.color = pigment_mean(&pigment->pigment);
+        pigment->pigment.kind = PIGMENT_COLOR;
+    } else if (pigment->disturbed && pigment->pigment.kind != PIGMENT_COLOR)
         gaps_add(&pigment->gaps, GAP_TURBULENCE);
 }
 

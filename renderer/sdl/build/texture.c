@@ -131,10 +131,12 @@ static const ParsedTexture *tiles(Sdl *sdl)
     pigment->pigment.kind = PIGMENT_PATTERN;
     pigment->pigment.pattern.ops = &pattern_checker;
     sdl_expect(sdl, "{");
-    parse_color_list(sdl, &pigment->pigment.colors[1], 1, pigment, &first, 1);
+    ParsedColorMap *map = color_list_new(sdl, 2);
+    parse_color_list(sdl, map, 1, 1, &first, 1);
     sdl_expect(sdl, "tile2");
-    parse_color_list(sdl, &pigment->pigment.colors[0], 1, pigment, &first, 1);
+    parse_color_list(sdl, map, 0, 1, &first, 1);
     sdl_expect(sdl, "}");
+    pigment_set_map(pigment, map);
     return pattern_texture(sdl, pigment, first, &pigment->gaps);
 }
 
