@@ -61,8 +61,10 @@ void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
                              : "no light source, nothing that shines and no sky";
     if (!why || !sdl->message || any_sky(scene))
         return;
-    if (scene->nprimitives && !sdl->ambient && !rgb_is_black(scene->ambient_light) && any_surface(scene, is_ambient))
-        advice = "; `ambient` gives light with --ambient only";
+    if (scene->nprimitives && sdl->ambient <= 0 && !rgb_is_black(scene->ambient_light) &&
+        any_surface(scene, is_ambient))
+        advice = sdl->ambient ? "; `ambient` gives no light with --no-ambient"
+                              : "; weak `ambient`, or ambient beside radiosity, gives light with --ambient only";
     snprintf(text, sizeof text, "%s: warning: %s: the picture will be black%s", scene->path, why, advice);
     sdl->message(sdl->message_context, 1, text);
 }

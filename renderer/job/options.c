@@ -154,18 +154,20 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
 {
     const struct {
         const char *name;
-        int *field;
-    } flags[] = {{"plain", &render->plain},
-                 {"strict-paper", &render->strict_paper},
-                 {"caustics-guide", &render->caustics_guide},
-                 {"ambient", &sdl->ambient},
-                 {"lenient", &sdl->lenient},
-                 {"strict", &sdl->strict}};
+        int *field, set;
+    } flags[] = {{"plain", &render->plain, 1},
+                 {"strict-paper", &render->strict_paper, 1},
+                 {"caustics-guide", &render->caustics_guide, 1},
+                 {"ambient", &sdl->ambient, 1},
+                 {"no-ambient", &sdl->ambient, -1},
+                 {"lenient", &sdl->lenient, 1},
+                 {"strict", &sdl->strict, 1}};
     const Option option = {render, sdl, name, value, err};
     for (size_t k = 0; k < sizeof flags / sizeof *flags; k++)
         if (!strcmp(name, flags[k].name)) {
-            *flags[k].field = 1;
-            return value ? set_whole(&option, 0, 1, flags[k].field) : RETEX_OK;
+            int on = 1, code = value ? set_whole(&option, 0, 1, &on) : RETEX_OK;
+            *flags[k].field = on ? flags[k].set : 0;
+            return code;
         }
     return value ? set_value(&option) : retex_fail(err, RETEX_EPARSE, "%s: expected a value", name);
 }

@@ -53,7 +53,14 @@ struct Lights {
 
 static int primitive_emits(const Primitive *p)
 {
-    return !rgb_is_black(p->texture->finish->emission);
+    return finish_is_sampled(p->texture->finish);
+}
+
+/* A dome of `ambient` around the camera, for a sky: like a sky of one colour, it is sampled by the BSDF alone. */
+static int is_dome(const Primitive *p, Vec3 camera)
+{
+    return p->texture->finish->emission_of_ambient && !p->csg && p->shape.ops->inside &&
+           p->shape.ops->inside(&p->shape, transform_inverse_point(&p->transform, camera));
 }
 
 /* A sphere under rotation, translation and equal scaling. */
@@ -82,7 +89,7 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
             return code;
         if (e.mesh)
             e.area = e.mesh->area, power = e.mesh->power;
-    } else if (primitive_emits(p)) {
+    } else if (primitive_emits(p) && !is_dome(p, lights->scene->camera.location)) {
         e.area = shape_area(p);
         power = rgb_luminance(p->texture->finish->emission) * e.area;
     }

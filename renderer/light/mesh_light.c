@@ -14,7 +14,7 @@ static const Texture *face_texture(const Primitive *p, int face)
 /* Faces that blend textures are not sampled: paths find them. */
 static int is_sampled(const Primitive *p, int face)
 {
-    return !rgb_is_black(face_texture(p, face)->finish->emission) && !mesh_face_blends(p->shape.mesh, face);
+    return finish_is_sampled(face_texture(p, face)->finish) && !mesh_face_blends(p->shape.mesh, face);
 }
 
 /* The radiance of one side, if it is uniform. */

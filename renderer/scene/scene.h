@@ -97,6 +97,7 @@ typedef struct Pigment {
 
 typedef struct Finish {
     Rgb ambient, emission;
+    int emission_of_ambient; /* all of it */
     double diffuse, diffuse_back;
     int diffuse_albedo;      /* `diffuse albedo D` */
     double brilliance, crand;
@@ -131,6 +132,13 @@ static inline int finish_is_lambert(const Finish *f)
 static inline int finish_is_matte(const Finish *f)
 {
     return finish_is_lambert(f) && f->diffuse_back <= 0 && f->diffuse > 0;
+}
+
+/* Whether direct-light samples look for the light of an emitter. What `ambient` below 1 gives fills shadows: paths find
+ * it with little noise, and samples are left to lamps. */
+static inline int finish_is_sampled(const Finish *f)
+{
+    return !rgb_is_black(f->emission) && !(f->emission_of_ambient && rgb_max(f->emission) < 1);
 }
 
 typedef struct Interior {

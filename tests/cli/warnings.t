@@ -18,16 +18,16 @@ $ printf 'camera { location -4*z }\nlight_source { -9*z rgb 1 }\n#warning "mind 
 
 # A scene in which nothing gives light.
 $ sh try dark '$v $c $s'
-! retex-render: dark.pov: warning: no light source, nothing that shines and no sky: the picture will be black; `ambient` gives light with --ambient only
+! retex-render: dark.pov: warning: no light source, nothing that shines and no sky: the picture will be black; weak `ambient`, or ambient beside radiosity, gives light with --ambient only
 $ o=--plain sh try dark2 '$v $c sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }'
 ! retex-render: dark2.pov: warning: no light source, nothing that shines and no sky: the picture will be black
 $ o=--plain sh try inner '$v $c sphere { 0, 1 texture { pigment { rgb 1 } } interior_texture { pigment { rgb 1 } finish { emission 1 } } }'
 $ sh try black '$v $c light_source { -9*z rgb 0 } $s'
-! retex-render: black.pov: warning: its light sources are black, nothing shines and there is no sky: the picture will be black; `ambient` gives light with --ambient only
+! retex-render: black.pov: warning: its light sources are black, nothing shines and there is no sky: the picture will be black; weak `ambient`, or ambient beside radiosity, gives light with --ambient only
 $ sh try empty '$v $c $l'
 ! retex-render: empty.pov: warning: no object and no sky: the picture will be black
 $ sh try sky '$v $c sky_sphere { pigment { rgb 0 } } $s'
-! retex-render: sky.pov: warning: no light source, nothing that shines and no sky: the picture will be black; `ambient` gives light with --ambient only
+! retex-render: sky.pov: warning: no light source, nothing that shines and no sky: the picture will be black; weak `ambient`, or ambient beside radiosity, gives light with --ambient only
 $ o=--ambient sh try ambient '$v $c sphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }'
 ! retex-render: ambient.pov: warning: no light source, nothing that shines and no sky: the picture will be black
 $ retex-render -q --size 8x6 --spp 1 --trace-pixel 4,3,0 dark.pov 2>&1 >trace | wc -l

@@ -322,12 +322,37 @@ static void faces_give_what_their_sheet_gives(void **state)
     }
 }
 
+/* Direct light is not sampled from weak ambient, nor from a dome around the camera. */
+static void domes_are_left_to_paths(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape;
+        int lights;
+    } cases[] = {{"sphere { 0, 1 finish { ambient 1 diffuse 0 } }", 1},
+                 {"sphere { 0, 1 finish { ambient .9 diffuse 0 } }", 0},
+                 {"sphere { 0, 100 finish { ambient 1 diffuse 0 } }", 0},
+                 {"sphere { 0, 100 finish { ambient 0 emission 1 diffuse 0 } }", 1},
+                 {"box { -1, 1 scale 20 finish { ambient 3 diffuse .5 } }", 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[1000];
+        snprintf(text, sizeof text, "%s%s", HEAD, cases[k].shape);
+        Scene *scene = test_scene(text);
+        Lights *lights;
+        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_count(lights), cases[k].lights);
+        lights_close(&lights);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tree_probabilities),
         cmocka_unit_test(tree_frequencies),
         cmocka_unit_test(tree_of_one_place),
+        cmocka_unit_test(domes_are_left_to_paths),
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(photons_carry_all_light),

@@ -240,22 +240,60 @@ static void test_finish(void **state)
     expect_error(V37 "sphere{0,1 finish{shiny 2}}", "finish keyword");
 }
 
+static double emission_by(const char *text, int ambient)
+{
+    SdlOptions options = SDL_OPTIONS_INIT;
+    RetexError err = {0};
+    Scene *scene;
+    options.ambient = ambient;
+    assert_int_equal(parse_with(&scene, text, &options, &err), 0);
+    const double emission = scene->primitives[0].texture->finish->emission.g;
+    scene_close(&scene);
+    return emission;
+}
+
+/* The rule in retex-scene(5). */
 static void test_emitters(void **state)
 {
     (void)state;
-    const char *text = V37 "sphere{0,1 finish{ambient 2 diffuse 0}} sphere{0,1 finish{ambient 2}}"
-                           "sphere{0,1 finish{emission 3}}";
-    Scene *scene = parse(text);
-    assert_near(scene->primitives[0].texture->finish->emission.r, 2);
-    assert_near(scene->primitives[1].texture->finish->emission.r, 0);
-    assert_near(scene->primitives[2].texture->finish->emission.r, 3);
-    scene_close(&scene);
-    SdlOptions options = SDL_OPTIONS_INIT;
-    options.ambient = 1;
-    RetexError err = {0};
-    assert_int_equal(parse_with(&scene, text, &options, &err), 0);
-    assert_near(scene->primitives[1].texture->finish->emission.r, 2);
-    assert_near(scene->primitives[2].texture->finish->emission.r, 3.1);
+    static const struct {
+        const char *text;
+        double by_rule, all;
+    } cases[] = {
+        {V37 "sphere{0,1 finish{ambient 2 diffuse 0}}", 2, 2},
+        {V37 "sphere{0,1 finish{ambient 2}}", 2, 2},
+        {V37 "sphere{0,1 finish{emission 3}}", 3, 3.1},
+        {V37 "sphere{0,1}", 0, .1},
+        {V37 "sphere{0,1 finish{diffuse 0}}", 0, .1},
+        {V37 "sphere{0,1 finish{ambient .39}}", 0, .39},
+        {V37 "sphere{0,1 finish{ambient .4}}", .4, .4},
+        {V37 "sphere{0,1 finish{ambient rgb <.5,.1,.1>}}", .1, .1},
+        {V37 "sphere{0,1 finish{ambient .11 diffuse 0}}", .11, .11},
+        {V37 "#default{finish{ambient .5 diffuse .45}} sphere{0,1}", .5, .5},
+        {V37 "global_settings{ambient_light rgb .5} sphere{0,1 finish{ambient .8 emission .1}}", .5, .5},
+        {V37 "global_settings{radiosity{}} sphere{0,1 finish{ambient 1 diffuse 0}}", 0, 1},
+        {"#version 3.5; global_settings{assumed_gamma 1 radiosity{}} sphere{0,1 finish{ambient 1}}", 1, 1},
+        /* the number is looked at as it is written, and then decoded */
+        {"#version 3.5; sphere{0,1 finish{ambient .5}}", .214041140, .214041140},
+        {"#version 3.7; global_settings{assumed_gamma .5} sphere{0,1 finish{ambient .36}}", 0, .6},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        assert_float_equal(emission_by(cases[k].text, 0), cases[k].by_rule, 1e-6);
+        assert_float_equal(emission_by(cases[k].text, 1), cases[k].all, 1e-6);
+        assert_float_equal(emission_by(cases[k].text, -1), k == 2 ? 3 : k == 10 ? .1 : 0, 1e-6);
+    }
+}
+
+/* What fills shadows and what surrounds the camera is left to paths. */
+static void test_sampled_emitters(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "sphere{0,1 finish{ambient .9 diffuse 0}} sphere{0,1 finish{ambient 1 diffuse 0}}"
+                             "sphere{0,1 finish{emission .1}} sphere{0,1 finish{emission .1 ambient .5}}"
+                             "sphere{0,1}");
+    const int sampled[] = {0, 1, 1, 1, 0};
+    for (int k = 0; k < 5; k++)
+        assert_int_equal(finish_is_sampled(scene->primitives[k].texture->finish), sampled[k]);
     scene_close(&scene);
 }
 
@@ -321,6 +359,7 @@ int main(void)
         cmocka_unit_test(test_textures_of_a_checker),
         cmocka_unit_test(test_finish),
         cmocka_unit_test(test_emitters),
+        cmocka_unit_test(test_sampled_emitters),
         cmocka_unit_test(test_working_space),
         cmocka_unit_test(test_interior),
     };

@@ -82,6 +82,7 @@ typedef struct ParsedColorMap {
 typedef struct ParsedFinish {
     Finish finish; /* first */
     double ior;    /* written in the finish, as old scenes do; 0 = not */
+    int shines;    /* its ambient is emission */
     Gaps gaps;
     struct ParsedFinish *next;
 } ParsedFinish;
@@ -197,6 +198,7 @@ typedef struct Builder {
     int gamma_srgb; /* `assumed_gamma srgb` */
     double assumed_gamma;
     double gamma_version; /* the version where it was set */
+    int radiosity;        /* global_settings has a block of it */
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;

@@ -227,15 +227,31 @@ static void find_matte_finishes(Sdl *sdl)
 
 /* ---- emitters ---- */
 
-/* `ambient` is no light here, but a surface with ambient >= 1 and nothing diffuse is a way to write a lamp. */
+#define AMBIENT_SHINES 0.4f       /* from here on an ambient was made to shine */
+#define AMBIENT_SHINES_ALONE 0.1f /* above this it was, where nothing diffuse is beside it: POV-Ray's default */
+
+/* Small `ambient` stands for the indirect light that paths find; strong one was made to be seen, as that of skies,
+ * lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions. Looks at the numbers as they
+ * are written. */
+static void find_shining(Sdl *sdl)
+{
+    const Builder *builder = builder_of(sdl);
+    const int flag = sdl_options(sdl)->ambient, may = !builder->radiosity || sdl_version(sdl) < 3.7;
+    for (ParsedFinish *f = builder->finishes; f; f = f->next) {
+        const float ambient = rgb_max(f->finish.ambient);
+        const int strong = ambient >= AMBIENT_SHINES || (f->finish.diffuse == 0 && ambient > AMBIENT_SHINES_ALONE);
+        f->shines = flag ? flag > 0 : may && strong;
+    }
+}
+
 static void set_emission(Sdl *sdl)
 {
-    const int all = sdl_options(sdl)->ambient;
     const Rgb light = sdl_scene(sdl)->ambient_light;
     for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
-        int lamp = rgb_max(f->finish.ambient) >= 1 && f->finish.diffuse == 0;
-        if (all || lamp)
-            f->finish.emission = rgb_add(f->finish.emission, rgb_mul(f->finish.ambient, light));
+        if (!f->shines)
+            continue;
+        f->finish.emission_of_ambient = rgb_is_black(f->finish.emission);
+        f->finish.emission = rgb_add(f->finish.emission, rgb_mul(f->finish.ambient, light));
     }
 }
 
@@ -344,6 +360,7 @@ void finalize_scene(Sdl *sdl)
     load_images(sdl);
     each_texture(sdl, visit_layers, NULL);
     each_texture(sdl, visit_albedo, NULL);
+    find_shining(sdl);
     decode_colors(sdl);
     camera_finish(sdl);
     find_matte_finishes(sdl);

@@ -19,6 +19,7 @@ static void ignored(Sdl *sdl)
     static const char *const blocks[] = {"radiosity", "photons", "subsurface", "tracing", NULL};
     for (int i = 0; blocks[i]; i++)
         if (sdl_is(sdl, blocks[i])) {
+            builder_of(sdl)->radiosity |= i == 0;
             skip_statement(sdl);
             return;
         }

@@ -14,7 +14,7 @@ typedef struct SdlOptions {
     int ndeclares;
     int strict;        /* 1: unsupported features are errors */
     int lenient;       /* 1: unsupported shapes and cameras are not errors; strict has precedence */
-    int ambient;       /* 1: `ambient` emits light, with radiance ambient * pigment */
+    int ambient;       /* which `ambient` is emission: 0 what was made to shine, 1 all, -1 none */
     long max_steps;    /* limit of statements and evaluations; default 200 million */
     size_t max_memory; /* limit of the scene's arena in bytes; default 8 GiB */
     /* Receives each message of #debug, #warning and of the parser itself ("FILE:LINE: warning: …"), without a final
