@@ -10,7 +10,7 @@
 #include <string.h>
 #include "accel/embree.h"
 #include "shade/material.h"
-#include "shade/pigment.h"
+#include "shade/texture.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
 
@@ -95,7 +95,7 @@ static void record_error(void *context, enum RTCError code, const char *text)
 
 static int may_transmit(const Texture *texture)
 {
-    return texture && ((texture->finish && finish_transmits(texture->finish)) || !pigment_is_opaque(texture->pigment));
+    return texture && !texture_is_opaque(texture);
 }
 
 /* Whether the primitive has one texture, which refracts what it lets through. */
@@ -106,7 +106,7 @@ static int always_refracts(const Primitive *primitive)
                  : finish && finish->retex.present  ? 1
                  : primitive->interior              ? primitive->interior->ior
                                                     : 1;
-    int several = primitive->interior_texture || primitive->shape.textures;
+    int several = primitive->interior_texture || primitive->shape.textures || primitive->texture->tree;
 
     return !several && ior != 1 && ior > 0;
 }

@@ -5,7 +5,10 @@
 
 static int texture_is(const Texture *texture, int (*has)(const Finish *))
 {
-    return texture && has(texture->finish);
+    for (int k = 0; texture && k < texture_leaf_count(texture); k++)
+        if (has(texture_leaf(texture, k)->finish))
+            return 1;
+    return 0;
 }
 
 static int emits(const Finish *finish)

@@ -3,14 +3,9 @@
 
 int job_target_is_empty(const Scene *scene, int t)
 {
-    for (int k = 0; k < scene->nprimitives; k++) {
-        const Primitive *p = &scene->primitives[k];
-        if (p->target == t)
+    for (int k = 0; k < scene->nprimitives; k++)
+        if (primitive_target_texture(&scene->primitives[k], t))
             return 0;
-        for (int f = 0; p->face_targets && f < p->shape.textures->count; f++)
-            if (p->face_targets[f] == t)
-                return 0;
-    }
     return 1;
 }
 

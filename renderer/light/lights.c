@@ -6,6 +6,7 @@
 #include "light/lights.h"
 #include "light/mesh_light.h"
 #include "shade/bsdf.h"
+#include "shade/texture.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
 
@@ -53,7 +54,7 @@ struct Lights {
 
 static int primitive_emits(const Primitive *p)
 {
-    return finish_is_sampled(p->texture->finish);
+    return texture_is_sampled(p->texture);
 }
 
 /* A dome of `ambient` around the camera, for a sky: like a sky of one colour, it is sampled by the BSDF alone. */
@@ -91,7 +92,7 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
             e.area = e.mesh->area, power = e.mesh->power;
     } else if (primitive_emits(p) && !is_dome(p, lights->scene->camera.location)) {
         e.area = shape_area(p);
-        power = rgb_luminance(p->texture->finish->emission) * e.area;
+        power = rgb_luminance(texture_emission(p->texture)) * e.area;
     }
     Vec3 low, high;
     if (!(e.area > 0) || !shape_bounds(p, &low, &high)) {
@@ -593,7 +594,7 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
     double part = lights->entries[low].strength / lights->emitter_sums[lights->nemitters];
     if (!(density > 0 && part > 0))
         return 0;
-    float radiance = rgb_luminance(surface.texture->finish->emission) * NEUTRAL_ALBEDO;
+    float radiance = rgb_luminance(texture_emission(surface.texture)) * NEUTRAL_ALBEDO;
     *point = (EmissionPoint){surface.position, surface.geometric_normal, radiance / (float)(density * part)};
     return 1;
 }

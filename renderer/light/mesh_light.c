@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "light/mesh_light.h"
+#include "shade/texture.h"
 
 #define CLOSED 1e-3 /* a mesh is closed if the sum of its faces' area vectors is below this share of its area */
 
@@ -14,14 +15,14 @@ static const Texture *face_texture(const Primitive *p, int face)
 /* Faces that blend textures are not sampled: paths find them. */
 static int is_sampled(const Primitive *p, int face)
 {
-    return finish_is_sampled(face_texture(p, face)->finish) && !mesh_face_blends(p->shape.mesh, face);
+    return texture_is_sampled(face_texture(p, face)) && !mesh_face_blends(p->shape.mesh, face);
 }
 
 /* The radiance of one side, if it is uniform. */
 static int find_emission(const Texture *texture, int target, Rgb *emission)
 {
     const Rgbft *c = &texture->pigment->color;
-    if (target >= 0 || texture->pigment->kind != PIGMENT_COLOR)
+    if (target >= 0 || texture->tree || texture->pigment->kind != PIGMENT_COLOR)
         return 0;
     float opacity = at_most(not_negative(1 - not_negative(c->filter) - not_negative(c->transmit)), 1);
     *emission = rgb_mul(rgb_scale(texture->finish->emission, opacity),
@@ -44,7 +45,7 @@ static int fill_face(MeshLightFace *f, const Primitive *p, int face)
                          .edge2 = vec_sub(corners[2], corners[0]),
                          .normal = surface.geometric_normal,
                          .inverse_area = density,
-                         .radiance = rgb_luminance(face_texture(p, face)->finish->emission),
+                         .radiance = rgb_luminance(texture_emission(face_texture(p, face))),
                          .face = face,
                          .target = surface.target,
                          .texture = surface.texture};

@@ -82,13 +82,21 @@ static int finish_casts(const Finish *f, const Primitive *p, const Texture *text
     return bends && (pigment->kind != PIGMENT_COLOR || pigment->color.filter + pigment->color.transmit > 0.1f);
 }
 
+static int texture_casts(const Primitive *p, const Texture *texture)
+{
+    for (int k = 0; k < texture_leaf_count(texture); k++)
+        if (finish_casts(texture_leaf(texture, k)->finish, p, texture_leaf(texture, k)))
+            return 1;
+    return 0;
+}
+
 static int primitive_casts(const Primitive *p)
 {
     const FaceTextures *textures = p->shape.textures;
-    if (finish_casts(p->texture->finish, p, p->texture))
+    if (texture_casts(p, p->texture))
         return 1;
     for (int k = 0; textures && k < textures->count; k++)
-        if (finish_casts(textures->list[k]->finish, p, textures->list[k]))
+        if (texture_casts(p, textures->list[k]))
             return 1;
     return 0;
 }

@@ -44,6 +44,15 @@ Factor shading_factor(const Shading *s, Float4 d, Float4 i)
         s->surface.target, d, i, colour4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
 }
 
+const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
+{
+    if (!s->replaced)
+        return NULL;
+    for (int v = 0; v < c->nvariants; v++)
+        storage[v] = s->albedos[v];
+    return storage;
+}
+
 /* ---- hits ---- */
 
 /* Whether the target's texture changes this factor. */
@@ -240,7 +249,7 @@ static inline Float4 add_plain_light(PathWorker *w, Path *path, Float4 light, co
 static inline Float4 add_split_light(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
-    const Factor *kept[SHADOW_FACTORS_MAX + 2];
+    const Factor *kept[1 + LIGHT_FACTORS_MAX + SHADOW_FACTORS_MAX];
     Float4 beauty = path->beta * light, rest = path->beta_rest * light;
     HitCounts counts = path->counts;
     int count = 0, folded = path->folded;

@@ -3,6 +3,7 @@
 #define RENDERER_PATH_INTERNAL_H
 
 #include "base/color4.h"
+#include "path/leaves.h"
 #include "path/path.h"
 
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
@@ -62,7 +63,7 @@ typedef struct DirectLightSample {
     Ray ray;         /* the shadow ray */
     int transmitted; /* it leaves on the other side of the surface */
     float pdf;       /* with which the BSDF and the guide would sample its direction */
-    Factor factors[2];
+    Factor factors[1 + LIGHT_FACTORS_MAX];
     int nfactors;
 } DirectLightSample;
 
@@ -84,6 +85,8 @@ typedef struct Vertex {
 
 /* d times the colour at a surface, plus i. */
 Factor shading_factor(const Shading *s, Float4 d, Float4 i);
+/* Copy a surface's colours by variant, for a factor that outlives its shading. NULL: the same in all. */
+const Rgb *keep_albedos(const PathContext *context, Rgb *storage, const Shading *s);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
 /* Whether any light can come by it, whatever the textures are. */
 static inline int path_is_alive(const PathWorker *w, const Path *path)
@@ -124,8 +127,6 @@ static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
 
 Rgb media_fade(const Media *media, double distance, const Surface *met);
 void media_cross(Media *media, const Surface *surface);
-/* Copy a surface's colours by variant, for a factor that outlives its shading. NULL: the same in all. */
-const Rgb *keep_albedos(const PathContext *context, Rgb *storage, const Shading *s);
 /* Trace the shadow ray of a direct-light sample. What dims light on it goes into the sample's radiance and, where
  * targets do it, into factors. Returns how many of these there are, or -1 where the light is not visible. */
 int trace_shadow_ray(PathWorker *worker, const Path *path, const Surface *from, DirectLightSample *light,
@@ -140,7 +141,7 @@ LightSampleContext light_sample_context(const Shading *s);
 /* Emitted radiance over albedo: only the opaque share of a surface emits. */
 Split surface_emission(const Shading *s);
 const CausticsCell *guide_cell(const PathContext *context, const Shading *s);
-void sample_direct_light(PathWorker *worker, Vertex *vertex);
+void sample_direct_light(PathWorker *worker, const Path *path, Vertex *vertex);
 /* Sample a direction by the BSDF or by the guide: first between delta lobes and the rest. The sample's weight and
  * density are the BSDF's own; *pdf gets the density of both together. */
 int sample_direction(const Vertex *vertex, BsdfSample *sample, float *pdf);
@@ -151,11 +152,22 @@ static inline float mis_weight(float a, float b)
     return 1 / (1 + ratio * ratio);
 }
 
+/* ---- leaf_choice.c: trees of textures ---- */
+
+/* Choose a leaf at a path's vertex. What the layers above do to light goes into the path's throughput. */
+void choose_leaf(PathWorker *worker, Path *path, Shading *s, Vec3 wo);
+/* The same for an emitter that is sampled, and for a surface on a shadow ray, of which leaves that let light pass are
+ * looked at: returns 0 where there is none. *tint gets what light is multiplied by, factors the layers above that are
+ * targets, with albedos in storage, a row for each. */
+int choose_leaf_of_light(PathWorker *worker, const Path *path, Shading *s, Vec3 wo, int passing, unsigned texture,
+                         Rgb *tint, Factor *factors, int *nfactors, int most_factors,
+                         Rgb (*storage)[VARIANTS_MAX]);
+
 /* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
 
 /* Colours at a vertex whose surface is known. */
-void find_colors(PathWorker *worker, const Path *path, Vertex *vertex, const Hit *hit, const VertexSamples *numbers,
-                 int lane);
+void find_colors(PathWorker *worker, Path *path, Vertex *vertex, const Ray *ray, const Hit *hit,
+                 const VertexSamples *numbers, int lane);
 void find_bsdf(PathWorker *worker, const Path *path, Vertex *vertex, const Ray *ray, const Hit *hit);
 void observe_first_hit(PathWorker *worker, const Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
 /* Emission that the ray meets: of a surface, or of the sky. Returns 0 where the path ends. */

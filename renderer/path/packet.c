@@ -186,11 +186,11 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
     p->matte[lane] = -1;
     w->segments++;
     if (hit->primitive >= 0) {
-        find_colors(w, path, v, hit, &p->numbers[path->half], lane);
+        find_colors(w, path, v, ray, hit, &p->numbers[path->half], lane);
         if (!add_matte(w, p, lane)) {
             find_bsdf(w, path, v, ray, hit);
             if (!v->is_last)
-                sample_direct_light(w, v);
+                sample_direct_light(w, path, v);
         } else if (w->first_hits_wanted > 0 && path->segments == 1) { /* who observes first hits looks at BSDFs */
             bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
         }

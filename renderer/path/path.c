@@ -12,18 +12,22 @@
 
 /* ---- the surface ---- */
 
-void find_colors(PathWorker *w, const Path *path, Vertex *v, const Hit *hit, const VertexSamples *numbers, int lane)
+static int is_first_hit(const Path *path)
+{
+    return path->segments + path->straight == 1;
+}
+
+void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *hit, const VertexSamples *numbers,
+                 int lane)
 {
     const PathContext *c = w->context;
     v->distance = hit->t, v->is_last = path->segments >= c->max_depth;
     v->numbers = numbers, v->lane = lane;
     v->light.found = v->picked = 0;
-    shading_color(&v->s, &v->place, w->variants, c->nvariants);
-}
-
-static int is_first_hit(const Path *path)
-{
-    return path->segments + path->straight == 1;
+    if (v->s.surface.texture->tree && !(c->white && is_first_hit(path)))
+        choose_leaf(w, path, &v->s, vec_neg(ray->direction));
+    else
+        shading_color(&v->s, &v->place, w->variants, c->nvariants);
 }
 
 /* Make it a white diffuse surface. */
@@ -115,7 +119,7 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
 {
     DirectLightSample *sample = &v->light;
     const LightSample *light = &sample->light;
-    Factor factors[SHADOW_FACTORS_MAX + 2];
+    Factor factors[1 + LIGHT_FACTORS_MAX + SHADOW_FACTORS_MAX];
     if (!sample->found)
         return;
     int is_source = light->kind == LIGHT_SAMPLE_SOURCE, n = sample->nfactors;
@@ -208,7 +212,7 @@ void trace_path(PathWorker *w, Path *path, Ray ray)
         if (accel_intersect(c->accel, &ray, path->kind, &hit)) {
             vertex_samples(&w->keys[path->half], w->key[path->half], samples, vertex, &numbers);
             surface_at(&v.s.surface, c->scene, &ray, &hit);
-            find_colors(w, path, &v, &hit, &numbers, 0);
+            find_colors(w, path, &v, &ray, &hit, &numbers, 0);
             find_bsdf(w, path, &v, &ray, &hit);
         }
         observe_first_hit(w, path, &v, &ray, &hit);
@@ -219,7 +223,7 @@ void trace_path(PathWorker *w, Path *path, Ray ray)
 
         /* Sample one point on one light, and add its light if it is visible, weighted by MIS. */
         if (!v.is_last)
-            sample_direct_light(w, &v);
+            sample_direct_light(w, path, &v);
         add_direct_light(w, path, &v);
 
         /* Sample the BSDF: its weight goes into throughput, its direction into the next ray. */

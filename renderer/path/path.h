@@ -10,6 +10,7 @@
 #include "path/vertex_samples.h"
 
 #define SHADOW_FACTORS_MAX 16 /* factors of targets on one shadow ray */
+#define LIGHT_FACTORS_MAX 8   /* of an emitter that is sampled: its own, and of layers above it that are targets */
 #define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
 #define PATHS_MAX 128         /* that are traced side by side */
 
@@ -60,7 +61,7 @@ typedef struct PathWorker {
     long segments, shadow_rays;
     /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; throughputs of all
      * paths that are traced side by side. */
-    Rgb light_albedos[ACCEL_PACKET][VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
+    Rgb light_albedos[ACCEL_PACKET][LIGHT_FACTORS_MAX][VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
     Rgb betas[PATHS_MAX][VARIANTS_MAX];
 } PathWorker;
 

@@ -17,6 +17,12 @@ typedef struct Sampler {
 enum {
     DIMENSION_PIXEL = 0,
     DIMENSION_PATH = 1,
+    DIMENSION_TEXTURE = 0x20000000, /* beyond those too: u chooses a leaf of a tree of textures; only where there is
+                                       one. Each vertex has TEXTURES_PER_VERTEX pairs */
+    TEXTURES_PER_VERTEX = 256,
+    TEXTURE_VERTEX = 0, /* of the vertex itself */
+    TEXTURE_LIGHT = 1,  /* of the emitter that is sampled */
+    TEXTURE_SHADOW = 2, /* of the first surface on the shadow ray, and so on */
     DIMENSION_CAMERA = 0x40000000, /* beyond those of all vertices; only of cameras that need it */
     VERTEX_LOBE = 0,        /* u: which lobe, v: Russian roulette */
     VERTEX_DIRECTION = 1,

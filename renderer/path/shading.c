@@ -1,7 +1,7 @@
 /* What a surface looks like where a ray met it. */
+#include "path/leaves.h"
 #include "path/shading.h"
 #include "shade/material.h"
-#include "shade/pigment.h"
 
 /* A replacement takes the pigment's colour, not its opacity; where it is transparent the original shows through. */
 static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
@@ -11,46 +11,13 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
     return rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
-static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
-{
-    const Pigment *pigment = surface->texture->pigment;
-    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &of->uv : NULL,
-                     of->has_natural ? &of->natural : NULL);
-}
-
-Vec2 surface_target_uv(const Surface *surface)
-{
-    SurfaceUv of = surface_uv(surface);
-    return target_uv_of(surface, &of);
-}
-
-static Vec3 image_point(const Surface *surface, const Pigment *pigment)
-{
-    return pigment_point(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
-}
-
-/* The colour of a surface, and, of a target, where a replacement is looked up. */
-static Rgbft color_at(const Surface *surface, const ImagePlace *place, Vec2 *target)
-{
-    const Pigment *pigment = surface->texture->pigment;
-    SurfaceUv of = {.has_natural = 0};
-    if (pigment->kind == PIGMENT_IMAGE)
-        return pigment_eval_image(pigment, place && place->is_known ? place->point : image_point(surface, pigment),
-                                  target);
-    if (pigment->uv_mapping || surface->target >= 0)
-        of = surface_uv(surface);
-    if (surface->target >= 0)
-        *target = target_uv_of(surface, &of);
-    return pigment_eval(pigment, surface->position, of.uv);
-}
-
-void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
+/* The colours of a surface whose pigment's is known, and, of a target, its UV. */
+static void set_colors(Shading *s, Rgbft c, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
-    const Rgbft c = color_at(surface, place, &s->uv);
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
     s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
-    s->replaced = 0;
+    s->replaced = s->is_leaf = 0;
     if (surface->target < 0)
         return;
     for (int v = 0; variants && v < nvariants; v++)
@@ -63,23 +30,101 @@ void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *var
     }
 }
 
-ImagePlace shading_prefetch(const Surface *surface)
+void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
 {
-    const Pigment *pigment = surface->texture->pigment;
-    ImagePlace place = {.is_known = pigment->kind == PIGMENT_IMAGE};
-    if (!place.is_known)
-        return place;
-    place.point = image_point(surface, pigment);
-    pigment_prefetch_image(pigment, place.point);
-    return place;
+    const Rgbft c = surface_color(&s->surface, place, &s->uv);
+    set_colors(s, c, variants, nvariants);
+}
+
+/* ---- trees of textures ---- */
+
+void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const RenderVariant *variants, int nvariants)
+{
+    s->surface = leaf_surface(whole, leaf->texture, leaf->target);
+    if (leaf->target >= 0)
+        s->uv = surface_target_uv(&s->surface);
+    set_colors(s, leaf->color, variants, nvariants);
+    s->is_leaf = 1;
+}
+
+void shading_above(Shading *s, const Surface *whole, const LayerAbove *above, const RenderVariant *variants,
+                   int nvariants)
+{
+    const Leaf leaf = {.texture = above->texture, .target = above->target, .color = above->color};
+    shading_leaf(s, whole, &leaf, variants, nvariants);
+}
+
+/* The colour of a leaf as it is seen through the layers above it. */
+static Rgb seen_albedo(const Shading *s, const Surface *whole, const Leaves *leaves, const Leaf *leaf,
+                       const RenderVariant *variants)
+{
+    Rgb albedo = rgb_mul(shading_albedo(s, 0), leaf->tint);
+    Shading layer;
+    for (int k = leaf->above; k >= 0; k = leaves->above[k].above) {
+        const LayerAbove *above = &leaves->above[k];
+        shading_above(&layer, whole, above, variants, 1);
+        albedo = rgb_mul(albedo, rgb_add(rgb_scale(shading_albedo(&layer, 0), above->d), rgb_grey(above->i)));
+    }
+    return albedo;
+}
+
+static unsigned leaf_targets(const Leaves *leaves, const Leaf *leaf)
+{
+    unsigned targets = leaf->target >= 0 ? 1u << leaf->target : 0;
+    for (int k = leaf->above; k >= 0; k = leaves->above[k].above)
+        targets |= 1u << leaves->above[k].target;
+    return targets;
+}
+
+void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const Ray *ray, const Hit *hit,
+                       LeafVisitor *visit, void *context)
+{
+    const Vec3 wo = vec_neg(ray->direction);
+    Surface whole;
+    Leaves leaves;
+    surface_at(&whole, scene, ray, hit);
+    if (!whole.texture->tree) {
+        SeenLeaf seen = {.share = 1};
+        shading_at(&seen.s, scene, variants, 1, ray, hit);
+        seen.albedo = shading_albedo(&seen.s, 0);
+        seen.targets = whole.target >= 0 ? 1u << whole.target : 0;
+        visit(context, &seen);
+        return;
+    }
+    leaves_at(&leaves, &whole, wo, 0);
+    for (int k = 0; k < leaves.count; k++) {
+        const Leaf *leaf = &leaves.leaf[k];
+        SeenLeaf seen = {.share = leaves_share(&leaves, k), .targets = leaf_targets(&leaves, leaf)};
+        shading_leaf(&seen.s, &whole, leaf, variants, 1);
+        bsdf_setup(&seen.s.bsdf, &seen.s.surface, wo, seen.s.filter, seen.s.transmit);
+        seen.albedo = seen_albedo(&seen.s, &whole, &leaves, leaf, variants);
+        visit(context, &seen);
+    }
+}
+
+/* The leaf that is seen most. */
+static void most_seen_leaf(Shading *s, const RenderVariant *variants, int nvariants, Vec3 wo)
+{
+    const Surface whole = s->surface;
+    Leaves leaves;
+    int most = 0;
+    leaves_at(&leaves, &whole, wo, 0);
+    for (int k = 1; k < leaves.count; k++)
+        if (leaves_share(&leaves, k) > leaves_share(&leaves, most))
+            most = k;
+    shading_leaf(s, &whole, &leaves.leaf[most], variants, nvariants);
 }
 
 void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit)
 {
+    const Vec3 wo = vec_neg(ray->direction);
     surface_at(&s->surface, scene, ray, hit);
-    shading_color(s, NULL, variants, nvariants);
-    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
+    if (s->surface.texture->tree)
+        most_seen_leaf(s, variants, nvariants, wo);
+    else
+        shading_color(s, NULL, variants, nvariants);
+    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit);
 }
 
 static int is_mirror(const Finish *finish)

@@ -3,13 +3,18 @@
 #define RENDERER_PATH_SHADING_H
 
 #include "accel/accel.h"
+#include "path/surface_color.h"
 #include "scene/variant.h"
 #include "shade/bsdf.h"
+
+struct Leaf;
+struct LayerAbove;
 
 /* Everything shading needs at a hit: the surface, its colour and its BSDF. */
 typedef struct Shading {
     Surface surface;
     Rgb albedo;   /* the original's */
+    int is_leaf;  /* of a tree of textures: the surface has others too */
     int replaced; /* some variant has another one: by variant */
     Rgb albedos[VARIANTS_MAX];
     float filter, transmit;
@@ -17,25 +22,34 @@ typedef struct Shading {
     Bsdf bsdf;
 } Shading;
 
-/* Where a replacement texture is looked up on a surface, were it a target. */
-Vec2 surface_target_uv(const Surface *surface);
-/* Where an image is looked up on a surface: a point of its pattern space, if it is known already. */
-typedef struct ImagePlace {
-    int is_known;
-    Vec3 point;
-} ImagePlace;
-
 /* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place:
  * what shading_prefetch found, or NULL. */
 void shading_color(Shading *shading, const ImagePlace *place, const RenderVariant *variants, int nvariants);
-/* Prefetch what shading_color will read. */
-ImagePlace shading_prefetch(const Surface *surface);
+/* Everything, for the texture of the surface, or for the leaf of its tree that is seen most. */
 void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit);
 static inline Rgb shading_albedo(const Shading *s, int variant)
 {
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
+
+/* ---- trees of textures, see leaves.h ---- */
+
+/* All but the BSDF: of a leaf that is known, and of a layer above leaves. */
+void shading_leaf(Shading *shading, const Surface *whole, const struct Leaf *leaf, const RenderVariant *variants,
+                  int nvariants);
+void shading_above(Shading *shading, const Surface *whole, const struct LayerAbove *above,
+                   const RenderVariant *variants, int nvariants);
+/* What is seen of a surface: the leaves of its tree, or its one texture. */
+typedef struct SeenLeaf {
+    Shading s;
+    float share;      /* of the surface, at this point; the sum is 1 */
+    Rgb albedo;       /* as seen through the layers above; that of the first variant */
+    unsigned targets; /* bits: its own, and those of the layers above */
+} SeenLeaf;
+typedef void LeafVisitor(void *context, const SeenLeaf *leaf);
+void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const Ray *ray, const Hit *hit,
+                       LeafVisitor *visit, void *context);
 
 /* The AOVs of these names, see <retex/aov.h>. */
 float shading_roughness(const Shading *shading);

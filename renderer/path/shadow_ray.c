@@ -72,60 +72,78 @@ static int shadow_factor(const Shading *s, int light_source, Factor *factor)
     return 1;
 }
 
-const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
+/* A surface as a ray that passes through it unbent sees it. Reflectance is that from outside on either side: light that
+ * entered a pane through one face leaves through the other and is never totally reflected. */
+static Surface seen_from_outside(Surface surface)
 {
-    if (!s->replaced)
-        return NULL;
-    for (int v = 0; v < c->nvariants; v++)
-        storage[v] = s->albedos[v];
-    return storage;
+    if (surface.backside) {
+        surface.backside = 0;
+        surface.geometric_normal = vec_neg(surface.geometric_normal);
+        surface.shading_normal = vec_neg(surface.shading_normal);
+    }
+    return surface;
 }
 
-/* What a surface is to a ray that passes through it unbent. Reflectance is that from outside on either side: light that
- * entered a pane through one face leaves through the other and is never totally reflected. */
-static void shading_straight(Shading *s, const PathWorker *w, const Ray *ray, Surface *surface)
+/* The factors of one light sample's shadow ray so far, and what else dims it. */
+typedef struct ShadowFactors {
+    Factor *factors;
+    int count, most;
+    Rgb *light;
+} ShadowFactors;
+
+static void add_factor(PathWorker *w, ShadowFactors *to, Factor factor, const Shading *s)
 {
-    s->surface = *surface;
-    shading_color(s, NULL, w->variants, w->context->nvariants);
-    if (surface->backside) {
-        s->surface.backside = 0;
-        s->surface.geometric_normal = vec_neg(surface->geometric_normal);
-        s->surface.shading_normal = vec_neg(surface->shading_normal);
+    factor.albedos = keep_albedos(w->context, w->shadow_albedos[to->count], s);
+    to->factors[to->count++] = factor;
+}
+
+/* The k-th surface on the ray. Returns 0 where no light passes. */
+static int pass_surface(PathWorker *w, const Path *path, const Surface *surface, int k, Vec3 wo, int light_source,
+                        ShadowFactors *to)
+{
+    Shading s;
+    Factor factor;
+    s.surface = *surface;
+    if (surface->texture->tree) {
+        s.surface = seen_from_outside(*surface);
+        if (!choose_leaf_of_light(w, path, &s, wo, 1, TEXTURE_SHADOW + (unsigned)k, to->light, to->factors, &to->count,
+                                  to->most, w->shadow_albedos))
+            return 0;
+    } else {
+        shading_color(&s, NULL, w->variants, w->context->nvariants);
+        s.surface = seen_from_outside(*surface);
     }
-    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
+    bsdf_setup(&s.bsdf, &s.surface, wo, s.filter, s.transmit);
+    if (!shadow_factor(&s, light_source, &factor))
+        return 0;
+    if (factor.target < 0 || is_black4(factor.d))
+        *to->light = rgb_mul(*to->light, rgb_of4(factor_whole(&factor)));
+    else if (to->count == to->most)
+        return 0;
+    else
+        add_factor(w, to, factor, &s);
+    return 1;
 }
 
 /* Follow a shadow ray through transparent surfaces, one after the other. */
-static int trace_through_surfaces(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *light, Factor *factors,
-                                  int most_factors)
+static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, int light_source, Media *media,
+                                  ShadowFactors *to)
 {
     const PathContext *c = w->context;
-    int n = 0;
     Hit hit;
-    Shading s;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
         if (!accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) {
             if (media->count > 0 && isfinite(ray.tmax))
-                *light = rgb_mul(*light, media_fade(media, ray.tmax - ray.tmin, NULL));
-            return n;
+                *to->light = rgb_mul(*to->light, media_fade(media, ray.tmax - ray.tmin, NULL));
+            return to->count;
         }
         Surface surface;
-        Factor factor;
         if (!accel_is_transparent(c->accel, hit.primitive))
             return -1;
         surface_at(&surface, c->scene, &ray, &hit);
-        shading_straight(&s, w, &ray, &surface);
-        if (!shadow_factor(&s, light_source, &factor))
+        if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), light_source, to))
             return -1;
-        if (factor.target < 0 || is_black4(factor.d)) {
-            *light = rgb_mul(*light, rgb_of4(factor_whole(&factor)));
-        } else {
-            if (n == most_factors)
-                return -1;
-            factor.albedos = keep_albedos(c, w->shadow_albedos[n], &s);
-            factors[n++] = factor;
-        }
-        *light = rgb_mul(*light, media_fade(media, hit.t - ray.tmin, &surface));
+        *to->light = rgb_mul(*to->light, media_fade(media, hit.t - ray.tmin, &surface));
         media_cross(media, &surface);
         ray.tmin = hit.t; /* not a new ray from there: points on large triangles are good to float only */
     }
@@ -149,7 +167,8 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     if (t->transmitted)
         media_cross(&media, from);
     if (t->visibility == VISIBILITY_TRANSPARENT)
-        return trace_through_surfaces(w, t->ray, source, &media, light, factors, most_factors);
+        return trace_through_surfaces(w, path, t->ray, source, &media,
+                                      &(ShadowFactors){factors, 0, most_factors, light});
     if (media.count > 0 && isfinite(t->ray.tmax))
         *light = rgb_mul(*light, media_fade(&media, t->ray.tmax - t->ray.tmin, NULL));
     return 0;

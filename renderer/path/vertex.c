@@ -8,19 +8,25 @@ Split surface_emission(const Shading *s)
 }
 
 /* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */
-static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *factors)
+static int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
 {
     const PathContext *c = w->context;
+    Rgb(*storage)[VARIANTS_MAX] = w->light_albedos[lane];
+    Shading s;
+    int n = 0;
     if (light->kind != LIGHT_SAMPLE_EMITTER)
         return 0;
-    Shading s;
     s.surface = light->surface;
-    shading_color(&s, NULL, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
+    if (!s.surface.texture->tree)
+        shading_color(&s, NULL, w->variants, c->nvariants);
+    else if (!choose_leaf_of_light(w, path, &s, vec_neg(light->direction), 0, TEXTURE_LIGHT, &light->radiance, factors,
+                                   &n, LIGHT_FACTORS_MAX - 1, storage + 1))
+        light->radiance = rgb_grey(0);
     const Split emission = surface_emission(&s);
-    factors[0] = shading_factor(&s, colour4(emission.d), colour4(emission.i));
-    factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);
-    return 1;
+    factors[n] = shading_factor(&s, colour4(emission.d), colour4(emission.i));
+    factors[n].albedos = keep_albedos(c, storage[0], &s);
+    return n + 1;
 }
 
 LightSampleContext light_sample_context(const Shading *s)
@@ -109,7 +115,7 @@ static double shadow_ray_end(Vec3 position, const LightSample *light)
     return end > 0 ? end : 0; /* Embree takes an end below 0 for a ray that is blocked */
 }
 
-void sample_direct_light(PathWorker *w, Vertex *v)
+void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
 {
     const PathContext *c = w->context;
     const Shading *s = &v->s;
@@ -131,7 +137,7 @@ void sample_direct_light(PathWorker *w, Vertex *v)
     sample->found = 1;
     sample->traced = 0;
     sample->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
-    sample->nfactors = 1 + light_factors(w, k, light, sample->factors + 1);
+    sample->nfactors = 1 + light_factors(w, path, k, light, sample->factors + 1);
     sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
     sample->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction),
                         light->direction, 0, shadow_ray_end(s->surface.position, light)};

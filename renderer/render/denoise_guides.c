@@ -29,6 +29,14 @@ struct PixelGuides {
     double cover[RETEX_MAX_TARGETS];
 };
 
+/* Of a surface, the mean of its texture's leaves. */
+typedef struct SeenMean {
+    const DenoiseGuides *job;
+    Rgb albedo; /* known_albedo */
+    float roughness, metallic;
+    float cover[RETEX_MAX_TARGETS]; /* share of the leaves that are the target, or below a layer that is */
+} SeenMean;
+
 static void add_surface(SurfaceSums *surface, const Shading *s)
 {
     surface->samples++;
@@ -40,6 +48,31 @@ static void add_surface(SurfaceSums *surface, const Shading *s)
 static Rgb known_albedo(const DenoiseGuides *job, const Shading *s)
 {
     return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
+}
+
+static void add_leaf(void *context, const SeenLeaf *leaf)
+{
+    SeenMean *mean = context;
+    const int known = !(mean->job->split && leaf->targets);
+    mean->albedo = rgb_add(mean->albedo, rgb_scale(known ? leaf->albedo : rgb_grey(1), leaf->share));
+    mean->roughness += leaf->share * shading_roughness(&leaf->s);
+    mean->metallic += leaf->share * shading_metallic(&leaf->s);
+    for (int t = 0; t < mean->job->window.scene->ntargets; t++)
+        mean->cover[t] += leaf->targets >> t & 1 ? leaf->share : 0;
+}
+
+static SeenMean mean_seen(const DenoiseGuides *job, const Shading *s, const Ray *ray, const Hit *hit)
+{
+    SeenMean mean = {.job = job};
+    if (s->is_leaf) {
+        shading_each_leaf(job->window.scene, job->window.variants, ray, hit, add_leaf, &mean);
+        return mean;
+    }
+    mean.albedo = known_albedo(job, s);
+    mean.roughness = shading_roughness(s), mean.metallic = shading_metallic(s);
+    if (s->surface.target >= 0)
+        mean.cover[s->surface.target] = 1;
+    return mean;
 }
 
 /* 1 if the surface emits light: its pigment is not an albedo. */
@@ -55,17 +88,17 @@ static void add_albedo(PixelGuides *sums, Rgb albedo)
     sums->luminance += l, sums->luminance_squared += l * l;
 }
 
-static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading *s)
+static void add_seen(PixelGuides *sums, const Shading *s, const SeenMean *mean)
 {
     add_surface(&sums->seen, s);
-    add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
-    sums->roughness += shading_roughness(s);
-    sums->metallic += shading_metallic(s);
+    add_albedo(sums, is_emitter(s) ? rgb_grey(1) : mean->albedo);
+    sums->roughness += mean->roughness;
+    sums->metallic += mean->metallic;
 }
 
 /* Continue the ray by specular reflection or refraction, if that lobe is the most likely one. The throughput is
  * multiplied by the lobe's weight. Returns 0 if the surface itself is seen. */
-static int continue_specular(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
+static int continue_specular(const SeenMean *mean, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
                              float *throughput)
 {
     const Bsdf *b = &s->bsdf;
@@ -76,7 +109,7 @@ static int continue_specular(const DenoiseGuides *job, const Shading *s, const H
         return 0;
     if (!bsdf_sample(b, mirror ? likely / 2 : b->p_mirror + likely / 2, 0, 0, &next))
         return 0;
-    *throughput *= fminf(1, rgb_luminance(split_apply(mirror ? b->mirror : b->passing, known_albedo(job, s))));
+    *throughput *= fminf(1, rgb_luminance(split_apply(mirror ? b->mirror : b->passing, mean->albedo)));
     if (next.straight) {
         ray->tmin = hit->t;
         return 1;
@@ -86,13 +119,14 @@ static int continue_specular(const DenoiseGuides *job, const Shading *s, const H
     return 1;
 }
 
-/* Add the coverage of a target at its first hit along the ray, also if the target is specular. */
-static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shading *s, float throughput)
+/* Add the coverage of targets at their first hits along the ray, also if they are specular. */
+static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const SeenMean *mean, float throughput)
 {
-    if (s->surface.target >= 0 && !(*met >> s->surface.target & 1)) {
-        cover[s->surface.target] += throughput;
-        *met |= 1u << s->surface.target;
-    }
+    for (int t = 0; t < mean->job->window.scene->ntargets; t++)
+        if (mean->cover[t] > 0 && !(*met >> t & 1)) {
+            cover[t] += throughput * mean->cover[t];
+            *met |= 1u << t;
+        }
 }
 
 /* Record the primitive that a sample point sees; -1: none. */
@@ -113,22 +147,24 @@ static void add_sample(PixelGuides *sums, Ray ray, Hit hit, const Shading *first
     unsigned met = 0;
     Shading next;
     const Shading *s = first;
+    SeenMean mean;
     for (int bounces = 0;; bounces++) {
         if (bounces ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
             add_albedo(sums, rgb_grey(1));
             record_primitive(sums, -1);
             return;
         }
+        if (bounces > 0 || s->is_leaf) /* of first hits too, paths choose leaves at random */
+            shading_at(&next, w->scene, w->variants, 1, &ray, &hit), s = &next;
         if (bounces == 0)
             add_surface(&sums->first, s);
-        else
-            shading_at(&next, w->scene, w->variants, 1, &ray, &hit), s = &next;
-        add_cover(sums->cover, &met, s, throughput);
-        if (bounces == SPECULAR_BOUNCES_MAX || !continue_specular(job, s, &hit, &ray, &kind, &throughput))
+        mean = mean_seen(job, s, &ray, &hit);
+        add_cover(sums->cover, &met, &mean, throughput);
+        if (bounces == SPECULAR_BOUNCES_MAX || !continue_specular(&mean, s, &hit, &ray, &kind, &throughput))
             break;
         sums->specular += bounces == 0;
     }
-    add_seen(job, sums, s);
+    add_seen(sums, s, &mean);
     record_primitive(sums, hit.primitive);
 }
 

@@ -7,59 +7,59 @@
 #include "path/path.h"
 #include "shape/shape.h"
 
-/* The value of an AOV at a first hit: up to three channels. */
-typedef void AovValue(float value[3], const Hit *hit, const Shading *shading);
+/* The value of an AOV at a first hit, of one leaf of its texture: up to three channels. */
+typedef void AovValue(float value[3], const Hit *hit, const SeenLeaf *leaf);
 
-static void depth_at(float value[3], const Hit *hit, const Shading *s)
+static void depth_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
-    (void)s;
+    (void)leaf;
     value[0] = (float)hit->t;
 }
 
-static void albedo_at(float value[3], const Hit *hit, const Shading *s)
+static void albedo_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    const Rgb albedo = shading_albedo(s, 0);
+    const Rgb albedo = leaf->albedo;
     value[0] = albedo.r, value[1] = albedo.g, value[2] = albedo.b;
 }
 
-static void normal_at(float value[3], const Hit *hit, const Shading *s)
+static void normal_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    const Vec3 n = s->bsdf.normal;
+    const Vec3 n = leaf->s.bsdf.normal;
     value[0] = (float)n.x, value[1] = (float)n.y, value[2] = (float)n.z;
 }
 
-static void position_at(float value[3], const Hit *hit, const Shading *s)
+static void position_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    const Vec3 p = s->surface.position;
+    const Vec3 p = leaf->s.surface.position;
     value[0] = (float)p.x, value[1] = (float)p.y, value[2] = (float)p.z;
 }
 
-static void uv_at(float value[3], const Hit *hit, const Shading *s)
+static void uv_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    const Vec2 uv = surface_target_uv(&s->surface);
+    const Vec2 uv = surface_target_uv(&leaf->s.surface);
     value[0] = (float)uv.u, value[1] = (float)uv.v, value[2] = 1;
 }
 
-static void object_at(float value[3], const Hit *hit, const Shading *s)
+static void object_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
-    (void)s;
+    (void)leaf;
     value[0] = (float)(hit->primitive + 1);
 }
 
-static void roughness_at(float value[3], const Hit *hit, const Shading *s)
+static void roughness_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    value[0] = shading_roughness(s);
+    value[0] = shading_roughness(&leaf->s);
 }
 
-static void metallic_at(float value[3], const Hit *hit, const Shading *s)
+static void metallic_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    value[0] = shading_metallic(s);
+    value[0] = shading_metallic(&leaf->s);
 }
 
 /* NULL: the AOV does not depend on the first hit alone; render.c adds it. */
@@ -74,37 +74,65 @@ static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_METALLIC] = metallic_at,
 };
 
+/* AOVs that are the mean of a texture's leaves; of the others the leaf that is seen most counts. */
+static const unsigned aov_means = 1u << RETEX_AOV_ALBEDO | 1u << RETEX_AOV_ROUGHNESS | 1u << RETEX_AOV_METALLIC;
+
 typedef struct AovJob {
     const FirstHitWindow *window;
     RetexImage *images[RETEX_AOV_COUNT]; /* NULL for an AOV that was not asked for */
 } AovJob;
 
-static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
+/* Of one pixel; it begins with zeros. */
+typedef struct AovPixel {
+    const AovJob *job;
+    const Hit *hit;
+    float values[RETEX_AOV_COUNT][3];
+    float most; /* share of the leaf seen most so far */
+} AovPixel;
+
+static int centre_hit(const FirstHitWindow *w, int x, int y, Ray *ray, Hit *hit)
 {
-    Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5, NULL);
-    if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit))
-        return 0;
-    shading_at(s, w->scene, w->variants, 1, &ray, hit);
-    return 1;
+    *ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5, NULL);
+    return accel_intersect(w->accel, ray, RAY_CAMERA, hit);
+}
+
+static void add_leaf(void *context, const SeenLeaf *leaf)
+{
+    AovPixel *pixel = context;
+    for (int k = 0; k < RETEX_AOV_COUNT; k++) {
+        float value[3] = {0};
+        if (!pixel->job->images[k])
+            continue;
+        aov_values[k](value, pixel->hit, leaf);
+        if (aov_means >> k & 1)
+            for (int c = 0; c < 3; c++)
+                pixel->values[k][c] += leaf->share * value[c];
+        else if (leaf->share > pixel->most)
+            memcpy(pixel->values[k], value, sizeof value);
+    }
+    if (leaf->share > pixel->most)
+        pixel->most = leaf->share;
 }
 
 static void aov_row(void *context, int y, int thread)
 {
-    AovJob *job = context;
+    const AovJob *job = context;
     const FirstHitWindow *w = job->window;
     (void)thread;
     for (int x = 0; x < w->w; x++) {
+        AovPixel pixel = {.job = job};
+        Ray ray;
         Hit hit;
-        Shading s;
-        const int is_hit = centre_hit(w, x, y, &hit, &s);
+        const int is_hit = centre_hit(w, x, y, &ray, &hit);
+        pixel.hit = &hit;
+        if (is_hit)
+            shading_each_leaf(w->scene, w->variants, &ray, &hit, add_leaf, &pixel);
         for (int k = 0; k < RETEX_AOV_COUNT; k++) {
             RetexImage *image = job->images[k];
-            float value[3] = {retex_aovs[k].nothing, retex_aovs[k].nothing, retex_aovs[k].nothing};
-            if (!image)
-                continue;
-            if (is_hit)
-                aov_values[k](value, &hit, &s);
-            memcpy(image->pixels + retex_image_index(image, x, y), value, (size_t)image->channels * sizeof *value);
+            const float nothing[3] = {retex_aovs[k].nothing, retex_aovs[k].nothing, retex_aovs[k].nothing};
+            if (image)
+                memcpy(image->pixels + retex_image_index(image, x, y), is_hit ? pixel.values[k] : nothing,
+                       (size_t)image->channels * sizeof *nothing);
         }
     }
 }
@@ -135,59 +163,71 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
 
 typedef struct CountJob {
     const FirstHitWindow *window;
-    long *counts;      /* counts by row and item */
+    double *counts;    /* pixels by row and item */
     int items, idents; /* idents: 1 to count identifiers, 0 to count targets */
 } CountJob;
 
-static void mark(const Scene *scene, const IdentList *list, unsigned char *seen)
+/* Of one pixel: what is seen of each item. */
+typedef struct CountPixel {
+    const CountJob *job;
+    double *counts;
+    unsigned char *marked;
+} CountPixel;
+
+static void mark(const Scene *scene, const IdentList *list, unsigned char *marked)
 {
     for (; list; list = list->next)
         for (int k = 0; k < scene->nidents; k++)
             if (!strcmp(scene->idents[k], list->name))
-                seen[k] = 1;
+                marked[k] = 1;
+}
+
+static void count_leaf(void *context, const SeenLeaf *leaf)
+{
+    const CountPixel *pixel = context;
+    const CountJob *job = pixel->job;
+    const Scene *scene = job->window->scene;
+    const Surface *surface = &leaf->s.surface;
+    if (job->idents) {
+        memset(pixel->marked, 0, (size_t)job->items);
+        mark(scene, surface->primitive->idents, pixel->marked);
+        mark(scene, surface->texture->idents, pixel->marked);
+        mark(scene, surface->texture->pigment->idents, pixel->marked);
+    }
+    for (int k = 0; k < job->items; k++)
+        if (job->idents ? pixel->marked[k] : leaf->targets >> k & 1)
+            pixel->counts[k] += (double)leaf->share;
 }
 
 static void count_row(void *context, int y, int thread)
 {
-    CountJob *job = context;
-    const Scene *scene = job->window->scene;
-    long *counts = job->counts + (size_t)y * (size_t)job->items;
+    const CountJob *job = context;
+    CountPixel pixel = {job, job->counts + (size_t)y * (size_t)job->items, NULL};
     (void)thread;
+    if (job->idents && !(pixel.marked = calloc((size_t)job->items, 1)))
+        return;
     for (int x = 0; x < job->window->w; x++) {
+        Ray ray;
         Hit hit;
-        Shading s;
-        if (!centre_hit(job->window, x, y, &hit, &s))
-            continue;
-        if (!job->idents) {
-            if (s.surface.target >= 0)
-                counts[s.surface.target]++;
-            continue;
-        }
-        unsigned char *seen = calloc((size_t)job->items, 1);
-        if (!seen)
-            continue;
-        mark(scene, s.surface.primitive->idents, seen);
-        mark(scene, s.surface.texture->idents, seen);
-        mark(scene, s.surface.texture->pigment->idents, seen);
-        for (int k = 0; k < job->items; k++)
-            counts[k] += seen[k];
-        free(seen);
+        if (centre_hit(job->window, x, y, &ray, &hit))
+            shading_each_leaf(job->window->scene, job->window->variants, &ray, &hit, count_leaf, &pixel);
     }
+    free(pixel.marked);
 }
 
 static int count_shares(const FirstHitWindow *window, int items, int idents, double *shares, RetexError *err)
 {
     if (items == 0)
         return RETEX_OK;
-    CountJob job = {window, calloc((size_t)window->h * (size_t)items, sizeof(long)), items, idents};
+    CountJob job = {window, calloc((size_t)window->h * (size_t)items, sizeof(double)), items, idents};
     if (!job.counts)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for shares of the picture");
     retex_parallel(window->nthreads, window->h, count_row, &job);
     for (int k = 0; k < items; k++) {
-        long sum = 0;
+        double sum = 0;
         for (int y = 0; y < window->h; y++)
             sum += job.counts[(size_t)y * (size_t)items + (size_t)k];
-        shares[k] = (double)sum / ((double)window->w * window->h);
+        shares[k] = sum / ((double)window->w * window->h);
     }
     free(job.counts);
     return RETEX_OK;
@@ -211,15 +251,18 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
     int any = 0, u = 1, v = 1;
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        int inside = p->interior_texture && p->interior_target == t;
-        if (p->target == t)
-            closes(p, p->texture->pigment, &u, &v);
-        if (inside)
-            closes(p, p->interior_texture->pigment, &u, &v);
-        any |= p->target == t || inside;
-        for (int j = 0; p->face_targets && j < p->shape.textures->count; j++)
-            if (p->face_targets[j] == t)
-                u = v = 0;
+        const Texture *texture;
+        int whole;
+        for (int j = 0; (texture = primitive_texture(p, j, &whole)); j++)
+            for (int leaf = 0; leaf < texture_leaf_count(texture); leaf++) {
+                const Texture *of = texture_leaf(texture, leaf);
+                if ((texture->tree ? texture_leaf_target(of, whole) : whole) != t)
+                    continue;
+                closes(p, of->pigment, &u, &v);
+                any = 1;
+                if (j > (p->interior_texture != NULL)) /* of a part of the shape */
+                    u = v = 0;
+            }
     }
     periodic[0] = any && u, periodic[1] = any && v;
 }

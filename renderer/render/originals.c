@@ -6,33 +6,6 @@
 #include "shade/pigment.h"
 #include "shape/shapes.h"
 
-static int is_inside(const Primitive *p, int target)
-{
-    return p->interior_texture && p->interior_target == target;
-}
-
-static const Primitive *first_primitive(const Scene *scene, int target)
-{
-    for (int k = 0; k < scene->nprimitives; k++)
-        if (scene->primitives[k].target == target || is_inside(&scene->primitives[k], target))
-            return &scene->primitives[k];
-    for (int k = 0; k < scene->nprimitives; k++) {
-        const Primitive *p = &scene->primitives[k];
-        for (int j = 0; p->face_targets && j < p->shape.textures->count; j++)
-            if (p->face_targets[j] == target)
-                return p;
-    }
-    return NULL;
-}
-
-static const Texture *target_texture(const Primitive *p, int target)
-{
-    for (int j = 0; p->target != target && p->face_targets && j < p->shape.textures->count; j++)
-        if (p->face_targets[j] == target)
-            return p->shape.textures->list[j];
-    return p->target != target && is_inside(p, target) ? p->interior_texture : p->texture;
-}
-
 static void original_size(const Pigment *pigment, int *width, int *height)
 {
     *width = *height = pigment_is_constant(pigment) ? 1 : ORIGINAL_SIZE;
@@ -100,10 +73,13 @@ static int dominant_axis(const Primitive *p)
 
 static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, RetexError *err)
 {
-    const Primitive *p = first_primitive(scene, t);
-    if (!p)
+    const Texture *texture = NULL;
+    const Primitive *p = NULL;
+    for (int k = 0; k < scene->nprimitives && !texture; k++)
+        p = &scene->primitives[k], texture = primitive_target_texture(p, t);
+    if (!texture)
         return RETEX_OK;
-    const Pigment *pigment = target_texture(p, t)->pigment;
+    const Pigment *pigment = texture->pigment;
     RetexTarget *target = &set->targets[t];
     for (int k = 0; k < 2; k++) {
         int whole = pigment->kind == PIGMENT_IMAGE || !(target->uv_max[k] > target->uv_min[k]);

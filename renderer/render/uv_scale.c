@@ -36,6 +36,8 @@ static int step(const Scene *scene, const Accel *accel, const Surface *from, Vec
     if (!accel_intersect(accel, &ray, kind, &hit) || &scene->primitives[hit.primitive] != from->primitive)
         return 0;
     surface_at(&s, scene, &ray, &hit);
+    if (s.texture->tree)
+        s.texture = from->texture, s.target = from->target;
     if (s.target != from->target || (!from->primitive->shape.mesh && s.face != from->face))
         return 0;
     *place = (Place){s.position, surface_target_uv(&s)};

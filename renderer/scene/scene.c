@@ -153,20 +153,60 @@ static int target_of(const Scene *scene, const IdentList *texture, const IdentLi
     return -1;
 }
 
+static void mark_leaves(const Scene *scene, const Texture *texture)
+{
+    const TextureTree *tree = texture->tree;
+    for (int k = 0; tree && k < tree->nleaves; k++)
+        tree->leaves[k]->target = target_of(scene, tree->leaves[k]->idents, NULL);
+}
+
 static int mark(Scene *scene, Primitive *p, RetexError *err)
 {
     p->target = target_of(scene, p->texture->idents, p->idents);
     p->interior_target = p->interior_texture ? target_of(scene, p->interior_texture->idents, p->idents) : -1;
     p->face_targets = NULL;
+    mark_leaves(scene, p->texture);
+    if (p->interior_texture)
+        mark_leaves(scene, p->interior_texture);
     if (!p->shape.textures)
         return 0;
     int8_t *targets = arena_alloc(scene->arena, (size_t)p->shape.textures->count);
     if (!targets)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets of a mesh");
-    for (int i = 0; i < p->shape.textures->count; i++)
+    for (int i = 0; i < p->shape.textures->count; i++) {
         targets[i] = (int8_t)target_of(scene, p->shape.textures->list[i]->idents, p->idents);
+        mark_leaves(scene, p->shape.textures->list[i]);
+    }
     p->face_targets = targets;
     return 0;
+}
+
+const Texture *primitive_texture(const Primitive *p, int k, int *target)
+{
+    const int interior = p->interior_texture != NULL, part = k - 1 - interior;
+    if (k == 0) {
+        *target = p->target;
+        return p->texture;
+    }
+    if (k == 1 && interior) {
+        *target = p->interior_target;
+        return p->interior_texture;
+    }
+    if (!p->shape.textures || part >= p->shape.textures->count)
+        return NULL;
+    *target = p->face_targets ? p->face_targets[part] : p->target;
+    return p->shape.textures->list[part];
+}
+
+const Texture *primitive_target_texture(const Primitive *p, int target)
+{
+    const Texture *texture;
+    int whole;
+    for (int k = 0; (texture = primitive_texture(p, k, &whole)); k++)
+        for (int j = 0; j < texture_leaf_count(texture); j++)
+            if ((texture->tree ? texture_leaf_target(texture_leaf(texture, j), whole) : whole) == target)
+                return texture_leaf(texture, j);
+    return NULL;
 }
 
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err)

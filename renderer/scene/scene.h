@@ -66,6 +66,7 @@ typedef struct ImageMap {
     int interpolate;         /* POV-Ray's: 0 none (nearest texel), 2 bilinear, 3 bicubic, 4 normalised distance; all but
                                 0 are taken as bilinear */
     float filter_all, transmit_all;
+    const unsigned char *indices; /* of a material_map: of each texel, row by row from the top; else NULL */
 } ImageMap;
 
 typedef struct PatternOps PatternOps; /* pattern/pattern.h */
@@ -153,7 +154,34 @@ typedef struct Texture {
     const Finish *finish;
     const IdentList *idents; /* of the texture, its pigment and its material */
     int uv_mapping;          /* written at the texture's level; also set in the pigment */
+    int target;              /* of a leaf of a tree, by its own idents: index into scene->targets, or -1 */
+    const struct TextureTree *tree; /* or NULL: a plain texture. Else pigment and finish are those of its first leaf */
 } Texture;
+
+typedef enum TextureTreeKind {
+    TEXTURE_LAYERS,   /* parts: the topmost first */
+    TEXTURE_MAP,      /* by the selector's value, or by which of its colours it would choose */
+    TEXTURE_AVERAGE,  /* by values as weights */
+    TEXTURE_MATERIALS /* by the index of the selector's image */
+} TextureTreeKind;
+
+/* Textures that make one together: in layers, or side by side with smooth or hard edges. Parts may be trees; the plain
+ * textures are its leaves. */
+typedef struct TextureTree {
+    TextureTreeKind kind;
+    const Pigment *selector; /* of maps and materials: its pattern, or its image; what else it has is not looked at */
+    int count;
+    const Texture **parts;
+    const double *values; /* of a map's parts, ascending; weights of an average, their sum 1 */
+    int nleaves;
+    Texture **leaves; /* of all its parts: no two trees share a leaf */
+} TextureTree;
+
+static inline int texture_leaf_count(const Texture *texture) { return texture->tree ? texture->tree->nleaves : 1; }
+static inline const Texture *texture_leaf(const Texture *texture, int k)
+{
+    return texture->tree ? texture->tree->leaves[k] : texture;
+}
 
 /* ---- primitives ---- */
 
@@ -318,6 +346,16 @@ typedef struct Scene {
     Target targets[RETEX_MAX_TARGETS];
 } Scene;
 
+/* The k-th texture of a primitive, from 0: its own, the interior's, those of its parts; and the target that it is as a
+ * whole, or -1. NULL: there are no more. */
+const Texture *primitive_texture(const Primitive *primitive, int k, int *target);
+/* The target of a leaf of a texture that is a target as a whole, or -1: the first that was asked for wins. */
+static inline int texture_leaf_target(const Texture *leaf, int whole)
+{
+    return leaf->target < 0 || (whole >= 0 && whole < leaf->target) ? whole : leaf->target;
+}
+/* A plain texture of the primitive that is the target, or NULL. */
+const Texture *primitive_target_texture(const Primitive *primitive, int target);
 /* One -t of the command line: "NAME" or "NAME=IDENT,IDENT". */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
 void scene_close(Scene **scene); /* textures of image maps, then the arena */

@@ -12,6 +12,10 @@ Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 pattern_point, Vec2 
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The colour of an image's pigment at a point of pattern space, and target_uv's UV there. */
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *target);
+/* Of a pigment that chooses among textures: its pattern's value, or which colour the pattern chooses; and the index of
+ * a material_map's image. */
+double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv);
+int pigment_index(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* Prefetch the texels of a planar image at that point. */
 void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
 /* 1 where the pigment has the same colour and opacity everywhere. */

@@ -1,0 +1,277 @@
+/* See leaves.h. */
+#include <string.h>
+#include "path/leaves.h"
+#include "path/surface_color.h"
+#include "pattern/pattern.h"
+#include "shade/material.h"
+#include "shade/pigment.h"
+
+/* Where leaves are asked for. */
+typedef struct Point {
+    const Surface *surface;
+    Vec3 wo;
+    int merge;
+} Point;
+
+static void add_texture(Leaves *leaves, const Point *at, const Texture *texture, Leaf from);
+
+Surface leaf_surface(const Surface *surface, const Texture *texture, int target)
+{
+    Surface of = *surface;
+    of.texture = texture, of.target = target;
+    return of;
+}
+
+static int is_opaque(const Leaf *leaf)
+{
+    return leaf->color.filter + leaf->color.transmit <= 0;
+}
+
+int leaf_passes(const Leaf *leaf)
+{
+    return !leaf->is_layer && (!is_opaque(leaf) || finish_transmits(leaf->texture->finish));
+}
+
+/* ---- leaves ---- */
+
+static int same_finish(const Finish *a, const Finish *b)
+{
+    return a == b || memcmp(a, b, sizeof *a) == 0;
+}
+
+/* What an opaque surface scatters and emits is linear in its colour. */
+static int may_merge(const Leaf *leaf)
+{
+    return leaf->target < 0 && leaf->above < 0 && !leaf->is_layer && is_opaque(leaf);
+}
+
+static Rgb tinted(const Leaf *leaf, float weight)
+{
+    return rgb_scale(rgb_mul(rgb(leaf->color.r, leaf->color.g, leaf->color.b), leaf->tint), weight);
+}
+
+static int merge_leaf(Leaves *leaves, const Leaf *leaf)
+{
+    for (int k = 0; k < leaves->count && may_merge(leaf); k++) {
+        Leaf *to = &leaves->leaf[k];
+        const float weight = to->weight + leaf->weight;
+        if (!may_merge(to) || !same_finish(to->texture->finish, leaf->texture->finish) || !(weight > 0))
+            continue;
+        const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
+        to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};
+        to->tint = rgb_grey(1);
+        to->weight = weight, to->chance += leaf->chance;
+        return 1;
+    }
+    return 0;
+}
+
+static void add_leaf(Leaves *leaves, const Point *at, const Leaf *leaf)
+{
+    if (leaves->count < LEAVES_MAX && !(at->merge && merge_leaf(leaves, leaf)))
+        leaves->leaf[leaves->count++] = *leaf;
+}
+
+static void set_color(Leaf *leaf, const Point *at, const Texture *texture)
+{
+    leaf->texture = texture;
+    leaf->target = texture_leaf_target(texture, at->surface->target);
+    const Surface surface = leaf_surface(at->surface, texture, leaf->target);
+    Vec2 ignored;
+    const Rgbft c = surface_color(&surface, NULL, &ignored);
+    leaf->color = (Rgbft){not_negative(c.r), not_negative(c.g), not_negative(c.b), not_negative(c.filter),
+                          not_negative(c.transmit)};
+}
+
+/* ---- layers ---- */
+
+/* What a layer sends on of the light from below, where its albedo is 1: *d of it by the colour. Mirrors send less; they
+ * and highlights are the more seen, by *coat. */
+static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i, float *coat)
+{
+    const float sum = layer->color.filter + layer->color.transmit, scale = sum > 1 ? 1 / sum : 1;
+    *d = layer->color.filter * scale, *i = layer->color.transmit * scale, *coat = 0;
+    if (finish_is_lambert(layer->texture->finish))
+        return;
+    const Surface surface = leaf_surface(at->surface, layer->texture, layer->target);
+    Bsdf b;
+    bsdf_setup(&b, &surface, at->wo, *d, *i);
+    *coat = 1 - rgb_luminance(split_apply(b.passing, rgb_grey(1))) / (*d + *i);
+    *coat = at_most(not_negative(*coat), 1) + at_most(split_neutral(b.highlight), 1);
+    *d = rgb_luminance(b.passing.d), *i = rgb_luminance(b.passing.i);
+}
+
+/* Goes below a layer. */
+static void add_above(Leaves *leaves, Leaf *from, float d, float i)
+{
+    const float sum = d + i;
+    const Rgb c = rgb(from->color.r, from->color.g, from->color.b);
+    from->weight *= sum;
+    d /= sum, i /= sum;
+    if (from->target < 0 || d == 0) {
+        from->tint = rgb_mul(from->tint, rgb_add(rgb_scale(c, d), rgb_grey(i)));
+    } else if (leaves->nabove < LEAVES_MAX) {
+        leaves->above[leaves->nabove] = (LayerAbove){from->texture, from->target, from->color, d, i, from->above};
+        from->above = leaves->nabove++;
+    }
+}
+
+/* The layer itself. Returns 0 where nothing below it is seen; else from is what is below. */
+static int add_layer(Leaves *leaves, const Point *at, Leaf *from)
+{
+    const Finish *finish = from->texture->finish;
+    float d, i, coat;
+    if (is_opaque(from) || finish_transmits(finish)) {
+        from->chance = from->weight;
+        add_leaf(leaves, at, from);
+        return 0;
+    }
+    layer_passage(from, at, &d, &i, &coat);
+    const float opacity = not_negative(1 - from->color.filter - from->color.transmit);
+    Leaf self = *from;
+    if (finish_is_lambert(finish)) /* as an opaque one that counts less */
+        self.weight *= opacity, self.color.filter = self.color.transmit = 0, self.chance = self.weight;
+    else
+        self.is_layer = 1, self.chance = self.weight * (opacity + coat);
+    if (self.chance > 0)
+        add_leaf(leaves, at, &self);
+    if (!(d + i > 0))
+        return 0;
+    add_above(leaves, from, d, i);
+    return 1;
+}
+
+static void add_layers(Leaves *leaves, const Point *at, const TextureTree *tree, Leaf from)
+{
+    for (int k = 0; k < tree->count; k++) {
+        if (tree->parts[k]->tree || k == tree->count - 1) {
+            add_texture(leaves, at, tree->parts[k], from);
+            return;
+        }
+        set_color(&from, at, tree->parts[k]);
+        if (!add_layer(leaves, at, &from))
+            return;
+    }
+}
+
+/* ---- maps ---- */
+
+static void add_part(Leaves *leaves, const Point *at, const TextureTree *tree, int part, float weight, Leaf from)
+{
+    from.weight *= weight;
+    if (weight > 0)
+        add_texture(leaves, at, tree->parts[part], from);
+}
+
+static Vec2 selector_uv(const Point *at, const Pigment *selector)
+{
+    return selector->uv_mapping ? surface_uv(at->surface).uv : (Vec2){0, 0};
+}
+
+/* As pigment maps: of several entries at exactly the value the first one counts. */
+static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Leaf from)
+{
+    const double *values = tree->values;
+    const int last = tree->count - 1, chooses = tree->selector->pattern.ops->colors > 0;
+    const double value = pigment_value(tree->selector, at->surface->position, selector_uv(at, tree->selector));
+    int k = 0;
+    if (chooses) {
+        add_part(leaves, at, tree, value < last ? (int)value : last, 1, from);
+        return;
+    }
+    while (k < last && value > values[k])
+        k++;
+    const float share = k > 0 && value < values[k] && values[k] > values[k - 1]
+                            ? (float)((value - values[k - 1]) / (values[k] - values[k - 1]))
+                            : 1;
+    add_part(leaves, at, tree, k, share, from);
+    if (share < 1)
+        add_part(leaves, at, tree, k - 1, 1 - share, from);
+}
+
+/* By the index, round and round. */
+static int material_at(const Point *at, const TextureTree *tree)
+{
+    return pigment_index(tree->selector, at->surface->position, selector_uv(at, tree->selector)) % tree->count;
+}
+
+/* ---- the tree ---- */
+
+static void add_texture(Leaves *leaves, const Point *at, const Texture *texture, Leaf from)
+{
+    const TextureTree *tree = texture->tree;
+    if (!tree) {
+        set_color(&from, at, texture);
+        from.chance = from.weight;
+        add_leaf(leaves, at, &from);
+        return;
+    }
+    switch (tree->kind) {
+    case TEXTURE_LAYERS:
+        add_layers(leaves, at, tree, from);
+        break;
+    case TEXTURE_MAP:
+        add_map(leaves, at, tree, from);
+        break;
+    case TEXTURE_AVERAGE:
+        for (int k = 0; k < tree->count; k++)
+            add_part(leaves, at, tree, k, (float)tree->values[k], from);
+        break;
+    case TEXTURE_MATERIALS:
+        add_part(leaves, at, tree, material_at(at, tree), 1, from);
+        break;
+    }
+}
+
+void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
+{
+    const Point at = {surface, wo, merge};
+    leaves->count = leaves->nabove = 0;
+    add_texture(leaves, &at, surface->texture, (Leaf){.weight = 1, .tint = {1, 1, 1}, .above = -1});
+}
+
+/* ---- choosing ---- */
+
+static float seen(const Leaf *leaf)
+{
+    return leaf->weight * (leaf->is_layer ? not_negative(1 - leaf->color.filter - leaf->color.transmit) : 1);
+}
+
+float leaves_share(const Leaves *leaves, int k)
+{
+    float sum = 0;
+    for (int j = 0; j < leaves->count; j++)
+        sum += seen(&leaves->leaf[j]);
+    return sum > 0 ? seen(&leaves->leaf[k]) / sum : k == leaves->count - 1;
+}
+
+static const Leaf *choose(const Leaves *leaves, double u, float *weight, int passing)
+{
+    const Leaf *found = NULL;
+    double sum = 0;
+    for (int k = 0; k < leaves->count; k++)
+        sum += !passing || leaf_passes(&leaves->leaf[k]) ? leaves->leaf[k].chance : 0;
+    double rest = u * sum;
+    for (int k = 0; k < leaves->count; k++) {
+        const Leaf *leaf = &leaves->leaf[k];
+        if ((passing && !leaf_passes(leaf)) || !(leaf->chance > 0))
+            continue;
+        found = leaf;
+        if (rest < leaf->chance)
+            break;
+        rest -= leaf->chance;
+    }
+    *weight = found ? (float)(found->weight / (found->chance / sum)) : 0;
+    return found;
+}
+
+const Leaf *leaves_choose(const Leaves *leaves, double u, float *weight)
+{
+    const Leaf *leaf = choose(leaves, u, weight, 0);
+    return leaf ? leaf : &leaves->leaf[0];
+}
+
+const Leaf *leaves_choose_passing(const Leaves *leaves, double u, float *weight)
+{
+    return choose(leaves, u, weight, 1);
+}

@@ -1,0 +1,55 @@
+/* What a tree of textures comes down to at a point: its leaves that are seen there, and what each counts.
+ *
+ * Of a map, parts count by the blend of its entries. Of layers, each hides what is below by its opacity: a layer of
+ * colour c shows c (1 - filter - transmit), and multiplies what is below by filter c + transmit. What a tree shows is
+ * the sum of what its leaves show, each multiplied by its weight and by the colours of the layers above it. Weights
+ * depend on opacity and place alone, never on the colour of a target. */
+#ifndef RENDERER_PATH_LEAVES_H
+#define RENDERER_PATH_LEAVES_H
+
+#include "base/vec.h"
+#include "shape/surface.h"
+
+#define LEAVES_MAX 64 /* seen at one point; the builder refuses trees that have more */
+
+/* A layer above leaves which is a target: it multiplies their light by d times its albedo, plus i. */
+typedef struct LayerAbove {
+    const Texture *texture;
+    int target;
+    Rgbft color;
+    float d, i; /* their sum is 1: the leaf's weight has the rest */
+    int above;  /* the next target above it, or -1 */
+} LayerAbove;
+
+typedef struct Leaf {
+    const Texture *texture;
+    int target;
+    Rgbft color;
+    float weight; /* that its light is multiplied by */
+    float chance; /* of being chosen, in proportion to the other leaves' */
+    Rgb tint;     /* by the layers above that are no targets */
+    int above;    /* index of the lowest target above it, or -1 */
+    int is_layer; /* others lie below: its filter and transmit say how opaque it is, but nothing passes by itself */
+} Leaf;
+
+typedef struct Leaves {
+    int count, nabove;
+    Leaf leaf[LEAVES_MAX];
+    LayerAbove above[LEAVES_MAX];
+} Leaves;
+
+/* The leaves at a surface with a tree, seen along wo. merge: leaves that scatter alike become one, with the mean of
+ * their colours, which is exact and leaves less to chance. There is at least one leaf. */
+void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge);
+/* The share of a leaf in what is seen, opaque or not; over all leaves the sum is 1. */
+float leaves_share(const Leaves *leaves, int k);
+/* A leaf by its chance, from u in [0, 1); *weight gets what its light is to be multiplied by. */
+const Leaf *leaves_choose(const Leaves *leaves, double u, float *weight);
+/* The same of the leaves that may let light pass, or NULL: the other ones count, but send nothing on. */
+const Leaf *leaves_choose_passing(const Leaves *leaves, double u, float *weight);
+/* 1: light may pass it by itself. */
+int leaf_passes(const Leaf *leaf);
+/* The surface with the leaf as its only texture. */
+Surface leaf_surface(const Surface *surface, const Texture *texture, int target);
+
+#endif

@@ -1,0 +1,21 @@
+/* The colour of a surface with a plain texture, and where a replacement of it is looked up. */
+#ifndef RENDERER_PATH_SURFACE_COLOR_H
+#define RENDERER_PATH_SURFACE_COLOR_H
+
+#include "shape/surface.h"
+
+/* Where an image is looked up on a surface: a point of its pattern space, if it is known already. */
+typedef struct ImagePlace {
+    int is_known;
+    Vec3 point;
+} ImagePlace;
+
+/* The original's colour; and, of a target, the UV at which a replacement is looked up. place: what shading_prefetch
+ * found, or NULL. */
+Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *target);
+/* That UV, were the surface a target. */
+Vec2 surface_target_uv(const Surface *surface);
+/* Prefetch what surface_color will read. */
+ImagePlace shading_prefetch(const Surface *surface);
+
+#endif

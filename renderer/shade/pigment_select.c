@@ -1,0 +1,25 @@
+/* Pigments that choose among textures: see TextureTree. */
+#include "pattern/pattern.h"
+#include "shade/pigment_image.h"
+
+double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    return pattern_value(&pigment->pattern, pigment_point(pigment, p, uv));
+}
+
+/* Of the texel that has the point. */
+static int texel(double at, int size)
+{
+    const double x = (at - floor(at)) * size;
+    return x < size ? (int)x : size - 1;
+}
+
+int pigment_index(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    const ImageMap *image = pigment->image;
+    const Vec2 at = pigment_image_uv(image, pigment_point(pigment, p, uv));
+    if (image_is_outside(image, at))
+        return 0;
+    const int x = texel(at.u, image->width), y = image->height - 1 - texel(at.v, image->height);
+    return image->indices[(size_t)y * (size_t)image->width + (size_t)x];
+}
