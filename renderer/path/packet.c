@@ -94,7 +94,7 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     int k = m->count;
     double density;
     Vec3 normal, geometric;
-    if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte)
+    if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal)
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
     LightSampleContext context = {s->surface.position, normal};

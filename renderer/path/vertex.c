@@ -32,7 +32,10 @@ static int light_factors(PathWorker *w, const Path *path, int lane, LightSample 
 LightSampleContext light_sample_context(const Shading *s)
 {
     const Vec3 none = {0, 0, 0};
-    return (LightSampleContext){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
+    const Bsdf *b = &s->bsdf;
+    if (!bsdf_only_reflects(b))
+        return (LightSampleContext){s->surface.position, none};
+    return (LightSampleContext){s->surface.position, b->bumped ? b->geometric : b->normal};
 }
 
 /* ---- directions by the guide to caustics ---- */

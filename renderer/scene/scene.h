@@ -94,6 +94,43 @@ typedef struct Pigment {
     const IdentList *idents;
 } Pigment;
 
+/* ---- normals ---- */
+
+/* A picture as heights: its grey values 0..1 or, with use_index, the indices of its palette. Rows from the top. */
+typedef struct BumpMap {
+    ImageMap image;          /* how it is projected; no texture, no colours */
+    const float *heights;
+} BumpMap;
+
+typedef struct SlopeMapEntry { double value, height, slope; } SlopeMapEntry;
+typedef struct NormalMapEntry {
+    double value;            /* of the pattern; of `average` its weight */
+    const struct Normal *normal;
+} NormalMapEntry;
+
+typedef enum NormalKind {
+    NORMAL_SLOPE,            /* by the slope of the pattern's value */
+    NORMAL_VECTORS,          /* by a field of vectors: the pattern has one, see shade/normal_vectors.c */
+    NORMAL_IMAGE,
+    NORMAL_MAP,              /* normals by the pattern's value, or which of a list's */
+    NORMAL_AVERAGE
+} NormalKind;
+
+/* What tilts the normals of a surface. */
+typedef struct Normal {
+    NormalKind kind;
+    Pattern pattern;
+    double size;             /* bump_size */
+    double accuracy;         /* NORMAL_SLOPE: how far apart the points are whose values are compared */
+    int keeps_size;          /* no_bump_scale */
+    int uv_mapping;          /* evaluated at (u, v, 0), on the shape's normal as it is in world space */
+    int nslopes, nentries;
+    const SlopeMapEntry *slopes; /* NORMAL_SLOPE: a curve over the value; sorted by value */
+    const NormalMapEntry *entries; /* NORMAL_MAP: sorted by value, or the list; NORMAL_AVERAGE */
+    const BumpMap *bump_map;
+    Transform transform;     /* pattern space to world, as of pigments */
+} Normal;
+
 /* ---- finish, interior, texture ---- */
 
 typedef struct Finish {
@@ -152,6 +189,7 @@ typedef struct Interior {
 typedef struct Texture {
     const Pigment *pigment;
     const Finish *finish;
+    const Normal *normal;    /* or NULL: smooth */
     const IdentList *idents; /* of the texture, its pigment and its material */
     int uv_mapping;          /* written at the texture's level; also set in the pigment */
     int target;              /* of a leaf of a tree, by its own idents: index into scene->targets, or -1 */

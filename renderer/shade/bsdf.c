@@ -124,17 +124,10 @@ static Split eval_lambert(const Bsdf *b, Vec3 wi, float *pdf)
     return (Split){rgb_grey((back ? b->diffuse_back : b->diffuse) * cosine), {0, 0, 0}};
 }
 
-Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+/* Light that goes through: by the back's diffuse lobe, or refracted by a rough surface. cos_i < 0. */
+static Split eval_transmission(const Bsdf *b, Vec3 wi, double cos_i, float *pdf)
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
-    if (b->lambert)
-        return eval_lambert(b, wi, pdf);
-    double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
-    *pdf = 0;
-    if (cos_i > 0 && side > 0)
-        return eval_reflection(b, wi, cos_i, light_source, pdf);
-    if (cos_i >= 0 || side >= 0)
-        return sum;
     if (b->diffuse_back > 0) {
         sum.d = rgb_grey(lambert_value(b, b->diffuse_back, (float)-cos_i) * (float)-cos_i);
         *pdf += b->p_back * (float)(-cos_i / PI);
@@ -145,6 +138,42 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
         *pdf += b->p_glossy * p;
     }
     return sum;
+}
+
+static Vec3 mirrored(Vec3 w, Vec3 n)
+{
+    return vec_mad(w, n, -2 * vec_dot(w, n));
+}
+
+/* What lobes send along wi, and what they send to the wrong side, which is mirrored along wi. */
+static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+{
+    const Vec3 from[2] = {wi, mirrored(wi, b->geometric)};
+    const double side = vec_dot(wi, b->geometric);
+    Split sum = {{0, 0, 0}, {0, 0, 0}};
+    for (int k = 0; k < 2; k++) {
+        double cos_i = vec_dot(from[k], b->normal);
+        if (cos_i > 0 && side > 0)
+            split_add(&sum, eval_reflection(b, from[k], cos_i, light_source, pdf));
+        else if (cos_i < 0 && side < 0)
+            split_add(&sum, eval_transmission(b, from[k], cos_i, pdf));
+    }
+    return sum;
+}
+
+Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+{
+    if (b->lambert)
+        return eval_lambert(b, wi, pdf);
+    *pdf = 0;
+    if (b->bumped)
+        return eval_bumped(b, wi, light_source, pdf);
+    double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
+    if (cos_i > 0 && side > 0)
+        return eval_reflection(b, wi, cos_i, light_source, pdf);
+    if (cos_i < 0 && side < 0)
+        return eval_transmission(b, wi, cos_i, pdf);
+    return (Split){{0, 0, 0}, {0, 0, 0}};
 }
 
 static Vec3 cosine_direction(const Bsdf *b, float u1, float u2)
@@ -212,7 +241,7 @@ static int sample_mirror(const Bsdf *b, BsdfSample *sample)
     sample->wi = reflect(b->wo, b->normal);
     sample->weight = split_scale(b->mirror, 1 / b->p_mirror);
     if (vec_dot(sample->wi, b->geometric) <= 0)
-        sample->wi = reflect(b->wo, b->geometric);
+        sample->wi = b->bumped ? mirrored(sample->wi, b->geometric) : reflect(b->wo, b->geometric);
     return vec_dot(sample->wi, b->geometric) > 0;
 }
 
@@ -225,7 +254,10 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
         sample->straight = 1;
         return 1;
     }
-    if (refract(b->wo, b->normal, b->eta, &sample->wi) && vec_dot(sample->wi, b->geometric) < 0) {
+    int refracted = refract(b->wo, b->normal, b->eta, &sample->wi);
+    if (refracted && b->bumped && vec_dot(sample->wi, b->geometric) > 0)
+        sample->wi = mirrored(sample->wi, b->geometric);
+    if (refracted && vec_dot(sample->wi, b->geometric) < 0) {
         /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
         sample->weight = split_scale(sample->weight, 1 / (b->eta * b->eta));
         return 1;
@@ -258,6 +290,8 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
             return 0;
     }
     sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
+    if (b->bumped && (vec_dot(sample->wi, b->geometric) < 0) != sample->transmitted)
+        sample->wi = mirrored(sample->wi, b->geometric);
     Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
     if (sample->pdf <= 0)
         return 0;

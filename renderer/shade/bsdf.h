@@ -6,6 +6,11 @@
  * transmission, and straight passage through a surface that does not refract. Directions point away from the surface;
  * wo is where the path came from. Cosines are about the shading normal.
  *
+ * Where a `normal` of the scene tilts the surface (`bumped`), lobes are about the tilted normal, and what they would
+ * send to the wrong side of the surface is mirrored at the surface, as it would go on from one side of a groove to the
+ * other (like the mirroring facets of Schuessler et al. 2017, 'Microfacet-based Normal Mapping for Robust Monte Carlo
+ * Path Tracing'). No energy is lost, and no mirrored or refracted ray is.
+ *
  * Choices among lobes never look at a texture: they take NEUTRAL_ALBEDO in its place, so that a set, a plain render
  * and a render with replaced textures trace the same paths. Opacity (filter, transmit, image alpha) counts as
  * geometry and is looked at. */
@@ -23,6 +28,7 @@ typedef struct Bsdf {
     float eta;               /* index of refraction on the far side over that on wo's side */
     int refracts;            /* transmission bends, by eta */
     int lambert;             /* only diffuse lobes, of brilliance 1: fields after alpha are not set */
+    int bumped;              /* normal is that of bumps; then lambert is 0 */
     float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; sum 1, or 0: nothing scatters */
 
     float diffuse, diffuse_back;

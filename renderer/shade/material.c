@@ -2,6 +2,7 @@
  * section FINISH AND PHYSICS; keep the two in step. */
 #include "shade/fresnel.h"
 #include "shade/material.h"
+#include "shade/normal.h"
 
 #define LEAST_COSINE 1e-4  /* between a normal and where it is seen from */
 #define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
@@ -149,10 +150,25 @@ void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric
         *normal = *geometric;
 }
 
+/* A slope that faces away from the viewer is hidden: the opposite slope of the same groove is seen, which is tilted as
+ * much towards the viewer (Torrance and Sparrow's V-cavities). */
+static Vec3 bumped_normal(const Surface *surface, Vec3 wo, Vec3 normal, Vec3 geometric)
+{
+    const Vec3 n = normal_tilted(surface->texture->normal, surface, normal, vec_neg(wo));
+    if (vec_dot(n, wo) > 0)
+        return n;
+    const Vec3 across = vec_normalize(vec_mad(wo, geometric, -vec_dot(wo, geometric)));
+    const Vec3 opposite = vec_mad(n, across, -2 * vec_dot(n, across));
+    return vec_dot(opposite, wo) > LEAST_COSINE ? opposite : geometric;
+}
+
 static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
 {
     b->wo = wo;
     bsdf_normals(surface, wo, &b->normal, &b->geometric);
+    b->bumped = surface->texture->normal != NULL;
+    if (b->bumped)
+        b->normal = bumped_normal(surface, wo, b->normal, b->geometric);
     b->cos_o = vec_dot(wo, b->normal);
     b->cos_o = b->cos_o > LEAST_COSINE ? b->cos_o : LEAST_COSINE;
     b->cos_o = b->cos_o < 1 ? b->cos_o : 1;
@@ -166,7 +182,7 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
                  : interior_bends(primitive) ? primitive->interior->ior
                                              : 1;
     int transparent = filter + transmit > 0 || finish_transmits(finish);
-    int lambert = !transparent && finish_is_lambert(finish);
+    int lambert = !transparent && finish_is_lambert(finish) && !surface->texture->normal;
     if (!lambert)
         *b = (Bsdf){.brilliance = 1};
     set_side(b, surface, wo);

@@ -164,8 +164,7 @@ static void set(Value *value, ValueKind kind, const void *data)
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
-    static const char *const words[] = {"normal_map", "slope_map", "density",   "density_map", "media",
-                                        "fog",        "rainbow",   "radiosity", NULL};
+    static const char *const words[] = {"density", "density_map", "media", "fog", "rainbow", "radiosity", NULL};
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             skip_statement(sdl);
@@ -190,10 +189,9 @@ static int declare_surface(Sdl *sdl, Value *value)
         set(value, VALUE_PIGMENT, parse_pigment(sdl, default_pigment(sdl)));
     else if (sdl_accept(sdl, "finish"))
         set(value, VALUE_FINISH, parse_finish(sdl, (const ParsedFinish *)builder->default_texture->texture.finish));
-    else if (sdl_is(sdl, "normal")) {
-        skip_statement(sdl);
-        set(value, VALUE_NORMAL, NULL);
-    } else if (sdl_accept(sdl, "interior"))
+    else if (sdl_accept(sdl, "normal"))
+        set(value, VALUE_NORMAL, parse_normal(sdl, default_normal(sdl)));
+    else if (sdl_accept(sdl, "interior"))
         set(value, VALUE_INTERIOR, parse_interior(sdl, NULL));
     else if (sdl_accept(sdl, "material"))
         set(value, VALUE_MATERIAL, parse_material(sdl));
@@ -212,6 +210,12 @@ static int declare_map(Sdl *sdl, Value *value)
     } else if (sdl_accept(sdl, "texture_map")) {
         set(value, VALUE_OTHER, parse_texture_map(sdl));
         value->word = "texture_map";
+    } else if (sdl_accept(sdl, "normal_map")) {
+        set(value, VALUE_OTHER, parse_normal_map(sdl));
+        value->word = "normal_map";
+    } else if (sdl_accept(sdl, "slope_map")) {
+        set(value, VALUE_OTHER, parse_slope_map(sdl));
+        value->word = "slope_map";
     } else
         return 0;
     return 1;

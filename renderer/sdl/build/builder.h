@@ -28,7 +28,6 @@
     X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(LAYERED, "a layered texture", "its topmost opaque layer is used") \
-    X(NORMAL, "normal", "the surface stays smooth") \
     X(IRID, "irid", "it is ignored") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
@@ -87,8 +86,30 @@ typedef struct ParsedFinish {
     struct ParsedFinish *next;
 } ParsedFinish;
 
+typedef struct ParsedNormal {
+    Normal normal; /* first */
+    Gaps gaps;
+} ParsedNormal;
+
+typedef struct ParsedNormalMap {
+    int count;
+    NormalMapEntry *entries; /* ParsedNormals */
+    Gaps gaps;
+} ParsedNormalMap;
+
+typedef struct ParsedSlopeMap {
+    int count;
+    SlopeMapEntry *entries;
+} ParsedSlopeMap;
+
+typedef struct ParsedBumpMap {
+    BumpMap map;   /* first; heights and size are filled in when the scene is complete */
+    int use_index; /* heights are the indices of a palette, if the picture has one */
+} ParsedBumpMap;
+
 typedef struct ParsedTexture {
-    Texture texture;                   /* first: its pigment is a ParsedPigment, its finish a ParsedFinish */
+    Texture texture;                   /* first: its pigment is a ParsedPigment, its finish a ParsedFinish, its normal
+                                          NULL or a ParsedNormal */
     const struct ParsedTexture *below; /* the layer under it */
     Gaps gaps;
     int names_joined; /* the names of its pigment are joined to its own */
@@ -219,6 +240,10 @@ static inline Builder *builder_of(Sdl *sdl)
 {
     return sdl_builder_state(sdl);
 }
+static inline const ParsedNormal *default_normal(Sdl *sdl)
+{
+    return (const ParsedNormal *)builder_of(sdl)->default_texture->texture.normal;
+}
 static inline const ParsedPigment *default_pigment(Sdl *sdl)
 {
     return (const ParsedPigment *)builder_of(sdl)->default_texture->texture.pigment;
@@ -256,6 +281,7 @@ ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */
 ParsedColorMap *parse_pigment_map(Sdl *sdl); /* after pigment_map */
 ParsedColorMap *parse_texture_map(Sdl *sdl); /* after texture_map */
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures);
+int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment); /* a pattern's keyword and arguments, no list of colours */
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
 ParsedColorMap *color_list_new(Sdl *sdl, int n); /* of the colours that POV-Ray takes where none are given */
 /* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace the map's entries. */
@@ -266,6 +292,18 @@ void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map);
  * ending; or an error. */
 const char *parse_image_path(Sdl *sdl);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
+
+/* normal.c, bump_map.c */
+const ParsedNormal *parse_normal(Sdl *sdl, const ParsedNormal *from /* or NULL */); /* after `normal` */
+const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char end);
+const ParsedNormalMap *parse_normal_map(Sdl *sdl); /* after normal_map */
+const ParsedSlopeMap *parse_slope_map(Sdl *sdl);   /* after slope_map */
+/* NULL stays NULL. */
+const ParsedNormal *normal_moved(Sdl *sdl, const ParsedNormal *normal, const Transform *by);
+const ParsedNormal *normal_changed(Sdl *sdl, const ParsedNormal *normal, int uv_mapping, int keeps_size);
+void normal_load(Sdl *sdl, const Normal *normal);          /* the pictures of it, once it is known to be used */
+const BumpMap *parse_bump_map(Sdl *sdl, double *size);     /* after bump_map; *size: where it says bump_size */
+void load_bump_map(Sdl *sdl, const BumpMap *map);
 
 /* field.c: see SdlBuilder */
 int parse_field(Sdl *sdl, const char *word, FunctionForeign *function);

@@ -173,8 +173,10 @@ static void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light, 
 
 static void load_texture_images(Sdl *sdl, const Texture *texture, int *capacity)
 {
-    for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below)
+    for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below) {
         load_pigment_images(sdl, t->texture.pigment, finish_is_emitter(t->texture.finish), capacity);
+        normal_load(sdl, t->texture.normal);
+    }
 }
 
 /* ---- every texture in use ---- */

@@ -113,8 +113,13 @@ static void object_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture
     pigment_set_map(pigment, map);
 }
 
-static void pattern_of(Sdl *sdl, int index, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
 {
+    const Token *token = sdl_peek(sdl);
+    const int index = token->kind == TOKEN_WORD ? pattern_find(token->text) : -1;
+    if (index < 0)
+        return 0;
+    sdl_next(sdl);
     const PatternOps *ops = pattern_at(index);
     Pigment *p = &pigment->pigment;
     p->kind = PIGMENT_PATTERN;
@@ -125,22 +130,20 @@ static void pattern_of(Sdl *sdl, int index, ParsedPigment *pigment, const Parsed
         gaps_add_pattern(&pigment->gaps, index);
     pigment->averaged = !ops->value;
     pattern_arguments(sdl, &p->pattern);
-    if (ops->colors) {
-        ParsedColorMap *map = color_list_new(sdl, ops->colors);
-        parse_color_list(sdl, map, 0, ops->colors, first, textures);
-        pigment_set_map(pigment, map);
-    }
-    if (ops->arguments == ARGUMENTS_OBJECT)
-        object_pattern(sdl, pigment, first, textures);
+    return 1;
 }
 
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
 {
-    const Token *token = sdl_peek(sdl);
-    const int index = token->kind == TOKEN_WORD ? pattern_find(token->text) : -1;
-    if (index >= 0) {
-        sdl_next(sdl);
-        pattern_of(sdl, index, pigment, first, textures);
+    if (accept_pattern_word(sdl, pigment)) {
+        const PatternOps *ops = pigment->pigment.pattern.ops;
+        if (ops->colors) {
+            ParsedColorMap *map = color_list_new(sdl, ops->colors);
+            parse_color_list(sdl, map, 0, ops->colors, first, textures);
+            pigment_set_map(pigment, map);
+        }
+        if (ops->arguments == ARGUMENTS_OBJECT)
+            object_pattern(sdl, pigment, first, textures);
         return 1;
     }
     if (sdl_accept(sdl, "average"))

@@ -61,6 +61,8 @@ static const ParsedTexture *uv_mapped(Sdl *sdl, const ParsedTexture *texture)
     ParsedPigment *pigment = pigment_new(sdl, (const ParsedPigment *)texture->texture.pigment);
     pigment->pigment.uv_mapping = 1;
     mapped->texture.pigment = &pigment->pigment;
+    const ParsedNormal *normal = normal_changed(sdl, (const ParsedNormal *)texture->texture.normal, 1, 0);
+    mapped->texture.normal = normal ? &normal->normal : NULL;
     mapped->texture.uv_mapping = 1;
     mapped->below = uv_mapped(sdl, texture->below);
     return mapped;
@@ -72,6 +74,8 @@ static void report_texture(Sdl *sdl, const ParsedTexture *texture)
         gaps_report(sdl, &texture->gaps);
         gaps_report(sdl, &((const ParsedPigment *)texture->texture.pigment)->gaps);
         gaps_report(sdl, &((const ParsedFinish *)texture->texture.finish)->gaps);
+        if (texture->texture.normal)
+            gaps_report(sdl, &((const ParsedNormal *)texture->texture.normal)->gaps);
     }
 }
 

@@ -20,6 +20,16 @@ static const ParsedFinish *finish_of(const ParsedTexture *t)
     return (const ParsedFinish *)t->texture.finish;
 }
 
+static const ParsedNormal *normal_of(const ParsedTexture *t)
+{
+    return (const ParsedNormal *)t->texture.normal;
+}
+
+static void set_normal(ParsedTexture *texture, const ParsedNormal *normal)
+{
+    texture->texture.normal = normal ? &normal->normal : NULL;
+}
+
 /* A pigment with uv_mapping lies in the surface's own space: what moves the surface does not move it. */
 const ParsedTexture *texture_moved(Sdl *sdl, const ParsedTexture *texture, const Transform *by)
 {
@@ -27,6 +37,7 @@ const ParsedTexture *texture_moved(Sdl *sdl, const ParsedTexture *texture, const
         return texture;
     ParsedTexture *moved = texture_copy(sdl, texture);
     moved->below = texture_moved(sdl, texture->below, by);
+    set_normal(moved, normal_moved(sdl, normal_of(texture), by));
     if (!texture->texture.pigment->uv_mapping) {
         ParsedPigment *pigment = pigment_new(sdl, pigment_of(texture));
         pigment->pigment.transform = transform_then(pigment->pigment.transform, *by);
@@ -84,10 +95,8 @@ int accept_texture_part(Sdl *sdl, const ParsedTexture **texture)
         set_pigment(changed, parse_pigment(sdl, pigment_of(changed)));
     else if (finish)
         changed->texture.finish = &parse_finish(sdl, finish_of(changed))->finish;
-    else {
-        gaps_add(&changed->gaps, GAP_NORMAL);
-        sdl_skip_block(sdl);
-    }
+    else
+        set_normal(changed, normal_changed(sdl, parse_normal(sdl, normal_of(changed)), changed->texture.uv_mapping, 0));
     *texture = changed;
     return 1;
 }
@@ -97,17 +106,16 @@ static int accept_part_ident(Sdl *sdl, const ParsedTexture **texture)
 {
     const ParsedPigment *pigment = accept_ident(sdl, VALUE_PIGMENT);
     const ParsedFinish *finish = pigment ? NULL : accept_ident(sdl, VALUE_FINISH);
-    if (!pigment && !finish && !peek_ident(sdl, VALUE_NORMAL))
+    const ParsedNormal *normal = pigment || finish ? NULL : accept_ident(sdl, VALUE_NORMAL);
+    if (!pigment && !finish && !normal)
         return 0;
     ParsedTexture *changed = texture_copy(sdl, *texture);
     if (pigment)
         set_pigment(changed, pigment_new(sdl, pigment));
     else if (finish)
         changed->texture.finish = &finish->finish;
-    else {
-        sdl_next(sdl);
-        gaps_add(&changed->gaps, GAP_NORMAL);
-    }
+    else
+        set_normal(changed, normal_changed(sdl, normal, changed->texture.uv_mapping, 0));
     *texture = changed;
     return 1;
 }
@@ -172,12 +180,15 @@ static void texture_item(Sdl *sdl, const ParsedTexture **texture, char end, int 
         ;
     else if (accept_transform(sdl, &by))
         *texture = texture_moved(sdl, *texture, &by);
-    else if (sdl_accept(sdl, "no_bump_scale"))
-        sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "uv_mapping")) {
+    else if (sdl_accept(sdl, "no_bump_scale")) {
+        ParsedTexture *changed = texture_copy(sdl, *texture);
+        set_normal(changed, normal_changed(sdl, normal_of(changed), 0, sdl_optional_bool(sdl, 1)));
+        *texture = changed;
+    } else if (sdl_accept(sdl, "uv_mapping")) {
         ParsedTexture *changed = texture_copy(sdl, *texture);
         changed->texture.uv_mapping = sdl_optional_bool(sdl, 1);
         set_pigment(changed, pigment_new(sdl, pigment_of(changed)));
+        set_normal(changed, normal_changed(sdl, normal_of(changed), changed->texture.uv_mapping, 0));
         *texture = changed;
     } else if (sdl_accept(sdl, "tiles"))
         *texture = tiles(sdl);

@@ -1,0 +1,155 @@
+/* bump_map: heights from a picture's numbers as they are in its file, from the indices of its palette, or from a
+ * function. Pictures are found while reading and loaded at the end, only if a surface uses them. */
+#include <retex/image_file.h>
+#include "base/digest.h"
+#include "sdl/build/builder.h"
+#include "shade/pigment.h"
+
+enum { SIDE_MAX = 65536 };
+
+static int bump_map_option(Sdl *sdl, ParsedBumpMap *map, double *size)
+{
+    ImageMap *image = &map->map.image;
+    if (sdl_accept(sdl, "once"))
+        image->once = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "interpolate"))
+        image->interpolate = (int)sdl_float(sdl);
+    else if (sdl_accept(sdl, "map_type"))
+        image->map_type = (MapType)(int)sdl_float(sdl);
+    else if (sdl_accept(sdl, "bump_size"))
+        *size = sdl_float(sdl);
+    else if (sdl_accept(sdl, "use_index"))
+        map->use_index = 1;
+    else if (sdl_accept(sdl, "use_color") || sdl_accept(sdl, "use_colour"))
+        map->use_index = 0;
+    else if (sdl_accept(sdl, "premultiplied"))
+        sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "gamma")) { /* heights are the file's numbers */
+        if (!sdl_accept(sdl, "srgb") && !sdl_accept(sdl, "bt709") && !sdl_accept(sdl, "bt2020"))
+            sdl_float(sdl);
+    } else
+        return 0;
+    return 1;
+}
+
+static double grey(const float *p, int channels)
+{
+    return channels >= 3 ? 0.297 * p[0] + 0.589 * p[1] + 0.114 * p[2] : p[0];
+}
+
+static float *heights_new(Sdl *sdl, BumpMap *map, double width, double height)
+{
+    if (!(width >= 1 && width <= SIDE_MAX && height >= 1 && height <= SIDE_MAX))
+        sdl_error(sdl, "a bump_map of %g by %g points: there are 1 to %d", width, height, SIDE_MAX);
+    map->image.width = (int)width, map->image.height = (int)height;
+    float *heights = sdl_alloc(sdl, (size_t)map->image.width * (size_t)map->image.height * sizeof *heights);
+    map->heights = heights;
+    return heights;
+}
+
+/* ---- functions ---- */
+
+/* The function draws the picture from (0, 1) on top to (1, 0). */
+static void parse_function(Sdl *sdl, BumpMap *map)
+{
+    const double width = sdl_float(sdl);
+    sdl_optional_comma(sdl);
+    float *heights = heights_new(sdl, map, width, sdl_float(sdl));
+    const FunctionProgram *program = NULL;
+    const ParsedPigment *pigment = NULL;
+    sdl_expect(sdl, "{");
+    if (sdl_accept(sdl, "pigment")) {
+        pigment = parse_pigment(sdl, default_pigment(sdl));
+        if (pigment->pigment.kind == PIGMENT_IMAGE)
+            sdl_error(sdl, "a bump_map of a pigment with an image_map: write the image itself");
+    } else {
+        const Value function = sdl_function_body(sdl);
+        program = sdl_function_program(sdl, &function, 3);
+    }
+    const int w = map->image.width, h = map->image.height;
+    for (int j = 0; j < h; j++) {
+        sdl_step(sdl, 1 + w);
+        for (int i = 0; i < w; i++) {
+            const Vec3 p = vec3(w > 1 ? (double)i / (w - 1) : 0, h > 1 ? 1 - (double)j / (h - 1) : 0, 0);
+            double value;
+            if (pigment) {
+                const Rgbft c = pigment_eval(&pigment->pigment, p, (Vec2){p.x, p.y});
+                value = 0.297 * c.r + 0.589 * c.g + 0.114 * c.b;
+            } else
+                value = function_at(program, p);
+            heights[(size_t)j * (size_t)w + (size_t)i] = (float)fmin(1, fmax(0, value));
+        }
+    }
+    sdl_expect(sdl, "}");
+}
+
+/* ---- pictures ---- */
+
+const BumpMap *parse_bump_map(Sdl *sdl, double *size)
+{
+    ParsedBumpMap *map = sdl_alloc(sdl, sizeof *map);
+    sdl_expect(sdl, "{");
+    if (sdl_is(sdl, "<")) {
+        sdl_vector(sdl); /* the projection of very old scenes */
+        sdl_optional_comma(sdl);
+    }
+    if (sdl_accept(sdl, "function"))
+        parse_function(sdl, &map->map);
+    else
+        map->map.image.path = parse_image_path(sdl);
+    while (!sdl_accept(sdl, "}"))
+        if (!bump_map_option(sdl, map, size))
+            sdl_expected(sdl, "an option of bump_map or }");
+        else
+            sdl_optional_comma(sdl);
+    return &map->map;
+}
+
+static int load_indices(Sdl *sdl, BumpMap *map)
+{
+    PaletteIndices palette;
+    if (!read_palette_indices(sdl, map->image.path, SIDE_MAX, &palette))
+        return 0;
+    float *heights = heights_new(sdl, map, palette.width, palette.height);
+    for (size_t i = 0; i < (size_t)palette.width * (size_t)palette.height; i++)
+        heights[i] = palette.indices[i];
+    return 1;
+}
+
+static void load_colors(Sdl *sdl, BumpMap *map)
+{
+    const SdlOptions *options = sdl_options(sdl);
+    const RetexReadParams params = {.size = sizeof params,
+                                    .colorspace = "linear",
+                                    .max_pixels = (long)SIDE_MAX * SIDE_MAX,
+                                    .access = sdl_access(sdl),
+                                    .budget = options->budget,
+                                    .pixel_bytes = 16 + 4};
+    RetexImage pixels = {0};
+    RetexError err = {0};
+    sdl_add_file(sdl, map->image.path);
+    if (retex_image_read(&pixels, map->image.path, &params, options->nthreads, &err))
+        sdl_error(sdl, "bump_map: %s%s%s", err.file, err.file[0] ? ": " : "", err.message);
+    const size_t count = (size_t)pixels.width * (size_t)pixels.height;
+    float *heights = count ? arena_alloc(sdl_arena(sdl), count * sizeof *heights) : NULL;
+    for (size_t i = 0; heights && i < count; i++)
+        heights[i] = (float)grey(pixels.pixels + i * (size_t)pixels.channels, pixels.channels);
+    map->heights = heights;
+    map->image.width = pixels.width, map->image.height = pixels.height;
+    retex_image_free(&pixels);
+    if (!heights)
+        heights_new(sdl, map, map->image.width, map->image.height); /* tells why not */
+}
+
+void load_bump_map(Sdl *sdl, const BumpMap *loaded)
+{
+    ParsedBumpMap *map = (ParsedBumpMap *)loaded; /* it is this scene's own */
+    Scene *scene = sdl_scene(sdl);
+    if (map->map.heights)
+        return;
+    if (!map->use_index || !load_indices(sdl, &map->map))
+        load_colors(sdl, &map->map);
+    scene->digest =
+        digest_bytes(scene->digest, map->map.heights,
+                     (size_t)map->map.image.width * (size_t)map->map.image.height * sizeof *map->map.heights);
+}

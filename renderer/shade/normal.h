@@ -1,0 +1,21 @@
+/* Bumps: what the `normal` of a texture does to the normals of a surface, as POV-Ray 3.7. */
+#ifndef RENDERER_SHADE_NORMAL_H
+#define RENDERER_SHADE_NORMAL_H
+
+#include "scene/scene.h"
+#include "shape/surface.h"
+
+/* The normal of the surface, tilted. normal: that without bumps, of unit length, on the side that is seen; view: the
+ * direction of the ray that sees it. The result has unit length and may face away from the viewer. */
+Vec3 normal_tilted(const Normal *bumps, const Surface *surface, Vec3 normal, Vec3 view);
+
+/* ---- private to shade/normal*.c ---- */
+
+/* Patterns that tilt normals by a field of vectors, not by the slope of their value. In pattern space: the point, the
+ * normal, what is added to it. NULL: the pattern has none. */
+typedef Vec3 NormalVectors(const Normal *bumps, Vec3 p, Vec3 normal);
+NormalVectors *normal_vectors(const PatternOps *pattern);
+/* The normal tilted by a picture at a point of pattern space. */
+Vec3 bump_map_tilt(const Normal *bumps, Vec3 p, Vec3 normal);
+
+#endif
