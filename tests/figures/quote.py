@@ -167,10 +167,13 @@ def denoise_psnr(method, samples):
 
 
 def overhead_memory(*targets):
-    """Of writing a set over the plain picture."""
+    """Of writing a set over the plain picture, and the size of the pictures."""
+    with open(os.path.join(DOCS, "overhead.md"), encoding="utf-8") as file:
+        size = re.search(r"^The peak memory of `scenes/living-room` at (\S+),", file.read(), re.M)[1]
+
     def peak(row, edit):
         return one("overhead", "peak_memory_bytes", part="memory", row=row, targets=edit)
-    return f"{(peak('footprints', '+'.join(targets)) - peak('plain', 'Floor')) / 1e6:.0f} MB"
+    return f"{(peak('footprints', '+'.join(targets)) - peak('plain', 'Floor')) / 1e6:.0f} MB at {size}"
 
 
 def speed_over_cycles():
