@@ -516,13 +516,7 @@ int lights_sample(const Lights *lights, const LightSampleContext *point, const L
         sample->radiance = sky_radiance(lights->scene, sample->direction);
         return sample->pdf > 0;
     }
-    const Light *light = &lights->scene->lights[e->index];
-    sample->kind = LIGHT_SAMPLE_SOURCE;
-    sample->pdf = 0;
-    sample->shadowless = light->shadowless;
-    sample->radiance = source_irradiance(light, position, source_point(light, position, u1, u2), &sample->direction,
-                                         &sample->distance);
-    return !rgb_is_black(sample->radiance);
+    return source_sample(&lights->scene->lights[e->index], position, u1, u2, sample);
 }
 
 /* Density per unit area of the shape where a path met it; *face: of the mesh light. 0 where it does not emit. */

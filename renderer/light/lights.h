@@ -23,6 +23,11 @@ typedef struct LightSample {
     float pick_probability; /* of having picked this light */
     float pdf;           /* per solid angle, without pick_probability; 0 for a light source */
     int shadowless;
+    /* LIGHT_SAMPLE_SOURCE: the light; and where its shadow ray goes: to a point of the grid of an area_light, while its
+     * light comes from the middle */
+    const Light *source;
+    Vec3 shadow_direction;
+    double shadow_distance;
     Surface surface;     /* LIGHT_SAMPLE_EMITTER */
 } LightSample;
 
@@ -80,5 +85,7 @@ int source_is_beam(const Light *light); /* parallel light, that comes from infin
 /* For the tree; not for beams. */
 LightBounds source_bounds(const Light *light);
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2);
+/* Sample a light source; returns 0 where it gives no light. Shadows are not looked at. */
+int source_sample(const Light *light, Vec3 position, float u1, float u2, LightSample *sample);
 
 #endif

@@ -1,5 +1,6 @@
 /* POV-Ray's light sources: point, spot, cylinder and parallel light, area lights as points of their grid, fading. */
 #include "light/lights.h"
+#include "shape/csg.h"
 
 /* 0 below low, 1 above high, a smooth cubic between. */
 static double smooth_step(double low, double high, double x)
@@ -47,12 +48,39 @@ static double distance_fade(const Light *light, double distance)
     return pow(fmax(distance, 1e-6), -light->fade_power);
 }
 
+/* Which of the n lights on a side. POV-Ray halves the side until two lights are left; a middle one belongs to both
+ * halves, so that the outer ones of 3, 5 or 9 weigh half in shadows. *u is uniform in [0,1) again. */
+static int pick_by_halves(double *u, int n)
+{
+    int low = 0, high = n - 1;
+    while (high > low) {
+        const int sum = low + high, two = high - low == 1, second = *u >= 0.5;
+        if (second)
+            low = two ? high : sum - sum / 2;
+        else
+            high = two ? low : sum / 2;
+        *u = 2 * *u - second;
+    }
+    return low;
+}
+
+/* A place on a side of n lights, -0.5 to 0.5. With jitter a light is anywhere on its share of the side. */
+static double grid_place(const Light *light, double u, int n)
+{
+    if (n < 2)
+        return 0;
+    double k = light->area_illumination ? floor(u * n) : pick_by_halves(&u, n);
+    if (light->jitter)
+        k += light->area_illumination ? u * n - k - 0.5 : u - 0.5;
+    return k / (n - 1) - 0.5;
+}
+
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
 {
     if (!light->area)
         return light->location;
     int n1 = light->size1 > 1 ? light->size1 : 1, n2 = light->size2 > 1 ? light->size2 : 1;
-    double a = n1 > 1 ? floor(u1 * n1) / (n1 - 1) - 0.5 : 0, b = n2 > 1 ? floor(u2 * n2) / (n2 - 1) - 0.5 : 0;
+    double a = grid_place(light, u1, n1), b = grid_place(light, u2, n2);
     Vec3 axis1 = light->axis1, axis2 = light->axis2;
     if (light->orient) { /* the grid faces the lit point */
         Vec3 s, t;
@@ -92,6 +120,35 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
             value *= spot_attenuation(light, *direction);
     }
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
+}
+
+/* The shadow ray ends where it first meets the object that light is projected through: what is beyond throws no
+ * shadow. Returns 0 where it does not meet it. */
+static int project(const Light *light, Vec3 position, LightSample *sample)
+{
+    CsgQuery query = {.ray = {position, sample->shadow_direction, 1e-4, sample->shadow_distance}};
+    if (!csg_intersect(light->projected_through, &query))
+        return 0;
+    sample->shadow_distance = query.t;
+    return 1;
+}
+
+int source_sample(const Light *light, Vec3 position, float u1, float u2, LightSample *sample)
+{
+    const Vec3 point = source_point(light, position, u1, u2);
+    const int from_middle = light->area && !light->area_illumination;
+    sample->kind = LIGHT_SAMPLE_SOURCE;
+    sample->pdf = 0;
+    sample->shadowless = light->shadowless;
+    sample->source = light;
+    sample->radiance = source_irradiance(light, position, from_middle ? light->location : point, &sample->direction,
+                                         &sample->distance);
+    sample->shadow_direction = sample->direction, sample->shadow_distance = sample->distance;
+    if (from_middle)
+        source_irradiance(light, position, point, &sample->shadow_direction, &sample->shadow_distance);
+    if (rgb_is_black(sample->radiance))
+        return 0;
+    return !light->projected_through || project(light, position, sample);
 }
 
 /* Approximate POV-Ray's fading by constant light, or by light that falls with the square of the distance. */

@@ -107,9 +107,10 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
 /* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
 static double shadow_ray_end(Vec3 position, const LightSample *light)
 {
-    if (!isfinite(light->distance))
+    double distance = light->kind == LIGHT_SAMPLE_SOURCE ? light->shadow_distance : light->distance;
+    if (!isfinite(distance))
         return INFINITY;
-    double margin = accel_margin(position), end = light->distance * (1 - 1e-6) - margin;
+    double margin = accel_margin(position), end = distance * (1 - 1e-6) - margin;
     if (light->kind == LIGHT_SAMPLE_EMITTER) {
         /* The flatter the angle, the earlier the ray meets the emitter's surface. */
         double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
@@ -132,16 +133,20 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
         v->pick = lights_pick(c->lights, &context, u->light_choice[k], u->light_part[k]);
     if (!lights_sample(c->lights, &context, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
         return;
-    Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &sample->pdf);
+    const int is_source = light->kind == LIGHT_SAMPLE_SOURCE;
+    if (is_source && !light_reaches_group(light->source, s->surface.primitive->light_group))
+        return;
+    Split f = bsdf_eval(&s->bsdf, light->direction, is_source, &sample->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
         return;
-    if (light->kind != LIGHT_SAMPLE_SOURCE)
+    if (!is_source)
         sample->pdf = guided_density(v, light->direction, sample->pdf);
     sample->found = 1;
     sample->traced = 0;
     sample->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
     sample->nfactors = 1 + light_factors(w, path, k, light, sample->factors + 1);
     sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
-    sample->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction),
-                        light->direction, 0, shadow_ray_end(s->surface.position, light)};
+    const Vec3 direction = is_source ? light->shadow_direction : light->direction;
+    sample->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, direction), direction, 0,
+                        shadow_ray_end(s->surface.position, light)};
 }

@@ -278,6 +278,7 @@ typedef struct Primitive {
     const Interior *interior; /* or NULL */
     int no_shadow, no_image, no_reflection, inverse, hollow;
     const struct CsgNode *csg; /* its place in the tree of which it is an operand, or NULL; shape/csg.h */
+    const struct LightGroup *light_group; /* that it is in, or NULL */
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
@@ -286,6 +287,11 @@ typedef struct Primitive {
 } Primitive;
 
 /* ---- lights, camera, sky ---- */
+
+/* A light_group: its lights shine only on what is in it, without the groups within it. */
+typedef struct LightGroup {
+    int global_lights; /* lights of no group shine on what is in it */
+} LightGroup;
 
 typedef enum LightKind { LIGHT_POINT, LIGHT_SPOT, LIGHT_CYLINDER, LIGHT_PARALLEL } LightKind;
 typedef struct Light {
@@ -298,9 +304,19 @@ typedef struct Light {
     int area;                /* 1: area_light */
     Vec3 axis1, axis2;
     int size1, size2;        /* lights along each axis */
-    int circular, orient;
+    int circular, orient, jitter;
+    int area_illumination;   /* 1: each light of the grid shines from its own place; 0: all from the middle, and only
+                                shadows are those of the grid */
     int shadowless;
+    const struct Csg *projected_through; /* in world space, or NULL: only light that passes it shines on */
+    const LightGroup *group; /* or NULL */
 } Light;
+
+/* Whether a light source shines on what is in a group, or in none. */
+static inline int light_reaches_group(const Light *light, const LightGroup *group)
+{
+    return light->group == group || (!light->group && group->global_lights);
+}
 
 /* The density of points on a lens, row by row: cumulative sums that end at 1. */
 typedef struct Bokeh {

@@ -159,7 +159,7 @@ object {
 light_source {
   <-30, 25, -7>
   rgb <2.0, 1.75, 1.38>
-  area_light 0.35 * z, vnormalize(<25, 30, 0>) * 0.35, 4, 4 adaptive 1 jitter
+  area_light 0.35 * z, vnormalize(<25, 30, 0>) * 0.35, 4, 4 adaptive 1 area_illumination on
   // Far enough to be parallel; a cone just wider than the window: so that no light is looked for where none can come.
   spotlight point_at <Left, (Sill + Lintel) / 2, (Window_From + Window_To) / 2> radius 1.75 falloff 1.9 tightness 0
 }

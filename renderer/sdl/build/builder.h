@@ -31,9 +31,7 @@
     X(IRID, "irid", "it is ignored") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
-    X(DISPERSION, "dispersion", "one ior is used for all colours") \
-    X(LIGHT_GROUP, "light_group", "its lights light everything") \
-    X(PROJECTED_THROUGH, "projected_through", "the light shines everywhere")
+    X(DISPERSION, "dispersion", "one ior is used for all colours")
 
 typedef enum Gap {
 #define X(id, name, instead) GAP_##id,
@@ -142,7 +140,9 @@ enum {
     OBJECT_NO_REFLECTION = 4,
     OBJECT_INVERSE = 8,
     OBJECT_HOLLOW = 16,
-    OBJECT_CUTAWAY_TEXTURES = 32
+    OBJECT_CUTAWAY_TEXTURES = 32,
+    OBJECT_LIGHT_GROUP = 64,
+    OBJECT_GLOBAL_LIGHTS = 128 /* of a light_group */
 };
 
 typedef struct ObjectList {
@@ -166,6 +166,7 @@ typedef struct Object {
     TriangleKind single_triangle;
     int polygon;      /* the mesh is a polygon */
     const Light *light;
+    const struct Object *projector; /* of a light: what its light passes through, in its space; or NULL */
     CsgKind csg;                /* of a group */
     int difference;             /* an intersection written as one */
     const ObjectList *children; /* of a group; of a light: what it looks like */

@@ -20,10 +20,20 @@ static void set_kind(Light *light, LightKind kind)
         (kind == LIGHT_SPOT && light->kind == LIGHT_PARALLEL))
         return;
     light->kind = kind;
+    if (kind != LIGHT_PARALLEL)
+        light->shadowless = 0;
     if (kind == LIGHT_CYLINDER) {
         light->radius = 0.75;
         light->falloff = 1;
     }
+}
+
+/* To POV-Ray this is one more kind, and the last one written counts; but parallel goes with it. */
+static void set_shadowless(Light *light, int shadowless)
+{
+    light->shadowless = shadowless;
+    if (shadowless && light->kind != LIGHT_PARALLEL)
+        light->kind = LIGHT_POINT;
 }
 
 static void area_light(Sdl *sdl, Light *light)
@@ -42,17 +52,34 @@ static void area_light(Sdl *sdl, Light *light)
     light->size2 = (int)size2;
 }
 
-static void looks_like(Sdl *sdl, Object *object)
+/* { an object and what modifies it } */
+static Object *object_in(Sdl *sdl, const char *where)
 {
     sdl_expect(sdl, "{");
     const Object *inner = accept_ident(sdl, VALUE_OBJECT);
     if (!inner)
         inner = accept_object(sdl);
     if (!inner)
-        sdl_expected(sdl, "an object in looks_like");
+        sdl_expected(sdl, where);
     Object *child = object_new(sdl, OBJECT_EMPTY);
     *child = *inner;
     parse_object_modifiers(sdl, child);
+    return child;
+}
+
+/* What the light passes through is in the light's own space, as its location. It is not seen. */
+static void projected_through(Sdl *sdl, Object *object)
+{
+    Object *child = object_in(sdl, "an object in projected_through");
+    object_count_child(sdl, object, child);
+    const Transform back = transform_inverse(object->transform);
+    object_move(child, &back);
+    object->projector = child;
+}
+
+static void looks_like(Sdl *sdl, Object *object)
+{
+    Object *child = object_in(sdl, "an object in looks_like");
     ObjectList *list = sdl_alloc(sdl, sizeof *list);
     list->object = child;
     object_count_child(sdl, object, child);
@@ -85,9 +112,12 @@ static int accept_switch(Sdl *sdl, Light *light)
     else if (sdl_accept(sdl, "orient"))
         light->orient = sdl_optional_bool(sdl, 1);
     else if (sdl_accept(sdl, "shadowless") || sdl_accept(sdl, "fill_light"))
-        light->shadowless = sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "jitter") || sdl_accept(sdl, "area_illumination") ||
-             sdl_accept(sdl, "media_interaction") || sdl_accept(sdl, "media_attenuation"))
+        set_shadowless(light, sdl_optional_bool(sdl, 1));
+    else if (sdl_accept(sdl, "jitter"))
+        light->jitter = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "area_illumination"))
+        light->area_illumination = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "media_interaction") || sdl_accept(sdl, "media_attenuation"))
         sdl_optional_bool(sdl, 1);
     else
         return 0;
@@ -121,10 +151,9 @@ static void modifier(Sdl *sdl, Object *object, Light *light)
         ;
     else if (sdl_accept(sdl, "looks_like"))
         looks_like(sdl, object);
-    else if (sdl_accept(sdl, "projected_through")) {
-        gaps_add(&object->gaps, GAP_PROJECTED_THROUGH);
-        sdl_skip_block(sdl);
-    } else if (sdl_accept(sdl, "groups"))
+    else if (sdl_accept(sdl, "projected_through"))
+        projected_through(sdl, object);
+    else if (sdl_accept(sdl, "groups"))
         sdl_string(sdl);
     else if (sdl_is(sdl, "photons") || sdl_is(sdl, "bounded_by"))
         skip_statement(sdl);

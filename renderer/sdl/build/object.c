@@ -84,9 +84,10 @@ static int accept_flag(Sdl *sdl, Object *object)
         {"no_reflection", OBJECT_NO_REFLECTION},
         {"hollow", OBJECT_HOLLOW},
         {"cutaway_textures", OBJECT_CUTAWAY_TEXTURES},
+        {"global_lights", OBJECT_GLOBAL_LIGHTS},
     };
-    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy",     "no_radiosity",
-                                          "split_union",       "no_bump_scale", "global_lights", NULL};
+    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy", "no_radiosity",
+                                          "split_union",       "no_bump_scale", NULL};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (sdl_accept(sdl, flags[i].word)) {
             if (sdl_optional_bool(sdl, 1))
@@ -214,13 +215,14 @@ void parse_object_modifiers(Sdl *sdl, Object *object)
 static const struct {
     const char *word;
     CsgKind csg;
-    int difference, gap;
+    int difference;
+    unsigned flags;
 } groups[] = {
-    {"union", CSG_UNION, 0, -1},
-    {"merge", CSG_MERGE, 0, -1},
-    {"light_group", CSG_UNION, 0, GAP_LIGHT_GROUP},
-    {"difference", CSG_INTERSECTION, 1, -1},
-    {"intersection", CSG_INTERSECTION, 0, -1},
+    {"union", CSG_UNION, 0, 0},
+    {"merge", CSG_MERGE, 0, 0},
+    {"light_group", CSG_UNION, 0, OBJECT_LIGHT_GROUP},
+    {"difference", CSG_INTERSECTION, 1, 0},
+    {"intersection", CSG_INTERSECTION, 0, 0},
 };
 
 static const Object *turned_inside_out(Sdl *sdl, const Object *object)
@@ -251,8 +253,7 @@ static Object *group(Sdl *sdl, int which)
     Object *object = object_new(sdl, OBJECT_GROUP);
     object->csg = groups[which].csg;
     object->difference = groups[which].difference;
-    if (groups[which].gap >= 0)
-        gaps_add(&object->gaps, (Gap)groups[which].gap);
+    object->flags = groups[which].flags;
     add_children(sdl, object);
     if (object->csg == CSG_UNION)
         gather_children(sdl, object);

@@ -13,6 +13,7 @@ typedef struct Inherited {
     int uv_mapping;
     unsigned flags;
     const IdentList *idents;
+    const LightGroup *light_group;
     CsgNode *csg; /* the node that it is an operand of, or NULL */
 } Inherited;
 
@@ -165,6 +166,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     p->no_reflection = (in->flags & OBJECT_NO_REFLECTION) != 0;
     p->inverse = (in->flags & OBJECT_INVERSE) != 0;
     p->hollow = (in->flags & OBJECT_HOLLOW) != 0;
+    p->light_group = in->light_group;
     p->idents = in->idents;
     p->line = object->line;
     p->target = -1;
@@ -172,8 +174,17 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
 
 /* ---- lights ---- */
 
-static void place_light(Sdl *sdl, const Object *object, const Transform *to_world)
+static const Csg *placed_projector(Sdl *sdl, const Object *projector, const Transform *to_world)
 {
+    Object *placed = object_new(sdl, OBJECT_EMPTY);
+    *placed = *projector;
+    object_move(placed, to_world);
+    return csg_of_object(sdl, placed);
+}
+
+static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
+{
+    const Transform *to_world = &here->to_world;
     Scene *scene = sdl_scene(sdl);
     scene->lights =
         builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_capacity, sizeof *scene->lights);
@@ -185,6 +196,11 @@ static void place_light(Sdl *sdl, const Object *object, const Transform *to_worl
     light->axis2 = transform_vector(to_world, light->axis2);
     if (light->fade_distance <= 0)
         light->fade_power = 0;
+    if (light->kind == LIGHT_SPOT)
+        light->falloff = fmax(light->falloff, light->radius);
+    light->group = here->light_group;
+    if (object->projector)
+        light->projected_through = placed_projector(sdl, object->projector, to_world);
 }
 
 /* ---- the walk ---- */
@@ -262,7 +278,7 @@ static void place_contents(Sdl *sdl, const Object *object, const Inherited *here
             place_operands(sdl, object, here);
         break;
     case OBJECT_LIGHT:
-        place_light(sdl, object, &here->to_world);
+        place_light(sdl, object, here);
         place_looks_like(sdl, object, here);
         break;
     case OBJECT_EMPTY:
@@ -292,6 +308,12 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
         here.interior = object->interior;
     here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
+    if (object->flags & OBJECT_LIGHT_GROUP) {
+        LightGroup *group = sdl_alloc(sdl, sizeof *group);
+        group->global_lights = around->light_group ? around->light_group->global_lights /* as POV-Ray has it */
+                                                   : (object->flags & OBJECT_GLOBAL_LIGHTS) != 0;
+        here.light_group = group;
+    }
     if (object->kind != OBJECT_LIGHT && (around->csg || begins_csg(object, here.flags)))
         here.csg = object_csg_node(sdl, object, &around->to_world, here.flags & OBJECT_INVERSE, around->csg);
     place_contents(sdl, object, &here);
