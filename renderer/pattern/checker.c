@@ -4,8 +4,9 @@
 /* POV-Ray's: keeps a checker whose plane goes through a cell boundary from speckling. */
 #define CHECKER_EPSILON 1e-10
 
-static double value(const Pattern *pattern, Vec3 p)
+static double value(const Pattern *pattern, const PatternPoint *point)
 {
+    const Vec3 p = point->p;
     const double cell = floor(p.x + CHECKER_EPSILON) + floor(p.y + CHECKER_EPSILON) + floor(p.z + CHECKER_EPSILON);
 
     (void)pattern;

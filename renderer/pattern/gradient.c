@@ -1,9 +1,9 @@
 /* gradient: how far a point lies along a direction. */
 #include "pattern/pattern.h"
 
-static double value(const Pattern *pattern, Vec3 p)
+static double value(const Pattern *pattern, const PatternPoint *point)
 {
-    const double along = vec_dot(pattern->vector, p);
+    const double along = vec_dot(pattern->vector, point->p);
 
     return along > 1 ? fmod(along, 1) : along;
 }

@@ -1,6 +1,9 @@
-/* The table of patterns, and the waves that shape their values. */
+/* The table of patterns, and what is done before and after each: warps, and the waves that shape its value. */
 #include <string.h>
 #include "pattern/pattern.h"
+#include "pattern/warp.h"
+
+#define COORDINATE_LIMIT 1e17 /* POV-Ray's */
 
 static const PatternOps *const patterns[] = {
 #define X(name) &pattern_##name,
@@ -63,9 +66,28 @@ static double apply_wave(const Pattern *pattern, double value)
     return value;
 }
 
-double pattern_value(const Pattern *pattern, Vec3 p)
+static double within(double x)
 {
-    const double value = pattern->ops->value(pattern, p);
+    return fabs(x) <= COORDINATE_LIMIT ? x : x > 0 ? COORDINATE_LIMIT : x < 0 ? -COORDINATE_LIMIT : 0;
+}
+
+Vec3 pattern_warp(const Pattern *pattern, Vec3 p)
+{
+    for (const Warp *warp = pattern->warps; warp; warp = warp->next)
+        p = warp_point(warp, p);
+    if (!pattern->ops || !pattern->ops->has_turbulence)
+        p = turbulence_point(&pattern->turbulence, p);
+    return vec3(within(p.x), within(p.y), within(p.z));
+}
+
+double pattern_value(const Pattern *pattern, const PatternPoint *point)
+{
+    return pattern_value_at(pattern, &(PatternPoint){pattern_warp(pattern, point->p), point->normal, point->view});
+}
+
+double pattern_value_at(const Pattern *pattern, const PatternPoint *warped)
+{
+    const double value = pattern->ops->value(pattern, warped);
 
     return pattern->ops->colors ? value : apply_wave(pattern, value);
 }

@@ -2,6 +2,7 @@
 #ifndef RENDERER_PATTERN_PATTERN_H
 #define RENDERER_PATTERN_PATTERN_H
 
+#include "base/noise.h"
 #include "pattern/patterns.h"
 
 /* What stands between the keyword and the list of colours; sdl/build/pattern.c reads it. */
@@ -18,12 +19,21 @@ typedef enum PatternArguments {
     ARGUMENTS_SLOPE
 } PatternArguments;
 
+/* Where a pattern is evaluated, in pattern space. */
+typedef struct PatternPoint {
+    Vec3 p;
+    Vec3 normal; /* of the surface there; zero where there is none: sky, functions */
+    Vec3 view;   /* the direction of the ray that sees it; zero where there is none */
+} PatternPoint;
+
 struct PatternOps {
     const char *keyword;
     PatternArguments arguments;
     int colors; /* it chooses among so many colours; 0: it makes a value, which a wave and a color_map turn into one */
-    /* At a point of pattern space: which colour, from 0; or the value, before the wave. NULL: not supported. */
-    double (*value)(const Pattern *pattern, Vec3 p);
+    WaveKind wave;      /* where none is written */
+    int has_turbulence; /* value() uses Pattern.turbulence in its own way, so that the point is not moved by it */
+    /* At a point that is warped already: which colour, from 0; or the value, before the wave. NULL: not supported. */
+    double (*value)(const Pattern *pattern, const PatternPoint *point);
     const char *name; /* in the warning that it is not supported */
 };
 
@@ -32,7 +42,22 @@ int pattern_count(void);
 const PatternOps *pattern_at(int index);
 int pattern_find(const char *keyword); /* its index, or -1 */
 
-/* The value with the wave applied, 0..1; or which colour. */
-double pattern_value(const Pattern *pattern, Vec3 p);
+/* POV-Ray's defaults: no turbulence, no warps, frequency 1. */
+#define TURBULENCE_INIT ((Turbulence){.lambda = 2, .omega = 0.5, .octaves = 6})
+#define PATTERN_INIT ((Pattern){.frequency = 1, .wave_exponent = 1, .turbulence = TURBULENCE_INIT})
+
+/* POV-Ray's order: from the point through the warps, the last written first, and turbulence; the value there; then
+ * frequency, phase and wave. The value is 0..1, or which colour. */
+double pattern_value(const Pattern *pattern, const PatternPoint *point);
+/* Its two halves: only the point's way; only the value, at a point that went it. Pigments of a map are evaluated at the
+ * point that went it. */
+Vec3 pattern_warp(const Pattern *pattern, Vec3 p);
+double pattern_value_at(const Pattern *pattern, const PatternPoint *warped);
+
+/* Noise of the pattern's generator. */
+static inline double pattern_noise(const Pattern *pattern, Vec3 p)
+{
+    return noise_value(p, pattern->noise_generator ? *pattern->noise_generator : NOISE_RANGE_CORRECTED);
+}
 
 #endif

@@ -7,8 +7,11 @@
 
 /* By keyword: pattern_NAME is the row. */
 #define PATTERN_TABLE(X) \
+    X(bozo) \
+    X(bumps) \
     X(checker) \
-    X(gradient)
+    X(gradient) \
+    X(spotted)
 
 /* POV-Ray's patterns that are read, with a warning, and replaced by their mean colour: keyword, PatternArguments,
  * length of the list of colours, name in the warning. */
@@ -16,9 +19,7 @@
     X(agate, NONE, 0, "agate") \
     X(aoi, NONE, 0, "aoi") \
     X(boxed, NONE, 0, "boxed") \
-    X(bozo, NONE, 0, "bozo") \
     X(brick, NONE, 2, "brick") \
-    X(bumps, NONE, 0, "bumps") \
     X(cells, NONE, 0, "cells") \
     X(crackle, NONE, 0, "crackle") \
     X(cubic, NONE, 6, "cubic pattern") \
@@ -48,7 +49,6 @@
     X(spherical, NONE, 0, "spherical") \
     X(spiral1, FLOAT, 0, "spiral") \
     X(spiral2, FLOAT, 0, "spiral") \
-    X(spotted, NONE, 0, "spotted") \
     X(square, NONE, 4, "square") \
     X(tiling, FLOAT, 0, "tiling") \
     X(triangular, NONE, 6, "triangular") \

@@ -70,11 +70,20 @@ typedef struct ImageMap {
 } ImageMap;
 
 typedef struct PatternOps PatternOps; /* pattern/pattern.h */
+typedef struct Warp Warp;             /* pattern/warp.h */
+typedef struct Turbulence {
+    Vec3 amount;
+    double lambda, omega, octaves; /* see noise_turbulence */
+} Turbulence;
 /* A function of space, with its arguments. */
 typedef struct Pattern {
     const PatternOps *ops;
     Vec3 vector;             /* the direction written after the keyword, unit length */
     double number;
+    const void *data;        /* what else the row's value reads */
+    const int *noise_generator; /* its own, or the scene's; NULL: the default one. See base/noise.h */
+    const Warp *warps;       /* the last written first */
+    Turbulence turbulence;   /* next to the pattern, after all warps */
     WaveKind wave;           /* of patterns that make a value 0..1 */
     double frequency, phase, wave_exponent;
 } Pattern;

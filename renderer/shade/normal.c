@@ -52,7 +52,8 @@ static Vec3 slope_tilt(const Normal *bumps, Vec3 p, Vec3 n)
         return n;
     const double strength = -0.1 * bumps->size / bumps->accuracy; /* POV-Ray's */
     for (int i = 0; i < 4; i++) {
-        const double value = pattern_value(&bumps->pattern, vec_mad(p, corners[i], bumps->accuracy));
+        const PatternPoint at = {.p = vec_mad(p, corners[i], bumps->accuracy)};
+        const double value = pattern_value_at(&bumps->pattern, &at);
         n = vec_mad(n, corners[i], strength * mapped_height(bumps, value));
     }
     return n;
@@ -62,7 +63,7 @@ static Vec3 slope_tilt(const Normal *bumps, Vec3 p, Vec3 n)
 
 static Vec3 map_tilt(const Normal *bumps, const Place *place, int keeps_size, Vec3 p, Vec3 n)
 {
-    const double value = pattern_value(&bumps->pattern, p);
+    const double value = pattern_value_at(&bumps->pattern, &(PatternPoint){.p = p});
     int low, high;
     double t = 0;
     if (bumps->pattern.ops->colors)
@@ -123,7 +124,7 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
     Vec3 inner = transform_inverse_normal(&bumps->transform, n);
     if (!keeps_size)
         inner = unit(inner, n);
-    p = transform_inverse_point(&bumps->transform, p);
+    p = pattern_warp(&bumps->pattern, transform_inverse_point(&bumps->transform, p));
     const Vec3 outer = transform_normal(&bumps->transform, tilt(bumps, place, keeps_size, p, inner));
     return keeps_size && bumps->kind != NORMAL_MAP ? outer : unit(outer, n);
 }

@@ -57,6 +57,7 @@ static Rgbft average(const ColorMap *map, Vec3 p, Vec2 uv)
 
 Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
+    PatternPoint warped;
     switch (pigment->kind) {
     case PIGMENT_COLOR:
         break;
@@ -64,9 +65,10 @@ Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
         return working_encode_pigment(pigment->space,
                                       image_lookup(pigment->image, pigment_image_uv(pigment->image, p)));
     case PIGMENT_PATTERN:
-        return map_color(&pigment->map, pattern_value(&pigment->pattern, p), p, uv);
+        warped = (PatternPoint){.p = pattern_warp(&pigment->pattern, p)};
+        return map_color(&pigment->map, pattern_value_at(&pigment->pattern, &warped), warped.p, uv);
     case PIGMENT_AVERAGE:
-        return average(&pigment->map, p, uv);
+        return average(&pigment->map, pattern_warp(&pigment->pattern, p), uv);
     }
     return pigment->color;
 }

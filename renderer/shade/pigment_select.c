@@ -4,7 +4,7 @@
 
 double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
-    return pattern_value(&pigment->pattern, pigment_point(pigment, p, uv));
+    return pattern_value(&pigment->pattern, &(PatternPoint){.p = pigment_point(pigment, p, uv)});
 }
 
 /* Of the texel that has the point. */

@@ -19,8 +19,6 @@
 /* ---- what is not supported ---- */
 
 #define GAP_TABLE(X) \
-    X(TURBULENCE, "turbulence", "the pattern is left undisturbed") \
-    X(WARP, "warp", "the pattern is left undisturbed") \
     X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish") \
     X(MATERIAL_MAP, "material_map", "its first texture is used") \
     X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
@@ -61,7 +59,6 @@ typedef struct ParsedImage {
 typedef struct ParsedPigment {
     Pigment pigment;   /* first: a Pigment* in the Scene is one of these */
     int averaged;      /* 1: the pattern is not supported; kind is a colour, the map's mean */
-    int disturbed;     /* has turbulence or a warp */
     const char *file;  /* where its colour is written, for messages; line 0: nowhere */
     int line, warned;    /* warned: that it is no albedo */
     int parts, depth;    /* of its map, see ParsedColorMap */
@@ -305,6 +302,10 @@ const ParsedNormal *normal_changed(Sdl *sdl, const ParsedNormal *normal, int uv_
 void normal_load(Sdl *sdl, const Normal *normal);          /* the pictures of it, once it is known to be used */
 const BumpMap *parse_bump_map(Sdl *sdl, double *size);     /* after bump_map; *size: where it says bump_size */
 void load_bump_map(Sdl *sdl, const BumpMap *map);
+
+/* warp.c */
+int accept_turbulence(Sdl *sdl, Turbulence *turbulence); /* turbulence, octaves, lambda or omega */
+int accept_warp(Sdl *sdl, Pigment *pigment);
 
 /* field.c: see SdlBuilder */
 int parse_field(Sdl *sdl, const char *word, FunctionForeign *function);

@@ -7,8 +7,8 @@
 static void call_pattern(const void *data, const double *args, double *results)
 {
     const Pigment *pigment = data;
-    const Vec3 p = transform_inverse_point(&pigment->transform, vec3(args[0], args[1], args[2]));
-    results[0] = pattern_value(&pigment->pattern, p);
+    const PatternPoint point = {.p = transform_inverse_point(&pigment->transform, vec3(args[0], args[1], args[2]))};
+    results[0] = pattern_value(&pigment->pattern, &point);
 }
 
 static void call_pigment(const void *data, const double *args, double *results)
@@ -32,7 +32,7 @@ int parse_field(Sdl *sdl, const char *word, FunctionForeign *function)
     const int is_pigment = strcmp(word, "pigment") == 0;
     const ParsedPigment *parsed = parse_pigment(sdl, default_pigment(sdl));
     const Pigment *pigment = &parsed->pigment;
-    if (parsed->gaps.bits || parsed->gaps.patterns || parsed->disturbed || pigment->kind == PIGMENT_IMAGE)
+    if (parsed->gaps.bits || parsed->gaps.patterns || pigment->kind == PIGMENT_IMAGE)
         return 0;
     if (!is_pigment && pigment->kind != PIGMENT_PATTERN)
         return 0;

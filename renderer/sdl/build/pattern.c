@@ -124,9 +124,10 @@ int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
     Pigment *p = &pigment->pigment;
     p->kind = PIGMENT_PATTERN;
     p->pattern.ops = ops;
-    if (ops->value)
-        p->pattern.wave = WAVE_RAMP;
-    else
+    p->pattern.wave = ops->wave;
+    if (!p->pattern.noise_generator)
+        p->pattern.noise_generator = &sdl_scene(sdl)->noise_generator;
+    if (!ops->value)
         gaps_add_pattern(&pigment->gaps, index);
     pigment->averaged = !ops->value;
     pattern_arguments(sdl, &p->pattern);
@@ -175,16 +176,16 @@ static int accept_wave(Sdl *sdl, Pattern *p)
     if (!sdl_accept(sdl, "poly_wave"))
         return 0;
     p->wave = WAVE_POLY;
-    p->wave_exponent = optional_float(sdl, 1);
+    p->wave_exponent = (float)optional_float(sdl, 1);
     return 1;
 }
 
 /* Modifiers of patterns that are averaged, and of noise: read over. */
 static int accept_ignored(Sdl *sdl)
 {
-    static const char *const floats[] = {"octaves",  "omega",       "lambda",   "agate_turb",      "metric",
-                                         "control0", "control1",    "mortar",   "noise_generator", "coords",
-                                         "accuracy", "interpolate", "exponent", "blend_mode",      NULL};
+    static const char *const floats[] = {"agate_turb", "metric",   "control0",    "control1", "mortar",
+                                         "coords",     "accuracy", "interpolate", "exponent", "blend_mode",
+                                         NULL};
     static const char *const expressions[] = {"form", "offset", "brick_size", "size", "altitude", NULL};
     static const char *const pairs[] = {"exterior", "interior", NULL};
     for (int i = 0; floats[i]; i++)
@@ -211,20 +212,28 @@ static int accept_ignored(Sdl *sdl)
     return 0;
 }
 
+static int accept_noise_generator(Sdl *sdl, Pattern *p)
+{
+    if (!sdl_accept(sdl, "noise_generator"))
+        return 0;
+    const double number = sdl_float(sdl);
+    if (!(number >= 1 && number < 4))
+        sdl_error(sdl, "noise_generator %g: there are 1, 2 and 3", number);
+    int *generator = sdl_alloc(sdl, sizeof *generator);
+    *generator = (int)number;
+    p->noise_generator = generator;
+    return 1;
+}
+
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment)
 {
     Pattern *p = &pigment->pigment.pattern;
     if (sdl_accept(sdl, "frequency"))
-        p->frequency = sdl_float(sdl);
+        p->frequency = (float)sdl_float(sdl); /* as POV-Ray keeps it */
     else if (sdl_accept(sdl, "phase"))
-        p->phase = sdl_float(sdl);
-    else if (sdl_accept(sdl, "turbulence")) {
-        Vec3 amount = sdl_vector(sdl);
-        pigment->disturbed = amount.x != 0 || amount.y != 0 || amount.z != 0;
-    } else if (sdl_accept(sdl, "warp")) {
-        pigment->disturbed = 1;
-        sdl_skip_block(sdl);
-    } else
-        return accept_wave(sdl, p) || accept_ignored(sdl);
+        p->phase = (float)sdl_float(sdl);
+    else
+        return accept_turbulence(sdl, &p->turbulence) || accept_warp(sdl, &pigment->pigment) || accept_wave(sdl, p) ||
+               accept_noise_generator(sdl, p) || accept_ignored(sdl);
     return 1;
 }

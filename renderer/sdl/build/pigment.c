@@ -13,7 +13,7 @@ ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
         *pigment = *from;
     else
         pigment->pigment = (Pigment){.kind = PIGMENT_COLOR,
-                                     .pattern = {.frequency = 1, .wave_exponent = 1},
+                                     .pattern = PATTERN_INIT,
                                      .space = &sdl_scene(sdl)->working_space,
                                      .transform = transform_identity()};
     pigment->next = builder->pigments;
@@ -344,8 +344,7 @@ static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture 
         pigment->pigment.kind = PIGMENT_PATTERN;
         pigment->pigment.color = pigment_mean(&pigment->pigment);
         pigment->pigment.kind = PIGMENT_COLOR;
-    } else if (pigment->disturbed && pigment->pigment.kind != PIGMENT_COLOR)
-        gaps_add(&pigment->gaps, GAP_TURBULENCE);
+    }
 }
 
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end)
