@@ -71,10 +71,9 @@ packed() { # METHOD LEVEL OPTION...: of retex-pack
     retextures "$work/stored.retex" stored-
     record "$method" "$level"
 }
-coded() { # METHOD LEVEL: of other programs
+coded() { # METHOD LEVEL: of other programs; not in the page where the file can no longer be read as a set
     "$python" $post/coded.py "$set" "$work/stored.exr" "$1" "$2" >"$work/sizes.json"
-    retextures "$work/stored.exr" stored-
-    record "$1" "$2"
+    if retextures "$work/stored.exr" stored-; then record "$1" "$2"; fi
 }
 as_it_is() { # the set itself
     retextures "$set" set-

@@ -45,7 +45,7 @@ The stored forms are:
 - *pack* is `retex-pack`, with the `--codec` and the `--quality` in its name.
 - *EXR, DWAA of radiance* stores radiance with OpenEXR's lossy DWAA of the level in its name, and the other
   parts unchanged. *EXR, DWAA of everything* is `oiiotool -a --compression dwaa:45` of the whole set, UV
-  included.
+  included. It has no row where a value became infinite: such a file is no set any more.
 - *EXR, radiance as plain JPEG* stores each radiance image as a JPEG of the quality in its name, scaled to its
   largest value and sRGB-encoded, and the other parts as the set does. In layout `paper` this is the method of
   the paper.
