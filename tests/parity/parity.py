@@ -80,6 +80,8 @@ class Scene:
         depth = ours['depth'][:, :, 0] if ours else np.full((pov.HEIGHT, pov.WIDTH), np.inf)
         near = depth[np.isfinite(depth)]
         theirs = self.reference.read() or self.reference.make(float(np.median(near)) if near.size else 0)
+        if not theirs.get('error') and 'bumps' not in theirs:
+            theirs = self.reference.renew_normal()
         result['povray_error'] = theirs.get('error', '')
         if result['povray_error']:
             return

@@ -5,7 +5,8 @@ POV-Ray has no such pictures of its own. They are made thus, with one ray for ea
 - albedo: quality 1, which shows pigments alone, without what is behind transparent ones; of layers the bottom one.
 - depth: fog is added to the scene. What fog adds to a pixel is C (1 - exp(-depth / D)); the same picture with black fog is
   subtracted, in the darkest channel. With max_trace_level 1, nothing is seen in mirrors or through transparent surfaces.
-- normal: one parallel light is added, at quality 2, which has neither shadows nor highlights, along each axis.
+- normal: one parallel light without shadows or highlights is added along each axis, at quality 8, which has bumps; with
+  max_trace_level 1.
 
 These pictures are made of prepared copies of the scenes: fog of their own is moved out of sight, cameras have no focal
 blur, finishes have no highlights and `brilliance` 1, quick_color is taken out. What is inverse is
@@ -193,13 +194,14 @@ class Reference:
 
     def normal(self, pool):
         """Normals, towards the camera, and 0 where no light of the six is seen."""
-        lights = ['']
+        lights = ['global_settings { max_trace_level 1 }']
         for sign in (1, -1):
             for axis in range(3):
                 place = ['0', '0', '0']
                 place[axis] = f'{sign * 10000000}'
-                lights.append(f'light_source {{ <{",".join(place)}>, rgb {LIGHT} parallel point_at 0 }}')
-        jobs = [pool.submit(self.wrapped, 2, text, f'light{k}') for k, text in enumerate(lights)]
+                lights.append(f'light_source {{ <{",".join(place)}>, rgb {LIGHT} parallel shadowless '
+                              f'point_at 0 }} {lights[0]}')
+        jobs = [pool.submit(self.wrapped, 8, text, f'light{k}') for k, text in enumerate(lights)]
         pictures = [job.result().sum(axis=2) for job in jobs]
         towards = [np.maximum(picture - pictures[0], 0) for picture in pictures[1:]]
         normal = np.stack([towards[k] - towards[k + 3] for k in range(3)], axis=2)
@@ -218,11 +220,21 @@ class Reference:
         except (OSError, ValueError):
             return None
 
+    def renew_normal(self):
+        """The normals of pictures that were made without bumps."""
+        known = self.read()
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            normal = self.normal(pool)
+        np.savez_compressed(self.path('reference.npz'), depth=known['depth'].astype(np.float32),
+                            albedo=known['albedo'].astype(np.float32), normal=normal.astype(np.float32))
+        self.write({**{k: v for k, v in known.items() if not isinstance(v, np.ndarray)}, 'bumps': 1})
+        return self.read()
+
     def make(self, guess):
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.folder)
         file = os.path.basename(self.scene)
-        info = {}
+        info = {'bumps': 1}
         try:
             with concurrent.futures.ThreadPoolExecutor(3) as pool:
                 albedo = pool.submit(self.povray, 'prepared', file, ['+Q1', '+WT1'], 'albedo')
