@@ -78,6 +78,7 @@ typedef struct Vertex {
     int picked; /* pick is known */
     LightPick pick;
     DirectLightSample light;
+    Texture white;            /* in place of the surface's own, where PathContext.white */
     const CausticsCell *cell; /* of the guide to caustics; NULL: none here, or nothing scatters widely */
 } Vertex;
 

@@ -30,12 +30,13 @@ void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit
         shading_color(&v->s, &v->place, w->variants, c->nvariants);
 }
 
-/* Make it a white diffuse surface. */
-static void whiten(Shading *s, const Ray *ray)
+/* Make it a white diffuse surface, of the same bumps. */
+static void whiten(Vertex *v, const Ray *ray)
 {
     static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40};
-    static const Texture texture = {.finish = &finish};
-    s->surface.texture = &texture;
+    Shading *s = &v->s;
+    v->white = (Texture){.finish = &finish, .normal = s->surface.texture->normal};
+    s->surface.texture = &v->white;
     s->surface.target = -1;
     s->albedo = rgb_grey(1);
     s->replaced = 0;
@@ -61,7 +62,7 @@ void find_bsdf(PathWorker *w, const Path *path, Vertex *v, const Ray *ray, const
     const PathContext *c = w->context;
     bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
     if (c->white && is_first_hit(path))
-        whiten(&v->s, ray);
+        whiten(v, ray);
     if (c->trace)
         print_hit(c, hit, &v->s);
     v->cell = guide_cell(c, &v->s);

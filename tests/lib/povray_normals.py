@@ -21,7 +21,12 @@ bumps .5
 bumps 1.2 scale .3
 bumps .5 scale <.2,.6,1> rotate <10,20,30> translate <.1,.2,.3>
 bumps .5 scale <.2,.6,1> no_bump_scale
+bumps .5 turbulence .4 scale .5
+bumps .5 scale .3 turbulence .3 rotate 30*x scale <1,2,1>
+bumps .5 scale .3 warp { turbulence .3 octaves 3 } scale <2,1,1> rotate 20*z
+gradient x .5 warp { repeat .5*y flip x } scale .4 rotate 30*z
 dents .8 scale .4
+dents 1.5 scale .2 noise_generator 1
 wrinkles .5 scale .7
 ripples .4 frequency 6 phase .3
 ripples .3 scale .2
@@ -53,8 +58,14 @@ hexagon .5 scale .3
 checker normal { bumps .6 scale .2 } normal { gradient x .5 scale .2 } scale .7
 brick normal { bumps .6 scale .5 } normal { granite .3 scale 3 } scale .15
 gradient x normal_map { [0 bumps .7 scale .2] [.5 bumps .1 scale .2] [1 dents 1 scale .1] } scale .8
+bumps normal_map { [.3 gradient x .5 scale .2] [.7 gradient y .5 scale .2] } scale .5
 average normal_map { [1 bumps .7 scale .2] [2 gradient x .5 scale .3] }
 average normal_map { [1 bumps .7 scale .2] [.5 wrinkles 1] } rotate 40*y scale <1,.5,1>
+average turbulence .2 normal_map { [1 bumps .7 scale .2] [.5 wrinkles 1] }
+gradient x no_bump_scale normal_map { [0 bumps .7 scale .2] [1 dents .7 scale .3] } scale .6
+slope y .5
+slope { <1,1,0> 0 .7 } .5 scale .5
+aoi .8
 bump_map { png "bumps.png" bump_size 3 } scale 2
 bump_map { png "bumps.png" map_type 1 interpolate 2 bump_size 5 }
 bump_map { png "bumps.png" map_type 2 interpolate 4 bump_size 5 }
