@@ -7,11 +7,11 @@
 
 #include "texture/texture_kernel.h"
 
-/* Gaussians: the least ratio of the smaller variance to the larger, and the smaller variance in texels of the level
- * that is chosen, with interpolation. The few paths of a broad footprint hardly determine its shape. */
+/* Gaussians: the least ratio of the smaller variance to the larger, and the least variance, in texels of the level that
+ * is chosen, with interpolation; and the largest one, of broad footprints: few paths hardly determine their shape. */
 static const struct {
-    float narrowest, least;
-} gaussians[] = {[RETEX_TEXTURE_GAUSSIAN] = {1.0f / 64, 0.35f}, [RETEX_TEXTURE_BROAD] = {1.0f / 4, 0.2f}};
+    float narrowest, least, most;
+} gaussians[] = {[RETEX_TEXTURE_GAUSSIAN] = {1.0f / 64, 0.35f, 0}, [RETEX_TEXTURE_BROAD] = {1.0f / 4, 0.35f, 1.9f}};
 
 #define LEAST_ALPHA 1e-20f /* alpha below this has no colour that a float can hold */
 
@@ -45,8 +45,10 @@ static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexText
     const RetexTextureLevel *image = &texture->levels[0];
     *t = (RetexBatchTexture){.texture = texture,
                              .gaussian = shape != RETEX_TEXTURE_DISC,
+                             .broad = shape == RETEX_TEXTURE_BROAD,
                              .narrowest = gaussians[shape].narrowest,
-                             .least = gaussians[shape].least};
+                             .least = gaussians[shape].least,
+                             .most = gaussians[shape].most};
     t->size[0] = image->width;
     t->size[1] = image->height;
     t->levels = count_levels(texture);

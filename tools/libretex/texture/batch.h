@@ -24,7 +24,8 @@ typedef struct RetexBatchLimit {
 typedef struct RetexBatchTexture {
     const RetexTexture *texture;
     int gaussian;
-    float narrowest, least; /* see batch.c */
+    int broad;                           /* 1: the level is chosen by `most', and never interpolated */
+    float narrowest, least, most;        /* see batch.c */
     double matrix[2][2], offset[2];      /* from surface UV to image UV, in images, y down */
     double period[2];                    /* period of the image along x and y; 0: it does not repeat */
     double size[2];                      /* texels of level 0 */
@@ -36,7 +37,7 @@ typedef struct RetexBatchTexture {
     float blur[2][2][BATCH_LEVELS];      /* by axis and term: the variance that a level already has */
     float spread[2][BATCH_LEVELS];       /* 0 along an axis of one repeating texel, else 1 */
     float padding[BATCH_LEVELS];         /* padding of each level */
-    RetexBatchLimit limits[2];                /* limits of the image along x and y */
+    RetexBatchLimit limits[2];           /* limits of the image along x and y */
     int limited;                         /* 1: there is at least one limit */
 } RetexBatchTexture;
 

@@ -274,17 +274,17 @@ RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
     return p * p;
 }
 
-RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band, int nlines, int ncolumns)
 {
     const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that the squares are the exponents */
     Lanes down = reach / g->length, over = reach / g->half, columns[4 * MAX_BLOCKS];
     const Lanes most = NAME(all)(0.5f * GAUSSIAN_REACH * GAUSSIAN_REACH);
-    for (int c = 0; c < g->columns; c++)
+    for (int c = 0; c < ncolumns; c++)
         columns[c] = (float)c * over;
-    for (int j = 0; j < band->lines; j++) {
+    for (int j = 0; j < nlines; j++) {
         Lanes y = band->begin + (float)j, v = y * down, middle = (band->middle + g->slope * y) * over;
         Lanes square = v * v;
-        for (int c = 0; c < g->columns; c++) {
+        for (int c = 0; c < ncolumns; c++) {
             Lanes u = columns[c] - middle, q = MIN(u * u + square, most);
             band->weights[j][c] = MAX(NAME(exp_minus)(q) - GAUSSIAN_EDGE, NAME(all)(0));
         }
@@ -292,18 +292,25 @@ RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
 }
 
 /* Cuts off weights beyond the limits of the surface. */
-RETEX_CPU_INLINE void NAME(cut_band)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(cut_band)(Group *g, Band *band, int nlines, int ncolumns)
 {
     Lanes across[4 * MAX_BLOCKS];
-    for (int c = 0; c < g->columns; c++)
+    for (int c = 0; c < ncolumns; c++)
         across[c] = NAME(share_within)((float)c - band->middle, g->low[1], g->high[1]);
-    for (int j = 0; j < band->lines; j++) {
+    for (int j = 0; j < nlines; j++) {
         Lanes along = NAME(share_within)(band->begin + (float)j, g->low[0], g->high[0]);
-        for (int c = 0; c < g->columns; c++) {
+        for (int c = 0; c < ncolumns; c++) {
             g->whole += band->weights[j][c];
             band->weights[j][c] *= along * across[c];
         }
     }
+}
+
+RETEX_CPU_INLINE void NAME(add_total)(Group *g, const Band *band, int nlines, int ncolumns)
+{
+    for (int j = 0; j < nlines; j++)
+        for (int c = 0; c < ncolumns; c++)
+            g->total += band->weights[j][c];
 }
 
 RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
@@ -315,49 +322,34 @@ RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
         NAME(weigh_fine)(g, band, g->length * in, g->half * in, NAME(all)(1 / (in * in)), 0);
         NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 1);
     } else if (g->texture->gaussian) {
-        NAME(weigh_gaussian)(g, band);
+        NAME(weigh_gaussian)(g, band, band->lines, g->columns);
     } else if (g->fine) {
         NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 0);
     } else {
         NAME(weigh_boxes)(g, band);
     }
     if (g->cut)
-        NAME(cut_band)(g, band);
-    for (int j = 0; j < band->lines; j++)
-        for (int c = 0; c < g->columns; c++)
-            g->total += band->weights[j][c];
+        NAME(cut_band)(g, band, band->lines, g->columns);
+    NAME(add_total)(g, band, band->lines, g->columns);
 }
 
 #include "texture/batch_sum.h"
 
-/* Loads the limits of the surface. */
-RETEX_CPU_INLINE void NAME(load_ends)(Group *g)
+/* Loads the group's footprints. */
+RETEX_CPU_INLINE void NAME(load_group)(Group *g)
 {
     const Places *p = g->places;
+    const void *arrays[] = {p->along, p->across, p->length, p->half,   p->slope,  p->lean,    p->reach,  p->first,
+                            p->line,  p->texel,  p->level,  p->low[0], p->low[1], p->high[0], p->high[1]};
+    const int count = g->cut ? 15 : 11;
+    Lanes values[15];
     Mask index;
     LOAD(index, g->index);
-    for (int k = 0; k < 2; k++) {
-        g->low[k] = PICK(p->low[k], index);
-        g->high[k] = PICK(p->high[k], index);
-    }
-}
-
-RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
-{
-    Band band;
-    const Places *p = g->places;
-    const void *arrays[] = {p->along, p->across, p->length, p->half,  p->slope, p->lean,
-                            p->reach, p->first,  p->line,   p->texel, p->level};
-    Lanes values[11];
-    if (g->contiguous) {
-        for (int k = 0; k < 11; k++)
+    for (int k = 0; k < count; k++)
+        if (g->contiguous)
             LOAD(values[k], (const float *)arrays[k] + g->index[0]);
-    } else {
-        Mask index;
-        LOAD(index, g->index);
-        for (int k = 0; k < 11; k++)
+        else
             values[k] = PICK((const float *)arrays[k], index);
-    }
     g->along = values[0];
     g->across = values[1];
     g->length = values[2];
@@ -369,14 +361,17 @@ RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
     g->line = values[8];
     g->texel = values[9];
     g->level = (Mask)values[10];
-    if (g->cut)
-        NAME(load_ends)(g);
+    for (int k = 0; k < 2 && g->cut; k++) {
+        g->low[k] = values[11 + k];
+        g->high[k] = values[13 + k];
+    }
     g->total = g->whole = NAME(all)(0);
     memset(g->sums, 0, sizeof g->sums);
-    for (int b = 0; b < g->bands; b++) {
-        NAME(weigh_band)(g, b, &band);
-        NAME(sum_blocks)(g, b, &band);
-    }
+}
+
+/* Writes the group's colours. */
+RETEX_CPU_INLINE void NAME(store_group)(const Group *g, RetexBatch *batch)
+{
     Lanes inverse = 1 / (g->total * (g->texture->texture->narrow ? NARROW_ONE : 1));
     for (int lane = 0; lane < g->count; lane++) {
         const float *s = g->sums[lane];
@@ -388,21 +383,32 @@ RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
             batch->left[batch->nleft++] = g->index[lane];
 }
 
-/* Sorts the footprints of a batch by key, by counting; returns how many have one. `order`: indices by key; ends[k]: end
- * of key k in it. */
-RETEX_CPU_INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order, int *ends)
+RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
+{
+    Band band;
+    NAME(load_group)(g);
+    for (int b = 0; b < g->bands; b++) {
+        NAME(weigh_band)(g, b, &band);
+        NAME(sum_blocks)(g, b, &band);
+    }
+    NAME(store_group)(g, batch);
+}
+
+/* Sorts the pending footprints of a batch by key, by counting; returns how many have one. `order`: indices by key;
+ * ends[k]: end of key k in it. */
+RETEX_CPU_INLINE int NAME(sort)(const int *pending, int npending, const Places *places, int *order, int *ends)
 {
     int sum = 0;
     memset(ends, 0, sizeof *ends * (NKEYS + 1));
-    for (int i = 0; i < batch->count; i++)
-        ends[places->key[i]]++;
+    for (int i = 0; i < npending; i++)
+        ends[places->key[pending[i]]]++;
     for (int k = 0; k <= NKEYS; k++) {
         int count = ends[k];
         ends[k] = sum;
         sum += count;
     }
-    for (int i = 0; i < batch->count; i++)
-        order[ends[places->key[i]]++] = i;
+    for (int i = 0; i < npending; i++)
+        order[ends[places->key[pending[i]]]++] = pending[i];
     return ends[NKEYS - 1];
 }
 
@@ -443,25 +449,91 @@ RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *en
     g->contiguous = begin + LANES <= ends[key] && g->index[LANES - 1] == g->index[0] + LANES - 1;
 }
 
+/* Forms a group of the footprints from i on, if all their windows have at most 4 x 4 texels, as many broad footprints
+ * have. */
+RETEX_CPU_INLINE int NAME(form_row)(Group *g, int count, int i)
+{
+    Mask key;
+    LOAD(key, g->places->key + i);
+    const Mask larger = (key != 0) & (key != 4 * MAX_BANDS * MAX_BLOCKS);
+    int others = 0;
+    for (int lane = 0; lane < LANES; lane++)
+        others |= larger[lane];
+    g->cut = g->texture->limited;
+    g->turned = g->fine = 0;
+    g->bands = g->blocks = g->contiguous = 1;
+    g->count = count - i < LANES ? count - i : LANES;
+    for (int lane = 0; lane < LANES; lane++)
+        g->index[lane] = i + lane;
+    return !others;
+}
+
+/* The weights and texels of such a group. */
+RETEX_CPU_INLINE void NAME(weigh_row)(Group *g, Blocks *blocks)
+{
+    Band band;
+    g->lines = g->columns = 4;
+    NAME(load_group)(g);
+    NAME(begin_band)(g, 0, &band);
+    NAME(weigh_gaussian)(g, &band, 4, 4);
+    if (g->cut)
+        NAME(cut_band)(g, &band, 4, 4);
+    NAME(add_total)(g, &band, 4, 4);
+    NAME(find_blocks)(g, 0, &band, 0, blocks);
+}
+
+/* Computes the places of all footprints, and filters broad ones in rows, each while the texels of the next one are
+ * loaded. Returns how many are pending. */
+RETEX_CPU_INLINE int NAME(filter_rows)(const RetexBatchTexture *texture, RetexBatch *batch, Places *places,
+                                       int *pending)
+{
+    Group groups[2] = {{.texture = texture, .places = places}, {.texture = texture, .places = places}};
+    Blocks blocks[2];
+    const int in_rows = texture->broad && !texture->black[0] && !texture->black[1], narrow = texture->texture->narrow;
+    int npending = 0, waiting = 0, is_row = 0;
+    for (int i = 0; i < batch->count || is_row; i += LANES) {
+        const int next = !waiting, was_row = is_row;
+        is_row = 0;
+        if (i < batch->count) {
+            NAME(place)(texture, batch, places, i);
+            is_row = in_rows && NAME(form_row)(&groups[next], batch->count, i);
+            for (int k = i; k < i + LANES && k < batch->count && !is_row; k++)
+                pending[npending++] = k;
+        }
+        if (is_row) {
+            NAME(weigh_row)(&groups[next], &blocks[next]);
+            NAME(prefetch)(&groups[next], &blocks[next], narrow);
+        }
+        if (was_row && narrow)
+            NAME(sum_lanes)(&groups[waiting], &blocks[waiting], 0, 1);
+        else if (was_row)
+            NAME(sum_lanes)(&groups[waiting], &blocks[waiting], 0, 0);
+        if (was_row)
+            NAME(store_group)(&groups[waiting], batch);
+        waiting = next;
+    }
+    return npending;
+}
+
 static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *batch)
 {
     Places places;
     Group group = {.texture = texture, .places = &places};
-    int ends[NKEYS + 1], order[BATCH_SIZE], begin = 0;
+    int ends[NKEYS + 1], order[BATCH_SIZE], pending[BATCH_SIZE], begin = 0;
     for (int i = batch->count; i % LANES; i++) { /* unused footprints that complete a vector */
         batch->u[i] = batch->v[i] = batch->su[i] = batch->sv[i] = batch->correlation[i] = 0;
     }
-    for (int i = 0; i < batch->count; i += LANES)
-        NAME(place)(texture, batch, &places, i);
-    NAME(leave_borders)(texture, batch->count, &places);
-
-    const int end = NAME(sort)(batch, &places, order, ends);
     batch->nleft = 0;
+    const int npending = NAME(filter_rows)(texture, batch, &places, pending);
+    if (!npending)
+        return;
+    NAME(leave_borders)(texture, batch->count, &places);
+    const int end = NAME(sort)(pending, npending, &places, order, ends);
     for (; begin < end; begin += group.count) {
         NAME(form_group)(&group, order, ends, begin);
         NAME(filter_group)(&group, batch);
     }
-    while (begin < batch->count)
+    while (begin < npending)
         batch->left[batch->nleft++] = order[begin++];
 }
 
@@ -471,6 +543,7 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
 #undef Group
 #undef Band
 #undef Chord
+#undef Blocks
 #undef MIN
 #undef MAX
 #undef SQRT

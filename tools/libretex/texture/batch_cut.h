@@ -17,16 +17,18 @@ RETEX_CPU_INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lane
 }
 
 /* Converts the limits to lines and texels of a line; length and width are the half sizes of the window. Returns which
- * footprints are cut: none where all is beyond a limit, which the reference ignores then. */
+ * footprints are cut: none where all is beyond a limit, which the reference ignores then, as these limits do. */
 RETEX_CPU_INLINE Mask NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};
     Lanes high[2] = {SELECT(turned, ends[0].high, ends[1].high), SELECT(turned, ends[1].high, ends[0].high)};
-    Mask inside = (low[0] < -length) & (high[0] > length) & (low[1] < -width) & (high[1] > width);
+    const Lanes half = NAME(all)(0.5f); /* of the outermost texels */
+    Mask inside =
+        (low[0] < -length - half) & (high[0] > length + half) & (low[1] < -width - half) & (high[1] > width + half);
     Mask outside = (low[0] > length + 1) | (high[0] < -1 - length) | (low[1] > width + 1) | (high[1] < -1 - width);
     for (int k = 0; k < 2; k++) {
-        STORE(p->low[k] + i, low[k]);
-        STORE(p->high[k] + i, high[k]);
+        STORE(p->low[k] + i, SELECT(outside, NAME(all)(-INFINITY), low[k]));
+        STORE(p->high[k] + i, SELECT(outside, NAME(all)(INFINITY), high[k]));
     }
     return ~(inside | outside);
 }

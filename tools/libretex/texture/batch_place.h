@@ -77,20 +77,25 @@ RETEX_CPU_INLINE void NAME(widen)(Spread *s, float narrowest)
     s->yy += lacks;
 }
 
-/* Chooses the level by the smaller variance: each level divides it by four. *fine: texels are interpolated. */
+/* Chooses the level by the smaller variance, of broad footprints by the larger one: each level divides it by four.
+ * *fine: texels are interpolated. */
 RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask *fine)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
-    Lanes smaller = 0.5f * (sum - root), larger = MAX(0.5f * (sum + root), NAME(all)(1e-12f));
-    if (t->gaussian) {
+    Lanes smaller = 0.5f * (sum - root), larger = MAX(0.5f * (sum + root), NAME(all)(1e-12f)), deciding = smaller;
+    if (t->broad) {
+        needed = NAME(all)((t->most + 1.0f / 12) / 4);
+        deciding = larger;
+        *fine = (Mask){0};
+    } else if (t->gaussian) {
         needed = NAME(all)(t->least + 1.0f / 12);
         *fine = smaller < t->least - BATCH_TENT_VARIANCE;
     } else {
         needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
         *fine = smaller < BOX_FROM;
     }
-    Mask level = (((Mask)((smaller + 0.25f) / needed) >> 23) - 127) >> 1;
+    Mask level = (((Mask)((deciding + 0.25f) / needed) >> 23) - 127) >> 1;
     level &= level > 0;
     Mask over = level > t->levels - 1;
     level = (over & (t->levels - 1)) | (~over & level);
@@ -136,7 +141,7 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
-    Mask turned = s->xx > 1.1f * s->yy; /* round ellipses are never turned */
+    Mask turned = t->broad ? (Mask){0} : s->xx > 1.1f * s->yy; /* round ellipses are never turned */
     Lanes along = SELECT(turned, s->xx, s->yy), across = SELECT(turned, s->yy, s->xx);
     Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
     Lanes slope = s->xy / MAX(along, NAME(all)(1e-12f));
@@ -215,6 +220,10 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
     s.xx = NAME(reduce_variance)(t, 0, mean[0], s.xx, level, fine);
     s.yy = NAME(reduce_variance)(t, 1, mean[1], s.yy, level, fine);
     s.xy *= OF_LEVEL(t->inverse_area[1], level) * OF_LEVEL(t->spread[0], level) * OF_LEVEL(t->spread[1], level);
+    if (t->broad) { /* the least variances may leave no covariance: it is at most that of the narrowest ellipse */
+        const Lanes most = (1 - t->narrowest) / (1 + t->narrowest) * SQRT(s.xx * s.yy);
+        s.xy = MAX(MIN(s.xy, most), -most);
+    }
     STORE(p->level + i, level);
     STORE(p->column + i, index[0]);
     STORE(p->row + i, index[1]);

@@ -108,48 +108,53 @@ RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16]
 #endif
 }
 
-/* The offset of a band's blocks in the texels of their levels, or of the padded copies; -1 where a block is partly
- * outside. */
-RETEX_CPU_INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
+/* The blocks of a band: weights and places, by lane. */
+#define Blocks NAME(Blocks)
+typedef struct Blocks {
+    float weights[LANES][MAX_BLOCKS][16];
+    int first[LANES]; /* offset in the texels of the level, or of the padded copy; -1: a block is partly outside */
+    int columns[LANES], rows[LANES], levels[LANES];
+} Blocks;
+
+RETEX_CPU_INLINE void NAME(find_blocks)(const Group *g, int number, const Band *band, int turned, Blocks *blocks)
 {
     const RetexBatchTexture *t = g->texture;
     Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
-    *x = g->turned ? lines : texels;
-    *y = g->turned ? texels : lines;
+    Mask x = turned ? lines : texels, y = turned ? texels : lines;
     Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, g->level), Mask);
     Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask) + 2 * padding;
     Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask) + 2 * padding;
     int across = 4 * g->blocks;
-    Mask column = *x + padding, row = *y + padding;
-    Mask inside = (column >= 0) & (row >= 0) & (column <= width - (g->turned ? 4 : across)) &
-                  (row <= height - (g->turned ? across : 4));
-    return ((row & inside) * width + (column & inside)) | ~inside; /* values far outside would overflow */
+    Mask column = x + padding, row = y + padding;
+    Mask inside = (column >= 0) & (row >= 0) & (column <= width - (turned ? 4 : across)) &
+                  (row <= height - (turned ? across : 4));
+    STORE(blocks->first, ((row & inside) * width + (column & inside)) | ~inside); /* far outside would overflow */
+    STORE(blocks->columns, x);
+    STORE(blocks->rows, y);
+    STORE(blocks->levels, g->level);
+    for (int k = 0; k < g->blocks; k++)
+        NAME(turn_weights)(band, k, blocks->weights);
 }
 
-RETEX_CPU_INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
+RETEX_CPU_INLINE const char *NAME(block_texels)(const RetexTextureLevel *level, int first, int narrow)
 {
-    float weights[LANES][MAX_BLOCKS][16];
-    int first[LANES], columns[LANES], rows[LANES], levels[LANES];
-    Mask x, y, begin = NAME(find_blocks)(g, number, band, &x, &y);
-    STORE(first, begin);
-    STORE(columns, x);
-    STORE(rows, y);
-    STORE(levels, g->level);
-    for (int k = 0; k < g->blocks; k++)
-        NAME(turn_weights)(band, k, weights);
+    return (const char *)(level->padded ? level->padded : level->texels) + (size_t)first * (narrow ? 8 : 16);
+}
+
+RETEX_CPU_INLINE void NAME(sum_lanes)(Group *g, const Blocks *blocks, int turned, int narrow)
+{
     for (int lane = 0; lane < g->count; lane++) {
-        const RetexTextureLevel *level = &g->texture->texture->levels[levels[lane]];
+        const RetexTextureLevel *level = &g->texture->texture->levels[blocks->levels[lane]];
         size_t stride = (size_t)(level->width + 2 * level->padding);
-        const float(*own)[16] = (const float(*)[16])weights[lane];
-        if (first[lane] >= 0) {
-            const char *texels =
-                (const char *)(level->padded ? level->padded : level->texels) + (size_t)first[lane] * (narrow ? 8 : 16);
+        const float(*own)[16] = blocks->weights[lane];
+        if (blocks->first[lane] >= 0) {
+            const char *texels = NAME(block_texels)(level, blocks->first[lane], narrow);
             NAME(sum_texels)(g->sums[lane], own, g->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
         } else {
             for (int k = 0; k < g->blocks; k++) {
                 char around[16 * 4 * sizeof(float)];
-                retex_texture_copy_block(g->texture->texture, level, columns[lane] + (turned ? 0 : 4 * k),
-                                         rows[lane] + (turned ? 4 * k : 0), around);
+                retex_texture_copy_block(g->texture->texture, level, blocks->columns[lane] + (turned ? 0 : 4 * k),
+                                         blocks->rows[lane] + (turned ? 4 * k : 0), around);
                 NAME(sum_texels)(g->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
             }
         }
@@ -158,13 +163,27 @@ RETEX_CPU_INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int
 
 RETEX_CPU_INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
 {
+    Blocks blocks;
     int narrow = g->texture->texture->narrow;
+    NAME(find_blocks)(g, number, band, g->turned, &blocks);
     if (g->turned && narrow)
-        NAME(sum_band)(g, number, band, 1, 1);
+        NAME(sum_lanes)(g, &blocks, 1, 1);
     else if (g->turned)
-        NAME(sum_band)(g, number, band, 1, 0);
+        NAME(sum_lanes)(g, &blocks, 1, 0);
     else if (narrow)
-        NAME(sum_band)(g, number, band, 0, 1);
+        NAME(sum_lanes)(g, &blocks, 0, 1);
     else
-        NAME(sum_band)(g, number, band, 0, 0);
+        NAME(sum_lanes)(g, &blocks, 0, 0);
+}
+
+/* Starts loading blocks that are summed later. */
+RETEX_CPU_INLINE void NAME(prefetch)(const Group *g, const Blocks *blocks, int narrow)
+{
+    for (int lane = 0; lane < g->count; lane++) {
+        const RetexTextureLevel *level = &g->texture->texture->levels[blocks->levels[lane]];
+        const size_t stride = (size_t)(level->width + 2 * level->padding) * (narrow ? 8 : 16);
+        const char *texels = NAME(block_texels)(level, blocks->first[lane] < 0 ? 0 : blocks->first[lane], narrow);
+        for (int row = 0; row < 4; row++)
+            __builtin_prefetch(texels + (size_t)row * stride);
+    }
 }
