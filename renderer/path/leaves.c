@@ -34,9 +34,9 @@ int leaf_passes(const Leaf *leaf)
 
 /* ---- leaves ---- */
 
-static int same_finish(const Finish *a, const Finish *b)
+static int same_finish(const Texture *a, const Texture *b)
 {
-    return a == b || memcmp(a, b, sizeof *a) == 0;
+    return a->normal == b->normal && (a->finish == b->finish || memcmp(a->finish, b->finish, sizeof *a->finish) == 0);
 }
 
 /* What an opaque surface scatters and emits is linear in its colour. */
@@ -55,7 +55,7 @@ static int merge_leaf(Leaves *leaves, const Leaf *leaf)
     for (int k = 0; k < leaves->count && may_merge(leaf); k++) {
         Leaf *to = &leaves->leaf[k];
         const float weight = to->weight + leaf->weight;
-        if (!may_merge(to) || !same_finish(to->texture->finish, leaf->texture->finish) || !(weight > 0))
+        if (!may_merge(to) || !same_finish(to->texture, leaf->texture) || !(weight > 0))
             continue;
         const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
         to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};

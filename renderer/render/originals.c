@@ -71,15 +71,29 @@ static int dominant_axis(const Primitive *p)
     return x > y && x > z ? 0 : y >= z ? 1 : 2;
 }
 
+/* The primitive that is the target and its pigment; NULL where textures of a tree that are the target have different
+ * ones: they are no one picture. */
+static const Pigment *target_pigment(const Scene *scene, int target, const Primitive **of)
+{
+    const Texture *texture = NULL, *other;
+    int whole;
+    for (int k = 0; k < scene->nprimitives && !texture; k++)
+        *of = &scene->primitives[k], texture = primitive_target_texture(*of, target);
+    for (int k = 0; texture && (other = primitive_texture(*of, k, &whole)); k++)
+        for (int j = 0; other->tree && j < other->tree->nleaves; j++) {
+            const Texture *leaf = other->tree->leaves[j];
+            if (leaf->pigment != texture->pigment && texture_leaf_target(leaf, whole) == target)
+                return NULL;
+        }
+    return texture ? texture->pigment : NULL;
+}
+
 static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, RetexError *err)
 {
-    const Texture *texture = NULL;
     const Primitive *p = NULL;
-    for (int k = 0; k < scene->nprimitives && !texture; k++)
-        p = &scene->primitives[k], texture = primitive_target_texture(p, t);
-    if (!texture)
+    const Pigment *pigment = target_pigment(scene, t, &p);
+    if (!pigment)
         return RETEX_OK;
-    const Pigment *pigment = texture->pigment;
     RetexTarget *target = &set->targets[t];
     for (int k = 0; k < 2; k++) {
         int whole = pigment->kind == PIGMENT_IMAGE || !(target->uv_max[k] > target->uv_min[k]);

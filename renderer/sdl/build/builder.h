@@ -19,13 +19,10 @@
 /* ---- what is not supported ---- */
 
 #define GAP_TABLE(X) \
-    X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish") \
-    X(MATERIAL_MAP, "material_map", "its first texture is used") \
     X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
     X(IMAGE_PALETTE, "filter or transmit of a palette entry", "the entry stays opaque") \
     X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
-    X(LAYERED, "a layered texture", "its topmost opaque layer is used") \
     X(IRID, "irid", "it is ignored") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
@@ -70,7 +67,6 @@ typedef struct ParsedColorMap {
     ColorMap map;
     int parts, depth; /* entries, with those of its pigments' maps; how deep these are nested */
     Gaps gaps;
-    const struct ParsedTexture *texture; /* of a texture_map: its first */
 } ParsedColorMap;
 
 typedef struct ParsedFinish {
@@ -102,12 +98,32 @@ typedef struct ParsedBumpMap {
     int use_index; /* heights are the indices of a palette, if the picture has one */
 } ParsedBumpMap;
 
+/* How many plain textures a texture has, how many of them may be seen at one point, how deep maps are nested. */
+typedef struct TextureCounts {
+    int leaves, seen, depth;
+} TextureCounts;
+
+typedef struct ParsedTextureEntry {
+    double value;
+    const struct ParsedTexture *texture; /* where the whole is, not in the pattern's space; see texture_nested */
+} ParsedTextureEntry;
+
+/* Textures by the value of a pattern. */
+typedef struct ParsedTextureMap {
+    TextureTreeKind kind;          /* not of layers */
+    const ParsedPigment *selector; /* NULL of maps that no texture has yet */
+    int count, capacity;
+    ParsedTextureEntry *entries; /* in order of value */
+    TextureCounts counts;
+} ParsedTextureMap;
+
 typedef struct ParsedTexture {
     Texture texture;                   /* first: its pigment is a ParsedPigment, its finish a ParsedFinish, its normal
                                           NULL or a ParsedNormal */
     const struct ParsedTexture *below; /* the layer under it */
+    const ParsedTextureMap *map;       /* or NULL; then it has no layers, and pigment and finish are of a first leaf */
     Gaps gaps;
-    int names_joined; /* the names of its pigment are joined to its own */
+    int is_complete; /* its tree is made, and the names of pigments are joined to those of textures */
 } ParsedTexture;
 
 /* A texture and the transform written after it: `sphere{… texture{T} rotate …}` only multiplies matrices. */
@@ -273,23 +289,23 @@ ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
 ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
 Rgbft pigment_mean(const Pigment *pigment);
-/* A pattern of whole textures (texture_map, tiles, texture lists): the pigment of their mean colours. */
-ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps);
+/* A pattern of textures, up to the end: the pattern as a pigment without colours, and its textures in map. */
+ParsedPigment *parse_selector(Sdl *sdl, char end, ParsedTextureMap *map);
 ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */
 ParsedColorMap *parse_pigment_map(Sdl *sdl); /* after pigment_map */
-ParsedColorMap *parse_texture_map(Sdl *sdl); /* after texture_map */
-int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures);
 int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment); /* a pattern's keyword and arguments, no list of colours */
+/* textures: gets a list of textures in place of colours; NULL: there are colours. */
+int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures);
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
 ParsedColorMap *color_list_new(Sdl *sdl, int n); /* of the colours that POV-Ray takes where none are given */
-/* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace the map's entries. */
-void parse_color_list(Sdl *sdl, ParsedColorMap *map, int first_entry, int n, const ParsedTexture **first, int textures);
 void color_map_set(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedPigment *pigment);
 void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map);
 /* The name of an image and before it `png` and the like, which are not looked at: its file, also by a name without its
  * ending; or an error. */
 const char *parse_image_path(Sdl *sdl);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
+/* An image and its options, up to what is none. */
+ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment);
 
 /* normal.c, bump_map.c */
 const ParsedNormal *parse_normal(Sdl *sdl, const ParsedNormal *from /* or NULL */); /* after `normal` */
@@ -314,15 +330,37 @@ int parse_field(Sdl *sdl, const char *word, FunctionForeign *function);
 ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from /* or NULL: the built-in one */);
 ParsedFinish *parse_finish(Sdl *sdl, const ParsedFinish *from);
 
+/* texture_map.c */
+ParsedTextureMap *parse_texture_map(Sdl *sdl); /* after texture_map */
+/* `texture{…}` up to n times, in place of a list of colours. */
+void parse_texture_list(Sdl *sdl, ParsedTextureMap *map, int n);
+const ParsedTexture *parse_tiles(Sdl *sdl);        /* after tiles */
+const ParsedTexture *parse_material_map(Sdl *sdl); /* after material_map */
+/* A pattern with its textures, up to the end of the texture. */
+const ParsedTexture *parse_texture_pattern(Sdl *sdl, char end, int uv_mapping);
+
+/* texture_tree.c: what is done to all of a texture's layers and maps. Changed ones are copies. */
+const ParsedTexture *texture_moved(Sdl *sdl, const ParsedTexture *texture, const Transform *by);
+/* Lying in the pattern space of a pigment. */
+const ParsedTexture *texture_nested(Sdl *sdl, const ParsedTexture *texture, const Pigment *in);
+const ParsedTexture *texture_uv_mapped(Sdl *sdl, const ParsedTexture *texture);
+const ParsedTexture *texture_named(Sdl *sdl, const ParsedTexture *texture, const IdentList *more);
+const ParsedTexture *texture_over(Sdl *sdl, const ParsedTexture *top, const ParsedTexture *bottom);
+TextureCounts texture_counts(Sdl *sdl, const ParsedTexture *texture); /* an error beyond all bounds */
+void texture_check_counts(Sdl *sdl, const TextureCounts *counts);
+/* Calls of each plain texture, layer or leaf, and of each pigment that chooses among textures. */
+typedef void TextureVisitor(Sdl *sdl, const ParsedTexture *texture, void *context);
+typedef void SelectorVisitor(Sdl *sdl, const ParsedTextureMap *map, void *context);
+void texture_visit(Sdl *sdl, const ParsedTexture *texture, TextureVisitor *visit, SelectorVisitor *selector,
+                   void *context);
+/* The texture of the scene: its tree is made, where it is no plain texture. Only once nothing is read any more. */
+const Texture *texture_complete(Sdl *sdl, const ParsedTexture *texture);
+
 /* texture.c */
 const ParsedTexture *parse_texture(Sdl *sdl); /* after `texture` */
 const ParsedTexture *parse_texture_body(Sdl *sdl, char end);
-const ParsedTexture *texture_moved(Sdl *sdl, const ParsedTexture *texture, const Transform *by);
-const ParsedTexture *texture_over(Sdl *sdl, const ParsedTexture *top, const ParsedTexture *bottom);
-const ParsedTexture *texture_named(Sdl *sdl, const ParsedTexture *texture, const IdentList *more);
 /* pigment, finish or normal where the next token is one of them: changes the top layer of *texture (NULL = default). */
 int accept_texture_part(Sdl *sdl, const ParsedTexture **texture);
-const ParsedTexture *texture_visible(const ParsedTexture *texture); /* the layer that is shown */
 ParsedTexture *texture_copy(Sdl *sdl, const ParsedTexture *from);
 const ParsedInterior *parse_interior(Sdl *sdl, const ParsedInterior *from);
 const ParsedMaterial *parse_material(Sdl *sdl);

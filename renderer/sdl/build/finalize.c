@@ -1,5 +1,5 @@
 /* What can only be done at the end of the scene: single triangles are gathered into meshes, images are loaded, the
- * visible layer of each texture is chosen, colours are converted from the working space to scene-linear, emission is
+ * trees of textures are made, colours are converted from the working space to scene-linear, emission is
  * derived from `ambient`, and names are listed.
  *
  * The working space. Colours are numbers of it: linear with assumed_gamma 1 (and in scenes of version 3.7 that say
@@ -171,19 +171,17 @@ static void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light, 
             load_pigment_images(sdl, pigment->map.entries[i].pigment, is_light, capacity);
 }
 
-static void load_texture_images(Sdl *sdl, const Texture *texture, int *capacity)
+static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *capacity)
 {
-    for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below) {
-        load_pigment_images(sdl, t->texture.pigment, finish_is_emitter(t->texture.finish), capacity);
-        normal_load(sdl, t->texture.normal);
-    }
+    load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish), capacity);
+    normal_load(sdl, texture->texture.normal);
 }
 
 /* ---- every texture in use ---- */
 
-typedef void TextureVisitor(Sdl *sdl, const Texture **texture, void *context);
+typedef void UseVisitor(Sdl *sdl, const Texture **texture, void *context);
 
-static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
+static void each_texture(Sdl *sdl, UseVisitor *visit, void *context)
 {
     Scene *scene = sdl_scene(sdl);
     for (int i = 0; i < scene->nprimitives; i++) {
@@ -198,26 +196,20 @@ static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
 
 static void visit_load(Sdl *sdl, const Texture **texture, void *context)
 {
-    load_texture_images(sdl, *texture, context);
+    texture_visit(sdl, (const ParsedTexture *)*texture, load_leaf_images, NULL, context);
 }
 
-/* Chooses the visible layer and joins the names of its pigment to its own. Every texture is this scene's own copy by
- * now. */
-static void visit_layers(Sdl *sdl, const Texture **texture, void *context)
+static void visit_complete(Sdl *sdl, const Texture **texture, void *context)
 {
     (void)context;
-    ParsedTexture *shown = (ParsedTexture *)texture_visible((const ParsedTexture *)*texture);
-    if (!shown->names_joined) {
-        shown->names_joined = 1;
-        shown->texture.idents = sdl_ident_join(sdl, shown->texture.pigment->idents, shown->texture.idents);
-    }
-    *texture = &shown->texture;
+    *texture = texture_complete(sdl, (const ParsedTexture *)*texture);
 }
 
 static void visit_albedo(Sdl *sdl, const Texture **texture, void *context)
 {
     (void)context;
-    check_albedo(sdl, *texture);
+    for (int k = 0; k < texture_leaf_count(*texture); k++)
+        check_albedo(sdl, texture_leaf(*texture, k));
 }
 
 /* Paths ask for it at every vertex. */
@@ -304,6 +296,12 @@ static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
     }
 }
 
+static void list_texture_names(Sdl *sdl, Names *names, const Texture *texture)
+{
+    for (int k = 0; k < texture_leaf_count(texture); k++)
+        list_names(sdl, names, texture_leaf(texture, k)->idents);
+}
+
 static void list_all_names(Sdl *sdl)
 {
     const Scene *scene = sdl_scene(sdl);
@@ -311,12 +309,12 @@ static void list_all_names(Sdl *sdl)
     const IdentList *last_texture = NULL, *last_object = NULL;
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *p = &scene->primitives[i];
-        if (p->texture->idents != last_texture)
-            list_names(sdl, &names, last_texture = p->texture->idents);
+        if (p->texture->tree || p->texture->idents != last_texture)
+            list_texture_names(sdl, &names, p->texture), last_texture = p->texture->idents;
         if (p->interior_texture)
-            list_names(sdl, &names, p->interior_texture->idents);
+            list_texture_names(sdl, &names, p->interior_texture);
         for (int j = 0; p->shape.textures && j < p->shape.textures->count; j++)
-            list_names(sdl, &names, p->shape.textures->list[j]->idents);
+            list_texture_names(sdl, &names, p->shape.textures->list[j]);
         if (p->idents != last_object)
             list_names(sdl, &names, last_object = p->idents);
     }
@@ -360,7 +358,7 @@ void finalize_scene(Sdl *sdl)
     gather_triangles(sdl);
     complete_csgs(sdl);
     load_images(sdl);
-    each_texture(sdl, visit_layers, NULL);
+    each_texture(sdl, visit_complete, NULL);
     each_texture(sdl, visit_albedo, NULL);
     find_shining(sdl);
     decode_colors(sdl);

@@ -104,9 +104,25 @@ static void computed_image(Sdl *sdl, ParsedPigment *pigment)
             sdl_next(sdl);
 }
 
-void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
+ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment)
 {
     Builder *builder = builder_of(sdl);
+    ParsedImage *image = sdl_alloc(sdl, sizeof *image);
+    image->working = 1;
+    image->file = sdl_peek(sdl)->file;
+    image->line = sdl_peek(sdl)->line;
+    image->map.path = parse_image_path(sdl);
+    while (image_option(sdl, pigment, image))
+        sdl_optional_comma(sdl);
+    image->next = builder->images;
+    builder->images = image;
+    pigment->pigment.kind = PIGMENT_IMAGE;
+    pigment->pigment.image = &image->map;
+    return image;
+}
+
+void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
+{
     sdl_expect(sdl, "{");
     if (sdl_is(sdl, "<")) {
         sdl_vector(sdl); /* the projection of very old scenes */
@@ -116,18 +132,7 @@ void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
         computed_image(sdl, pigment);
         return;
     }
-    ParsedImage *image = sdl_alloc(sdl, sizeof *image);
-    image->working = 1;
-    image->file = sdl_peek(sdl)->file;
-    image->line = sdl_peek(sdl)->line;
-    image->map.path = parse_image_path(sdl);
-    while (!sdl_accept(sdl, "}"))
-        if (!image_option(sdl, pigment, image))
-            sdl_expected(sdl, "an option of image_map or }");
-        else
-            sdl_optional_comma(sdl);
-    image->next = builder->images;
-    builder->images = image;
-    pigment->pigment.kind = PIGMENT_IMAGE;
-    pigment->pigment.image = &image->map;
+    parse_image(sdl, pigment);
+    if (!sdl_accept(sdl, "}"))
+        sdl_expected(sdl, "an option of image_map or }");
 }

@@ -4,29 +4,11 @@
 #include "pattern/pattern.h"
 #include "sdl/build/builder.h"
 
-/* ---- lists of colours, pigments or textures ---- */
+/* ---- lists of colours or pigments ---- */
 
-static void texture_item(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedTexture **first)
+static int list_item(Sdl *sdl, ParsedColorMap *map, int entry)
 {
-    const ParsedTexture *texture = parse_texture(sdl);
-    const ParsedTexture *shown = texture_visible(texture);
-    const ParsedPigment *of = (const ParsedPigment *)shown->texture.pigment;
-    map->map.entries[entry].color = pigment_mean(&of->pigment);
-    gaps_join(&map->gaps, &of->gaps);
-    gaps_join(&map->gaps, &texture->gaps);
-    /* Textures of one finish and plain colours are the same as a pattern of those colours. */
-    if (of->pigment.kind != PIGMENT_COLOR || texture->below ||
-        (*first && memcmp((*first)->texture.finish, shown->texture.finish, sizeof(Finish)) != 0))
-        gaps_add(&map->gaps, GAP_TEXTURE_MAP);
-    if (!*first)
-        *first = texture;
-}
-
-static int list_item(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedTexture **first, int textures)
-{
-    if (textures && sdl_accept(sdl, "texture"))
-        texture_item(sdl, map, entry, first);
-    else if (!textures && sdl_accept(sdl, "pigment"))
+    if (sdl_accept(sdl, "pigment"))
         color_map_set(sdl, map, entry, parse_pigment(sdl, default_pigment(sdl)));
     else if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl))
         map->map.entries[entry].color = sdl_color(sdl);
@@ -35,10 +17,15 @@ static int list_item(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedTextu
     return 1;
 }
 
-void parse_color_list(Sdl *sdl, ParsedColorMap *map, int first_entry, int n, const ParsedTexture **first, int textures)
+/* Or of textures. */
+static void parse_list(Sdl *sdl, ParsedPigment *pigment, int n, ParsedTextureMap *textures)
 {
-    for (int i = 0; i < n && list_item(sdl, map, first_entry + i, first, textures); i++)
+    ParsedColorMap *map = color_list_new(sdl, n);
+    if (textures)
+        parse_texture_list(sdl, textures, n);
+    for (int i = 0; !textures && i < n && list_item(sdl, map, i); i++)
         sdl_optional_comma(sdl);
+    pigment_set_map(pigment, map);
 }
 
 /* ---- patterns ---- */
@@ -101,16 +88,14 @@ static void pattern_arguments(Sdl *sdl, Pattern *pattern)
 }
 
 /* object { OBJECT COLOURS }: a list of two, the first outside. */
-static void object_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+static void object_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
 {
-    ParsedColorMap *map = color_list_new(sdl, 2);
     sdl_expect(sdl, "{");
     if (!accept_ident(sdl, VALUE_OBJECT) && !accept_object(sdl))
         sdl_expected(sdl, "an object");
     sdl_optional_comma(sdl);
-    parse_color_list(sdl, map, 0, 2, first, textures);
+    parse_list(sdl, pigment, 2, textures);
     sdl_expect(sdl, "}");
-    pigment_set_map(pigment, map);
 }
 
 int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
@@ -134,17 +119,14 @@ int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
     return 1;
 }
 
-int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
 {
     if (accept_pattern_word(sdl, pigment)) {
         const PatternOps *ops = pigment->pigment.pattern.ops;
-        if (ops->colors) {
-            ParsedColorMap *map = color_list_new(sdl, ops->colors);
-            parse_color_list(sdl, map, 0, ops->colors, first, textures);
-            pigment_set_map(pigment, map);
-        }
+        if (ops->colors)
+            parse_list(sdl, pigment, ops->colors, textures);
         if (ops->arguments == ARGUMENTS_OBJECT)
-            object_pattern(sdl, pigment, first, textures);
+            object_pattern(sdl, pigment, textures);
         return 1;
     }
     if (sdl_accept(sdl, "average"))

@@ -204,10 +204,10 @@ ParsedColorMap *parse_color_map(Sdl *sdl)
     return map;
 }
 
-static ParsedColorMap *known_map(Sdl *sdl, const char *word)
+static ParsedColorMap *known_map(Sdl *sdl)
 {
     Value *value = peek_ident(sdl, VALUE_OTHER);
-    if (!value || !value->word || strcmp(value->word, word) != 0)
+    if (!value || !value->word || strcmp(value->word, "pigment_map") != 0)
         return NULL;
     ParsedColorMap *known = value->data;
     sdl_next(sdl);
@@ -215,14 +215,11 @@ static ParsedColorMap *known_map(Sdl *sdl, const char *word)
     return known;
 }
 
-/* Reads an entry of a map after its value. */
-typedef void MapEntryReader(Sdl *sdl, ParsedColorMap *map, int *capacity, double value);
-
-/* The rest of a pigment_map or texture_map: the identifier of one, or its entries. */
-static ParsedColorMap *parse_map(Sdl *sdl, const char *word, MapEntryReader *read_entry)
+/* The rest of a pigment_map: the identifier of one, or its entries. */
+ParsedColorMap *parse_pigment_map(Sdl *sdl)
 {
     sdl_expect(sdl, "{");
-    ParsedColorMap *map = known_map(sdl, word);
+    ParsedColorMap *map = known_map(sdl);
     if (map)
         return map;
     map = map_new(sdl);
@@ -231,7 +228,8 @@ static ParsedColorMap *parse_map(Sdl *sdl, const char *word, MapEntryReader *rea
     while (sdl_accept(sdl, "[")) {
         double value = optional_float(sdl, 1); /* of `average` it may be left out */
         sdl_optional_comma(sdl);
-        read_entry(sdl, map, &capacity, value);
+        const ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
+        color_map_set(sdl, map, map_add(sdl, map, &capacity, value, pigment->pigment.color), pigment);
         sdl_optional_comma(sdl);
     }
     statement_end(sdl);
@@ -239,51 +237,22 @@ static ParsedColorMap *parse_map(Sdl *sdl, const char *word, MapEntryReader *rea
     return map;
 }
 
-static void read_pigment_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
-{
-    const ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
-    color_map_set(sdl, map, map_add(sdl, map, capacity, value, pigment->pigment.color), pigment);
-}
-
-static void read_texture_entry(Sdl *sdl, ParsedColorMap *map, int *capacity, double value)
-{
-    const ParsedTexture *texture = parse_texture_body(sdl, ']');
-    const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
-    map_add(sdl, map, capacity, value, pigment_mean(&pigment->pigment));
-    gaps_join(&map->gaps, &texture->gaps);
-    gaps_join(&map->gaps, &pigment->gaps);
-    if (!map->texture)
-        map->texture = texture;
-}
-
-ParsedColorMap *parse_pigment_map(Sdl *sdl)
-{
-    return parse_map(sdl, "pigment_map", read_pigment_entry);
-}
-
-ParsedColorMap *parse_texture_map(Sdl *sdl)
-{
-    ParsedColorMap *map = parse_map(sdl, "texture_map", read_texture_entry);
-    gaps_add(&map->gaps, GAP_TEXTURE_MAP);
-    return map;
-}
-
 /* ---- the body ---- */
 
-static int accept_map(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first)
+static int accept_map(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
 {
     ParsedColorMap *map;
+    if (textures && sdl_accept(sdl, "texture_map")) {
+        *textures = *parse_texture_map(sdl);
+        return 1;
+    }
     if (sdl_accept(sdl, "color_map") || sdl_accept(sdl, "colour_map"))
         map = parse_color_map(sdl);
     else if (sdl_accept(sdl, "pigment_map"))
         map = parse_pigment_map(sdl);
-    else if (sdl_accept(sdl, "texture_map"))
-        map = parse_texture_map(sdl);
     else
         return 0;
     pigment_set_map(pigment, map);
-    if (map->texture && first && !*first)
-        *first = map->texture;
     return 1;
 }
 
@@ -305,7 +274,7 @@ static int accept_named(Sdl *sdl, ParsedPigment *pigment)
     return 1;
 }
 
-static void pigment_item(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+static void pigment_item(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
 {
     Transform by;
     const char *file = sdl_peek(sdl)->file;
@@ -320,7 +289,7 @@ static void pigment_item(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture *
         pigment->pigment.uv_mapping = sdl_optional_bool(sdl, 1);
         return;
     }
-    const int mapped = accept_map(sdl, pigment, first) || accept_pattern(sdl, pigment, first, textures);
+    const int mapped = accept_map(sdl, pigment, textures) || accept_pattern(sdl, pigment, textures);
     if (mapped)
         pigment->file = file, pigment->line = line;
     if (mapped || accept_pattern_modifier(sdl, pigment))
@@ -333,12 +302,12 @@ static void pigment_item(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture *
         sdl_expected(sdl, "a colour, a pattern, a transform or the end of the pigment");
 }
 
-static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures, char end)
+static void pigment_items(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures, char end)
 {
     const char closing[2] = {end, 0};
     statement_begin(sdl);
     while (!sdl_accept(sdl, closing))
-        pigment_item(sdl, pigment, first, textures), sdl_optional_comma(sdl);
+        pigment_item(sdl, pigment, textures), sdl_optional_comma(sdl);
     statement_end(sdl);
     if (pigment->averaged) {
         pigment->pigment.kind = PIGMENT_PATTERN;
@@ -350,7 +319,7 @@ static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture 
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end)
 {
     ParsedPigment *pigment = pigment_new(sdl, from);
-    pigment_items(sdl, pigment, NULL, 0, end);
+    pigment_items(sdl, pigment, NULL, end);
     return pigment;
 }
 
@@ -360,10 +329,9 @@ ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from)
     return parse_pigment_body(sdl, from, '}');
 }
 
-ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps)
+ParsedPigment *parse_selector(Sdl *sdl, char end, ParsedTextureMap *map)
 {
     ParsedPigment *pigment = pigment_new(sdl, NULL);
-    pigment_items(sdl, pigment, first, 1, end);
-    gaps_join(gaps, &pigment->gaps);
+    pigment_items(sdl, pigment, map, end);
     return pigment;
 }

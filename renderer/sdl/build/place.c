@@ -53,31 +53,25 @@ static const ParsedTexture *texture_in_world(Sdl *sdl, const MovedTexture *moved
     return placed_texture(sdl, moved->texture, &by);
 }
 
-/* uv_mapping said of an object holds for all pigments on it. */
-static const ParsedTexture *uv_mapped(Sdl *sdl, const ParsedTexture *texture)
+static void report_leaf(Sdl *sdl, const ParsedTexture *texture, void *context)
 {
-    if (!texture || (texture->texture.pigment->uv_mapping && !texture->below))
-        return texture;
-    ParsedTexture *mapped = texture_copy(sdl, texture);
-    ParsedPigment *pigment = pigment_new(sdl, (const ParsedPigment *)texture->texture.pigment);
-    pigment->pigment.uv_mapping = 1;
-    mapped->texture.pigment = &pigment->pigment;
-    const ParsedNormal *normal = normal_changed(sdl, (const ParsedNormal *)texture->texture.normal, 1, 0);
-    mapped->texture.normal = normal ? &normal->normal : NULL;
-    mapped->texture.uv_mapping = 1;
-    mapped->below = uv_mapped(sdl, texture->below);
-    return mapped;
+    (void)context;
+    gaps_report(sdl, &texture->gaps);
+    gaps_report(sdl, &((const ParsedPigment *)texture->texture.pigment)->gaps);
+    gaps_report(sdl, &((const ParsedFinish *)texture->texture.finish)->gaps);
+    if (texture->texture.normal)
+        gaps_report(sdl, &((const ParsedNormal *)texture->texture.normal)->gaps);
+}
+
+static void report_selector(Sdl *sdl, const ParsedTextureMap *map, void *context)
+{
+    (void)context;
+    gaps_report(sdl, &map->selector->gaps);
 }
 
 static void report_texture(Sdl *sdl, const ParsedTexture *texture)
 {
-    for (; texture; texture = texture->below) {
-        gaps_report(sdl, &texture->gaps);
-        gaps_report(sdl, &((const ParsedPigment *)texture->texture.pigment)->gaps);
-        gaps_report(sdl, &((const ParsedFinish *)texture->texture.finish)->gaps);
-        if (texture->texture.normal)
-            gaps_report(sdl, &((const ParsedNormal *)texture->texture.normal)->gaps);
-    }
+    texture_visit(sdl, texture, report_leaf, report_selector, NULL);
 }
 
 /* ---- shapes ---- */
@@ -97,7 +91,7 @@ static const FaceTextures *placed_textures(Sdl *sdl, const Object *object, const
     for (int i = 0; i < from->count; i++) {
         const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)from->list[i], &by);
         if (object->uv_mapping)
-            texture = uv_mapped(sdl, texture);
+            texture = texture_uv_mapped(sdl, texture);
         report_texture(sdl, texture);
         textures->list[i] = &texture->texture;
     }
@@ -141,8 +135,8 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     const ParsedTexture *inside = in->interior_texture;
     const ParsedInterior *interior = in->interior ? in->interior : interior_of_finish(sdl, texture);
     if (in->uv_mapping) {
-        texture = uv_mapped(sdl, texture);
-        inside = uv_mapped(sdl, inside);
+        texture = texture_uv_mapped(sdl, texture);
+        inside = texture_uv_mapped(sdl, inside);
     }
     report_texture(sdl, texture);
     report_texture(sdl, inside);
