@@ -63,10 +63,12 @@ typedef struct ImageMap {
     int has_alpha;
     MapType map_type;
     int once;                /* 1: outside (0,0)-(1,1) fully transparent */
-    int interpolate;         /* POV-Ray's: 0 none (nearest texel), 2 bilinear, 3 bicubic, 4 normalised distance; all but
-                                0 are taken as bilinear */
+    int interpolate;         /* POV-Ray's: 0 none (nearest texel), 2 bilinear, 3 bicubic, 4 normalised distance; others
+                                are taken as bilinear */
     float filter_all, transmit_all;
     const unsigned char *indices; /* of a material_map: of each texel, row by row from the top; else NULL */
+    const float (*transparency)[2]; /* filter and transmit of each texel, row by row from the top, where a palette's
+                                entries have their own, instead of those of all; or NULL */
 } ImageMap;
 
 typedef struct PatternOps PatternOps; /* pattern/pattern.h */

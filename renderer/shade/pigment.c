@@ -140,7 +140,8 @@ int pigment_is_opaque(const Pigment *pigment)
     if (pigment->kind == PIGMENT_COLOR)
         return is_opaque(&pigment->color);
     if (pigment->kind == PIGMENT_IMAGE)
-        return !image->has_alpha && !image->once && image->filter_all == 0 && image->transmit_all == 0;
+        return !image->has_alpha && !image->once && image->filter_all == 0 && image->transmit_all == 0 &&
+               !image->transparency;
     for (int i = 0; i < pigment->map.count; i++)
         if (entry[i].pigment ? !pigment_is_opaque(entry[i].pigment) : !is_opaque(&entry[i].color))
             return 0;

@@ -35,16 +35,121 @@ int image_is_outside(const ImageMap *image, Vec2 uv)
     return image->map_type == MAP_PLANAR ? outside_u || outside_v : image->map_type == MAP_CYLINDRICAL && outside_v;
 }
 
+/* ---- look-up ---- */
+
+static Rgbft with_transparency(const ImageMap *image, const float rgba[4], float filter, float transmit)
+{
+    const float alpha = image->has_alpha ? 1 - rgba[3] : 0;
+
+    return (Rgbft){rgba[0], rgba[1], rgba[2], filter, transmit + alpha};
+}
+
+static int wrapped(int i, int n)
+{
+    return (i %= n) < 0 ? i + n : i;
+}
+
+/* Column i, row j from below, of the image repeated. */
+static Rgbft texel(const ImageMap *image, int i, int j)
+{
+    const int x = wrapped(i, image->width), y = wrapped(j, image->height);
+    const float *through = image->transparency
+                               ? image->transparency[(size_t)(image->height - 1 - y) * (size_t)image->width + (size_t)x]
+                               : NULL;
+    float rgba[4];
+
+    retex_texture_nearest(image->texture, (x + 0.5) / image->width, (y + 0.5) / image->height, rgba);
+    return with_transparency(image, rgba, through ? through[0] : image->filter_all,
+                             through ? through[1] : image->transmit_all);
+}
+
+static void add(Rgbft *sum, Rgbft c, double weight)
+{
+    const float w = (float)weight;
+
+    sum->r += w * c.r, sum->g += w * c.g, sum->b += w * c.b, sum->filter += w * c.filter,
+        sum->transmit += w * c.transmit;
+}
+
+/* From the centre of texel (i, j) to that of (i + 1, j + 1). */
+static Rgbft bilinear(const ImageMap *image, int i, int j, double x, double y)
+{
+    Rgbft sum = {0};
+
+    for (int k = 0; k < 4; k++)
+        add(&sum, texel(image, i + (k & 1), j + (k >> 1)), (k & 1 ? x : 1 - x) * (k >> 1 ? y : 1 - y));
+    return sum;
+}
+
+/* Catmull and Rom's cubic through four values, by how far the point is from the second. */
+static void cubic_weights(double t, double weights[4])
+{
+    weights[0] = t * (-0.5 + t * (1 - 0.5 * t));
+    weights[1] = 1 + t * t * (-2.5 + 1.5 * t);
+    weights[2] = t * (0.5 + t * (2 - 1.5 * t));
+    weights[3] = t * t * (-0.5 + 0.5 * t);
+}
+
+static Rgbft bicubic(const ImageMap *image, int i, int j, double x, double y)
+{
+    double across[4], up[4];
+    Rgbft sum = {0};
+
+    cubic_weights(x, across);
+    cubic_weights(y, up);
+    for (int k = 0; k < 16; k++)
+        add(&sum, texel(image, i - 1 + k % 4, j - 1 + k / 4), across[k % 4] * up[k / 4]);
+    return sum;
+}
+
+/* By the inverse squares of the distances to the four texels. */
+static Rgbft by_distance(const ImageMap *image, int i, int j, double x, double y)
+{
+    double weights[4], total = 0;
+    Rgbft sum = {0};
+
+    for (int k = 0; k < 4; k++) {
+        const double dx = x - (k & 1), dy = y - (k >> 1), square = dx * dx + dy * dy;
+
+        if (square < 1e-12)
+            return texel(image, i + (k & 1), j + (k >> 1));
+        total += weights[k] = 1 / square;
+    }
+    for (int k = 0; k < 4; k++)
+        add(&sum, texel(image, i + (k & 1), j + (k >> 1)), weights[k] / total);
+    return sum;
+}
+
+/* Between texels; or the texel itself, where the image's palette tells its transparency. */
+static Rgbft interpolate(const ImageMap *image, Vec2 uv)
+{
+    const double offset = image->interpolate ? 0.5 : 0;
+    const double x = (uv.u - floor(uv.u)) * image->width - offset, y = (uv.v - floor(uv.v)) * image->height - offset;
+    const int i = (int)floor(x), j = (int)floor(y);
+
+    switch (image->interpolate) {
+    case 0:
+        return texel(image, i, j);
+    case 3:
+        return bicubic(image, i, j, x - i, y - j);
+    case 4:
+        return by_distance(image, i, j, x - i, y - j);
+    default:
+        return bilinear(image, i, j, x - i, y - j);
+    }
+}
+
 Rgbft image_lookup(const ImageMap *image, Vec2 uv)
 {
-    float rgba[4], transmit;
+    float rgba[4];
 
     if (image_is_outside(image, uv))
-        return (Rgbft){0, 0, 0, 0, 1};
+        return (Rgbft){1, 1, 1, 0, 1};
+    if (image->interpolate > 2 || image->transparency)
+        return interpolate(image, uv);
     if (image->interpolate)
         retex_texture_point(image->texture, uv.u, uv.v, rgba);
     else
         retex_texture_nearest(image->texture, uv.u, uv.v, rgba);
-    transmit = image->transmit_all + (image->has_alpha ? 1 - rgba[3] : 0);
-    return (Rgbft){rgba[0], rgba[1], rgba[2], image->filter_all, transmit};
+    return with_transparency(image, rgba, image->filter_all, image->transmit_all);
 }

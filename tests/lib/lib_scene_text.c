@@ -87,5 +87,5 @@ const Primitive *only(const Scene *scene)
 
 Rgbft color_at(const Primitive *p, double x, double y, double z)
 {
-    return pigment_eval(p->texture->pigment, vec3(x, y, z), (Vec2){0, 0});
+    return pigment_eval(p->texture->pigment, vec3(x, y, z), (Vec2){x, y});
 }

@@ -9,7 +9,7 @@ import re
 import subprocess
 import tempfile
 
-GREY = 'color_map { [0 rgb 0] [1 rgb 1] }'
+COLOURS = 'png "tests/data/colours.png"'
 X, Y, Z = (f'gradient {a} color_map {{ [0 rgb 0] [1 rgb <1,.7,.2>] }}' for a in 'xyz')
 # A body, and how far from 0 its points go.
 PIGMENTS = [
@@ -18,6 +18,22 @@ PIGMENTS = [
     (f'checker pigment {{ {X} }} pigment {{ checker rgb 1, rgbt <.2,.3,.4,.5> scale .3 }} scale 1.5', 4),
     (f'average pigment_map {{ [1 {X}] [2.5 {Y} scale 3] [{Z}] }} scale <1,2,3>', 3),
     (f'gradient y triangle_wave frequency 2 pigment_map {{ [.3 average pigment_map {{ [{X}] [{Z}] }}] [1 rgbf .5] }}', 2),
+    (f'image_map {{ {COLOURS} }}', 2),
+    (f'image_map {{ {COLOURS} interpolate 2 }} scale 2', 3),
+    (f'image_map {{ {COLOURS} interpolate 3 }}', 1.5),
+    (f'image_map {{ {COLOURS} interpolate 4 once filter all .2 }}', 1.2),
+    (f'image_map {{ {COLOURS} map_type 1 interpolate 2 }}', 2),
+    (f'image_map {{ {COLOURS} map_type 2 once transmit all .3 }}', 2),
+    (f'image_map {{ {COLOURS} map_type 5 interpolate 4 }}', 2),
+    (f'image_map {{ {COLOURS} gamma 1 }}', 2),
+    (f'image_map {{ {COLOURS} gamma 1.5 interpolate 2 }}', 2),
+    (f'image_map {{ {COLOURS} gamma srgb interpolate 3 }} scale 3', 2),
+    ('image_map { png "tests/data/colours-alpha.png" }', 2),
+    ('image_map { png "tests/data/palette.png" filter 1, .25 transmit 2, .5 transmit 3, 1 filter 3, .1 }', 2),
+    ('image_map { png "tests/data/palette.png" filter 1, .25 transmit 2, .5 filter all .125 }', 2),
+    ('image_map { png "tests/data/palette.png" transmit 1, .25 transmit 2, .5 interpolate 2 }', 2),
+    ('image_map { png "tests/data/palette.png" filter all .125 filter 1, .25 transmit 2, .5 }', 2),
+    (f'gradient x pigment_map {{ [0 image_map {{ {COLOURS} interpolate 2 }} scale .4] [1 {Y}] }}', 2),
 ]
 
 
@@ -26,7 +42,7 @@ def main():
     lines = ['#version 3.7;', 'global_settings { assumed_gamma 1 }', 'camera { location -z look_at 0 }']
     asked = []
     for body, reach in PIGMENTS:
-        points = [[round(rng.uniform(-reach, reach), 3) for _ in range(3)] for _ in range(16)]
+        points = [[round(rng.uniform(-reach, reach), 4) for _ in range(3)] for _ in range(16)]
         lines.append(f'#declare F = function {{ pigment {{ {body} }} }}')
         for p in points:
             lines.append('#declare C = F({},{},{});'.format(*p))

@@ -20,7 +20,6 @@
 
 #define GAP_TABLE(X) \
     X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
-    X(IMAGE_PALETTE, "filter or transmit of a palette entry", "the entry stays opaque") \
     X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(IRID, "irid", "it is ignored") \
@@ -44,9 +43,12 @@ void gaps_report(Sdl *sdl, const Gaps *gaps);
 
 /* ---- pigments, finishes, textures ---- */
 
+enum { PALETTE_ENTRIES = 256 };
 typedef struct ParsedImage {
     ImageMap map;        /* first; texture, size and alpha are filled in when the scene is complete */
     char colorspace[64]; /* of the file; "" = by its type */
+    double gamma;        /* the file's numbers have this power of light; where it is not 1, colorspace is linear */
+    float (*palette)[2]; /* filter and transmit of each entry; NAN: as of all; or NULL */
     int working;         /* 1: the numbers of an integer file are colours of the working space, taken as they are */
     const char *file;    /* where it is written, for messages */
     int line;
@@ -239,7 +241,7 @@ typedef struct Builder {
     ParsedPigment *pigments;
     ParsedFinish *finishes;
     ParsedImage *images;
-    int primitive_capacity, light_capacity;
+    int primitive_capacity, light_capacity, image_capacity;
     unsigned char *single_triangle; /* of each primitive */
     CsgRoot *csg_roots;             /* placed, to be completed with the scene */
     int ncsg_roots, csg_capacity;
@@ -306,6 +308,8 @@ const char *parse_image_path(Sdl *sdl);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
 /* An image and its options, up to what is none. */
 ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment);
+/* image_file.c: the images of a pigment and of its map's pigments; is_light: their colours may be brighter than 1. */
+void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light);
 
 /* normal.c, bump_map.c */
 const ParsedNormal *parse_normal(Sdl *sdl, const ParsedNormal *from /* or NULL */); /* after `normal` */
@@ -438,6 +442,7 @@ void complete_csgs(Sdl *sdl);
 void gather_triangles(Sdl *sdl);
 void gather_children(Sdl *sdl, Object *group);
 void finalize_scene(Sdl *sdl);         /* everything that waits for the end of the scene */
+WorkingSpace working_space(Sdl *sdl);  /* as far as the scene is read */
 Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */
 
 /* albedo.c */

@@ -32,10 +32,11 @@ int parse_field(Sdl *sdl, const char *word, FunctionForeign *function)
     const int is_pigment = strcmp(word, "pigment") == 0;
     const ParsedPigment *parsed = parse_pigment(sdl, default_pigment(sdl));
     const Pigment *pigment = &parsed->pigment;
-    if (parsed->gaps.bits || parsed->gaps.patterns || pigment->kind == PIGMENT_IMAGE)
+    if (parsed->gaps.bits || parsed->gaps.patterns)
         return 0;
     if (!is_pigment && pigment->kind != PIGMENT_PATTERN)
         return 0;
+    load_pigment_images(sdl, pigment, 1);
     function->call = is_pigment ? call_pigment : call_pattern;
     function->data = as_written(sdl, pigment);
     return 1;

@@ -10,15 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/color.h>
-#include <retex/image_file.h>
-#include "base/digest.h"
 #include "sdl/build/builder.h"
 #include "shade/working_space.h"
 
 /* ---- the working space ---- */
 
-static WorkingSpace working_space(Sdl *sdl)
+WorkingSpace working_space(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
     if (!builder->has_assumed_gamma)
@@ -60,120 +57,10 @@ static void decode_colors(Sdl *sdl)
 
 /* ---- images ---- */
 
-/* In scenes before 3.7 the numbers of 8- and 16-bit files are colours of the working space, as they are. */
-static const char *colorspace_of(Sdl *sdl, const ParsedImage *image)
+static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *context)
 {
-    const Builder *builder = builder_of(sdl);
-    const double version = builder->has_assumed_gamma ? builder->gamma_version : sdl_version(sdl);
-    const char *dot = strrchr(image->map.path, '.');
-    int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
-                           strcmp(dot, ".HDR") == 0);
-    if (image->working && !is_float && version < 3.7 && working_space(sdl).kind == WORKING_LINEAR)
-        return "linear";
-    return image->colorspace[0] ? image->colorspace : NULL;
-}
-
-static int has_alpha(const RetexImage *pixels)
-{
-    size_t n = (size_t)pixels->width * (size_t)pixels->height;
-    if (pixels->channels < 4)
-        return 0;
-    for (size_t i = 0; i < n; i++)
-        if (pixels->pixels[i * (size_t)pixels->channels + 3] < 1)
-            return 1;
-    return 0;
-}
-
-static int same_image(Sdl *sdl, const ParsedImage *a, const ParsedImage *b)
-{
-    const char *x = colorspace_of(sdl, a), *y = colorspace_of(sdl, b);
-    return strcmp(a->map.path, b->map.path) == 0 && strcmp(x ? x : "", y ? y : "") == 0;
-}
-
-static void add_image(Sdl *sdl, ParsedImage *image, int *capacity)
-{
-    Scene *scene = sdl_scene(sdl);
-    scene->images = builder_grow(sdl, scene->images, scene->nimages, capacity, sizeof *scene->images);
-    scene->images[scene->nimages++] = &image->map;
-}
-
-enum { IMAGE_PEAK_BYTES = 16 + 22 }; /* a pixel: as it is read, and the texture of it */
-
-/* What is odd about the image's colours. */
-typedef struct ImageWarning {
-    Sdl *sdl;
-    const ParsedImage *image;
-} ImageWarning;
-
-static void warn_of_image(void *context, const char *text)
-{
-    const ImageWarning *warning = context;
-    const ParsedImage *image = warning->image;
-    sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
-}
-
-static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity)
-{
-    Scene *scene = sdl_scene(sdl);
-    ImageMap *map = &image->map;
-    if (map->texture)
-        return;
-    for (int i = 0; i < scene->nimages; i++)
-        if (same_image(sdl, (ParsedImage *)scene->images[i], image)) {
-            map->texture = scene->images[i]->texture;
-            map->width = scene->images[i]->width;
-            map->height = scene->images[i]->height;
-            map->has_alpha = scene->images[i]->has_alpha;
-            add_image(sdl, image, capacity);
-            return;
-        }
-    add_image(sdl, image, capacity); /* before there is anything to free */
-    RetexImage pixels = {0};
-    RetexError err = {0};
-    sdl_add_file(sdl, map->path);
-    const SdlOptions *options = sdl_options(sdl);
-    ImageWarning warning = {sdl, image};
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    spec.budget = options->budget;
-    snprintf(spec.image, sizeof spec.image, "%s", map->path);
-    const RetexReadParams params = {.size = sizeof params,
-                                    .colorspace = colorspace_of(sdl, image),
-                                    .access = sdl_access(sdl),
-                                    .budget = options->budget,
-                                    .pixel_bytes = IMAGE_PEAK_BYTES,
-                                    .warn = warn_of_image,
-                                    .warn_context = &warning};
-    sdl_step(sdl, 1);
-    if (retex_image_read(&pixels, map->path, &params, options->nthreads, &err) == 0) {
-        map->has_alpha = has_alpha(&pixels);
-        map->width = pixels.width;
-        map->height = pixels.height;
-        scene->digest =
-            digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
-        spec.warn = warn_of_image;
-        spec.warn_context = &warning;
-        spec.is_light = is_light;
-        retex_texture_create(&map->texture, &pixels, &spec, options->nthreads, &err);
-        retex_image_free(&pixels);
-    }
-    if (!map->texture)
-        sdl_error(sdl, "%s:%d: image_map: %s%s%s", image->file, image->line, err.file, err.file[0] ? ": " : "",
-                  err.message);
-}
-
-/* Also those of its map's pigments. */
-static void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light, int *capacity)
-{
-    if (pigment->kind == PIGMENT_IMAGE)
-        load_image(sdl, (ParsedImage *)pigment->image, is_light, capacity);
-    for (int i = 0; i < pigment->map.count; i++)
-        if (pigment->map.entries[i].pigment)
-            load_pigment_images(sdl, pigment->map.entries[i].pigment, is_light, capacity);
-}
-
-static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *capacity)
-{
-    load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish), capacity);
+    (void)context;
+    load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish));
     normal_load(sdl, texture->texture.normal);
 }
 
@@ -341,13 +228,12 @@ static void build_sky(Sdl *sdl)
 static void load_images(Sdl *sdl)
 {
     const Scene *scene = sdl_scene(sdl);
-    int capacity = 0;
-    each_texture(sdl, visit_load, &capacity);
+    each_texture(sdl, visit_load, NULL);
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
-        load_pigment_images(sdl, scene->sky->pigments[i], 1, &capacity);
+        load_pigment_images(sdl, scene->sky->pigments[i], 1);
     const ParsedPigment *bokeh = builder_of(sdl)->bokeh;
     if (bokeh)
-        load_pigment_images(sdl, &bokeh->pigment, 0, &capacity);
+        load_pigment_images(sdl, &bokeh->pigment, 0);
 }
 
 void finalize_scene(Sdl *sdl)

@@ -1,5 +1,6 @@
 /* image_map: a picture as a pigment. Files are found while reading and loaded at the end, once each, when the scene's
  * gamma is known and only if something uses them. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include "sdl/build/builder.h"
@@ -21,31 +22,38 @@ const char *parse_image_path(Sdl *sdl)
     return path ? path : sdl_need_file(sdl, "image", name);
 }
 
-/* `filter all F`, `transmit all T`, or of one palette entry. */
-static void transparency(Sdl *sdl, ParsedPigment *pigment, float *all)
+/* `filter all F`, `transmit all T`, or of one palette entry. What is written later counts. */
+static void transparency(Sdl *sdl, ParsedImage *image, float *all, int transmit)
 {
     if (sdl_accept(sdl, "all")) {
         *all = (float)sdl_float(sdl);
+        for (int i = 0; image->palette && i < PALETTE_ENTRIES; i++)
+            image->palette[i][transmit] = NAN;
         return;
     }
-    sdl_float(sdl);
+    const double entry = sdl_float(sdl);
     sdl_optional_comma(sdl);
-    sdl_float(sdl);
-    gaps_add(&pigment->gaps, GAP_IMAGE_PALETTE);
+    const float value = (float)sdl_float(sdl);
+    if (!(entry >= 0 && entry < PALETTE_ENTRIES))
+        sdl_error(sdl, "a palette has entries from 0 to %d", PALETTE_ENTRIES - 1);
+    if (!image->palette) {
+        image->palette = sdl_alloc(sdl, PALETTE_ENTRIES * sizeof *image->palette);
+        for (int i = 0; i < PALETTE_ENTRIES; i++)
+            image->palette[i][0] = image->palette[i][1] = NAN;
+    }
+    image->palette[(int)entry][transmit] = value;
 }
 
 static void gamma_keyword(Sdl *sdl, ParsedImage *image)
 {
-    double gamma = 2.2;
-    if (!sdl_accept(sdl, "srgb") && !sdl_accept(sdl, "bt709") && !sdl_accept(sdl, "bt2020"))
+    double gamma = 0;
+    if (!sdl_accept(sdl, "srgb") && !sdl_accept(sdl, "bt709") && !sdl_accept(sdl, "bt2020")) {
         gamma = sdl_float(sdl);
-    if (gamma > 0.99 && gamma < 1.01)
-        strcpy(image->colorspace, "linear");
-    else {
-        strcpy(image->colorspace, "sRGB");
-        if (gamma < 1.7 || gamma > 2.5)
-            sdl_warn(sdl, "image gamma %g is taken as sRGB: only 1 and sRGB are known", gamma);
+        if (!(gamma > 0.1 && gamma < 10))
+            sdl_error(sdl, "an image's gamma of %g is not sensible", gamma);
     }
+    strcpy(image->colorspace, gamma ? "linear" : "sRGB");
+    image->gamma = gamma ? gamma : 1;
     image->working = 0;
 }
 
@@ -70,9 +78,9 @@ static int image_option(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
         }
         map->map_type = (MapType)type;
     } else if (sdl_accept(sdl, "filter"))
-        transparency(sdl, pigment, &map->filter_all);
+        transparency(sdl, image, &map->filter_all, 0);
     else if (sdl_accept(sdl, "transmit"))
-        transparency(sdl, pigment, &map->transmit_all);
+        transparency(sdl, image, &map->transmit_all, 1);
     else if (sdl_accept(sdl, "gamma"))
         gamma_keyword(sdl, image);
     else if (sdl_accept(sdl, "premultiplied"))
@@ -109,6 +117,7 @@ ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment)
     Builder *builder = builder_of(sdl);
     ParsedImage *image = sdl_alloc(sdl, sizeof *image);
     image->working = 1;
+    image->gamma = 1;
     image->file = sdl_peek(sdl)->file;
     image->line = sdl_peek(sdl)->line;
     image->map.path = parse_image_path(sdl);
