@@ -21,28 +21,32 @@ static double largest(Vec3 a)
     return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
 }
 
-/* Of a copy of a shared mesh: round the mesh's own box. */
-static void copy_bounds(const Accel *accel, int primitive, Vec3 *low, Vec3 *high)
+/* Of a copy of what is shared: round that one's own box. */
+static int copy_bounds(const Accel *shared, const Transform *transform, Vec3 *low, Vec3 *high)
 {
-    const Accel *mesh = accel->shared[primitive]->accel;
     Bounds all = bounds_empty();
 
+    if (shared->nplanes > 0)
+        return 0;
     for (int k = 0; k < 8; k++) {
-        Vec3 corner = vec3(k & 1 ? mesh->high.x : mesh->low.x, k & 2 ? mesh->high.y : mesh->low.y,
-                           k & 4 ? mesh->high.z : mesh->low.z);
-        bounds_add(&all, transform_point(&accel->source->primitives[primitive].transform, corner));
+        Vec3 corner = vec3(k & 1 ? shared->high.x : shared->low.x, k & 2 ? shared->high.y : shared->low.y,
+                           k & 4 ? shared->high.z : shared->low.z);
+        bounds_add(&all, transform_point(transform, corner));
     }
     *low = all.low;
     *high = all.high;
+    return 1;
 }
 
 /* 0: there are none. */
 static int item_bounds(const Accel *accel, int item, Vec3 *low, Vec3 *high)
 {
-    if (item >= 0 && accel->shared && accel->shared[item]) {
-        copy_bounds(accel, item, low, high);
-        return 1;
+    if (item >= accel->source->nprimitives) {
+        const Instance *instance = &accel->source->instances[item - accel->source->nprimitives];
+        return copy_bounds(accel->prototypes[instance->prototype->number]->accel, &instance->transform, low, high);
     }
+    if (item >= 0 && accel->shared && accel->shared[item])
+        return copy_bounds(accel->shared[item]->accel, &accel->source->primitives[item].transform, low, high);
     if (item >= 0)
         return shape_bounds(&accel->source->primitives[item], low, high);
     const Csg *csg = accel->source->csgs[~item];
@@ -117,6 +121,8 @@ static unsigned char primitive_flags(const Primitive *primitive)
                      (primitive->no_reflection ? 0u : RAY_BOUNCE);
     int through = may_transmit(primitive->texture) || may_transmit(primitive->interior_texture);
 
+    flags |= primitive->inherits ? INHERITS : 0u;
+
     for (int i = 0; primitive->shape.textures && i < primitive->shape.textures->count; i++)
         through |= may_transmit(primitive->shape.textures->list[i]);
     if (!through)
@@ -162,12 +168,45 @@ static int classify_csgs(Accel *accel, RetexError *err)
     return 0;
 }
 
+/* Those of prototypes are where the instances are. */
+static int classify_instances(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+
+    for (int i = 0; i < scene->ninstances; i++) {
+        const Instance *instance = &scene->instances[i];
+        const int item = scene->nprimitives + i;
+        const Accel *prototype = accel->prototypes[instance->prototype->number]->accel;
+        Vec3 low, high;
+        /* Whether what is let through is bent is asked of the hit. */
+        accel->flags[item] = (unsigned char)(may_transmit(instance->texture) ? TRANSPARENT | STRAIGHT : 0u);
+        if (prototype->nplanes + prototype->ncurved == 0 && prototype->ntriangles == 0)
+            continue;
+        if (!item_bounds(accel, item, &low, &high)) {
+            accel->planes[accel->nplanes++] = item;
+            continue;
+        }
+        if (!is_traceable(low, high))
+            return fail_untraceable(scene, instance->line, err);
+        extend_bounds(accel, low, high);
+        accel->curved[accel->ncurved++] = item;
+    }
+    return 0;
+}
+
+/* Whether it is found through a tree of CSG or an instance. */
+static int is_elsewhere(const Accel *accel, const Primitive *primitive)
+{
+    return primitive->csg || (primitive->prototype && !accel->parent);
+}
+
 /* Whether its triangles are the scene's. */
 static int is_by_triangles(const Accel *accel, int index)
 {
     const Primitive *primitive = &accel->source->primitives[index];
 
-    return primitive->shape.ops->triangles && !primitive->csg && !(accel->shared && accel->shared[index]);
+    return primitive->shape.ops->triangles && !is_elsewhere(accel, primitive) &&
+           !(accel->shared && accel->shared[index]);
 }
 
 /* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
@@ -176,12 +215,16 @@ static int classify_primitives(Accel *accel, RetexError *err)
     const Scene *scene = accel->source;
 
     accel->low = accel->high = scene->camera.location;
+    if (accel->parent) { /* no camera is in it */
+        const Bounds none = bounds_empty();
+        accel->low = none.low, accel->high = none.high;
+    }
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *primitive = &scene->primitives[i];
         ShapeTriangles shape = {0, 0, NULL, NULL, 0, 0};
         Vec3 low, high;
         accel->flags[i] = primitive_flags(primitive);
-        if (primitive->csg)
+        if (is_elsewhere(accel, primitive))
             continue;
         if (!item_bounds(accel, i, &low, &high)) {
             accel->planes[accel->nplanes++] = i;
@@ -399,7 +442,8 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
 
 static int fill(Accel *accel, RetexError *err)
 {
-    const size_t count = (size_t)accel->source->nprimitives + (size_t)accel->source->ncsgs + 1;
+    const size_t count =
+        (size_t)accel->source->nprimitives + (size_t)accel->source->ncsgs + (size_t)accel->source->ninstances + 1;
     int status = 0;
 
     accel->flags = calloc(count, 1);
@@ -412,6 +456,8 @@ static int fill(Accel *accel, RetexError *err)
     if (status == 0)
         status = classify_csgs(accel, err);
     if (status == 0)
+        status = classify_instances(accel, err);
+    if (status == 0)
         status = reserve_geometry(accel, err);
     if (status == 0)
         status = collect_triangles(accel, err);
@@ -422,21 +468,21 @@ static int fill(Accel *accel, RetexError *err)
     return status;
 }
 
-/* Each shared mesh, with the device and the budget of the whole. */
+/* Each of what is shared, with the device and the budget of the whole. */
 static int create_shared(Accel *accel, RetexError *err)
 {
     int status = accel_find_shared(accel, err);
 
-    for (SharedMesh *mesh = accel->shared_meshes; mesh && status == 0; mesh = mesh->next) {
-        mesh->accel = calloc(1, sizeof(*mesh->accel));
-        if (!mesh->accel)
+    for (Shared *shared = accel->all_shared; shared && status == 0; shared = shared->next) {
+        shared->accel = calloc(1, sizeof(*shared->accel));
+        if (!shared->accel)
             return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
-        mesh->accel->source = mesh->scene;
-        mesh->accel->budget = accel->budget;
-        mesh->accel->parent = accel;
-        mesh->accel->device = accel->device;
+        shared->accel->source = shared->scene;
+        shared->accel->budget = accel->budget;
+        shared->accel->parent = accel;
+        shared->accel->device = accel->device;
         rtcRetainDevice(accel->device);
-        status = fill(mesh->accel, err);
+        status = fill(shared->accel, err);
     }
     return status;
 }
@@ -468,8 +514,8 @@ void accel_close(Accel **accel)
 
     if (!a)
         return;
-    for (SharedMesh *mesh = a->shared_meshes; mesh; mesh = mesh->next)
-        accel_close(&mesh->accel);
+    for (Shared *shared = a->all_shared; shared; shared = shared->next)
+        accel_close(&shared->accel);
     accel_free_shared(a);
     if (a->scene)
         rtcReleaseScene(a->scene);
@@ -485,9 +531,14 @@ void accel_close(Accel **accel)
     *accel = NULL;
 }
 
-int accel_is_transparent(const Accel *accel, int primitive)
+int accel_is_transparent(const Accel *accel, const Hit *hit)
 {
-    return (accel->flags[primitive] & TRANSPARENT) != 0;
+    const Scene *scene = accel->source;
+    unsigned flags = accel->flags[hit->primitive];
+
+    if (hit->instance && flags & INHERITS)
+        flags |= accel->flags[scene->nprimitives + (hit->instance - scene->instances)];
+    return (flags & TRANSPARENT) != 0;
 }
 
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)

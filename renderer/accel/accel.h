@@ -32,8 +32,8 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
                             Hit *hits);
 void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count,
                              Visibility *visibilities);
-/* 1 if this primitive could let shadow rays through. */
-int accel_is_transparent(const Accel *accel, int primitive);
+/* 1 if the primitive that is hit could let shadow rays through. */
+int accel_is_transparent(const Accel *accel, const Hit *hit);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
 /* The origin of a ray that leaves a surface, far enough from it that the ray does not meet it again. To go on along the

@@ -15,6 +15,7 @@ typedef struct RTCIntersectContext QueryContext;
 /* Flags beside the RayKinds that see the primitive: it may let light through, and may do so without bending it. */
 #define TRANSPARENT 0x80u
 #define STRAIGHT 0x40u
+#define INHERITS 0x20u /* of a primitive of a prototype: both are as its instance says */
 #define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
 
 typedef struct Triangle {
@@ -23,15 +24,16 @@ typedef struct Triangle {
     int32_t primitive, face;
 } Triangle;
 
-/* shared.c: a mesh of many primitives, alone in a scene in its own space. */
-typedef struct SharedMesh {
+/* shared.c: what is in many places, alone in a scene in its own space: a mesh of many primitives, or a prototype. */
+typedef struct Shared {
     Accel *accel;
     Scene *scene;
-    struct SharedMesh *next;
-} SharedMesh;
+    Primitive *mesh; /* or NULL */
+    struct Shared *next;
+} Shared;
 
 struct Accel {
-    Accel *parent; /* of a shared mesh: that of the whole scene, whose device it uses */
+    Accel *parent; /* of what is shared: that of the whole scene, whose device it uses */
     RTCDevice device;
     RTCScene scene;
     const Scene *source;
@@ -39,12 +41,14 @@ struct Accel {
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;
-    int *curved, *planes; /* primitives, by index, and CSGs: ~index; without bounds: planes */
+    /* Items: primitives, by index, CSGs: ~index, and instances: index + nprimitives; without bounds: planes. */
+    int *curved, *planes;
     int ncurved, nplanes;
-    SharedMesh **shared; /* by primitive: its mesh, or NULL; NULL: there are none */
-    SharedMesh *shared_meshes;
+    Shared **shared;     /* by primitive: its mesh, or NULL; NULL: there are none */
+    Shared **prototypes; /* by number */
+    Shared *all_shared;
     unsigned triangle_geometry, curved_geometry;
-    unsigned char *flags; /* of each primitive */
+    unsigned char *flags; /* of each primitive and instance, as items */
     double reach;         /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error; /* Embree's first error */
@@ -53,7 +57,7 @@ struct Accel {
     atomic_int over_budget; /* Embree wanted more than the budget has */
 };
 
-/* shared.c: finds the meshes to be shared and makes their scenes; frees those. */
+/* shared.c: finds what is shared and makes its scenes; frees those. */
 int accel_find_shared(Accel *accel, RetexError *err);
 void accel_free_shared(Accel *accel);
 /* query.c: what Embree calls back. */

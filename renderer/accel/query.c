@@ -31,13 +31,14 @@
 
 /* A ray in double and its nearest hit so far. */
 typedef struct QueryRay {
-    Ray ray;         /* tmax is just behind the nearest hit, so that hits at the same distance are found */
-    Hit *hit;        /* the nearest hit so far; NULL if any hit ends the query */
-    double size;     /* sum of the magnitudes of the origin's coordinates */
-    double rounding; /* a plane with a distance from the origin below this counts as containing it */
-    unsigned kind;   /* flag that a primitive must have to be visible to this ray */
-    unsigned passes; /* flags of primitives that let this ray pass */
-    int passed;      /* 1 if the ray has passed such a primitive */
+    Ray ray;            /* tmax is just behind the nearest hit, so that hits at the same distance are found */
+    Hit *hit;           /* the nearest hit so far; NULL if any hit ends the query */
+    double size;        /* sum of the magnitudes of the origin's coordinates */
+    double rounding;    /* a plane with a distance from the origin below this counts as containing it */
+    unsigned kind;      /* flag that a primitive must have to be visible to this ray */
+    unsigned passes;    /* flags of primitives that let this ray pass */
+    unsigned inherited; /* flags of the instance that the query is in */
+    int passed;         /* 1 if the ray has passed such a primitive */
 } QueryRay;
 
 typedef enum HitField { HIT_U = 3, HIT_V, HIT_PRIMITIVE, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 } HitField;
@@ -57,7 +58,11 @@ static inline int is_visible(const Accel *accel, const QueryRay *query_ray, int 
 /* 1 if the primitive lets the ray pass. */
 static inline int passes_through(const Accel *accel, QueryRay *query_ray, int primitive)
 {
-    if (!(accel->flags[primitive] & query_ray->passes))
+    unsigned flags = accel->flags[primitive];
+
+    if (flags & INHERITS)
+        flags |= query_ray->inherited;
+    if (!(flags & query_ray->passes))
         return 0;
     query_ray->passed = 1;
     return 1;
@@ -87,11 +92,12 @@ static inline int triangle_distance(const QueryRay *query_ray, const Triangle *t
 static inline int record_hit(QueryRay *query_ray, double t, int primitive, int face)
 {
     Hit *hit = query_ray->hit;
+    const int later = primitive > hit->primitive || (primitive == hit->primitive && face >= hit->face);
 
-    if (hit->primitive >= 0 && (t > hit->t || (t == hit->t && (primitive > hit->primitive ||
-                                                               (primitive == hit->primitive && face >= hit->face)))))
+    if (hit->primitive >= 0 && (t > hit->t || (t == hit->t && !hit->instance && later)))
         return 0;
     hit->t = t, hit->primitive = primitive, hit->face = face;
+    hit->instance = NULL;
     query_ray->ray.tmax = t * (1 + DBL_EPSILON);
     return 1;
 }
@@ -105,15 +111,22 @@ static inline void record_triangle_hit(QueryRay *query_ray, const Triangle *tria
     query_ray->hit->b1 = b1, query_ray->hit->b2 = b2;
 }
 
-/* Single rays, below; moved: by how much they were moved when they were put into the space of a shared mesh. */
-static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit);
-static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, double moved);
+/* What a query in a shared Accel has of the one that led there. */
+typedef struct Outer {
+    double moved;       /* by how much the ray was moved when it was put into the shared space */
+    unsigned inherited; /* flags of the instance */
+} Outer;
+static const Outer no_outer = {0, 0};
 
-static double translation(const Primitive *primitive)
+/* Single rays, below. */
+static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, Outer outer, Hit *hit);
+static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Outer outer);
+
+static Outer outer_of(const Transform *transform, unsigned inherited)
 {
-    const double(*m)[4] = primitive->transform.inverse;
+    const double(*m)[4] = transform->inverse;
 
-    return fabs(m[0][3]) + fabs(m[1][3]) + fabs(m[2][3]);
+    return (Outer){fabs(m[0][3]) + fabs(m[1][3]) + fabs(m[2][3]), inherited};
 }
 
 typedef struct Operands {
@@ -155,27 +168,27 @@ static __attribute__((noinline)) int csg_blocks(const Accel *accel, QueryRay *qu
     return csg_intersect(accel->source->csgs[index], &query);
 }
 
-/* The ray in the space of a shared mesh. Lengths along it are a power of two longer: so they go there and back without
+/* The ray in a shared space. Lengths along it are a power of two longer: so they go there and back without
  * rounding, and a ray that goes on from a hit does not meet it again. */
-static Ray ray_into(const Primitive *primitive, const Ray *ray, double *scale)
+static Ray ray_into(const Transform *transform, const Ray *ray, double *scale)
 {
-    Vec3 d = transform_inverse_vector(&primitive->transform, ray->direction);
+    Vec3 d = transform_inverse_vector(transform, ray->direction);
     int exponent;
 
     frexp(vec_length(d), &exponent);
     *scale = ldexp(1, exponent);
-    return (Ray){transform_inverse_point(&primitive->transform, ray->origin), vec_scale(d, 1 / *scale),
-                 ray->tmin * *scale, ray->tmax * *scale};
+    return (Ray){transform_inverse_point(transform, ray->origin), vec_scale(d, 1 / *scale), ray->tmin * *scale,
+                 ray->tmax * *scale};
 }
 
 static __attribute__((noinline)) int test_copy(const Accel *accel, QueryRay *query_ray, int index)
 {
     const Primitive *primitive = &accel->source->primitives[index];
     double scale;
-    Ray ray = ray_into(primitive, &query_ray->ray, &scale);
+    Ray ray = ray_into(&primitive->transform, &query_ray->ray, &scale);
     Hit hit;
 
-    if (!intersect_from(accel->shared[index]->accel, &ray, RAY_CAMERA, translation(primitive), &hit) ||
+    if (!intersect_from(accel->shared[index]->accel, &ray, RAY_CAMERA, outer_of(&primitive->transform, 0), &hit) ||
         !record_hit(query_ray, hit.t / scale, index, hit.face))
         return 0;
     query_ray->hit->normal = shape_world_normal(primitive, hit.normal);
@@ -187,15 +200,57 @@ static __attribute__((noinline)) int copy_blocks(const Accel *accel, QueryRay *q
 {
     const Primitive *primitive = &accel->source->primitives[index];
     double scale;
-    Ray ray = ray_into(primitive, &query_ray->ray, &scale);
+    Ray ray = ray_into(&primitive->transform, &query_ray->ray, &scale);
 
-    return trace_visibility(accel->shared[index]->accel, &ray, RAY_CAMERA, 0, translation(primitive)) !=
+    return trace_visibility(accel->shared[index]->accel, &ray, RAY_CAMERA, 0, outer_of(&primitive->transform, 0)) !=
                VISIBILITY_CLEAR &&
            !passes_through(accel, query_ray, index);
 }
 
-/* What is not made of triangles: a primitive, by index, or a CSG: ~index. Stores the nearest hit; returns 1 if that is
- * new. */
+/* Of two hits at the same distance that in the first instance wins. */
+static int record_instance_hit(QueryRay *query_ray, double t, const Instance *instance, const Hit *hit)
+{
+    Hit *nearest = query_ray->hit;
+
+    if (nearest->primitive >= 0 && t == nearest->t && nearest->instance != instance) {
+        if (!nearest->instance || nearest->instance < instance)
+            return 0;
+        nearest->primitive = -1;
+    }
+    if (!record_hit(query_ray, t, instance->prototype->first + hit->primitive, hit->face))
+        return 0;
+    nearest->instance = instance;
+    nearest->normal = vec_normalize(transform_normal(&instance->transform, hit->normal));
+    nearest->b1 = hit->b1, nearest->b2 = hit->b2;
+    return 1;
+}
+
+static __attribute__((noinline)) int test_instance(const Accel *accel, QueryRay *query_ray, int item)
+{
+    const Instance *instance = &accel->source->instances[item - accel->source->nprimitives];
+    const Accel *prototype = accel->prototypes[instance->prototype->number]->accel;
+    double scale;
+    Ray ray = ray_into(&instance->transform, &query_ray->ray, &scale);
+    Hit hit = {.normal = {0, 0, 0}};
+
+    return intersect_from(prototype, &ray, (RayKind)query_ray->kind, outer_of(&instance->transform, 0), &hit) &&
+           record_instance_hit(query_ray, hit.t / scale, instance, &hit);
+}
+
+static __attribute__((noinline)) int instance_blocks(const Accel *accel, QueryRay *query_ray, int item)
+{
+    const Instance *instance = &accel->source->instances[item - accel->source->nprimitives];
+    const Accel *prototype = accel->prototypes[instance->prototype->number]->accel;
+    double scale;
+    Ray ray = ray_into(&instance->transform, &query_ray->ray, &scale);
+    Visibility visibility = trace_visibility(prototype, &ray, (RayKind)query_ray->kind, query_ray->passes,
+                                             outer_of(&instance->transform, accel->flags[item]));
+
+    query_ray->passed |= visibility == VISIBILITY_TRANSPARENT;
+    return visibility == VISIBILITY_BLOCKED;
+}
+
+/* What is not made of triangles, as an item of the Accel. Stores the nearest hit; returns 1 if that is new. */
 static inline int test_shape(const Accel *accel, QueryRay *query_ray, int item)
 {
     double t;
@@ -203,6 +258,8 @@ static inline int test_shape(const Accel *accel, QueryRay *query_ray, int item)
 
     if (item < 0)
         return test_csg(accel, query_ray, ~item);
+    if (item >= accel->source->nprimitives)
+        return test_instance(accel, query_ray, item);
     if (accel->shared && accel->shared[item])
         return is_visible(accel, query_ray, item) && test_copy(accel, query_ray, item);
     return is_visible(accel, query_ray, item) &&
@@ -218,6 +275,8 @@ static inline int shape_blocks(const Accel *accel, QueryRay *query_ray, int item
 
     if (item < 0)
         return csg_blocks(accel, query_ray, ~item);
+    if (item >= accel->source->nprimitives)
+        return instance_blocks(accel, query_ray, item);
     if (accel->shared && accel->shared[item])
         return is_visible(accel, query_ray, item) && copy_blocks(accel, query_ray, item);
     return is_visible(accel, query_ray, item) &&
@@ -340,7 +399,7 @@ static inline void start_query(Query *query, const Accel *accel, int side_by_sid
 /* Embree gets the ray in float, with its range widened by the error of float. The ray in double decides. Returns 0
  * if the ray certainly has no hit. */
 static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes,
-                            double moved, Hit *hit, float *tnear, float *tfar)
+                            Outer outer, Hit *hit, float *tnear, float *tfar)
 {
     double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
     double start = ray->tmin > 0 ? ray->tmin - FLOAT_ERROR_BOUND * (ray->tmin + size) : 0;
@@ -349,12 +408,13 @@ static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *
     query_ray->size = size;
     /* Each coordinate in the distance to the plane is at most reach + size. The normal's components sum to 1.8 at
      * most. */
-    query_ray->rounding = 28 * DBL_EPSILON * (accel->reach + size + moved);
+    query_ray->rounding = 28 * DBL_EPSILON * (accel->reach + size + outer.moved);
     query_ray->hit = hit;
     if (hit)
         hit->primitive = -1;
     query_ray->kind = (unsigned)kind;
     query_ray->passes = passes;
+    query_ray->inherited = outer.inherited;
     query_ray->passed = 0;
     *tnear = start > 0 ? (float)start : 0;
     *tfar = rounded_outward(query_ray, ray->tmax);
@@ -362,12 +422,12 @@ static inline int start_ray(QueryRay *query_ray, const Accel *accel, const Ray *
 }
 
 static inline int start_single(QueryRay *query_ray, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
-                               unsigned passes, double moved, Hit *hit)
+                               unsigned passes, Outer outer, Hit *hit)
 {
     to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
     to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
     to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
-    return start_ray(query_ray, accel, ray, kind, passes, moved, hit, &to->tnear, &to->tfar);
+    return start_ray(query_ray, accel, ray, kind, passes, outer, hit, &to->tnear, &to->tfar);
 }
 
 /* 1 if an opaque plane occludes the ray. */
@@ -436,52 +496,52 @@ static inline int refine_triangle_hit(const Accel *accel, QueryRay *query_ray, c
 }
 
 /* The second trace: the nearest of all triangles and curved shapes along the ray, in double. */
-static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit)
+static int intersect_in_double(const Accel *accel, const Ray *ray, RayKind kind, Outer outer, Hit *hit)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRay along;
 
     start_query(&query, accel, 0, &query_ray);
-    if (start_single(&query_ray, &along, accel, ray, kind, 0, moved, hit)) {
+    if (start_single(&query_ray, &along, accel, ray, kind, 0, outer, hit)) {
         embree_occluded(&query, &along);
         test_planes(accel, &query_ray);
     }
     return hit->primitive >= 0;
 }
 
-static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, double moved, Hit *hit)
+static int intersect_from(const Accel *accel, const Ray *ray, RayKind kind, Outer outer, Hit *hit)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRayHit rayhit;
 
     start_query(&query, accel, 0, &query_ray);
-    if (!start_single(&query_ray, &rayhit.ray, accel, ray, kind, 0, moved, hit))
+    if (!start_single(&query_ray, &rayhit.ray, accel, ray, kind, 0, outer, hit))
         return 0;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree_intersect(&query, &rayhit);
     if (!refine_triangle_hit(accel, &query_ray, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar,
                              rayhit.hit.u, rayhit.hit.v))
-        return intersect_in_double(accel, ray, kind, moved, hit);
+        return intersect_in_double(accel, ray, kind, outer, hit);
     test_planes(accel, &query_ray);
     return hit->primitive >= 0;
 }
 
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
-    return intersect_from(accel, ray, kind, 0, hit);
+    return intersect_from(accel, ray, kind, no_outer, hit);
 }
 
-static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, double moved)
+static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Outer outer)
 {
     Query query;
     QueryRay query_ray;
     struct RTCRay occluded;
 
     start_query(&query, accel, 0, &query_ray);
-    if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, moved, NULL))
+    if (!start_single(&query_ray, &occluded, accel, ray, kind, passes, outer, NULL))
         return VISIBILITY_CLEAR;
     if (plane_blocks(accel, &query_ray))
         return VISIBILITY_BLOCKED;
@@ -491,12 +551,12 @@ static Visibility trace_visibility(const Accel *accel, const Ray *ray, RayKind k
 
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
-    return trace_visibility(accel, ray, kind, skip_transparent ? TRANSPARENT : 0, 0) == VISIBILITY_BLOCKED;
+    return trace_visibility(accel, ray, kind, skip_transparent ? TRANSPARENT : 0, no_outer) == VISIBILITY_BLOCKED;
 }
 
 Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source)
 {
-    return trace_visibility(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT, 0);
+    return trace_visibility(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT, no_outer);
 }
 
 /* ---- packets ---- */
@@ -522,7 +582,7 @@ static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, Ray
 {
     struct RTCRay16 *to = &p->rays.ray;
 
-    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, 0, hit, &to->tnear[i], &to->tfar[i])) {
+    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, no_outer, hit, &to->tnear[i], &to->tfar[i])) {
         disable_lane(p, i);
         return;
     }
@@ -570,7 +630,7 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
                                 p.rays.ray.tfar[i], p.rays.hit.u[i], p.rays.hit.v[i]))
             test_planes(accel, &p.query_ray[i]);
         else
-            intersect_in_double(accel, &rays[i], kinds[i], 0, &hits[i]);
+            intersect_in_double(accel, &rays[i], kinds[i], no_outer, &hits[i]);
     }
 }
 

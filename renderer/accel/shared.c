@@ -1,6 +1,7 @@
-/* Meshes that many primitives share. Each gets an Accel of its own, in object space, and its primitives are traced as
- * curved shapes are: Embree calls back for each, and the ray goes on in the mesh's Accel. So a further copy takes a few
- * hundred bytes, however large the mesh is. A mesh with few copies is traced faster as triangles of the scene. */
+/* What many copies share: meshes, and the prototypes of instances. Each gets an Accel of its own, in its own space, and
+ * its copies are traced as curved shapes are: Embree calls back for each, and the ray goes on in that Accel. So a
+ * further copy takes a few hundred bytes, however large it is. A mesh with few copies is traced faster as triangles of
+ * the scene. */
 #include <stdlib.h>
 #include <string.h>
 #include "accel/embree.h"
@@ -29,48 +30,65 @@ static int list_uses(const Scene *scene, Use *uses)
 
     for (int i = 0; i < scene->nprimitives; i++) {
         const Primitive *p = &scene->primitives[i];
-        if (p->shape.ops == &shape_mesh && !p->csg && p->shape.mesh->nfaces >= SMALLEST)
+        if (p->shape.ops == &shape_mesh && !p->csg && !p->prototype && p->shape.mesh->nfaces >= SMALLEST)
             uses[count++] = (Use){p->shape.mesh, i};
     }
     qsort(uses, (size_t)count, sizeof *uses, by_mesh);
     return count;
 }
 
-/* A scene of the mesh alone, where it is in object space. */
-static Scene *scene_of(const Scene *scene, int primitive)
+/* With an empty scene; NULL without memory. */
+static Shared *shared_new(Accel *accel)
 {
-    Scene *alone = calloc(1, sizeof *alone);
-    Primitive *p = calloc(1, sizeof *p);
+    Shared *shared = calloc(1, sizeof *shared);
 
-    if (!alone || !p) {
-        free(alone);
-        free(p);
+    if (!shared)
         return NULL;
-    }
-    *p = scene->primitives[primitive];
-    p->transform = transform_identity();
-    p->no_image = p->no_shadow = p->no_reflection = p->inverse = 0;
-    memcpy(alone->path, scene->path, sizeof alone->path);
-    alone->primitives = p;
-    alone->nprimitives = 1;
-    alone->camera.location = p->shape.mesh->vertices[0];
-    return alone;
+    shared->next = accel->all_shared;
+    accel->all_shared = shared;
+    shared->scene = calloc(1, sizeof *shared->scene);
+    if (!shared->scene)
+        return NULL;
+    memcpy(shared->scene->path, accel->source->path, sizeof accel->source->path);
+    return shared;
 }
 
+/* The mesh alone, where it is in object space. */
 static int share(Accel *accel, const Use *uses, int count, RetexError *err)
 {
-    SharedMesh *shared = calloc(1, sizeof *shared);
+    Shared *shared = shared_new(accel);
+    Primitive *p = calloc(1, sizeof *p);
 
-    if (shared)
-        shared->scene = scene_of(accel->source, uses[0].primitive);
-    if (!shared || !shared->scene) {
-        free(shared);
+    if (!shared || !p) {
+        free(p);
         return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     }
-    shared->next = accel->shared_meshes;
-    accel->shared_meshes = shared;
+    *p = accel->source->primitives[uses[0].primitive];
+    p->transform = transform_identity();
+    p->no_image = p->no_shadow = p->no_reflection = p->inverse = 0;
+    shared->mesh = shared->scene->primitives = p;
+    shared->scene->nprimitives = 1;
     for (int i = 0; i < count; i++)
         accel->shared[uses[i].primitive] = shared;
+    return 0;
+}
+
+static int share_prototypes(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+
+    accel->prototypes = calloc((size_t)scene->nprototypes + 1, sizeof(*accel->prototypes));
+    for (int i = 0; i < scene->nprototypes; i++) {
+        const Prototype *prototype = scene->prototypes[i];
+        Shared *shared = accel->prototypes ? shared_new(accel) : NULL;
+        if (!shared)
+            return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+        shared->scene->primitives = scene->primitives + prototype->first;
+        shared->scene->nprimitives = prototype->count;
+        shared->scene->csgs = prototype->csgs;
+        shared->scene->ncsgs = prototype->ncsgs;
+        accel->prototypes[i] = shared;
+    }
     return 0;
 }
 
@@ -94,18 +112,21 @@ int accel_find_shared(Accel *accel, RetexError *err)
                                : retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     }
     free(uses);
+    if (status == 0 && accel->source->nprototypes > 0)
+        status = share_prototypes(accel, err);
     return status;
 }
 
 void accel_free_shared(Accel *accel)
 {
-    while (accel->shared_meshes) {
-        SharedMesh *shared = accel->shared_meshes;
-        accel->shared_meshes = shared->next;
-        free(shared->scene->primitives);
+    while (accel->all_shared) {
+        Shared *shared = accel->all_shared;
+        accel->all_shared = shared->next;
+        free(shared->mesh);
         free(shared->scene);
         free(shared);
     }
     free(accel->shared);
-    accel->shared = NULL;
+    free(accel->prototypes);
+    accel->shared = accel->prototypes = NULL;
 }

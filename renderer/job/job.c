@@ -6,6 +6,9 @@ int job_target_is_empty(const Scene *scene, int t)
     for (int k = 0; k < scene->nprimitives; k++)
         if (primitive_target_texture(&scene->primitives[k], t))
             return 0;
+    for (int k = 0; k < scene->ninstances; k++)
+        if (instance_target_texture(scene, &scene->instances[k], t, NULL))
+            return 0;
     return 1;
 }
 

@@ -84,6 +84,8 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
     const Primitive *p = &lights->scene->primitives[index];
     Entry e = {.kind = ENTRY_EMITTER, .index = index};
     double power = 0, r;
+    if (p->prototype)
+        return RETEX_OK;
     if (p->shape.mesh) {
         int code = mesh_light_create(&e.mesh, p, err);
         if (code)

@@ -111,7 +111,7 @@ static int find_casters(Builder *m, RetexError *err)
     for (int k = 0; k < m->scene->nprimitives; k++) {
         const Primitive *p = &m->scene->primitives[k];
         Vec3 low, high;
-        if (!primitive_casts(p) || !shape_bounds(p, &low, &high))
+        if (p->prototype || !primitive_casts(p) || !shape_bounds(p, &low, &high))
             continue;
         double radius = vec_length(vec_sub(high, low)) / 2;
         m->casters[m->ncasters] = (Caster){k, vec_scale(vec_add(low, high), 0.5), radius};
@@ -185,7 +185,7 @@ static int trace_photon(const Builder *m, uint32_t photon, Landing *landing)
         if (!accel_intersect(m->accel, &ray, RAY_BOUNCE, &hit))
             return 0;
         /* a photon that meets another caster first is counted there */
-        if (k == 0 && hit.primitive != m->casters[caster].primitive)
+        if (k == 0 && (hit.instance || hit.primitive != m->casters[caster].primitive))
             return 0;
         shading_at(&s, m->scene, NULL, 1, &ray, &hit);
         float straight = s.bsdf.lambert ? 0 : s.bsdf.p_mirror + s.bsdf.p_passing;

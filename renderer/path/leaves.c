@@ -173,7 +173,8 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
 {
     const double *values = tree->values;
     const int last = tree->count - 1, chooses = tree->selector->pattern.ops->colors > 0;
-    const double value = pigment_value(tree->selector, at->surface->position, selector_uv(at, tree->selector));
+    const double value =
+        pigment_value(tree->selector, surface_texture_point(at->surface), selector_uv(at, tree->selector));
     int k = 0;
     if (chooses) {
         add_part(leaves, at, tree, value < last ? (int)value : last, 1, from);
@@ -192,7 +193,8 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
 /* By the index, round and round. */
 static int material_at(const Point *at, const TextureTree *tree)
 {
-    return pigment_index(tree->selector, at->surface->position, selector_uv(at, tree->selector)) % tree->count;
+    return pigment_index(tree->selector, surface_texture_point(at->surface), selector_uv(at, tree->selector)) %
+           tree->count;
 }
 
 /* ---- the tree ---- */

@@ -138,7 +138,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, int 
             return to->count;
         }
         Surface surface;
-        if (!accel_is_transparent(c->accel, hit.primitive))
+        if (!accel_is_transparent(c->accel, &hit))
             return -1;
         surface_at(&surface, c->scene, &ray, &hit);
         if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), light_source, to))
@@ -179,7 +179,7 @@ static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emit
 {
     Hit hit;
     while (accel_intersect(c->accel, &ray, (RayKind)(RAY_CAMERA | RAY_BOUNCE), &hit)) {
-        if (&c->scene->primitives[hit.primitive] == emitter)
+        if (!hit.instance && &c->scene->primitives[hit.primitive] == emitter)
             return 1;
         ray.tmin = hit.t;
     }

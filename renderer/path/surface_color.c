@@ -5,8 +5,8 @@
 static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
 {
     const Pigment *pigment = surface->texture->pigment;
-    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &of->uv : NULL,
-                     of->has_natural ? &of->natural : NULL);
+    return target_uv(pigment, surface_texture_point(surface), surface_texture_normal(surface),
+                     pigment->uv_mapping ? &of->uv : NULL, of->has_natural ? &of->natural : NULL);
 }
 
 Vec2 surface_target_uv(const Surface *surface)
@@ -17,7 +17,8 @@ Vec2 surface_target_uv(const Surface *surface)
 
 static Vec3 image_point(const Surface *surface, const Pigment *pigment)
 {
-    return pigment_point(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
+    return pigment_point(pigment, surface_texture_point(surface),
+                         pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
 }
 
 Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *target)
@@ -31,7 +32,7 @@ Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *targe
         of = surface_uv(surface);
     if (surface->target >= 0)
         *target = target_uv_of(surface, &of);
-    return pigment_eval(pigment, surface->position, of.uv);
+    return pigment_eval(pigment, surface_texture_point(surface), of.uv);
 }
 
 ImagePlace shading_prefetch(const Surface *surface)

@@ -23,6 +23,7 @@ struct PixelGuides {
     SurfaceSums first, seen;             /* at first hits; at the first hits that are neither mirror nor clear glass */
     int specular;                        /* sample points whose first hit is a mirror or clear glass */
     double luminance, luminance_squared; /* of the albedos */
+    const Instance *instance;            /* as in Hit, as what follows */
     int primitive, varied_primitive;     /* that the first point sees; 1: another point sees another one */
     Rgb albedo;
     double roughness, metallic;
@@ -130,11 +131,11 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Seen
 }
 
 /* Record the primitive that a sample point sees; -1: none. */
-static void record_primitive(PixelGuides *sums, int primitive)
+static void record_primitive(PixelGuides *sums, int primitive, const Instance *instance)
 {
     if (sums->samples++ == 0)
-        sums->primitive = primitive;
-    sums->varied_primitive |= primitive != sums->primitive;
+        sums->primitive = primitive, sums->instance = instance;
+    sums->varied_primitive |= primitive != sums->primitive || instance != sums->instance;
 }
 
 /* hit: the ray's first hit. first: the shading at that hit; not read if there is none. */
@@ -151,7 +152,7 @@ static void add_sample(PixelGuides *sums, Ray ray, Hit hit, const Shading *first
     for (int bounces = 0;; bounces++) {
         if (bounces ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
             add_albedo(sums, rgb_grey(1));
-            record_primitive(sums, -1);
+            record_primitive(sums, -1, NULL);
             return;
         }
         if (bounces > 0 || s->is_leaf) /* of first hits too, paths choose leaves at random */
@@ -165,7 +166,7 @@ static void add_sample(PixelGuides *sums, Ray ray, Hit hit, const Shading *first
         sums->specular += bounces == 0;
     }
     add_seen(sums, s, &mean);
-    record_primitive(sums, hit.primitive);
+    record_primitive(sums, hit.primitive, hit.instance);
 }
 
 /* Destination of a pixel's guides. */

@@ -191,6 +191,8 @@ static void count_leaf(void *context, const SeenLeaf *leaf)
     if (job->idents) {
         memset(pixel->marked, 0, (size_t)job->items);
         mark(scene, surface->primitive->idents, pixel->marked);
+        if (surface->instance)
+            mark(scene, surface->instance->idents, pixel->marked);
         mark(scene, surface->texture->idents, pixel->marked);
         mark(scene, surface->texture->pigment->idents, pixel->marked);
     }
@@ -264,6 +266,10 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
                     u = v = 0;
             }
     }
+    /* Of instances, whose primitives may be of many shapes, no UV is taken as periodic. */
+    for (int k = 0; k < scene->ninstances && (u || v); k++)
+        if (instance_target_texture(scene, &scene->instances[k], t, NULL))
+            u = v = 0;
     periodic[0] = any && u, periodic[1] = any && v;
 }
 

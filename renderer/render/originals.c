@@ -79,6 +79,8 @@ static const Pigment *target_pigment(const Scene *scene, int target, const Primi
     int whole;
     for (int k = 0; k < scene->nprimitives && !texture; k++)
         *of = &scene->primitives[k], texture = primitive_target_texture(*of, target);
+    for (int k = 0; k < scene->ninstances && !texture; k++)
+        texture = instance_target_texture(scene, &scene->instances[k], target, of);
     for (int k = 0; texture && (other = primitive_texture(*of, k, &whole)); k++)
         for (int j = 0; other->tree && j < other->tree->nleaves; j++) {
             const Texture *leaf = other->tree->leaves[j];

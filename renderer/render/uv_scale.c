@@ -33,7 +33,8 @@ static int step(const Scene *scene, const Accel *accel, const Surface *from, Vec
     Ray ray = {start, vec_neg(normal), 0, 2 * size};
     Hit hit;
     Surface s;
-    if (!accel_intersect(accel, &ray, kind, &hit) || &scene->primitives[hit.primitive] != from->primitive)
+    if (!accel_intersect(accel, &ray, kind, &hit) || &scene->primitives[hit.primitive] != from->primitive ||
+        hit.instance != from->instance)
         return 0;
     surface_at(&s, scene, &ray, &hit);
     if (s.texture->tree)

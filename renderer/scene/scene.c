@@ -162,7 +162,7 @@ static void mark_leaves(const Scene *scene, const Texture *texture)
 
 static int mark(Scene *scene, Primitive *p, RetexError *err)
 {
-    p->target = target_of(scene, p->texture->idents, p->idents);
+    p->target = target_of(scene, p->inherits ? NULL : p->texture->idents, p->idents);
     p->interior_target = p->interior_texture ? target_of(scene, p->interior_texture->idents, p->idents) : -1;
     p->face_targets = NULL;
     mark_leaves(scene, p->texture);
@@ -209,6 +209,29 @@ const Texture *primitive_target_texture(const Primitive *p, int target)
     return NULL;
 }
 
+const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of)
+{
+    const Primitive *p = scene->primitives + instance->prototype->first, *end = p + instance->prototype->count;
+    const Texture *texture = instance->texture;
+    if (instance->target == target && p < end) {
+        if (of)
+            *of = p;
+        return texture_leaf(p->inherits ? texture : p->texture, 0);
+    }
+    while (p < end && !p->inherits)
+        p++;
+    for (int j = 0; p < end && j < texture_leaf_count(texture); j++) {
+        const Texture *leaf = texture_leaf(texture, j);
+        const int whole = instance->texture_target;
+        if ((texture->tree ? texture_leaf_target(leaf, whole) : whole) != target)
+            continue;
+        if (of)
+            *of = p;
+        return leaf;
+    }
+    return NULL;
+}
+
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err)
 {
     if (nspecs < 0 || nspecs > RETEX_MAX_TARGETS)
@@ -229,6 +252,13 @@ int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, Re
         int code = mark(scene, &scene->primitives[i], err);
         if (code)
             return code;
+    }
+    for (int i = 0; i < scene->ninstances; i++) {
+        Instance *instance = &scene->instances[i];
+        instance->target = target_of(scene, NULL, instance->idents);
+        instance->texture_target = instance->texture ? target_of(scene, instance->texture->idents, NULL) : -1;
+        if (instance->texture)
+            mark_leaves(scene, instance->texture);
     }
     return 0;
 }

@@ -281,6 +281,26 @@ typedef struct Shape {
     const FaceTextures *textures; /* or NULL: the primitive's own is on all of it */
 } Shape;
 
+/* Primitives in a space of their own. They are where the prototype's instances are, and nowhere else. */
+typedef struct Prototype {
+    int number;              /* index into scene->prototypes */
+    int first, count;        /* of scene->primitives */
+    int ncsgs;
+    struct Csg **csgs;       /* its trees: indices of their leaves count from first */
+    int inherits;            /* some of its primitives do */
+    const struct Prototype *next;
+} Prototype;
+
+/* A copy of a prototype. Where it has names or a texture that are targets, so are the primitives that have them. */
+typedef struct Instance {
+    const Prototype *prototype;
+    Transform transform;     /* the prototype's space to the world */
+    const Texture *texture;  /* in the prototype's space: of primitives that inherit theirs; NULL where none does */
+    const IdentList *idents;
+    int target, texture_target; /* by idents; by the texture. -1: none */
+    int line;
+} Instance;
+
 typedef struct Primitive {
     Shape shape;
     Transform transform;     /* canonical shape to world */
@@ -290,6 +310,8 @@ typedef struct Primitive {
     int no_shadow, no_image, no_reflection, inverse, hollow;
     const struct CsgNode *csg; /* its place in the tree of which it is an operand, or NULL; shape/csg.h */
     const struct LightGroup *light_group; /* that it is in, or NULL */
+    const Prototype *prototype; /* that it is part of: its world is the prototype's space; or NULL */
+    int inherits;            /* 1: its texture is the instance's */
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
@@ -396,9 +418,11 @@ typedef struct Scene {
     Camera camera;
     Rgb background;
     SkySphere *sky;          /* or NULL */
-    int nprimitives, ncsgs, nlights, nimages;
+    int nprimitives, ncsgs, nprototypes, ninstances, nlights, nimages;
     Primitive *primitives;
-    struct Csg **csgs;       /* trees over primitives; shape/csg.h */
+    struct Csg **csgs;       /* trees over primitives, but for those of prototypes; shape/csg.h */
+    const Prototype **prototypes;
+    Instance *instances;
     Light *lights;
     ImageMap **images;
     WorkingSpace working_space;
@@ -421,6 +445,8 @@ static inline int texture_leaf_target(const Texture *leaf, int whole)
 }
 /* A plain texture of the primitive that is the target, or NULL. */
 const Texture *primitive_target_texture(const Primitive *primitive, int target);
+/* The same of the instance's own texture and names, and a primitive that has it; of may be NULL. */
+const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
 /* One -t of the command line: "NAME" or "NAME=IDENT,IDENT". */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
 void scene_close(Scene **scene); /* textures of image maps, then the arena */

@@ -131,6 +131,12 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
 
 Vec3 normal_tilted(const Normal *bumps, const Surface *surface, Vec3 normal, Vec3 view)
 {
-    const Place place = {surface, view};
-    return unit(tilted(bumps, &place, 0, surface->position, normal), normal);
+    Place place = {surface, view};
+    if (!surface->instance)
+        return unit(tilted(bumps, &place, 0, surface->position, normal), normal);
+    const Transform *t = &surface->instance->transform;
+    place.view = transform_inverse_vector(t, view);
+    const Vec3 inner = transform_inverse_normal(t, normal);
+    const Vec3 n = tilted(bumps, &place, 0, surface_texture_point(surface), inner);
+    return unit(transform_normal(t, n), normal);
 }

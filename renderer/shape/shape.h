@@ -83,7 +83,7 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
 /* The surface's point in canonical space. */
 static inline Vec3 shape_local_point(const Surface *surface)
 {
-    return transform_inverse_point(&surface->primitive->transform, surface->position);
+    return transform_inverse_point(&surface->primitive->transform, surface_texture_point(surface));
 }
 
 /* It is the hit, if it is in range. */

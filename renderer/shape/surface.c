@@ -12,6 +12,7 @@ static void set_material(Surface *surface)
     surface->texture = own >= 0 ? shape->textures->list[own] : primitive->texture;
     surface->target = own >= 0 && primitive->face_targets ? primitive->face_targets[own] : primitive->target;
     surface->backside = 0;
+    surface->instance = NULL;
 }
 
 /* An interpolated normal, on the side of the face's own. Normals that cancel out, or lie in the face, tell nothing: the
@@ -38,15 +39,25 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     set_material(surface);
 }
 
+/* Of two, the one that was asked for first. */
+static int first_target(int a, int b)
+{
+    return a < 0 || (b >= 0 && b < a) ? b : a;
+}
+
 void surface_turn(Surface *surface, int backside)
 {
     const Primitive *primitive = surface->primitive;
+    const Instance *instance = surface->instance;
+    const Texture *whole = instance && primitive->inherits ? instance->texture : primitive->texture;
 
     surface->backside = backside;
-    if (!backside || !primitive->interior_texture || surface->texture != primitive->texture)
+    if (!backside || !primitive->interior_texture || surface->texture != whole)
         return;
     surface->texture = primitive->interior_texture;
     surface->target = primitive->interior_target;
+    if (instance)
+        surface->target = first_target(surface->target, instance->target);
 }
 
 static void triangle_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
@@ -62,20 +73,52 @@ static void triangle_at(Surface *surface, const Primitive *primitive, const Ray 
             primitive, mesh_shading_normal(primitive->shape.mesh, hit->face, hit->b1, hit->b2), hit->normal);
 }
 
+static void curved_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
+{
+    ShapePoint point = {.normal = {0, 1, 0}};
+    Vec3 p = transform_inverse_point(&primitive->transform, vec_mad(ray->origin, ray->direction, hit->t));
+
+    primitive->shape.ops->point(primitive, p, hit->face, &point);
+    surface_from_point(surface, primitive, hit->face, &point);
+}
+
+/* In the prototype's space first, and from there to the world. */
+static void instance_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
+{
+    const Instance *instance = hit->instance;
+    const Transform *t = &instance->transform;
+    const Ray within = {transform_inverse_point(t, ray->origin), transform_inverse_vector(t, ray->direction), ray->tmin,
+                        ray->tmax};
+    Hit there = *hit;
+
+    if (primitive->shape.ops->triangles) {
+        there.normal = vec_normalize(transform_inverse_normal(t, hit->normal));
+        triangle_at(surface, primitive, &within, &there);
+        surface->position = vec_mad(ray->origin, ray->direction, hit->t);
+    } else {
+        curved_at(surface, primitive, &within, &there);
+        surface->position = transform_point(t, surface->position);
+    }
+    surface->geometric_normal = vec_normalize(transform_normal(t, surface->geometric_normal));
+    surface->shading_normal = vec_normalize(transform_normal(t, surface->shading_normal));
+    surface->instance = instance;
+    if (primitive->inherits && surface->texture == primitive->texture) {
+        surface->texture = instance->texture;
+        surface->target = first_target(surface->target, instance->texture_target);
+    }
+    surface->target = first_target(surface->target, instance->target);
+}
+
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
-    ShapePoint point = {.normal = {0, 1, 0}};
-    Vec3 p;
 
-    if (primitive->shape.ops->triangles) {
+    if (hit->instance)
+        instance_at(surface, primitive, ray, hit);
+    else if (primitive->shape.ops->triangles)
         triangle_at(surface, primitive, ray, hit);
-        surface_turn(surface, vec_dot(ray->direction, surface->geometric_normal) > 0);
-        return;
-    }
-    p = transform_inverse_point(&primitive->transform, vec_mad(ray->origin, ray->direction, hit->t));
-    primitive->shape.ops->point(primitive, p, hit->face, &point);
-    surface_from_point(surface, primitive, hit->face, &point);
+    else
+        curved_at(surface, primitive, ray, hit);
     surface_turn(surface, vec_dot(ray->direction, surface->geometric_normal) > 0);
 }
 

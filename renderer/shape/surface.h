@@ -16,6 +16,7 @@ typedef struct Hit {
     int face;          /* of a mesh; else a part of the shape, as the shape's file counts them */
     double b1, b2;     /* barycentrics of a triangle: weights of corners 1 and 2 */
     Vec3 normal;       /* of a triangle: unit length, outward, world space */
+    const Instance *instance; /* whose the primitive is, or NULL */
 } Hit;
 
 /* What shading needs. Normals are of unit length, in world space. */
@@ -29,6 +30,7 @@ typedef struct Surface {
     Vec3 shading_normal;     /* outward, interpolated where the mesh has normals; same side as geometric_normal */
     int backside;            /* 1: the ray came from inside (dot(direction, geometric_normal) > 0) */
     double b1, b2;           /* as in Hit */
+    const Instance *instance; /* as in Hit */
 } Surface;
 
 typedef struct SurfaceUv {
@@ -55,6 +57,18 @@ static inline void surface_prefetch_corners(const Scene *scene, const Hit *hit)
         __builtin_prefetch(&primitive->shape.mesh->normals[face->normal[k]]);
     for (int k = 0; k < 3 && mesh_face_has_uvs(face); k++)
         __builtin_prefetch(&primitive->shape.mesh->uvs[face->uv[k]]);
+}
+/* Where textures are evaluated: they are in the world, and those of an instance in its prototype's space. */
+static inline Vec3 surface_texture_point(const Surface *surface)
+{
+    return surface->instance ? transform_inverse_point(&surface->instance->transform, surface->position)
+                             : surface->position;
+}
+static inline Vec3 surface_texture_normal(const Surface *surface)
+{
+    if (!surface->instance)
+        return surface->geometric_normal;
+    return vec_normalize(transform_inverse_normal(&surface->instance->transform, surface->geometric_normal));
 }
 SurfaceUv surface_uv(const Surface *surface); /* not part of surface_at, for most surfaces have one colour */
 /* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */

@@ -223,6 +223,7 @@ typedef struct PlacedTexture {
 
 typedef struct CsgRoot {
     CsgNode *root;
+    const Prototype *prototype; /* or NULL */
     int line;
 } CsgRoot;
 
@@ -249,6 +250,10 @@ typedef struct Builder {
     const FaceTextures *placed_textures, *placed_textures_from; /* the last that were placed */
     Transform placed_textures_by;
     struct Tracer *tracer; /* trace.c: objects made ready for rays */
+    struct CopiedGroups *copied; /* instance.c: groups that were placed */
+    const Prototype *prototypes; /* all, the last first */
+    const ParsedTexture *inherited_texture; /* stands for the instance's while a prototype is placed */
+    int instance_capacity;
     struct FontFiles *fonts; /* font.c */
 } Builder;
 
@@ -436,8 +441,26 @@ CsgNode *object_csg_node(Sdl *sdl, const Object *object, const Transform *outer,
 Csg *csg_complete(Sdl *sdl, CsgNode *root);
 void index_mesh(Sdl *sdl, const Mesh *mesh); /* once: for what is intersected in double */
 
-/* place.c, finalize.c */
+/* place.c, instance.c, finalize.c */
+/* What a child inherits from the groups around it. */
+typedef struct Inherited {
+    Transform to_world;
+    const ParsedTexture *texture, *interior_texture; /* in world space */
+    const ParsedInterior *interior;
+    int uv_mapping;
+    unsigned flags;
+    const IdentList *idents;
+    const LightGroup *light_group;
+    CsgNode *csg; /* the node that it is an operand of, or NULL */
+    const Prototype *prototype; /* that it is part of, or NULL: then the world is its space */
+} Inherited;
 void place_object(Sdl *sdl, const Object *object);
+void place_within(Sdl *sdl, const Object *object, const Inherited *around);
+int place_instance(Sdl *sdl, const Object *object, const Inherited *around); /* 0: it is to be placed by itself */
+unsigned flags_within(const Object *object, const Inherited *around);
+const ParsedTexture *texture_placed(Sdl *sdl, const ParsedTexture *texture, const Transform *by);
+void texture_report(Sdl *sdl, const ParsedTexture *texture);
+void complete_prototypes(Sdl *sdl);
 void complete_csgs(Sdl *sdl);
 void gather_triangles(Sdl *sdl);
 void gather_children(Sdl *sdl, Object *group);

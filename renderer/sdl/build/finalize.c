@@ -79,6 +79,9 @@ static void each_texture(Sdl *sdl, UseVisitor *visit, void *context)
         for (int j = 0; p->shape.textures && j < p->shape.textures->count; j++)
             visit(sdl, &p->shape.textures->list[j], context);
     }
+    for (int i = 0; i < scene->ninstances; i++)
+        if (scene->instances[i].texture)
+            visit(sdl, &scene->instances[i].texture, context);
 }
 
 static void visit_load(Sdl *sdl, const Texture **texture, void *context)
@@ -205,6 +208,13 @@ static void list_all_names(Sdl *sdl)
         if (p->idents != last_object)
             list_names(sdl, &names, last_object = p->idents);
     }
+    for (int i = 0; i < scene->ninstances; i++) {
+        const Instance *instance = &scene->instances[i];
+        if (instance->texture && instance->texture->idents != last_texture)
+            list_names(sdl, &names, last_texture = instance->texture->idents);
+        if (instance->idents != last_object)
+            list_names(sdl, &names, last_object = instance->idents);
+    }
 }
 
 /* ---- */
@@ -242,6 +252,7 @@ void finalize_scene(Sdl *sdl)
         camera_use(sdl, &builder_of(sdl)->camera);
     build_sky(sdl);
     gather_triangles(sdl);
+    complete_prototypes(sdl);
     complete_csgs(sdl);
     load_images(sdl);
     each_texture(sdl, visit_complete, NULL);

@@ -5,18 +5,6 @@
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
 
-/* What a child inherits from the groups around it. */
-typedef struct Inherited {
-    Transform to_world;
-    const ParsedTexture *texture, *interior_texture; /* in world space */
-    const ParsedInterior *interior;
-    int uv_mapping;
-    unsigned flags;
-    const IdentList *idents;
-    const LightGroup *light_group;
-    CsgNode *csg; /* the node that it is an operand of, or NULL */
-} Inherited;
-
 /* ---- textures in world space ---- */
 
 static size_t hash_placed(const ParsedTexture *texture, const Transform *by)
@@ -29,7 +17,7 @@ static size_t hash_placed(const ParsedTexture *texture, const Transform *by)
 }
 
 /* Moved, the same copy for the same move where it comes again soon: a group's children mostly share one. */
-static const ParsedTexture *placed_texture(Sdl *sdl, const ParsedTexture *texture, const Transform *by)
+const ParsedTexture *texture_placed(Sdl *sdl, const ParsedTexture *texture, const Transform *by)
 {
     if (!texture || transform_is_identity(by))
         return texture;
@@ -50,7 +38,7 @@ static const ParsedTexture *texture_in_world(Sdl *sdl, const MovedTexture *moved
     Transform by = moved->is_moved ? moved->transform : transform_identity();
     if (!uv_mapping)
         by = transform_then(by, *outer);
-    return placed_texture(sdl, moved->texture, &by);
+    return texture_placed(sdl, moved->texture, &by);
 }
 
 static void report_leaf(Sdl *sdl, const ParsedTexture *texture, void *context)
@@ -69,7 +57,7 @@ static void report_selector(Sdl *sdl, const ParsedTextureMap *map, void *context
     gaps_report(sdl, &map->selector->gaps);
 }
 
-static void report_texture(Sdl *sdl, const ParsedTexture *texture)
+void texture_report(Sdl *sdl, const ParsedTexture *texture)
 {
     texture_visit(sdl, texture, report_leaf, report_selector, NULL);
 }
@@ -89,10 +77,10 @@ static const FaceTextures *placed_textures(Sdl *sdl, const Object *object, const
     textures->count = from->count;
     textures->list = sdl_alloc(sdl, (size_t)from->count * sizeof *textures->list);
     for (int i = 0; i < from->count; i++) {
-        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)from->list[i], &by);
+        const ParsedTexture *texture = texture_placed(sdl, (const ParsedTexture *)from->list[i], &by);
         if (object->uv_mapping)
             texture = texture_uv_mapped(sdl, texture);
-        report_texture(sdl, texture);
+        texture_report(sdl, texture);
         textures->list[i] = &texture->texture;
     }
     if (!object->uv_mapping) {
@@ -133,13 +121,15 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
 {
     const ParsedTexture *texture = in->texture ? in->texture : builder_of(sdl)->default_texture;
     const ParsedTexture *inside = in->interior_texture;
-    const ParsedInterior *interior = in->interior ? in->interior : interior_of_finish(sdl, texture);
-    if (in->uv_mapping) {
+    const int inherits = in->prototype && in->texture == builder_of(sdl)->inherited_texture;
+    const ParsedInterior *interior = in->interior ? in->interior : inherits ? NULL : interior_of_finish(sdl, texture);
+    if (in->uv_mapping && !inherits) {
         texture = texture_uv_mapped(sdl, texture);
         inside = texture_uv_mapped(sdl, inside);
     }
-    report_texture(sdl, texture);
-    report_texture(sdl, inside);
+    if (!inherits)
+        texture_report(sdl, texture);
+    texture_report(sdl, inside);
     if (interior)
         gaps_report(sdl, &interior->gaps);
     if (in->csg && object->shape.mesh)
@@ -149,6 +139,10 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] =
         object->single_triangle == TRIANGLE_SINGLE && !in->csg;
     p->csg = in->csg;
+    p->prototype = in->prototype;
+    p->inherits = inherits;
+    if (inherits)
+        ((Prototype *)p->prototype)->inherits = 1;
     p->shape = object->shape;
     p->shape.textures = textures;
     p->transform = in->to_world;
@@ -250,12 +244,12 @@ static int begins_csg(const Object *object, unsigned flags)
     }
 }
 
-static void add_root(Sdl *sdl, CsgNode *root, int line)
+static void add_root(Sdl *sdl, CsgNode *root, const Prototype *prototype, int line)
 {
     Builder *builder = builder_of(sdl);
     builder->csg_roots =
         builder_grow(sdl, builder->csg_roots, builder->ncsg_roots, &builder->csg_capacity, sizeof *builder->csg_roots);
-    builder->csg_roots[builder->ncsg_roots++] = (CsgRoot){root, line};
+    builder->csg_roots[builder->ncsg_roots++] = (CsgRoot){root, prototype, line};
 }
 
 /* What there is of the object itself and in it; here.csg is its own node. */
@@ -280,12 +274,17 @@ static void place_contents(Sdl *sdl, const Object *object, const Inherited *here
     }
 }
 
+unsigned flags_within(const Object *object, const Inherited *around)
+{
+    return (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
+}
+
 static void place(Sdl *sdl, const Object *object, const Inherited *around)
 {
     Inherited here = *around;
     sdl_step(sdl, 1);
     object_report(sdl, object);
-    if (object->kind == OBJECT_EMPTY && !around->csg)
+    if ((object->kind == OBJECT_EMPTY && !around->csg) || place_instance(sdl, object, around))
         return;
     here.to_world = transform_then(object->transform, around->to_world);
     here.uv_mapping = object->uv_mapping;
@@ -300,7 +299,7 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
         here.interior_texture = inside;
     if (object->interior)
         here.interior = object->interior;
-    here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
+    here.flags = flags_within(object, around);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
     if (object->flags & OBJECT_LIGHT_GROUP) {
         LightGroup *group = sdl_alloc(sdl, sizeof *group);
@@ -312,7 +311,12 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
         here.csg = object_csg_node(sdl, object, &around->to_world, here.flags & OBJECT_INVERSE, around->csg);
     place_contents(sdl, object, &here);
     if (here.csg && !around->csg)
-        add_root(sdl, here.csg, object->line);
+        add_root(sdl, here.csg, here.prototype, object->line);
+}
+
+void place_within(Sdl *sdl, const Object *object, const Inherited *around)
+{
+    place(sdl, object, around);
 }
 
 void place_object(Sdl *sdl, const Object *object)
@@ -330,12 +334,19 @@ void complete_csgs(Sdl *sdl)
         if (scene->primitives[i].csg) {
             CsgNode *leaf = (CsgNode *)scene->primitives[i].csg;
             leaf->primitive = &scene->primitives[i];
-            leaf->index = i;
+            leaf->index = scene->primitives[i].prototype ? i - scene->primitives[i].prototype->first : i;
         }
+    /* Roots of one prototype are neighbours. */
+    struct Csg **all = sdl_alloc(sdl, (size_t)(builder->ncsg_roots + 1) * sizeof *all);
     scene->csgs = sdl_alloc(sdl, (size_t)(builder->ncsg_roots + 1) * sizeof *scene->csgs);
     for (int i = 0; i < builder->ncsg_roots; i++) {
-        scene->csgs[i] = csg_complete(sdl, builder->csg_roots[i].root);
-        scene->csgs[i]->line = builder->csg_roots[i].line;
+        const CsgRoot *root = &builder->csg_roots[i];
+        Prototype *prototype = (Prototype *)root->prototype;
+        all[i] = csg_complete(sdl, root->root);
+        all[i]->line = root->line;
+        if (!prototype)
+            scene->csgs[scene->ncsgs++] = all[i];
+        else if (prototype->ncsgs++ == 0)
+            prototype->csgs = &all[i];
     }
-    scene->ncsgs = builder->ncsg_roots;
 }

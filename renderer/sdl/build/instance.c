@@ -1,0 +1,228 @@
+/* Copies of groups. The first copies of a group are placed as primitives of their own, which rays meet faster. Once
+ * many parts are there, the group becomes a prototype, in the space of its contents, and further copies are instances
+ * of it: a transform, a texture for the parts that have none, and names. */
+#include <string.h>
+#include "sdl/build/builder.h"
+#include "shade/material.h"
+
+enum { SEPARATE_PARTS = 8192, PROTOTYPE_PARTS = 2000000, GROUP_BUCKETS = 1024 };
+
+/* What the contents of a prototype depend on. */
+typedef struct GroupKey {
+    const ObjectList *children;
+    CsgKind csg;
+    const ClipList *clips, *bounds;
+    unsigned flags;
+    const ParsedInterior *interior;
+    const LightGroup *light_group;
+} GroupKey;
+
+typedef struct CopiedGroup {
+    GroupKey key;
+    double parts;         /* placed so far */
+    int is_separate;      /* its copies cannot be instances */
+    Prototype *prototype; /* or NULL */
+    struct CopiedGroup *next;
+} CopiedGroup;
+
+struct CopiedGroups {
+    CopiedGroup *buckets[GROUP_BUCKETS];
+};
+
+static int same_key(const GroupKey *a, const GroupKey *b)
+{
+    return a->children == b->children && a->csg == b->csg && a->clips == b->clips && a->bounds == b->bounds &&
+           a->flags == b->flags && a->interior == b->interior && a->light_group == b->light_group;
+}
+
+static CopiedGroup *group_of(Sdl *sdl, const GroupKey *key)
+{
+    Builder *builder = builder_of(sdl);
+    if (!builder->copied)
+        builder->copied = sdl_alloc(sdl, sizeof *builder->copied);
+    CopiedGroup **bucket = &builder->copied->buckets[((uintptr_t)key->children >> 4) * 2654435761u % GROUP_BUCKETS];
+    for (CopiedGroup *group = *bucket; group; group = group->next)
+        if (same_key(&group->key, key))
+            return group;
+    CopiedGroup *group = sdl_alloc(sdl, sizeof *group);
+    *group = (CopiedGroup){.key = *key, .next = *bucket};
+    return *bucket = group;
+}
+
+/* ---- what can be an instance ---- */
+
+static void find_emission(Sdl *sdl, const ParsedTexture *leaf, void *context)
+{
+    const Finish *finish = leaf->texture.finish;
+    (void)sdl;
+    if (!rgb_is_black(finish->emission) || rgb_max(finish->ambient) >= 1)
+        *(int *)context = 1;
+}
+
+static int may_emit(Sdl *sdl, const ParsedTexture *texture)
+{
+    int found = 0;
+    if (texture)
+        texture_visit(sdl, texture, find_emission, NULL, &found);
+    return found;
+}
+
+static int faces_may_emit(Sdl *sdl, const FaceTextures *textures)
+{
+    for (int i = 0; textures && i < textures->count; i++)
+        if (may_emit(sdl, (const ParsedTexture *)textures->list[i]))
+            return 1;
+    return 0;
+}
+
+/* Lights are where their primitives are, and a texture that comes with uv_mapping from within is no copy's. */
+static int can_be_copied(Sdl *sdl, const Object *object, int has_texture)
+{
+    sdl_step(sdl, 1);
+    has_texture |= object->texture.texture != NULL;
+    if (object->kind == OBJECT_LIGHT || (object->uv_mapping && !has_texture) ||
+        may_emit(sdl, object->texture.texture) || may_emit(sdl, object->interior_texture.texture) ||
+        faces_may_emit(sdl, object->shape.textures))
+        return 0;
+    for (const ObjectList *list = object->children; list; list = list->next)
+        if (!can_be_copied(sdl, list->object, has_texture))
+            return 0;
+    return 1;
+}
+
+static int children_can_be_copied(Sdl *sdl, const Object *object)
+{
+    for (const ObjectList *list = object->children; list; list = list->next)
+        if (!can_be_copied(sdl, list->object, 0))
+            return 0;
+    return 1;
+}
+
+/* ---- prototypes ---- */
+
+static Prototype *prototype_new(Sdl *sdl, const Object *object, const GroupKey *key)
+{
+    Builder *builder = builder_of(sdl);
+    Scene *scene = sdl_scene(sdl);
+    Prototype *prototype = sdl_alloc(sdl, sizeof *prototype);
+    Object contents = *object;
+    contents.transform = transform_identity();
+    contents.texture = contents.interior_texture = (MovedTexture){.texture = NULL};
+    contents.interior = NULL;
+    contents.flags = 0;
+    contents.uv_mapping = 0;
+    contents.idents = NULL;
+    prototype->number = scene->nprototypes++;
+    prototype->next = builder->prototypes;
+    builder->prototypes = prototype;
+    builder->inherited_texture = texture_copy(sdl, builder->default_texture);
+    const Inherited within = {.to_world = transform_identity(),
+                              .texture = builder->inherited_texture,
+                              .interior = key->interior,
+                              .flags = key->flags,
+                              .light_group = key->light_group,
+                              .prototype = prototype};
+    place_within(sdl, &contents, &within);
+    builder->inherited_texture = NULL;
+    return prototype;
+}
+
+/* ---- instances ---- */
+
+static int equal_transforms(const Transform *a, const Transform *b)
+{
+    for (int i = 0; i < 12; i++)
+        if (a->m[i / 4][i % 4] != b->m[i / 4][i % 4])
+            return 0;
+    return 1;
+}
+
+/* The texture of parts that have none, in the prototype's space: most often it was given before any transform, and is
+ * as it was given. */
+static const ParsedTexture *instance_texture(Sdl *sdl, const Object *object, const Inherited *around,
+                                             const Transform *to_world)
+{
+    const MovedTexture *own = &object->texture;
+    const ParsedTexture *texture = own->texture;
+    int uv_mapping = object->uv_mapping;
+    if (!texture) {
+        const Transform back = transform_inverse(*to_world);
+        texture = around->texture ? around->texture : builder_of(sdl)->default_texture;
+        texture = texture_placed(sdl, texture, &back);
+        uv_mapping |= around->uv_mapping;
+    } else if (uv_mapping) {
+        texture = own->is_moved ? texture_placed(sdl, texture, &own->transform) : texture;
+    } else if (!(own->is_moved ? equal_transforms(&own->transform, &object->transform)
+                               : transform_is_identity(&object->transform))) {
+        const Transform back = transform_inverse(object->transform);
+        const Transform by = own->is_moved ? transform_then(own->transform, back) : back;
+        texture = texture_placed(sdl, texture, &by);
+    }
+    return uv_mapping ? texture_uv_mapped(sdl, texture) : texture;
+}
+
+static void add_instance(Sdl *sdl, const Object *object, const Inherited *around, const Prototype *prototype,
+                         const ParsedTexture *texture, const Transform *to_world)
+{
+    Scene *scene = sdl_scene(sdl);
+    scene->instances = builder_grow(sdl, scene->instances, scene->ninstances, &builder_of(sdl)->instance_capacity,
+                                    sizeof *scene->instances);
+    object_report(sdl, object);
+    texture_report(sdl, texture);
+    scene->instances[scene->ninstances++] = (Instance){.prototype = prototype,
+                                                       .transform = *to_world,
+                                                       .texture = texture ? &texture->texture : NULL,
+                                                       .idents = sdl_ident_join(sdl, around->idents, object->idents),
+                                                       .target = -1,
+                                                       .texture_target = -1,
+                                                       .line = object->line};
+}
+
+int place_instance(Sdl *sdl, const Object *object, const Inherited *around)
+{
+    const GroupKey key = {object->children,
+                          object->csg,
+                          object->clips,
+                          object->bounds,
+                          flags_within(object, around),
+                          object->interior ? object->interior : around->interior,
+                          around->light_group};
+    if (object->kind != OBJECT_GROUP || around->csg || around->prototype || around->interior_texture ||
+        object->interior_texture.texture || object->parts > PROTOTYPE_PARTS)
+        return 0;
+    CopiedGroup *group = group_of(sdl, &key);
+    group->parts += object->parts;
+    if (group->is_separate || group->parts <= SEPARATE_PARTS || group->parts == object->parts)
+        return 0;
+    if (!group->prototype && !children_can_be_copied(sdl, object)) {
+        group->is_separate = 1;
+        return 0;
+    }
+    if (!group->prototype)
+        group->prototype = prototype_new(sdl, object, &key);
+    const Transform to_world = transform_then(object->transform, around->to_world);
+    const ParsedTexture *texture = NULL;
+    if (group->prototype->inherits)
+        texture = instance_texture(sdl, object, around, &to_world);
+    /* Its finish would change the interior of parts. */
+    if (may_emit(sdl, texture) ||
+        (texture && !key.interior && ((const ParsedFinish *)texture->texture.finish)->ior > 0))
+        return 0;
+    add_instance(sdl, object, around, group->prototype, texture, &to_world);
+    return 1;
+}
+
+/* ---- when the scene is complete ---- */
+
+void complete_prototypes(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    scene->prototypes = sdl_alloc(sdl, (size_t)(scene->nprototypes + 1) * sizeof *scene->prototypes);
+    for (const Prototype *p = builder_of(sdl)->prototypes; p; p = p->next)
+        scene->prototypes[p->number] = p;
+    for (int i = 0; i < scene->nprimitives; i++) {
+        Prototype *prototype = (Prototype *)scene->primitives[i].prototype;
+        if (prototype && prototype->count++ == 0)
+            prototype->first = i;
+    }
+}
