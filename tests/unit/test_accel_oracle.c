@@ -1,6 +1,4 @@
-/* Ray queries, compared with a simple loop over all shapes of the scene in double precision. Scenes are random and
- * have all shapes: inside and through each other, sheared and stretched, with sizes from a thousandth of a unit to a
- * thousand units, near the origin and far from it.
+/* Ray queries, compared with a simple loop over all shapes of a random scene in double precision.
  *
  * Some results of Embree, which computes in float, are not checked: whether a ray intersects a triangle within EDGE of
  * its rim; whether a triangle within START of the ray's start lies before or behind it; and which of two triangles
@@ -15,226 +13,14 @@
 #include <time.h>
 #include "lib_test.h"
 #include <cmocka.h>
-#include "accel/accel.h"
-#include "lib_scene_text.h"
-#include "shape/shape.h"
+#include "lib_random_scene.h"
 
 #define EDGE 2e-6
 #define START 4e-7
 #define HEIGHT 2e-6
 #define EXACT 1e-11
 
-enum { SCENES = 250, BATCHES = 10, SHAPES_MOST = 24, CANDIDATES_MOST = 512, SOUP = 12, TRIES = 20 };
-
-/* ---- random numbers ---- */
-
-static uint32_t state;
-
-static double between(double low, double high)
-{
-    return low + (high - low) * test_random(&state);
-}
-static int below(int count)
-{
-    return (int)(test_random(&state) * count);
-}
-static int chance(double share)
-{
-    return test_random(&state) < share;
-}
-static double magnitude(double low, double high) /* uniform in its logarithm */
-{
-    return low * pow(high / low, test_random(&state));
-}
-static Vec3 direction(void)
-{
-    double z = between(-1, 1), angle = between(0, 2 * PI), rho = sqrt(1 - z * z);
-
-    return vec3(rho * cos(angle), rho * sin(angle), z);
-}
-
-/* ---- scenes ---- */
-
-/* What lets light through, and which primitives that makes passable: to any light, to one that is not bent. */
-static const Pigment grey = {.kind = PIGMENT_COLOR, .color = {0.5f, 0.5f, 0.5f, 0, 0}};
-static const Pigment glass = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0.9f, 0}};
-static const Texture solid = {.pigment = &grey}, clear = {.pigment = &glass};
-static const Interior bending = {.ior = 1.5};
-static const struct Material {
-    const Texture *texture, *inside;
-    const Interior *interior;
-    int transparent, straight;
-} materials[] = {{&solid, NULL, NULL, 0, 0},
-                 {&solid, NULL, &bending, 0, 0},
-                 {&clear, NULL, NULL, 1, 1},
-                 {&clear, NULL, &bending, 1, 0},
-                 {&solid, &clear, &bending, 1, 1}};
-
-typedef struct World {
-    uint32_t seed;
-    Scene scene;
-    Primitive shapes[SHAPES_MOST];
-    const struct Material *of[SHAPES_MOST];
-    Accel *accel;
-    Vec3 centre;
-    double size;  /* half of what the shapes fill, about centre */
-    double far;   /* where rays start at the farthest: as many sizes from the centre */
-    double reach; /* largest coordinate of a triangle */
-} World;
-
-static Vec3 soup_vertices[3 * SOUP], tent_vertices[5] = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}, {0, 1.5, 0}};
-static MeshFace soup_faces[SOUP], tent_faces[6];
-static Mesh soup = {.nvertices = 3 * SOUP, .nfaces = SOUP, .vertices = soup_vertices, .faces = soup_faces};
-static Mesh tent = {.nvertices = 5, .nfaces = 6, .vertices = tent_vertices, .faces = tent_faces};
-
-static MeshFace face_of(int a, int b, int c)
-{
-    return (MeshFace){{a, b, c}, {-1, -1, -1}, {-1, -1, -1}, -1};
-}
-
-static void make_meshes(void)
-{
-    const int corners[6][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
-
-    for (int i = 0; i < 6; i++)
-        tent_faces[i] = face_of(corners[i][0], corners[i][1], corners[i][2]);
-    for (int i = 0; i < 3 * SOUP; i++)
-        soup_vertices[i] = vec_scale(direction(), between(0.2, 1.2));
-    for (int i = 0; i < SOUP; i++)
-        soup_faces[i] = face_of(3 * i, 3 * i + 1, 3 * i + 2);
-}
-
-/* Of about this size: even or not, sheared or not, turned, with its middle there. */
-static Transform random_transform(double size, Vec3 at)
-{
-    Transform t = transform_scale(vec3(size, size, size));
-
-    if (chance(0.6))
-        t = transform_scale(vec3(size * magnitude(0.1, 2), -size * magnitude(0.1, 2), size * magnitude(0.1, 2)));
-    if (chance(0.8))
-        t = transform_then(t, transform_rotate(vec_scale(direction(), 180)));
-    if (chance(0.3)) {
-        double shear[12] = {1, between(-1, 1), 0, between(-1, 1), 1, 0, between(-1, 1), between(-1, 1), 1, 0, 0, 0};
-        Transform sheared;
-        if (transform_matrix(shear, &sheared))
-            t = transform_then(t, sheared);
-    }
-    return transform_then(t, transform_translate(at));
-}
-
-static void random_form(Primitive *p)
-{
-    p->shape.r0 = p->shape.r1 = 0;
-    if (p->shape.ops == &shape_cone) {
-        p->shape.r0 = chance(0.2) ? 0 : between(0.1, 1.5);
-        p->shape.r1 = chance(0.3) ? p->shape.r0 : chance(0.2) ? 0 : between(0.1, 1.5);
-        p->shape.r0 = p->shape.r0 + p->shape.r1 > 0 ? p->shape.r0 : 1;
-        p->shape.open = chance(0.4);
-    } else if (p->shape.ops == &shape_torus) {
-        p->shape.r0 = between(0.2, 1);
-        p->shape.r1 = chance(0.2) ? p->shape.r0 * between(1, 1.5) : p->shape.r0 * magnitude(0.02, 1);
-    } else if (p->shape.ops == &shape_disc) {
-        p->shape.r0 = between(0.3, 1.5);
-        p->shape.r1 = chance(0.5) ? 0 : between(0, p->shape.r0);
-    } else if (p->shape.ops == &shape_mesh) {
-        p->shape.mesh = chance(0.5) ? &soup : &tent;
-    }
-}
-
-/* Shapes with more than numbers, as scenes write them. */
-static Scene *written;
-
-static void parse_shapes(void)
-{
-    written =
-        parse(V37 "quadric{<1,-1,1>, <0,0.2,0>, <0,0,0.3>, -0.1} poly{3, <1,0,0,0,-3,0,0,0,0,0,0,0,0,0,0,0,0,0,-1,0>}"
-                  "superellipsoid{<0.3,0.6>} superellipsoid{<2.5,0.5>} ovus{0.6,0.4}"
-                  "lathe{cubic_spline 6, <0,-1>, <0.3,-0.8>, <1,-0.3>, <0.4,0.2>, <0.7,0.9>, <0,1.2>}"
-                  "prism{conic_sweep 0.2, 1, 5, <-1,-1>, <1,-0.8>, <0.2,0>, <0.5,1>, <-1,-1>}"
-                  "sor{5, <0.1,-1.3>, <0.8,-1>, <0.3,-0.2>, <0.9,0.5>, <0.2,1>}"
-                  "sphere_sweep{b_spline 5, <-2,0,0>, 0.3, <-1,1,0>, 0.2, <0,-1,1>, 0.3, <1,1,0>, 0.1, <2,0,1>, 0.3}");
-}
-
-/* Anywhere, or as the one before, or round the same middle: nested, or through each other. */
-static Primitive random_shape(const World *w, int index)
-{
-    static const ShapeOps *const all[7] = {&shape_sphere, &shape_box,  &shape_plane, &shape_cone,
-                                           &shape_torus,  &shape_disc, &shape_mesh};
-    const int kind = index < 7 ? index : below(10);
-    Primitive p = {.shape.ops = all[kind < 7 ? kind : 0], .target = -1};
-    const Primitive *before = index > 0 ? &w->shapes[below(index)] : NULL;
-    double size = w->size * magnitude(0.05, 1);
-
-    if (before && chance(0.35)) {
-        double factor = chance(0.2) ? 1 : chance(0.3) ? 1 + magnitude(1e-9, 1e-2) : between(0.4, 1.1);
-        p.transform = transform_then(transform_scale(vec3(factor, factor, factor)), before->transform);
-        if (chance(0.5))
-            p.shape.ops = before->shape.ops;
-    } else {
-        p.transform = random_transform(size, vec_mad(w->centre, direction(), w->size * between(0, 1)));
-    }
-    random_form(&p);
-    if (kind >= 7)
-        p.shape = written->primitives[below(written->nprimitives)].shape;
-    if (before && p.shape.ops == before->shape.ops)
-        p.shape = before->shape;
-    p.no_image = chance(0.12), p.no_shadow = chance(0.12), p.no_reflection = chance(0.12);
-    return p;
-}
-
-static ShapeTriangles triangles_of(const Primitive *p)
-{
-    ShapeTriangles triangles = {0, 0, NULL, NULL, 0, 1};
-
-    if (p->shape.ops->triangles)
-        p->shape.ops->triangles(&p->shape, &triangles);
-    return triangles;
-}
-static const int *corners_of(const Primitive *p, int triangle)
-{
-    const ShapeTriangles of = triangles_of(p);
-
-    return of.corners + (size_t)triangle * of.stride;
-}
-static Vec3 corner_at(const Primitive *p, int index)
-{
-    return transform_point(&p->transform, triangles_of(p).vertices[index]);
-}
-
-static double size_of(Vec3 p)
-{
-    return fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z)));
-}
-
-static void make_world(World *w, uint32_t seed)
-{
-    RetexError err = {0};
-    double far;
-
-    state = w->seed = seed;
-    make_meshes();
-    if (!written)
-        parse_shapes();
-    w->size = magnitude(1e-3, 1e3);
-    far = chance(0.5) ? 0 : magnitude(0.1, 30);
-    w->centre = vec_scale(direction(), w->size * far);
-    w->scene = (Scene){.primitives = w->shapes, .nprimitives = 1 + below(SHAPES_MOST)};
-    w->far = magnitude(2, 100);
-    w->scene.camera.location =
-        vec_mad(w->centre, vec3(1, 1, 1), w->far * w->size); /* surfaces and it are where rays start */
-    w->reach = 0;
-    for (int i = 0; i < w->scene.nprimitives; i++) {
-        Primitive *p = &w->shapes[i];
-        *p = random_shape(w, i);
-        w->of[i] = &materials[below(5)];
-        p->texture = w->of[i]->texture, p->interior_texture = w->of[i]->inside, p->interior = w->of[i]->interior;
-        for (int k = 0; k < triangles_of(p).ntriangles; k++)
-            for (int c = 0; c < 3; c++)
-                w->reach = fmax(w->reach, size_of(corner_at(p, corners_of(p, k)[c])));
-    }
-    if (accel_create(&w->accel, &w->scene, 1, &err) < 0)
-        fail_msg("%s", err.message);
-}
+enum { SCENES = 250, BATCHES = 10, CANDIDATES_MOST = 512, TRIES = 20 };
 
 /* ---- the plain loop ---- */
 
@@ -273,14 +59,14 @@ static double inside_edge(Vec3 a, Vec3 b, Vec3 normal, Vec3 p)
     return vec_dot(vec_cross(normal, along), vec_sub(p, a));
 }
 
-static void meet_triangle(const World *w, const Ray *ray, int index, int k, Met *met)
+static void meet_triangle(const RandomScene *w, const Ray *ray, int index, int k, Met *met)
 {
     const Primitive *p = &w->shapes[index];
-    const int *corners = corners_of(p, k);
-    Vec3 a = corner_at(p, corners[0]), b = corner_at(p, corners[1]), c = corner_at(p, corners[2]);
+    const int *corners = test_corners_of(p, k);
+    Vec3 a = test_corner_at(p, corners[0]), b = test_corner_at(p, corners[1]), c = test_corner_at(p, corners[2]);
     Vec3 n = vec_normalize(vec_cross(vec_sub(b, a), vec_sub(c, a))), at;
     double height = vec_dot(n, vec_sub(a, ray->origin)), fall = vec_dot(n, ray->direction), t = height / fall;
-    double sizes = w->reach + size_of(ray->origin), within, doubt;
+    double sizes = w->reach + test_size_of(ray->origin), within, doubt;
 
     if (fabs(fall) < 1e-9)
         return;
@@ -290,11 +76,11 @@ static void meet_triangle(const World *w, const Ray *ray, int index, int k, Met 
     if (!(within > -doubt))
         return;
     add(met, ray,
-        (Candidate){t, 1e-14 * sizes / fabs(fall), fabs(fall), index, k / triangles_of(p).per_face,
+        (Candidate){t, 1e-14 * sizes / fabs(fall), fabs(fall), index, k / test_triangles_of(p).per_face,
                     within > doubt && fabs(fall) > 2e-3 && fabs(height) > START * sizes});
 }
 
-static void meet_all(const World *w, const Ray *ray, RayKind kind, Met *met)
+static void meet_all(const RandomScene *w, const Ray *ray, RayKind kind, Met *met)
 {
     met->count = 0;
     for (int i = 0; i < w->scene.nprimitives; i++) {
@@ -303,7 +89,7 @@ static void meet_all(const World *w, const Ray *ray, RayKind kind, Met *met)
         int face;
         if (!visible(p, kind))
             continue;
-        for (int k = 0; k < triangles_of(p).ntriangles; k++)
+        for (int k = 0; k < test_triangles_of(p).ntriangles; k++)
             meet_triangle(w, ray, i, k, met);
         if (!p->shape.ops->triangles && shape_intersect(p, ray, &t, &face))
             add(met, ray, (Candidate){t, 0, 0, i, face, 1});
@@ -312,7 +98,8 @@ static void meet_all(const World *w, const Ray *ray, RayKind kind, Met *met)
 
 /* ---- judging ---- */
 
-static void complain(const World *w, const Ray *ray, RayKind kind, const Met *met, const char *what, const Hit *hit)
+static void complain(const RandomScene *w, const Ray *ray, RayKind kind, const Met *met, const char *what,
+                     const Hit *hit)
 {
     const Candidate *nearest = NULL;
 
@@ -332,16 +119,16 @@ static void complain(const World *w, const Ray *ray, RayKind kind, const Met *me
 }
 
 /* How much farther away b may be and still be taken for the nearer one. */
-static double open_to_float(const World *w, const Ray *ray, const Candidate *a, const Candidate *b)
+static double open_to_float(const RandomScene *w, const Ray *ray, const Candidate *a, const Candidate *b)
 {
-    double sizes = w->reach + size_of(ray->origin), exact = EXACT * (a->t + size_of(ray->origin));
+    double sizes = w->reach + test_size_of(ray->origin), exact = EXACT * (a->t + test_size_of(ray->origin));
 
     if (a->fall == 0 || b->fall == 0)
         return exact + a->slack + b->slack;
     return exact + HEIGHT * sizes / fmin(a->fall, b->fall);
 }
 
-static int judge(const World *w, const Ray *ray, RayKind kind, const Met *met, int found, const Hit *hit)
+static int judge(const RandomScene *w, const Ray *ray, RayKind kind, const Met *met, int found, const Hit *hit)
 {
     const Candidate *taken = NULL;
     int sure = 0;
@@ -351,7 +138,7 @@ static int judge(const World *w, const Ray *ray, RayKind kind, const Met *met, i
     for (int i = 0; found && i < met->count; i++) {
         const Candidate *c = &met->list[i];
         if (c->primitive == hit->primitive && c->face == hit->face &&
-            fabs(c->t - hit->t) <= EXACT * (c->t + size_of(ray->origin)) + 2 * c->slack)
+            fabs(c->t - hit->t) <= EXACT * (c->t + test_size_of(ray->origin)) + 2 * c->slack)
             taken = c;
     }
     if (found && !taken)
@@ -370,12 +157,12 @@ static int judge(const World *w, const Ray *ray, RayKind kind, const Met *met, i
 }
 
 /* passes: 0 none, 1 what is transparent, 2 what lets light through unbent. */
-static int passed(const World *w, int primitive, int passes)
+static int passed(const RandomScene *w, int primitive, int passes)
 {
     return (passes == 1 && w->of[primitive]->transparent) || (passes == 2 && w->of[primitive]->straight);
 }
 
-static void judge_way(const World *w, const Ray *ray, RayKind kind, const Met *met, int passes, Visibility way)
+static void judge_way(const RandomScene *w, const Ray *ray, RayKind kind, const Met *met, int passes, Visibility way)
 {
     int blocked[2] = {0, 0}, passable[2] = {0, 0}; /* perhaps, surely */
 
@@ -397,59 +184,59 @@ static RayKind random_kind(void)
 {
     const RayKind kinds[] = {RAY_CAMERA, RAY_BOUNCE, RAY_SHADOW, (RayKind)(RAY_CAMERA | RAY_BOUNCE)};
 
-    return kinds[below(4)];
+    return kinds[random_below(4)];
 }
 
 /* Just within the side of a sphere's bounds. */
-static Ray skimming_ray(const World *w, const Primitive *sphere)
+static Ray skimming_ray(const RandomScene *w, const Primitive *sphere)
 {
-    int axis = below(3);
+    int axis = random_below(3);
     const double *row = sphere->transform.m[axis];
     Vec3 out = {axis == 0, axis == 1, axis == 2}, radius = {row[0], row[1], row[2]};
     Vec3 at = transform_point(&sphere->transform, vec_normalize(radius));
-    Ray ray = {{0, 0, 0}, vec_normalize(vec_cross(out, direction())), 0, INFINITY};
+    Ray ray = {{0, 0, 0}, vec_normalize(vec_cross(out, random_direction())), 0, INFINITY};
 
-    at = vec_mad(at, out, -vec_length(radius) * magnitude(1e-7, 1e-2));
-    ray.origin = vec_mad(at, ray.direction, -w->size * magnitude(1, 0.5 * w->far));
+    at = vec_mad(at, out, -vec_length(radius) * random_magnitude(1e-7, 1e-2));
+    ray.origin = vec_mad(at, ray.direction, -w->size * random_magnitude(1, 0.5 * w->far));
     return ray;
 }
 
-static Ray random_ray(const World *w)
+static Ray random_ray(const RandomScene *w)
 {
-    const Primitive *aim = &w->shapes[below(w->scene.nprimitives)];
-    Vec3 inside = transform_point(&aim->transform, vec_scale(direction(), between(0, 1)));
-    Ray ray = {vec_mad(w->centre, direction(), w->size * (chance(0.1) ? w->far : between(0, 2))), direction(), 0,
-               INFINITY};
+    const Primitive *aim = &w->shapes[random_below(w->scene.nprimitives)];
+    Vec3 inside = transform_point(&aim->transform, vec_scale(random_direction(), random_between(0, 1)));
+    Ray ray = {vec_mad(w->centre, random_direction(), w->size * (random_chance(0.1) ? w->far : random_between(0, 2))),
+               random_direction(), 0, INFINITY};
 
-    if (aim->shape.ops == &shape_sphere && chance(0.3))
+    if (aim->shape.ops == &shape_sphere && random_chance(0.3))
         return skimming_ray(w, aim);
-    if (chance(0.1)) {
-        int axis = below(3);
+    if (random_chance(0.1)) {
+        int axis = random_below(3);
         ray.direction = vec3(axis == 0, axis == 1, axis == 2);
-        ray.origin = vec_mad(inside, ray.direction, -w->size * between(0, 2));
-    } else if (chance(0.7)) {
+        ray.origin = vec_mad(inside, ray.direction, -w->size * random_between(0, 2));
+    } else if (random_chance(0.7)) {
         ray.direction = vec_normalize(vec_sub(inside, ray.origin));
     }
-    if (chance(0.2))
-        ray.tmax = w->size * between(0, 3);
-    if (chance(0.1))
-        ray.tmin = w->size * between(0, 1);
+    if (random_chance(0.2))
+        ray.tmax = w->size * random_between(0, 3);
+    if (random_chance(0.1))
+        ray.tmin = w->size * random_between(0, 1);
     return ray;
 }
 
 /* On from where a ray has met something: off its surface, or along the same ray, or up to there and no farther. */
-static Ray next_ray(const World *w, const Ray *ray, const Hit *hit)
+static Ray next_ray(const RandomScene *w, const Ray *ray, const Hit *hit)
 {
     Ray next = *ray;
     Surface s;
 
     if (hit->primitive < 0)
         return random_ray(w);
-    if (chance(0.2)) {
+    if (random_chance(0.2)) {
         next.tmin = hit->t, next.tmax = INFINITY;
-    } else if (chance(0.2)) {
-        next.tmax = hit->t * (1 + (chance(0.5) ? 1e-9 : -1e-9));
-    } else if (chance(0.2)) {
+    } else if (random_chance(0.2)) {
+        next.tmax = hit->t * (1 + (random_chance(0.5) ? 1e-9 : -1e-9));
+    } else if (random_chance(0.2)) {
         next.tmin = hit->t * (1 - 1e-9);
     } else {
         surface_at(&s, &w->scene, ray, hit);
@@ -461,7 +248,7 @@ static Ray next_ray(const World *w, const Ray *ray, const Hit *hit)
 }
 
 /* One ray alone, all ways. Returns 1 where something is met for sure. */
-static int check_ray(const World *w, const Ray *ray, RayKind kind, Hit *hit)
+static int check_ray(const RandomScene *w, const Ray *ray, RayKind kind, Hit *hit)
 {
     Met met;
     int found;
@@ -473,7 +260,7 @@ static int check_ray(const World *w, const Ray *ray, RayKind kind, Hit *hit)
     return judge(w, ray, kind, &met, found, hit);
 }
 
-static void check_ways(const World *w, const Ray *ray, Visibility packet, int source)
+static void check_ways(const RandomScene *w, const Ray *ray, Visibility packet, int source)
 {
     Met met;
     int occluded = accel_occluded(w->accel, ray, RAY_SHADOW, 1);
@@ -486,7 +273,7 @@ static void check_ways(const World *w, const Ray *ray, Visibility packet, int so
 }
 
 /* A packet of any number of rays. Returns how many met something for sure. */
-static int check_packet(const World *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_PACKET], int count)
+static int check_packet(const RandomScene *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_PACKET], int count)
 {
     RayKind kinds[ACCEL_PACKET];
     Hit of_packet[ACCEL_PACKET];
@@ -494,8 +281,8 @@ static int check_packet(const World *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_P
     int sources[ACCEL_PACKET], sure = 0;
 
     for (int i = 0; i < count; i++)
-        kinds[i] = random_kind(), sources[i] = chance(0.5);
-    accel_intersect_packet(w->accel, rays, kinds, count, chance(0.5), of_packet);
+        kinds[i] = random_kind(), sources[i] = random_chance(0.5);
+    accel_intersect_packet(w->accel, rays, kinds, count, random_chance(0.5), of_packet);
     accel_visibility_packet(w->accel, rays, sources, count, ways);
     for (int i = 0; i < count; i++) {
         Met met;
@@ -509,13 +296,13 @@ static int check_packet(const World *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_P
 
 static void check_world(uint32_t seed, long *rays, long *sure)
 {
-    static World w;
+    static RandomScene w;
     Ray list[ACCEL_PACKET];
     Hit hits[ACCEL_PACKET];
 
-    make_world(&w, seed);
+    random_scene(&w, seed);
     for (int batch = 0; batch < BATCHES; batch++) {
-        int count = 1 + below(ACCEL_PACKET);
+        int count = 1 + random_below(ACCEL_PACKET);
         for (int i = 0; i < ACCEL_PACKET; i++)
             list[i] = random_ray(&w);
         for (int step = 0; step < 3; step++) {
@@ -645,7 +432,7 @@ static int check_shape(const Primitive *p, const Ray *ray, double *where)
     Vec3 o = solve(&p->transform, vec_sub(ray->origin, transform_point(&p->transform, vec3(0, 0, 0))));
     Vec3 d = solve(&p->transform, ray->direction);
     double length = vec_length(d), middle = -vec_dot(o, d) / (length * length), half, at, t = -1;
-    double doubt = 1e-8 + 1e-11 * (vec_length(o) + size_of(ray->origin) * length);
+    double doubt = 1e-8 + 1e-11 * (vec_length(o) + test_size_of(ray->origin) * length);
     double low, high;
     int face = 77, found = shape_intersect(p, ray, &t, &face);
 
@@ -672,18 +459,18 @@ static void curved_shapes_are_their_equations(void **unused)
 {
     const ShapeOps *const kinds[] = {&shape_sphere, &shape_plane, &shape_cone, &shape_torus,
                                      &shape_disc,   &shape_cone,  &shape_torus};
-    static World w;
+    static RandomScene w;
     double end = end_after(0.2);
     int met[7] = {0};
 
     (void)unused;
     for (int i = 0; i < 1000 || seconds() < end; i++) {
-        state = case_seed = first_seed() + (uint32_t)i;
+        random_state = case_seed = first_seed() + (uint32_t)i;
         int row = (int)(case_seed % 7);
         Primitive p = {.shape.ops = kinds[row], .target = -1};
-        w.size = magnitude(1e-3, 1e3), w.far = 20;
-        w.centre = vec_scale(direction(), w.size * (chance(0.5) ? 0 : magnitude(0.1, 30)));
-        p.transform = random_transform(w.size * magnitude(0.1, 1), w.centre);
+        w.size = random_magnitude(1e-3, 1e3), w.far = 20;
+        w.centre = vec_scale(random_direction(), w.size * (random_chance(0.5) ? 0 : random_magnitude(0.1, 30)));
+        p.transform = random_transform(w.size * random_magnitude(0.1, 1), w.centre);
         random_form(&p);
         w.shapes[0] = p;
         w.scene = (Scene){.primitives = w.shapes, .nprimitives = 1};
