@@ -12,12 +12,13 @@
 #include <retex/cpu.h>
 #include "base/noise.h"
 
-enum { HASHES = 4096, NUMBERS = 267, GRADIENTS = 2048 };
+enum { HASHES = 4096, NUMBERS = 267, GRADIENTS = 2048, RANDOMS = HASHES + 2 };
 
 static uint16_t hash[2 * HASHES]; /* a permutation, twice */
 static double numbers[NUMBERS];
 static int permutation[2 * (GRADIENTS + 1)];
 static Vec3 gradients[2 * (GRADIENTS + 1)];
+static uint32_t randoms[RANDOMS];
 
 /* ---- tables ---- */
 
@@ -92,6 +93,24 @@ static void make_gradients(void)
     }
 }
 
+/* The Mersenne Twister MT19937 of its usual seed. */
+static void make_randoms(void)
+{
+    enum { STATE = 624, SHIFT = 397 };
+    uint32_t state[STATE] = {5489};
+    for (uint32_t i = 1; i < STATE; i++)
+        state[i] = 1812433253u * (state[i - 1] ^ state[i - 1] >> 30) + i;
+    for (int i = 0; i < RANDOMS; i++) {
+        const int at = i % STATE;
+        const uint32_t joined = (state[at] & 0x80000000u) | (state[(at + 1) % STATE] & 0x7fffffffu);
+        uint32_t x = state[at] = state[(at + SHIFT) % STATE] ^ joined >> 1 ^ (joined & 1 ? 0x9908b0dfu : 0);
+        x ^= x >> 11;
+        x ^= x << 7 & 0x9d2c5680u;
+        x ^= x << 15 & 0xefc60000u;
+        randoms[i] = x ^ x >> 18;
+    }
+}
+
 static atomic_int ready;
 static RetexCpuLevel level; /* of vector instructions */
 
@@ -100,6 +119,7 @@ static void make_tables(void)
     make_hash();
     make_numbers();
     make_gradients();
+    make_randoms();
     level = retex_cpu_level();
     atomic_store_explicit(&ready, 1, memory_order_release);
 }
@@ -250,10 +270,15 @@ Vec3 noise_vector(Vec3 p)
     return vec3(sum_corners(&corners, 0), sum_corners(&corners, 4), sum_corners(&corners, 8));
 }
 
+int noise_octaves(double octaves)
+{
+    return octaves >= 10 ? 10 : octaves >= 1 ? (int)octaves : 1;
+}
+
 /* POV-Ray keeps lambda and omega as floats. */
 Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves)
 {
-    const int count = octaves >= 10 ? 10 : octaves >= 1 ? (int)octaves : 1; /* POV-Ray's bounds */
+    const int count = noise_octaves(octaves);
     Vec3 sum = noise_vector(p);
     double frequency = (float)lambda, share = (float)omega;
     for (int i = 1; i < count; i++) {
@@ -262,4 +287,17 @@ Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves)
         share *= (float)omega;
     }
     return sum;
+}
+
+static inline unsigned lattice_index(double x)
+{
+    return (fabs(x) < 2147483648.0 ? (unsigned)(int)x : 0x80000000u) & (HASHES - 1);
+}
+
+Vec3 noise_cell(Vec3 cell)
+{
+    need_tables();
+    const unsigned x = lattice_index(cell.x), y = lattice_index(cell.y), z = lattice_index(cell.z);
+    const uint32_t *random = &randoms[hash[hash[hash[x] ^ y] ^ z]];
+    return vec3(random[0] * 0x1p-32, random[1] * 0x1p-32, random[2] * 0x1p-32);
 }

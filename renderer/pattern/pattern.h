@@ -30,7 +30,8 @@ struct PatternOps {
     const char *keyword;
     PatternArguments arguments;
     int colors; /* it chooses among so many colours; 0: it makes a value, which a wave and a color_map turn into one */
-    WaveKind wave;      /* where none is written */
+    const ColorMap *map; /* its colours where none are written, or NULL: black to white */
+    WaveKind wave;       /* where none is written */
     int has_turbulence; /* value() uses Pattern.turbulence in its own way, so that the point is not moved by it */
     /* At a point that is warped already: which colour, from 0; or the value, before the wave. NULL: not supported. */
     double (*value)(const Pattern *pattern, const PatternPoint *point);
@@ -44,7 +45,9 @@ int pattern_find(const char *keyword); /* its index, or -1 */
 
 /* POV-Ray's defaults: no turbulence, no warps, frequency 1. */
 #define TURBULENCE_INIT ((Turbulence){.lambda = 2, .omega = 0.5, .octaves = 6})
-#define PATTERN_INIT ((Pattern){.frequency = 1, .wave_exponent = 1, .turbulence = TURBULENCE_INIT})
+#define PATTERN_INIT \
+    ((Pattern){.frequency = 1, .wave_exponent = 1, .turbulence = TURBULENCE_INIT, .agate_turbulence = 1, \
+               .control = {1, 1}, .crackle = {.form = {-1, 1, 0}, .metric = 2}})
 
 /* POV-Ray's order: from the point through the warps, the last written first, and turbulence; the value there; then
  * frequency, phase and wave. The value is 0..1, or which colour. */
@@ -54,10 +57,13 @@ double pattern_value(const Pattern *pattern, const PatternPoint *point);
 Vec3 pattern_warp(const Pattern *pattern, Vec3 p);
 double pattern_value_at(const Pattern *pattern, const PatternPoint *warped);
 
-/* Noise of the pattern's generator. */
+static inline int pattern_noise_generator(const Pattern *pattern)
+{
+    return pattern->noise_generator ? *pattern->noise_generator : NOISE_RANGE_CORRECTED;
+}
 static inline double pattern_noise(const Pattern *pattern, Vec3 p)
 {
-    return noise_value(p, pattern->noise_generator ? *pattern->noise_generator : NOISE_RANGE_CORRECTED);
+    return noise_value(p, pattern_noise_generator(pattern));
 }
 
 #endif

@@ -37,7 +37,7 @@ Vec3 warp_black_hole(const Warp *warp, Vec3 p)
     const Vec3 block = vec3(block_of(p.x, size.x), block_of(p.y, size.y), block_of(p.z, size.z));
     Vec3 center = vec_add(hole->center, vec3(block.x * size.x, block.y * size.y, block.z * size.z));
     if (random.x != 0 || random.y != 0 || random.z != 0) {
-        const Vec3 by = noise_vector(block);
+        const Vec3 by = noise_cell(block);
         center = vec_add(center, vec3(by.x * random.x, by.y * random.y, by.z * random.z));
     }
     const Vec3 from = vec_sub(p, center);

@@ -82,6 +82,13 @@ typedef struct Pattern {
     const PatternOps *ops;
     Vec3 vector;             /* the direction written after the keyword, unit length */
     double number;
+    double agate_turbulence;
+    double control[2];       /* of quilted: how it begins and ends */
+    struct Crackle {
+        Vec3 form;           /* factors of the distances to the three nearest points */
+        double metric, offset;
+        int is_solid;
+    } crackle;
     const void *data;        /* what else the row's value reads */
     const int *noise_generator; /* its own, or the scene's; NULL: the default one. See base/noise.h */
     const Warp *warps;       /* the last written first */

@@ -165,10 +165,9 @@ static int accept_wave(Sdl *sdl, Pattern *p)
 /* Modifiers of patterns that are averaged, and of noise: read over. */
 static int accept_ignored(Sdl *sdl)
 {
-    static const char *const floats[] = {"agate_turb", "metric",   "control0",    "control1", "mortar",
-                                         "coords",     "accuracy", "interpolate", "exponent", "blend_mode",
-                                         NULL};
-    static const char *const expressions[] = {"form", "offset", "brick_size", "size", "altitude", NULL};
+    static const char *const floats[] = {"mortar",      "coords",   "accuracy",
+                                         "interpolate", "exponent", "blend_mode", NULL};
+    static const char *const expressions[] = {"brick_size", "size", "altitude", NULL};
     static const char *const pairs[] = {"exterior", "interior", NULL};
     for (int i = 0; floats[i]; i++)
         if (sdl_accept(sdl, floats[i])) {
@@ -187,11 +186,29 @@ static int accept_ignored(Sdl *sdl)
             sdl_float(sdl);
             return 1;
         }
-    if (sdl_accept(sdl, "solid")) {
-        sdl_optional_bool(sdl, 1);
-        return 1;
-    }
     return 0;
+}
+
+/* What only some rows read. */
+static int accept_row_modifier(Sdl *sdl, Pattern *p)
+{
+    if (sdl_accept(sdl, "agate_turb"))
+        p->agate_turbulence = (float)sdl_float(sdl);
+    else if (sdl_accept(sdl, "control0"))
+        p->control[0] = (float)sdl_float(sdl);
+    else if (sdl_accept(sdl, "control1"))
+        p->control[1] = (float)sdl_float(sdl);
+    else if (sdl_accept(sdl, "form"))
+        p->crackle.form = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "metric"))
+        p->crackle.metric = sdl_float(sdl);
+    else if (sdl_accept(sdl, "offset"))
+        p->crackle.offset = sdl_float(sdl);
+    else if (sdl_accept(sdl, "solid"))
+        p->crackle.is_solid = sdl_optional_bool(sdl, 1);
+    else
+        return 0;
+    return 1;
 }
 
 static int accept_noise_generator(Sdl *sdl, Pattern *p)
@@ -216,6 +233,6 @@ int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment)
         p->phase = (float)sdl_float(sdl);
     else
         return accept_turbulence(sdl, &p->turbulence) || accept_warp(sdl, &pigment->pigment) || accept_wave(sdl, p) ||
-               accept_noise_generator(sdl, p) || accept_ignored(sdl);
+               accept_noise_generator(sdl, p) || accept_row_modifier(sdl, p) || accept_ignored(sdl);
     return 1;
 }

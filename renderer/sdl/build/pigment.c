@@ -309,6 +309,9 @@ static void pigment_items(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *te
     while (!sdl_accept(sdl, closing))
         pigment_item(sdl, pigment, textures), sdl_optional_comma(sdl);
     statement_end(sdl);
+    const PatternOps *ops = pigment->pigment.pattern.ops;
+    if (pigment->pigment.kind == PIGMENT_PATTERN && pigment->pigment.map.count == 0 && ops->map)
+        pigment->pigment.map = *ops->map;
     if (pigment->averaged) {
         pigment->pigment.kind = PIGMENT_PATTERN;
         pigment->pigment.color = pigment_mean(&pigment->pigment);
