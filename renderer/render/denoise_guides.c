@@ -41,7 +41,7 @@ typedef struct SeenMean {
 static void add_surface(SurfaceSums *surface, const Shading *s)
 {
     surface->samples++;
-    surface->normal = vec_add(surface->normal, s->bsdf.normal);
+    surface->normal = vec_add(surface->normal, bsdf_surface_normal(&s->bsdf));
     surface->position = vec_add(surface->position, s->surface.position);
 }
 

@@ -26,7 +26,7 @@ static void albedo_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 static void normal_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
 {
     (void)hit;
-    const Vec3 n = leaf->s.bsdf.normal;
+    const Vec3 n = bsdf_surface_normal(&leaf->s.bsdf);
     value[0] = (float)n.x, value[1] = (float)n.y, value[2] = (float)n.z;
 }
 

@@ -146,6 +146,9 @@ typedef struct Normal {
     const SlopeMapEntry *slopes; /* NORMAL_SLOPE: a curve over the value; sorted by value */
     const NormalMapEntry *entries; /* NORMAL_MAP: sorted by value, or the list; NORMAL_AVERAGE */
     const BumpMap *bump_map;
+    struct Facets {
+        double size, coords, metric; /* coords 0: a facet is where normals are alike, else where points are */
+    } facets;
     Transform transform;     /* pattern space to world, as of pigments */
 } Normal;
 

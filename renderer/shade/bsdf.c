@@ -146,7 +146,7 @@ static Vec3 mirrored(Vec3 w, Vec3 n)
 }
 
 /* What lobes send along wi, and what they send to the wrong side, which is mirrored along wi. */
-static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+static Split eval_mirrored(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
 {
     const Vec3 from[2] = {wi, mirrored(wi, b->geometric)};
     const double side = vec_dot(wi, b->geometric);
@@ -158,6 +158,18 @@ static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
         else if (cos_i < 0 && side < 0)
             split_add(&sum, eval_transmission(b, from[k], cos_i, pdf));
     }
+    return sum;
+}
+
+static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+{
+    if (!b->hidden)
+        return eval_mirrored(b, wi, light_source, pdf);
+    Bsdf diffuse = *b, rest = *b;
+    diffuse.normal = b->diffuse_normal, diffuse.alpha = 0;
+    rest.diffuse = rest.diffuse_back = 0;
+    Split sum = eval_mirrored(&diffuse, wi, light_source, pdf);
+    split_add(&sum, eval_mirrored(&rest, wi, light_source, pdf));
     return sum;
 }
 
@@ -176,13 +188,13 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     return (Split){{0, 0, 0}, {0, 0, 0}};
 }
 
-static Vec3 cosine_direction(const Bsdf *b, float u1, float u2)
+static Vec3 cosine_direction(Vec3 normal, float u1, float u2)
 {
     double r = sqrt(u1), sine, cosine;
     Vec3 s, t;
     turn_sincos(u2, &sine, &cosine);
-    vec_frame(b->normal, &s, &t);
-    return vec_mad(vec_mad(vec_scale(b->normal, sqrt(1 - u1)), s, r * cosine), t, r * sine);
+    vec_frame(normal, &s, &t);
+    return vec_mad(vec_mad(vec_scale(normal, sqrt(1 - u1)), s, r * cosine), t, r * sine);
 }
 
 /* Value and density are the same but for a factor. */
@@ -192,7 +204,7 @@ static int sample_lambert(const Bsdf *b, float u_lobe, float u1, float u2, BsdfS
     float p = back ? b->p_back : b->p_diffuse;
     if (p <= 0)
         return 0;
-    Vec3 wi = cosine_direction(b, u1, u2);
+    Vec3 wi = cosine_direction(b->normal, u1, u2);
     float cosine = (float)vec_dot(wi, b->normal);
     sample->wi = back ? vec_mad(wi, b->normal, -2 * (double)cosine) : wi;
     if (cosine <= 0 || (vec_dot(sample->wi, b->geometric) > 0) == back)
@@ -278,18 +290,19 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
     if ((u -= b->p_passing) < 0)
         return sample_passing(b, sample);
     if ((u -= b->p_diffuse) < 0) {
-        sample->wi = cosine_direction(b, u1, u2);
+        sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
     } else if ((u -= b->p_back) < 0) {
-        Vec3 up = cosine_direction(b, u1, u2);
-        sample->wi = vec_mad(up, b->normal, -2 * vec_dot(up, b->normal));
+        Vec3 normal = bsdf_surface_normal(b);
+        sample->wi = mirrored(cosine_direction(normal, u1, u2), normal);
+        sample->transmitted = 1;
     } else {
         if (b->p_glossy <= 0)
             return 0;
         float choice = u / b->p_glossy; /* the rest of u, uniform in [0,1) again */
         if (!sample_glossy(b, choice, u1, u2, &sample->wi))
             return 0;
+        sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
     }
-    sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
     if (b->bumped && (vec_dot(sample->wi, b->geometric) < 0) != sample->transmitted)
         sample->wi = mirrored(sample->wi, b->geometric);
     Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);

@@ -29,6 +29,8 @@ typedef struct Bsdf {
     int refracts;            /* transmission bends, by eta */
     int lambert;             /* only diffuse lobes, of brilliance 1: fields after alpha are not set */
     int bumped;              /* normal is that of bumps; then lambert is 0 */
+    int hidden;              /* bumps face away from wo: normal is that of the opposite slope, which wo sees */
+    Vec3 diffuse_normal;     /* where hidden: of the diffuse lobes, for which it does not matter who looks */
     float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; sum 1, or 0: nothing scatters */
 
     float diffuse, diffuse_back;
@@ -60,6 +62,12 @@ typedef struct BsdfSample {
 Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
+
+/* Of the surface, whoever looks: where bumps face away from wo, so does it. */
+static inline Vec3 bsdf_surface_normal(const Bsdf *b)
+{
+    return b->bumped && b->hidden ? b->diffuse_normal : b->normal;
+}
 
 /* No lobe but a delta sends light through. */
 static inline int bsdf_only_reflects(const Bsdf *b)

@@ -152,14 +152,16 @@ void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric
 
 /* A slope that faces away from the viewer is hidden: the opposite slope of the same groove is seen, which is tilted as
  * much towards the viewer (Torrance and Sparrow's V-cavities). */
-static Vec3 bumped_normal(const Surface *surface, Vec3 wo, Vec3 normal, Vec3 geometric)
+static void set_bumps(Bsdf *b, const Surface *surface)
 {
-    const Vec3 n = normal_tilted(surface->texture->normal, surface, normal, vec_neg(wo));
-    if (vec_dot(n, wo) > 0)
-        return n;
-    const Vec3 across = vec_normalize(vec_mad(wo, geometric, -vec_dot(wo, geometric)));
+    const Vec3 n = normal_tilted(surface->texture->normal, surface, b->normal, vec_neg(b->wo));
+    b->hidden = vec_dot(n, b->wo) <= 0;
+    b->normal = b->diffuse_normal = n;
+    if (!b->hidden)
+        return;
+    const Vec3 across = vec_normalize(vec_mad(b->wo, b->geometric, -vec_dot(b->wo, b->geometric)));
     const Vec3 opposite = vec_mad(n, across, -2 * vec_dot(n, across));
-    return vec_dot(opposite, wo) > LEAST_COSINE ? opposite : geometric;
+    b->normal = vec_dot(opposite, b->wo) > LEAST_COSINE ? opposite : b->geometric;
 }
 
 static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
@@ -168,7 +170,7 @@ static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
     bsdf_normals(surface, wo, &b->normal, &b->geometric);
     b->bumped = surface->texture->normal != NULL;
     if (b->bumped)
-        b->normal = bumped_normal(surface, wo, b->normal, b->geometric);
+        set_bumps(b, surface);
     b->cos_o = vec_dot(wo, b->normal);
     b->cos_o = b->cos_o > LEAST_COSINE ? b->cos_o : LEAST_COSINE;
     b->cos_o = b->cos_o < 1 ? b->cos_o : 1;

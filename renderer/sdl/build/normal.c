@@ -173,6 +173,11 @@ static int accept_named(Sdl *sdl, Reader *r)
     return 1;
 }
 
+static int is_facets(const Pigment *pattern)
+{
+    return pattern->pattern.ops && strcmp(pattern->pattern.ops->keyword, "facets") == 0;
+}
+
 static void normal_item(Sdl *sdl, Reader *r)
 {
     Normal *n = &r->normal->normal;
@@ -191,7 +196,13 @@ static void normal_item(Sdl *sdl, Reader *r)
     else if (sdl_accept(sdl, "accuracy")) {
         const double accuracy = sdl_float(sdl);
         n->accuracy = accuracy != 0 ? accuracy : n->accuracy;
-    } else if (is_float_start(sdl))
+    } else if (is_facets(pattern) && sdl_accept(sdl, "size"))
+        n->facets.size = sdl_float(sdl);
+    else if (is_facets(pattern) && sdl_accept(sdl, "coords"))
+        n->facets.coords = sdl_float(sdl);
+    else if (is_facets(pattern) && sdl_accept(sdl, "metric"))
+        n->facets.metric = sdl_vector(sdl).x;
+    else if (is_float_start(sdl))
         n->size = sdl_float(sdl);
     else if (!accept_pattern_modifier(sdl, r->pattern))
         sdl_expected(sdl, "a pattern, a modifier of patterns, a transform or the end of the normal");
@@ -202,7 +213,7 @@ const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char e
     const char closing[2] = {end, 0};
     ParsedNormal *normal = sdl_alloc(sdl, sizeof *normal);
     Reader r = {normal, pigment_new(sdl, NULL)};
-    normal->normal = (Normal){.size = 0.5, .accuracy = 0.02};
+    normal->normal = (Normal){.size = 0.5, .accuracy = 0.02, .facets = {.size = 0.1, .metric = 2}};
     if (from) {
         *normal = *from;
         r.pattern->pigment.pattern = from->normal.pattern;
