@@ -215,6 +215,48 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
 }
 
 /* Where a signal has no noise its light stays as it is, whatever the noise around it. */
+/* Broad footprints of few paths: their spread becomes as large as their means are moved, within the target's range. */
+static void spread_gains_what_means_lose(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexSet *both[2] = {set, was};
+    RetexError err = {0};
+    int broad = 0;
+    while (was->footprints[broad].kind != RETEX_FOOTPRINT_BROAD)
+        broad++;
+    const int uv = was->footprints[broad].uv, spread = was->footprints[broad].spread;
+    for (int b = 0; b < 2; b++) {
+        RetexTarget *target = &both[b]->targets[was->footprints[broad].target];
+        uint32_t seed = 3;
+        for (int k = 0; k < 2; k++)
+            target->periodic[k] = 0, target->uv_min[k] = -0.03, target->uv_max[k] = 1.53;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            float *mean = both[b]->parts[uv].image.pixels + 3 * i;
+            for (int k = 0; k < 2; k++)
+                mean[k] = (float)(-0.03 + 1.56 * test_random(&seed));
+            mean[2] = 1.0f / 16;
+            memset(both[b]->parts[spread].image.pixels + both[b]->parts[spread].image.channels * i, 0,
+                   2 * sizeof(float));
+        }
+    }
+    test_must(retex_set_round(set, NULL, 2, &err), &err);
+    double moved = 0, gained = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        for (int k = 0; k < 2; k++) {
+            const float *is = at(set, uv, i % WIDTH, i / WIDTH), *before = at(was, uv, i % WIDTH, i / WIDTH);
+            const double s = (double)at(set, spread, i % WIDTH, i / WIDTH)[k], d = (double)(is[k] - before[k]);
+            moved += d * d, gained += s * s;
+            assert_true((double)is[k] >= -0.03 - 1e-7 && (double)is[k] <= 1.53 + 1e-7);
+        }
+    print_message("means moved by %g, spreads %g\n", sqrt(moved / (2 * WIDTH * HEIGHT)),
+                  sqrt(gained / (2 * WIDTH * HEIGHT)));
+    assert_true(moved > 1e-6 * 2 * WIDTH * HEIGHT);
+    assert_true(fabs(moved / gained - 1) < 0.2);
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
 static void light_without_noise_is_exact(void **state)
 {
     (void)state;
@@ -315,6 +357,7 @@ int main(void)
         cmocka_unit_test(light_is_rounded_to_its_noise),
         cmocka_unit_test(denoised_light_is_rounded_to_less),
         cmocka_unit_test(footprints_are_rounded_by_what_they_multiply),
+        cmocka_unit_test(spread_gains_what_means_lose),
         cmocka_unit_test(light_without_noise_is_exact),
         cmocka_unit_test(a_set_without_noise_parts),
         cmocka_unit_test(data_of_denoising_are_rounded),

@@ -43,7 +43,7 @@ typedef struct Footprint {
     int signal;             /* of the light that it multiplies, or -1: all of them */
     int first;              /* the first footprint of the same target and kind */
     int broad;
-    const int *periodic;
+    const RetexTarget *target;
 } Footprint;
 
 struct RetexPrecision {
@@ -111,7 +111,7 @@ static void plan_footprints(RetexPrecision *p, const RetexSet *set)
                         .signal = f->kind == RETEX_FOOTPRINT_INTERREFLECTION ? -1 : signal_of(p, f),
                         .first = first,
                         .broad = f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION,
-                        .periodic = set->targets[f->target].periodic};
+                        .target = &set->targets[f->target]};
     }
 }
 
@@ -264,7 +264,7 @@ static double relative_noise(double noise, double light)
 /* The variance of UV along an axis over all clusters of the kind that a pixel has. */
 static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int first, size_t at, int axis)
 {
-    const int periodic = p->footprints[first].periodic[axis];
+    const int periodic = p->footprints[first].target->periodic[axis];
     double weight = 0, mean = 0, square = 0, origin = 0;
     for (int i = first; i < p->nfootprints; i++) {
         const Footprint *f = &p->footprints[i];
@@ -307,20 +307,35 @@ static void round_spread(const Footprint *f, float *spread, double relative)
         spread[2] = copysignf(1 - rounded(RETEX_PRECISION_CORRELATION, 1 - size, 1 - size, relative), spread[2]);
 }
 
-/* Mean, spread and coverage. The steps of means are those before any of a kind is rounded. */
+/* A mean of UV as a multiple of `unit` that is not outside of the target where the mean is not. */
+static double rounded_mean(const RetexTarget *target, int axis, double mean, double unit)
+{
+    const double low = target->uv_min[axis], high = target->uv_max[axis], nearest = retex_round_by(mean, unit);
+    if (target->periodic[axis] || mean < low || mean > high)
+        return nearest;
+    const double inside = nearest > high ? nearest - unit : nearest < low ? nearest + unit : nearest;
+    return inside < low || inside > high ? mean : inside;
+}
+
+/* Mean, spread and coverage. The steps of means are those before any of a kind is rounded. Steps may be large against
+ * the spread of broad footprints of few paths, which gains the variance of rounding: a texture with lines where the
+ * multiples of steps are is then averaged there, and not hit too often. */
 static void round_place(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at,
                         const double deviation[2], double relative)
 {
     static const double FINEST = 1.0 / (1 << 18); /* a 64th of a texel of a 4K texture */
-    float *uv = value_at(rows, f->uv, at);
+    float *uv = value_at(rows, f->uv, at), *spread = value_at(rows, f->spread, at);
     for (int k = 0; k < 2; k++) {
         const double size = fabs((double)uv[k]), kept = retex_round_unit(size) / 32768, /* 16 significant bits */
-            unit = step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k], relative);
+            wanted = step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k], relative);
         /* more bits only where they are finer than half a deviation, which PXR24 cannot store */
         const int enough = !p->has_noise ? 0 : kept <= deviation[k] / 2 || (double)uv[2] * rows->spp < 8;
-        uv[k] = (float)retex_round_to((double)uv[k], fmax(fmax(unit, FINEST), enough ? kept : 0)) + 0.0f;
+        const double unit = retex_round_unit(fmax(fmax(wanted, FINEST), enough ? kept : 0));
+        uv[k] = (float)rounded_mean(f->target, k, (double)uv[k], unit) + 0.0f;
+        if (f->broad)
+            spread[k] = (float)sqrt((double)(spread[k] * spread[k]) + unit * unit / 12);
     }
-    round_spread(f, value_at(rows, f->spread, at), relative);
+    round_spread(f, spread, relative);
     uv[2] = rounded(RETEX_PRECISION_COVERAGE, (double)uv[2], (double)uv[2], relative);
 }
 
