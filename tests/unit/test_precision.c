@@ -172,8 +172,9 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
                 "coverage");
     for (int k = 0; k < 2; k++) {
         const double sd = (double)at(was, f->spread, x, y)[k], size = fabs((double)uv[k]);
-        /* clusters lie within .3 and few samples are credited with no more; 16 significant bits are enough */
-        const double wide = broad ? fmax(sd, 0.3) : sd;
+        /* clusters lie within .3, so few samples are credited with no more; 16 significant bits are enough */
+        const double weight = 1 / (1 + fmax((double)uv[2] * was->spp - 1, 0) / 5);
+        const double wide = broad && sd < 0.3 ? pow(sd, 1 - weight) * pow(0.3, weight) : sd;
         const double step = fmax(step_of(wide, broad ? 1 : .5, 1. / 1024, broad ? 1 : .5, noise, light),
                                  size / 32768 <= sd / 2 || (double)uv[2] * was->spp < 8 ? size / 32768 : 0);
         expect_near((double)got[k], (double)uv[k], step / 2, "mean");

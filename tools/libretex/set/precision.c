@@ -282,15 +282,17 @@ static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int f
     return weight > 0 ? fmax(square / weight - mean / weight * (mean / weight), 0) : 0;
 }
 
-/* The standard deviation that a step follows. Few samples do not tell that of a broad cluster: one more is assumed,
- * which varies as all clusters of its kind do together. */
+/* The standard deviation that a step follows. Few samples do not tell that of a broad cluster. One sample is credited
+ * with half of the variance of all clusters of its kind together; that counts less, in the geometric mean, the more
+ * samples there are. */
 static double credible_deviation(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at, int axis,
                                  double samples)
 {
     const double deviation = (double)value_at(rows, f->spread, at)[axis];
     if (!f->broad || !p->has_noise)
         return deviation;
-    return sqrt((samples * deviation * deviation + kind_variance(p, rows, f->first, at, axis)) / (samples + 1));
+    const double own = fmax(deviation * deviation, 1e-20), all = kind_variance(p, rows, f->first, at, axis) / 2;
+    return all > own ? sqrt(own * pow(all / own, 1 / (1 + 0.2 * fmax(samples - 1, 0)))) : deviation;
 }
 
 static void round_spread(const Footprint *f, float *spread, double relative)
