@@ -77,6 +77,18 @@ int csg_on_surface(const CsgNode *leaf, Vec3 p)
 
 /* ---- rays ---- */
 
+/* As in POV-Ray, where along the ray it meets the bounds does not matter. */
+static int meets_bounds(const CsgNode *leaf, const Ray *ray)
+{
+    for (const CsgNode *node = leaf; node; node = node->parent)
+        for (const Csg *bound = node->bounds; bound; bound = bound->next) {
+            CsgQuery query = {.ray = {ray->origin, ray->direction, 0, INFINITY}, .any = 1};
+            if (!csg_intersect(bound, &query) && !csg_inside(bound->root, ray->origin))
+                return 0;
+        }
+    return 1;
+}
+
 /* Crossings of a leaf one after the other, until one is on the result. */
 static int test_leaf(CsgQuery *query, Ray *ray, const CsgNode *leaf)
 {
@@ -86,7 +98,7 @@ static int test_leaf(CsgQuery *query, Ray *ray, const CsgNode *leaf)
 
     while (shape_intersect(leaf->primitive, &rest, &t, &face)) {
         if (csg_on_surface(leaf, vec_mad(ray->origin, ray->direction, t))) {
-            if (query->accept && !query->accept(query->context, leaf->index))
+            if ((query->accept && !query->accept(query->context, leaf->index)) || !meets_bounds(leaf, ray))
                 return 0;
             query->leaf = leaf, query->t = ray->tmax = t, query->face = face;
             return query->any;
@@ -227,8 +239,8 @@ static int prepare(Arena *arena, CsgNode *node)
         if (!clip->outside)
             node->surface = bounds_meet(node->surface, clip->solid);
     }
-    if (node->bounded_by)
-        node->surface = bounds_meet(node->surface, *node->bounded_by);
+    for (const Csg *bound = node->bounds; bound; bound = bound->next)
+        node->surface = bounds_meet(node->surface, bound->surface);
     return node->kind == CSG_LEAF || sort_children(arena, node);
 }
 

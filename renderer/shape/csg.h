@@ -19,7 +19,7 @@ typedef struct CsgNode {
     struct CsgNode *parent;            /* NULL: a root */
     struct CsgNode *children, *last, *next; /* list in the order of the scene; next: of the parent's list */
     struct CsgNode *clips;             /* list of clipping objects, each a root */
-    const Bounds *bounded_by;          /* or NULL: rays that miss it miss the node */
+    const struct Csg *bounds;          /* list: rays that miss one of them, and do not begin in it, miss the node */
     const Primitive *primitive;        /* of a leaf */
     int index;                         /* of a leaf: the caller's number of it, which hits have */
     /* What follows is made by csg_create. Outside of solid, whether a point is inside does not change: it is what
@@ -35,6 +35,7 @@ typedef struct Csg {
     CsgNode *root;
     Bounds surface;    /* of the root; empty where nothing is there */
     int line;          /* of the scene file, for messages; the caller's */
+    const struct Csg *next; /* of a list of bounds */
     CsgNode **leaves;  /* whose surface can be on the result; first those without bounds, then those of the tree */
     int nunbounded;
     Bvh tree;

@@ -161,6 +161,36 @@ static void functions_see_what_is_left(void **unused)
     scene_close(&scene);
 }
 
+/* As in POV-Ray: all of a ray that meets the bounding object, or begins in it, meets the object. */
+static void bounds_are_the_objects_themselves(void **unused)
+{
+    static const struct {
+        Vec3 origin, direction;
+        double t; /* 0: nothing is met */
+    } rays[] = {
+        {{5, 0, 3}, {-1, 0, 0}, 0}, /* beside the sphere */
+        {{5, 0, 1.9}, {-1, 0, 0}, 4},
+        {{5, 0.9, 1.9}, {-1, 0, 0}, 0}, /* beside the sphere, within the box round it */
+        {{0.5, 0, 1.9}, {0, 1, 0}, 0.8660254037844386},
+        {{0.8, 0, 0}, {0.0995037190209989, 0, 0.995037190209989}, 2.0099751242241780}, /* from within, to the rim */
+    };
+    Scene *scene = parse(V37 "quadric{<1,1,0>,0,0,-1 bounded_by{sphere{0,2}}}");
+    Accel *accel;
+    RetexError err = {0};
+
+    (void)unused;
+    assert_int_equal(accel_create(&accel, scene, 1, &err), 0);
+    for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
+        const Ray ray = ray_from(rays[i].origin, rays[i].direction, INFINITY);
+        Hit hit;
+        assert_int_equal(accel_intersect(accel, &ray, RAY_CAMERA, &hit), rays[i].t > 0);
+        assert_int_equal(accel_occluded(accel, &ray, RAY_SHADOW, 0), rays[i].t > 0);
+        assert_true(rays[i].t == 0 || fabs(hit.t - rays[i].t) < 1e-9);
+    }
+    accel_close(&accel);
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -169,6 +199,7 @@ int main(void)
         cmocka_unit_test(identifiers_are_objects),
         cmocka_unit_test(nesting_has_an_end),
         cmocka_unit_test(functions_see_what_is_left),
+        cmocka_unit_test(bounds_are_the_objects_themselves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

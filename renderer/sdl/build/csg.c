@@ -37,11 +37,11 @@ static CsgNode *clip_solid(Sdl *sdl, const Object *object, const ClipList *clip,
 
 static void add_bounds(Sdl *sdl, CsgNode *node, const Object *object, const Transform *outer)
 {
-    Bounds *all = sdl_alloc(sdl, sizeof *all);
-    *all = bounds_everywhere();
-    for (const ClipList *bound = object->bounds; bound; bound = bound->next)
-        *all = bounds_meet(*all, csg_complete(sdl, clip_solid(sdl, object, bound, outer))->surface);
-    node->bounded_by = all;
+    for (const ClipList *bound = object->bounds; bound; bound = bound->next) {
+        Csg *csg = csg_complete(sdl, clip_solid(sdl, object, bound, outer));
+        csg->next = node->bounds;
+        node->bounds = csg;
+    }
 }
 
 CsgNode *object_csg_node(Sdl *sdl, const Object *object, const Transform *outer, unsigned inverse, CsgNode *parent)
