@@ -23,7 +23,6 @@ static void pass_layers(PathWorker *w, Path *path, const Surface *whole, const L
         return;
     pass_layers(w, path, whole, leaves, above->above);
     shading_above(&layer, whole, above, w->variants, w->context->nvariants);
-    path->beta_neutral *= above->d * NEUTRAL_ALBEDO + above->i;
     path_apply_factor(w, path, &layer, splat(above->d), splat(above->i), 0);
     if (w->context->trace)
         fprintf(w->context->trace, "  below a layer of target %s d %.5g i %.5g\n",
@@ -41,7 +40,7 @@ void choose_leaf(PathWorker *w, Path *path, Shading *s, Vec3 wo)
     const Leaf *leaf = leaves_choose(&leaves, u, &weight);
     const Rgb tint = rgb_scale(leaf->tint, weight);
     pass_layers(w, path, &whole, &leaves, leaf->above);
-    path->beta_neutral *= at_most(rgb_luminance(tint), 1);
+    path->beta_neutral *= at_most(weight * leaf->neutral, 1);
     path_scale(w, path, tint);
     shading_leaf(s, &whole, leaf, w->variants, c->nvariants);
     if (c->trace)

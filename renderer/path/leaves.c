@@ -60,6 +60,7 @@ static int merge_leaf(Leaves *leaves, const Leaf *leaf)
         const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
         to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};
         to->tint = rgb_grey(1);
+        to->neutral = (to->neutral * to->weight + leaf->neutral * leaf->weight) / weight;
         to->weight = weight, to->chance += leaf->chance;
         return 1;
     }
@@ -108,6 +109,7 @@ static void add_above(Leaves *leaves, Leaf *from, float d, float i)
     const Rgb c = rgb(from->color.r, from->color.g, from->color.b);
     from->weight *= sum;
     d /= sum, i /= sum;
+    from->neutral *= d * NEUTRAL_ALBEDO + i;
     if (from->target < 0 || d == 0) {
         from->tint = rgb_mul(from->tint, rgb_add(rgb_scale(c, d), rgb_grey(i)));
     } else if (leaves->nabove < LEAVES_MAX) {
@@ -163,6 +165,16 @@ static void add_part(Leaves *leaves, const Point *at, const TextureTree *tree, i
         add_texture(leaves, at, tree->parts[part], from);
 }
 
+/* Turbulence and warps of a map's pattern disturb its textures too. */
+static Surface warped_surface(const Point *at, const TextureTree *tree)
+{
+    Surface surface = *at->surface;
+    Vec3 p = surface_texture_point(&surface);
+    if (pigment_warp(tree->selector, &p))
+        surface.position = surface.instance ? transform_point(&surface.instance->transform, p) : p;
+    return surface;
+}
+
 static Vec2 selector_uv(const Point *at, const Pigment *selector)
 {
     return selector->uv_mapping ? surface_uv(at->surface).uv : (Vec2){0, 0};
@@ -175,9 +187,11 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
     const int last = tree->count - 1, chooses = tree->selector->pattern.ops->colors > 0;
     const double value =
         pigment_value(tree->selector, surface_texture_point(at->surface), selector_uv(at, tree->selector));
+    const Surface warped = warped_surface(at, tree);
+    const Point within = {&warped, at->wo, at->merge};
     int k = 0;
     if (chooses) {
-        add_part(leaves, at, tree, value < last ? (int)value : last, 1, from);
+        add_part(leaves, &within, tree, value < last ? (int)value : last, 1, from);
         return;
     }
     while (k < last && value > values[k])
@@ -185,9 +199,9 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
     const float share = k > 0 && value < values[k] && values[k] > values[k - 1]
                             ? (float)((value - values[k - 1]) / (values[k] - values[k - 1]))
                             : 1;
-    add_part(leaves, at, tree, k, share, from);
+    add_part(leaves, &within, tree, k, share, from);
     if (share < 1)
-        add_part(leaves, at, tree, k - 1, 1 - share, from);
+        add_part(leaves, &within, tree, k - 1, 1 - share, from);
 }
 
 /* By the index, round and round. */
@@ -229,7 +243,7 @@ void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
 {
     const Point at = {surface, wo, merge};
     leaves->count = leaves->nabove = 0;
-    add_texture(leaves, &at, surface->texture, (Leaf){.weight = 1, .tint = {1, 1, 1}, .above = -1});
+    add_texture(leaves, &at, surface->texture, (Leaf){.weight = 1, .tint = {1, 1, 1}, .neutral = 1, .above = -1});
 }
 
 /* ---- choosing ---- */

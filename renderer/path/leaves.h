@@ -25,11 +25,12 @@ typedef struct Leaf {
     const Texture *texture;
     int target;
     Rgbft color;
-    float weight; /* that its light is multiplied by */
-    float chance; /* of being chosen, in proportion to the other leaves' */
-    Rgb tint;     /* by the layers above that are no targets */
-    int above;    /* index of the lowest target above it, or -1 */
-    int is_layer; /* others lie below: its filter and transmit say how opaque it is, but nothing passes by itself */
+    float weight;  /* that its light is multiplied by */
+    float chance;  /* of being chosen, in proportion to the other leaves' */
+    Rgb tint;      /* by the layers above that are no targets */
+    float neutral; /* what all layers above do to light, with NEUTRAL_ALBEDO */
+    int above;     /* index of the lowest target above it, or -1 */
+    int is_layer;  /* others lie below: its filter and transmit say how opaque it is, but nothing passes by itself */
 } Leaf;
 
 typedef struct Leaves {

@@ -16,6 +16,9 @@ Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *targe
  * a material_map's image. */
 double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv);
 int pigment_index(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* Moves a world point to where the textures that it chooses among are evaluated, as its pattern's warps do. Returns 0
+ * where they move nothing. */
+int pigment_warp(const Pigment *pigment, Vec3 *p);
 /* Prefetch the texels of a planar image at that point. */
 void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
 /* 1 where the pigment has the same colour and opacity everywhere. */

@@ -7,6 +7,15 @@ double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv)
     return pattern_value(&pigment->pattern, &(PatternPoint){.p = pigment_point(pigment, p, uv)});
 }
 
+int pigment_warp(const Pigment *pigment, Vec3 *p)
+{
+    const Vec3 from = transform_inverse_point(&pigment->transform, *p), to = pattern_warp(&pigment->pattern, from);
+    if (pigment->uv_mapping || (to.x == from.x && to.y == from.y && to.z == from.z))
+        return 0;
+    *p = transform_point(&pigment->transform, to);
+    return 1;
+}
+
 /* Of the texel that has the point. */
 static int texel(double at, int size)
 {
