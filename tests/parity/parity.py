@@ -19,6 +19,15 @@ def options_of(words):
     return dict(word.split('=', 1) for word in words if '=' in word)
 
 
+def albedo_difference(ours, pigment, layers):
+    """POV-Ray shows of layers the bottom one (pigment), or what they shine with together (layers), which of a transparent
+    surface is its pigment, darker. So where the two have different colours there are layers; else the nearer one counts."""
+    share = (layers * pigment).sum(axis=2) / np.maximum((pigment * pigment).sum(axis=2), 1e-9)
+    layered = np.abs(layers - share[:, :, None] * pigment).max(axis=2) > 0.01 + 0.02 * layers.max(axis=2)
+    off = lambda theirs: np.abs(pov.srgb(ours) - pov.srgb(theirs)).mean(axis=2)
+    return np.where(layered, off(layers), np.minimum(off(layers), off(pigment)))
+
+
 class Scene:
     def __init__(self, build, out, name, options):
         self.name, self.options = name, options
@@ -94,7 +103,9 @@ class Scene:
                             depth > theirs['far'] * (1 - CLOSE))
         result['depth'] = float(np.mean(same))
         both = np.ones_like(hit) if not hit.any() else hit
-        difference = np.abs(pov.srgb(ours['albedo'][:, :, :3]) - pov.srgb(theirs['albedo'])).mean(axis=2)
+        if self.reference.read_layers() is None:
+            self.reference.add_layers()
+        difference = albedo_difference(ours['albedo'][:, :, :3], theirs['albedo'], self.reference.read_layers())
         result['albedo'] = float(difference[both].mean()) if hit.any() else 0.0
         lit = hit & same & (np.abs(theirs['normal']).sum(axis=2) > 0)
         cosines = (ours['normal'][:, :, :3] * theirs['normal']).sum(axis=2)

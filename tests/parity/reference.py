@@ -3,6 +3,8 @@ picture with its time. Kept in a folder for each scene, because POV-Ray's pictur
 
 POV-Ray has no such pictures of its own. They are made thus, with one ray for each pixel and linear OpenEXR:
 - albedo: quality 1, which shows pigments alone, without what is behind transparent ones; of layers the bottom one.
+- layers: all surfaces shine by `ambient` alone, in a copy of the scene whose finishes are ended with that. A surface shows
+  its colour times its opacity, and layers show what they have together.
 - depth: fog is added to the scene. What fog adds to a pixel is C (1 - exp(-depth / D)); the same picture with black fog is
   subtracted, in the darkest channel. With max_trace_level 1, nothing is seen in mirrors or through transparent surfaces.
 - normal: one parallel light without shadows or highlights is added along each axis, at quality 8, which has bumps; with
@@ -101,15 +103,42 @@ def prepared(text):
                   r'rgb\w*\s+' + number + r'|[A-Z]\w*)', '', text)
 
 
+SHINES = ' ambient rgb 1 diffuse 0 emission 0 phong 0 specular 0 reflection { 0 } '
+
+
+def code_of(text):
+    """The text with blanks in place of comments and strings."""
+    blank = lambda match: re.sub(r'[^\n]', ' ', match.group())
+    return re.sub(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def shining(text):
+    """The text of a prepared scene with finishes that do nothing but shine; media and radiosity are off below quality 9."""
+    code, parts, done = code_of(text), [], 0
+    for finish in re.finditer(r'\bfinish\s*\{', code):
+        end = closing_brace(code, finish.end() - 1)
+        if end >= done:
+            parts += [text[done:end], '\n' + SHINES]
+            done = end
+    return ''.join(parts) + text[done:]
+
+
+def with_default(text):
+    """Textures without a finish shine too."""
+    version = re.search(r'^\s*#version[^;]*;', text, re.M)
+    at = version.end() if version else 0
+    return text[:at] + f'\n#default {{ finish {{ {SHINES} }} }}\n' + text[at:]
+
+
 def make_trees(work):
-    """Copies of all samples: as they are, and prepared."""
-    for name in ('plain', 'prepared'):
+    """Copies of all samples: as they are, prepared, and prepared with finishes that shine."""
+    for name in ('plain', 'prepared', 'shining'):
         tree = os.path.join(work, name)
         if os.path.isdir(tree):
             continue
         shutil.rmtree(tree + '.new', ignore_errors=True)
         shutil.copytree(EXAMPLES, tree + '.new')
-        if name == 'prepared':
+        if name != 'plain':
             shutil.copytree(INCLUDES, tree + '.new/include', dirs_exist_ok=True)
             with open(tree + '.new/povray.ini', 'w', encoding='ascii') as file:
                 file.write(f'Library_Path="{tree}/include"\n')
@@ -117,9 +146,10 @@ def make_trees(work):
                 if path.endswith(('.pov', '.inc')):
                     with open(path, encoding='latin-1', newline='') as file:
                         text = file.read()
-                    if prepared(text) != text:
+                    new = shining(prepared(text)) if name == 'shining' else prepared(text)
+                    if new != text:
                         with open(path, 'w', encoding='latin-1', newline='') as file:
-                            file.write(prepared(text))
+                            file.write(new)
         os.rename(tree + '.new', tree)
 
 
@@ -144,7 +174,7 @@ class Reference:
         base = self.path(name)
         command = ['nice', 'povray', f'+I{file}', f'+W{WIDTH}', f'+H{HEIGHT}', '-D', '-A', '-J', '+FE',
                    f'+O{base}.exr', *options, *self.frames]
-        settings = {'POVINI': os.path.join(self.work, 'prepared/povray.ini')} if tree == 'prepared' else None
+        settings = {'POVINI': os.path.join(self.work, tree, 'povray.ini')} if tree != 'plain' else None
         for _ in range(2): # scenes that write files are in each other's way
             for old in glob.glob(glob.escape(base) + '*.exr'):
                 os.remove(old)
@@ -168,6 +198,17 @@ class Reference:
         with open(wrapper, 'w', encoding='latin-1', newline='') as file:
             file.write(f'global_settings {{ assumed_gamma 1 }}\n{scene}\n{text}\n')
         picture = self.povray('prepared', wrapper, [f'+Q{quality}', '+WT1'], name)[0]
+        os.remove(wrapper)
+        return picture
+
+    def layers(self):
+        """What surfaces shine with."""
+        wrapper = self.path('layers.pov')
+        with open(os.path.join(self.work, 'shining', self.scene), encoding='latin-1', newline='') as file:
+            scene = file.read()
+        with open(wrapper, 'w', encoding='latin-1', newline='') as file:
+            file.write(with_default(scene) + '\nglobal_settings { max_trace_level 1 ambient_light rgb 1 }\n')
+        picture = self.povray('shining', wrapper, ['+Q8', '+WT1'], 'layers')[0]
         os.remove(wrapper)
         return picture
 
@@ -229,6 +270,20 @@ class Reference:
                             albedo=known['albedo'].astype(np.float32), normal=normal.astype(np.float32))
         self.write({**{k: v for k, v in known.items() if not isinstance(v, np.ndarray)}, 'bumps': 1})
         return self.read()
+
+    def add_layers(self):
+        """Layers, to pictures that were made without them. Where POV-Ray refuses, there are none."""
+        try:
+            layers = self.layers()
+        except RuntimeError:
+            layers = self.read()['albedo']
+        np.savez_compressed(self.path('layers.npz'), layers=layers.astype(np.float32))
+
+    def read_layers(self):
+        try:
+            return np.load(self.path('layers.npz'))['layers'].astype(np.float64)
+        except (OSError, ValueError, KeyError):
+            return None
 
     def make(self, guess):
         shutil.rmtree(self.folder, ignore_errors=True)
