@@ -38,7 +38,8 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
     const int numbers[] = {
         r->width,  r->height,    r->crop[0],   r->crop[1],      r->crop[2],      r->crop[3],     r->spp,
         r->plain,  r->gaussian,  r->paper,     r->orders,       r->sharp,        r->broad,       r->clusters,
-        r->stored, r->max_depth, (int)r->seed, r->strict_paper, r->denoise_data, a->sdl.ambient, r->caustics_guide};
+        r->stored, r->max_depth, (int)r->seed, r->strict_paper, r->denoise_data, a->sdl.ambient, r->caustics_guide,
+        a->sdl.caustics};
     uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
     d = digest_bytes(d, &r->noise, sizeof r->noise);
     d = digest_number(d, scene->digest);

@@ -158,6 +158,8 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
     } flags[] = {{"plain", &render->plain, 1},
                  {"strict-paper", &render->strict_paper, 1},
                  {"caustics-guide", &render->caustics_guide, 1},
+                 {"caustics", &sdl->caustics, 1},
+                 {"no-caustics", &sdl->caustics, -1},
                  {"ambient", &sdl->ambient, 1},
                  {"no-ambient", &sdl->ambient, -1},
                  {"lenient", &sdl->lenient, 1},

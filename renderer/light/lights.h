@@ -82,6 +82,10 @@ float environment_mean(const Environment *environment); /* mean luminance over t
 /* source.c: one of POV-Ray's light sources seen from a point: direction, distance, irradiance on a facing surface. */
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance);
 int source_is_beam(const Light *light); /* parallel light, that comes from infinitely far */
+/* Whether a ray meets a light source that has caustics: a small sphere, the plane of an area_light, a small cone of
+ * directions for beams. All such rays together have source_irradiance where they come from. Fills what source_sample
+ * fills. */
+int source_meet(const Light *light, const Ray *ray, LightSample *sample);
 /* For the tree; not for beams. */
 LightBounds source_bounds(const Light *light);
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2);

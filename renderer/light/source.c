@@ -75,19 +75,26 @@ static double grid_place(const Light *light, double u, int n)
     return k / (n - 1) - 0.5;
 }
 
+/* The sides of the grid, as a point sees them: with orient they face it. */
+static void grid_axes(const Light *light, Vec3 position, Vec3 *axis1, Vec3 *axis2)
+{
+    *axis1 = light->axis1, *axis2 = light->axis2;
+    if (light->orient) {
+        Vec3 s, t;
+        vec_frame(vec_normalize(vec_sub(position, light->location)), &s, &t);
+        *axis1 = vec_scale(s, vec_length(*axis1));
+        *axis2 = vec_scale(t, vec_length(*axis2));
+    }
+}
+
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
 {
     if (!light->area)
         return light->location;
     int n1 = light->size1 > 1 ? light->size1 : 1, n2 = light->size2 > 1 ? light->size2 : 1;
     double a = grid_place(light, u1, n1), b = grid_place(light, u2, n2);
-    Vec3 axis1 = light->axis1, axis2 = light->axis2;
-    if (light->orient) { /* the grid faces the lit point */
-        Vec3 s, t;
-        vec_frame(vec_normalize(vec_sub(position, light->location)), &s, &t);
-        axis1 = vec_scale(s, vec_length(axis1));
-        axis2 = vec_scale(t, vec_length(axis2));
-    }
+    Vec3 axis1, axis2;
+    grid_axes(light, position, &axis1, &axis2);
     if (light->circular) { /* squares about the centre become circles */
         double m = fmax(fabs(a), fabs(b)), length = sqrt(a * a + b * b);
         if (length > 0)
@@ -149,6 +156,83 @@ int source_sample(const Light *light, Vec3 position, float u1, float u2, LightSa
     if (rgb_is_black(sample->radiance))
         return 0;
     return !light->projected_through || project(light, position, sample);
+}
+
+/* ---- what refracted and mirrored paths meet ---- */
+
+static int beam_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
+{
+    const Vec3 to = vec_sub(light->location, light->point_at);
+    const double slope = light->size / vec_length(to), sin2 = slope * slope / (1 + slope * slope);
+    const Vec3 across = vec_cross(vec_normalize(to), ray->direction);
+    Vec3 direction;
+    if (vec_dot(to, ray->direction) <= 0 || vec_dot(across, across) > sin2)
+        return 0;
+    *radiance = rgb_scale(source_irradiance(light, ray->origin, light->location, &direction, distance),
+                          (float)(1 / (PI * sin2)));
+    return 1;
+}
+
+static int sphere_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
+{
+    const Vec3 to = vec_sub(light->location, ray->origin), across = vec_cross(to, ray->direction);
+    const double size2 = light->size * light->size, distance2 = vec_dot(to, to);
+    Vec3 direction;
+    if (vec_dot(to, ray->direction) <= 0 || vec_dot(across, across) > size2 || distance2 <= size2)
+        return 0;
+    *radiance = rgb_scale(source_irradiance(light, ray->origin, light->location, &direction, distance),
+                          (float)(distance2 / (PI * size2)));
+    return 1;
+}
+
+/* A side of the grid that has one light only is as wide as a light without area. */
+static Vec3 side_axis(Vec3 axis, Vec3 other, int n, double size)
+{
+    if (n > 1)
+        return axis;
+    const Vec3 along = vec_length(axis) > 0 ? axis : vec_cross(other, vec3(0.6, 0.48, 0.64));
+    return vec_scale(vec_normalize(along), 2 * size);
+}
+
+static int area_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
+{
+    Vec3 axis1, axis2, direction;
+    grid_axes(light, ray->origin, &axis1, &axis2);
+    const Vec3 side1 = side_axis(axis1, axis2, light->size1, light->size),
+               side2 = side_axis(axis2, side1, light->size2, light->size);
+    const Vec3 normal = vec_cross(side1, side2), to = vec_sub(light->location, ray->origin);
+    const double area = vec_length(normal), fall = vec_dot(normal, ray->direction), t = vec_dot(normal, to) / fall;
+    if (!(area > 0 && t > 0 && isfinite(t)))
+        return 0;
+    const Vec3 point = vec_mad(ray->origin, ray->direction, t), off = vec_sub(point, light->location);
+    const double a = vec_dot(vec_cross(off, side2), normal) / (area * area),
+                 b = vec_dot(vec_cross(side1, off), normal) / (area * area);
+    if (light->circular ? a * a + b * b > 0.25 : fabs(a) > 0.5 || fabs(b) > 0.5)
+        return 0;
+    const double seen = (light->circular ? PI / 4 : 1) * fabs(fall);
+    *radiance = rgb_scale(source_irradiance(light, ray->origin, point, &direction, distance), (float)(t * t / seen));
+    return 1;
+}
+
+static int is_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
+{
+    if (source_is_beam(light))
+        return beam_met(light, ray, radiance, distance);
+    const int is_grid = light->area && (light->size1 > 1 || light->size2 > 1);
+    return is_grid ? area_met(light, ray, radiance, distance) : sphere_met(light, ray, radiance, distance);
+}
+
+int source_meet(const Light *light, const Ray *ray, LightSample *sample)
+{
+    sample->kind = LIGHT_SAMPLE_SOURCE;
+    sample->pdf = 0;
+    sample->shadowless = 0;
+    sample->source = light;
+    if (!is_met(light, ray, &sample->radiance, &sample->distance) || rgb_is_black(sample->radiance))
+        return 0;
+    sample->direction = sample->shadow_direction = ray->direction;
+    sample->shadow_distance = sample->distance;
+    return !light->projected_through || project(light, ray->origin, sample);
 }
 
 /* Approximate POV-Ray's fading by constant light, or by light that falls with the square of the distance. */

@@ -1,42 +1,21 @@
-/* Photons through glass and off mirrors, and the cells made of where they landed. */
+/* The cells of the guide, made of where photons landed, and their lobes. */
 #include <stdlib.h>
 #include <string.h>
-#include <retex/parallel.h>
 #include "path/caustics.h"
-#include "path/sampler.h"
-#include "path/shading.h"
-#include "shade/material.h"
+#include "path/photons.h"
 
-#define PATHS_PER_PHOTON 20 /* of the picture, for each photon that is tried */
-#define PHOTONS_MIN (1 << 14)
-#define PHOTONS_MAX (1 << 20) /* tried */
-#define BATCH (1 << 12)       /* photons of one job */
-#define BOUNCES_MAX 12
 #define CELL_PHOTONS 64 /* cells of more are cut */
 #define CELL_LEAST 16   /* but not into less */
-#define LOBE_PHOTONS 4  /* the fewest that make a lobe */
-#define LESS_LEAST 1e-5 /* 1 - cos: lobes are no narrower */
+#define LOBE_PHOTONS 8  /* the fewest that make a lobe */
+#define LESS_LEAST 1e-6 /* 1 - cos: lobes are no narrower */
+#define MOVE_LEAST 1e-3 /* of the spread of landings: what moves less tells nothing of how origins move with them */
 #define FADE 2.0        /* a lobe fades over so many mean squared distances of its photons */
-#define WIDEN 0.7       /* half a lobe is within so much of its photons' mean 1 - cos */
+#define WIDEN 1.0       /* half a lobe is within so much of its photons' mean 1 - cos */
 #define QUANTILE_SAMPLES 64
-#define STRONG_MIRROR 0.25f /* reflectance from which on a mirror is worth photons */
 #define SHARE_LEAST 0.2f
 #define SHARE_MOST 0.5f
 #define SHARE_WORTH 0.03f  /* below, a cell is not worth looking at */
 #define SPREAD_OF_CELL 0.5 /* how far beyond its photons a cell reaches, of their extent */
-
-/* A photon that landed on a surface that scatters widely. */
-typedef struct Landing {
-    Vec3 position, from; /* from: on the last surface that refracted or mirrored it */
-    float power;
-} Landing;
-
-/* The bounding sphere of a primitive that may refract or mirror light. */
-typedef struct Caster {
-    int primitive;
-    Vec3 center;
-    double radius;
-} Caster;
 
 typedef struct Node {
     float split;
@@ -57,190 +36,10 @@ struct Caustics {
 
 /* State of building it. */
 typedef struct Builder {
-    const Scene *scene;
-    const Accel *accel;
     const Lights *lights;
-    const RetexBudget *budget; /* may stop it, or NULL */
-    Caster *casters;
-    double *caster_sums;
-    int ncasters, nphotons;
-    Landing *landings; /* BATCH for each batch */
-    int *counts;       /* by batch: how many of them */
+    Photons photons;
     Caustics *caustics;
 } Builder;
-
-/* ---- casters ---- */
-
-static int finish_casts(const Finish *f, const Primitive *p, const Texture *texture)
-{
-    int bends = p->interior && p->interior->ior != 1 && p->interior->ior > 0;
-    if (f->retex.present)
-        return f->retex.roughness < 0.02 && ((bends && finish_transmits(f)) || f->retex.metallic > 0.5);
-    if (rgb_luminance(f->reflection_max) >= STRONG_MIRROR && !f->reflection_fresnel)
-        return 1;
-    const Pigment *pigment = texture->pigment;
-    return bends && (pigment->kind != PIGMENT_COLOR || pigment->color.filter + pigment->color.transmit > 0.1f);
-}
-
-static int texture_casts(const Primitive *p, const Texture *texture)
-{
-    for (int k = 0; k < texture_leaf_count(texture); k++)
-        if (finish_casts(texture_leaf(texture, k)->finish, p, texture_leaf(texture, k)))
-            return 1;
-    return 0;
-}
-
-static int primitive_casts(const Primitive *p)
-{
-    const FaceTextures *textures = p->shape.textures;
-    if (texture_casts(p, p->texture))
-        return 1;
-    for (int k = 0; textures && k < textures->count; k++)
-        if (texture_casts(p, textures->list[k]))
-            return 1;
-    return 0;
-}
-
-static int find_casters(Builder *m, RetexError *err)
-{
-    double sum = 0;
-    m->casters = malloc(((size_t)m->scene->nprimitives + 1) * sizeof *m->casters);
-    m->caster_sums = malloc(((size_t)m->scene->nprimitives + 1) * sizeof *m->caster_sums);
-    if (!m->casters || !m->caster_sums)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory for the guide to caustics");
-    for (int k = 0; k < m->scene->nprimitives; k++) {
-        const Primitive *p = &m->scene->primitives[k];
-        Vec3 low, high;
-        if (p->prototype || !primitive_casts(p) || !shape_bounds(p, &low, &high))
-            continue;
-        double radius = vec_length(vec_sub(high, low)) / 2;
-        m->casters[m->ncasters] = (Caster){k, vec_scale(vec_add(low, high), 0.5), radius};
-        m->caster_sums[m->ncasters++] = sum += radius * radius;
-    }
-    return RETEX_OK;
-}
-
-/* ---- photons ---- */
-
-static float photon_number(uint32_t photon, uint32_t dimension)
-{
-    return unit_float(hash_pair(hash_mix(photon ^ 0x43415553u), dimension));
-}
-
-static int pick_caster(const Builder *m, double u)
-{
-    int low = 0, high = m->ncasters - 1;
-    u *= m->caster_sums[high];
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (m->caster_sums[middle] > u)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
-
-/* Sample a direction in the cone of a caster. Returns the solid angle. */
-static double aim(const Caster *c, Vec3 from, float u1, float u2, Vec3 *direction)
-{
-    Vec3 axis = vec_sub(c->center, from), s, t;
-    double distance2 = vec_dot(axis, axis), sin2 = c->radius * c->radius / distance2, less = 2, sine, cosine;
-    if (sin2 < 1)
-        less = sin2 / (1 + sqrt(1 - sin2));
-    axis = vec_normalize(axis);
-    vec_frame(axis, &s, &t);
-    turn_sincos(u2, &sine, &cosine);
-    double down = u1 * less, across = sqrt(down * (2 - down));
-    *direction = vec_mad(vec_mad(vec_scale(axis, 1 - down), s, across * cosine), t, across * sine);
-    return 2 * PI * less;
-}
-
-/* Start a photon. Returns its power, 0 for none. */
-static double start_photon(const Builder *m, uint32_t photon, Ray *ray, int *caster)
-{
-    EmissionPoint point;
-    if (!lights_emission(m->lights, photon_number(photon, 0), photon_number(photon, 1), photon_number(photon, 2),
-                         photon_number(photon, 3), &point))
-        return 0;
-    *caster = pick_caster(m, photon_number(photon, 4));
-    const Caster *c = &m->casters[*caster];
-    double part = c->radius * c->radius / m->caster_sums[m->ncasters - 1];
-    double angle = aim(c, point.position, photon_number(photon, 5), photon_number(photon, 6), &ray->direction);
-    ray->origin = accel_offset(point.position, point.normal, ray->direction);
-    ray->tmin = 0, ray->tmax = INFINITY;
-    return point.power * fabs(vec_dot(ray->direction, point.normal)) * angle / part;
-}
-
-/* Follow a photon while it is refracted or mirrored. Returns 1 where it lands after that. */
-static int trace_photon(const Builder *m, uint32_t photon, Landing *landing)
-{
-    Ray ray;
-    int caster = 0, bent = 0;
-    double power = start_photon(m, photon, &ray, &caster);
-    for (uint32_t k = 0; k < BOUNCES_MAX && power > 0; k++) {
-        Hit hit;
-        Shading s;
-        BsdfSample next;
-        if (!accel_intersect(m->accel, &ray, RAY_BOUNCE, &hit))
-            return 0;
-        /* a photon that meets another caster first is counted there */
-        if (k == 0 && (hit.instance || hit.primitive != m->casters[caster].primitive))
-            return 0;
-        shading_at(&s, m->scene, NULL, 1, &ray, &hit);
-        float straight = s.bsdf.lambert ? 0 : s.bsdf.p_mirror + s.bsdf.p_passing;
-        if (bent && straight < 0.99f) {
-            landing->position = s.surface.position;
-            landing->power = (float)power * (1 - straight);
-            return landing->power > 0;
-        }
-        if (!(straight > 0))
-            return 0;
-        /* light that is mirrored first is weak but spreads widely: it gets as many photons */
-        float mirrored = s.bsdf.p_mirror / straight, u = photon_number(photon, 7 + k);
-        float chosen = bent || mirrored <= 0 || mirrored >= 1 ? mirrored : 0.5f;
-        int mirrors = u < chosen;
-        u = mirrors ? u / chosen * mirrored : mirrored + (u - chosen) / (1 - chosen) * (1 - mirrored);
-        if (!bsdf_sample(&s.bsdf, at_most(straight * u, 1 - 0x1p-24f), 0.5f, 0.5f, &next))
-            return 0;
-        power *= split_neutral(next.weight) * straight;
-        power *= mirrors ? mirrored / chosen : (1 - mirrored) / (1 - chosen);
-        if (next.straight) {
-            ray.tmin = hit.t;
-            continue;
-        }
-        bent = 1;
-        landing->from = s.surface.position;
-        ray.origin = accel_offset(s.surface.position, s.surface.geometric_normal, next.wi);
-        ray.direction = next.wi;
-        ray.tmin = 0;
-    }
-    return 0;
-}
-
-static void trace_batch(void *context, int index, int thread)
-{
-    Builder *m = context;
-    Landing *landings = m->landings + (size_t)index * BATCH;
-    uint32_t first = (uint32_t)index * BATCH;
-    int count = 0;
-    (void)thread;
-    for (uint32_t k = 0; k < BATCH && !retex_budget_is_stopped(m->budget); k++)
-        count += trace_photon(m, first + k, &landings[count]);
-    m->counts[index] = count;
-}
-
-/* Trace batches; landings are collected in the order of batches. Returns their number. */
-static int trace_batches(Builder *m, int batches, int nthreads)
-{
-    int count = 0;
-    retex_parallel(nthreads, batches, trace_batch, m);
-    for (int k = 0; k < batches; k++) {
-        memmove(m->landings + count, m->landings + (size_t)k * BATCH, (size_t)m->counts[k] * sizeof *m->landings);
-        count += m->counts[k];
-    }
-    return count;
-}
 
 /* ---- lobes ---- */
 
@@ -249,8 +48,9 @@ typedef struct Lobe {
     int first, end;
     Vec3 center, at; /* means of where they came from, and of where they landed */
     double power;
-    double less;      /* mean 1 - cos between the directions to there and to the centre */
-    double distance2; /* mean squared distance of the landings from `at` */
+    double move[3][3]; /* how the origin moves with the landing: a linear fit about the means */
+    double less;       /* mean 1 - cos between the directions to there and to the centre, as it moves */
+    double distance2;  /* mean squared distance of the landings from `at` */
 } Lobe;
 
 static double component(Vec3 v, int axis)
@@ -330,8 +130,52 @@ static double one_less_cosine(Vec3 at, Vec3 a, Vec3 b)
     return vec_dot(d, d) / 2;
 }
 
+static Vec3 lobe_center(const Lobe *lobe, Vec3 position)
+{
+    const Vec3 d = vec_sub(position, lobe->at);
+    const double(*m)[3] = lobe->move;
+    return vec3(lobe->center.x + m[0][0] * d.x + m[0][1] * d.y + m[0][2] * d.z,
+                lobe->center.y + m[1][0] * d.x + m[1][1] * d.y + m[1][2] * d.z,
+                lobe->center.z + m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z);
+}
+
+/* The inverse of a symmetric matrix that is positive definite. */
+static void invert(double m[3][3], double out[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, d = (k + 2) % 3;
+            out[k][i] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
+        }
+    const double det = m[0][0] * out[0][0] + m[0][1] * out[1][0] + m[0][2] * out[2][0];
+    for (int i = 0; i < 9; i++)
+        out[i / 3][i % 3] = det > 0 ? out[i / 3][i % 3] / det : 0;
+}
+
+/* Least squares: where the light that a lens or mirror bends to a point comes from, as the point moves. */
+static void fit_move(const Landing *landings, Lobe *lobe)
+{
+    double both[3][3] = {{0}}, landed[3][3] = {{0}}, inverse[3][3];
+    for (int k = lobe->first; k < lobe->end; k++) {
+        const Vec3 a = vec_sub(landings[k].position, lobe->at), f = vec_sub(landings[k].from, lobe->center);
+        for (int i = 0; i < 9; i++) {
+            const double at = landings[k].power * component(a, i % 3);
+            both[i / 3][i % 3] += component(f, i / 3) * at;
+            landed[i / 3][i % 3] += component(a, i / 3) * at;
+        }
+    }
+    const double least = MOVE_LEAST * (landed[0][0] + landed[1][1] + landed[2][2]) + 1e-30;
+    for (int i = 0; i < 3; i++)
+        landed[i][i] += least;
+    invert(landed, inverse);
+    for (int i = 0; i < 9; i++)
+        for (int k = 0; k < 3; k++)
+            lobe->move[i / 3][i % 3] += both[i / 3][k] * inverse[k][i % 3];
+}
+
 static void fit_lobe(const Landing *landings, Lobe *lobe)
 {
+    memset(lobe->move, 0, sizeof lobe->move);
     Vec3 from = {0, 0, 0}, at = {0, 0, 0};
     lobe->power = lobe->less = lobe->distance2 = 0;
     for (int k = lobe->first; k < lobe->end; k++) {
@@ -341,10 +185,15 @@ static void fit_lobe(const Landing *landings, Lobe *lobe)
     }
     lobe->center = vec_scale(from, 1 / lobe->power);
     lobe->at = vec_scale(at, 1 / lobe->power);
+    const int count = lobe->end - lobe->first;
+    if (count >= LOBE_PHOTONS)
+        fit_move(landings, lobe);
+    const double fitted = count >= LOBE_PHOTONS ? count / (count - 3.0) : 1; /* what a fit to so few takes off */
     for (int k = lobe->first; k < lobe->end; k++) {
         const Landing *l = &landings[k];
         Vec3 d = vec_sub(l->position, lobe->at);
-        lobe->less += l->power * one_less_cosine(l->position, l->from, lobe->center) / lobe->power;
+        lobe->less +=
+            fitted * l->power * one_less_cosine(l->position, l->from, lobe_center(lobe, l->position)) / lobe->power;
         lobe->distance2 += l->power * vec_dot(d, d) / lobe->power;
     }
 }
@@ -405,6 +254,8 @@ static void make_lobes(CausticsCell *cell, Landing *landings, int first, int end
         double narrow = 1 / (FADE * l->distance2 + 1e-20);
         cell->x[k] = (float)l->center.x, cell->y[k] = (float)l->center.y, cell->z[k] = (float)l->center.z;
         cell->at_x[k] = (float)l->at.x, cell->at_y[k] = (float)l->at.y, cell->at_z[k] = (float)l->at.z;
+        for (int i = 0; i < 9; i++)
+            cell->move[i][k] = (float)l->move[i / 3][i % 3];
         cell->concentration[k] = (float)(1 / (WIDEN * l->less + LESS_LEAST));
         cell->narrow[k] = (float)narrow;
         cell->weight[k] = (float)(l->power / power * narrow * lobes[0].distance2);
@@ -417,7 +268,7 @@ static void make_lobes(CausticsCell *cell, Landing *landings, int first, int end
 static float cell_share(const Builder *m, const Bounds *b, double power)
 {
     Vec3 d = vec_sub(b->high, b->low);
-    double area = fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x)), caustic = power / fmax(area, 1e-12) / m->nphotons;
+    double area = fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x)), caustic = power / fmax(area, 1e-12) / m->photons.tried;
     LightSampleContext point = {vec_scale(vec_add(b->low, b->high), 0.5), {0, 0, 0}};
     double other = lights_estimate(m->lights, &point);
     return fminf(SHARE_MOST, fmaxf(SHARE_LEAST, (float)(caustic / (caustic + other))));
@@ -499,43 +350,23 @@ static int make_guide(Builder *m, int count, RetexError *err)
     if (!c || !c->cells || !c->bounds || !c->nodes)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the guide to caustics");
     c->nnodes = 1;
-    make_nodes(m, 0, m->landings, 0, count);
+    make_nodes(m, 0, m->photons.landings, 0, count);
     return RETEX_OK;
 }
 
-/* Trace photons, in rounds of batches, until there are enough landings or photons. */
-static int trace_photons(Builder *m, long paths, int nthreads, int *found, RetexError *err)
+int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, int of_emitters,
+                    long paths, int nthreads, const RetexBudget *budget, RetexError *err)
 {
-    long wanted = paths / PATHS_PER_PHOTON;
-    wanted = wanted < PHOTONS_MIN ? PHOTONS_MIN : wanted > PHOTONS_MAX ? PHOTONS_MAX : wanted;
-    int batches = (int)(wanted / BATCH);
-    *found = 0;
-    m->landings = malloc((size_t)batches * BATCH * sizeof *m->landings);
-    m->counts = malloc((size_t)batches * sizeof *m->counts);
-    if (!m->landings || !m->counts)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory for photons");
-    *found = trace_batches(m, batches, nthreads);
-    m->nphotons = batches * BATCH;
-    return retex_budget_check(m->budget, err);
-}
-
-int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, long paths,
-                    int nthreads, const RetexBudget *budget, RetexError *err)
-{
-    Builder m = {.scene = scene, .accel = accel, .lights = lights, .budget = budget};
-    int found = 0, code = find_casters(&m, err);
+    const PhotonSources sources = {scene, accel, lights, of_emitters, paths, budget};
+    Builder m = {.lights = lights};
+    int code = photons_trace(&m.photons, &sources, nthreads, err);
     *caustics = NULL;
-    if (!code && m.ncasters > 0 && lights_emit(lights))
-        code = trace_photons(&m, paths, nthreads, &found, err);
-    if (!code && found >= CELL_PHOTONS)
-        code = make_guide(&m, found, err);
+    if (!code && m.photons.count >= CELL_PHOTONS)
+        code = make_guide(&m, m.photons.count, err);
     if (code)
         caustics_close(&m.caustics);
     *caustics = m.caustics;
-    free(m.casters);
-    free(m.caster_sums);
-    free(m.landings);
-    free(m.counts);
+    free(m.photons.landings);
     return code;
 }
 

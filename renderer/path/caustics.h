@@ -1,11 +1,12 @@
-/* A guide to caustics: where emitters light surfaces through glass or by mirrors, and from which directions. Photons
+/* A guide to caustics: where lights shine on surfaces through glass or by mirrors, and from which directions. Photons
  * are traced before the picture; a path that scatters widely may then sample the directions that photons came from.
  * The guide only samples directions, so that the picture's mean does not depend on it (as in Vorba et al., 'On-line
  * Learning of Parametric Mixture Models for Light Transport Simulation', 2014, with photons from emitters alone).
  *
  * Cells are the leaves of a kd-tree over the points where photons landed. Each has lobes round points of the
  * refracting or mirroring surface that photons came from. Lobes are kept as points, not as directions, so that they
- * have parallax. The closer a vertex is to where a lobe's photons landed, the more the lobe weighs. Its density is
+ * have parallax; and the points move with the vertex, as the spot of light moves on a lens or mirror. The closer
+ * a vertex is to where a lobe's photons landed, the more the lobe weighs. Its density is
  * (1 + 2 k) / (4 pi (1 + k (1 - cos))^2): the tails are long, and it is drawn from in closed form. */
 #ifndef RENDERER_PATH_CAUSTICS_H
 #define RENDERER_PATH_CAUSTICS_H
@@ -20,18 +21,20 @@ typedef struct Caustics Caustics;
 
 typedef struct CausticsCell {
     float x[CAUSTICS_LOBES], y[CAUSTICS_LOBES], z[CAUSTICS_LOBES]; /* where photons came from, in world space */
-    float concentration[CAUSTICS_LOBES];  /* k */
+    float move[9][CAUSTICS_LOBES];       /* how that point moves with the vertex, row by row */
+    float concentration[CAUSTICS_LOBES]; /* k */
     float at_x[CAUSTICS_LOBES], at_y[CAUSTICS_LOBES], at_z[CAUSTICS_LOBES]; /* where they landed */
-    float narrow[CAUSTICS_LOBES];         /* 1 / squared distance over which its weight fades */
-    float weight[CAUSTICS_LOBES];         /* where they landed; 0 for unused lobes */
+    float narrow[CAUSTICS_LOBES]; /* 1 / squared distance over which its weight fades */
+    float weight[CAUSTICS_LOBES]; /* where they landed; 0 for unused lobes */
     int nlobes;
-    float share;                          /* probability of sampling by the guide, 0..0.5 */
+    float share; /* probability of sampling by the guide, 0..0.5 */
 } CausticsCell;
 
-/* paths: the number of paths of the picture; photons take a small share of their time. *caustics is NULL where there
+/* of_emitters: 1 = of shapes that emit too, 0 = of light sources that have caustics only.
+ * paths: the number of paths of the picture; photons take a small share of their time. *caustics is NULL where there
  * are no caustics, or where the budget (NULL = none) stops it. The result is the same for every nthreads. */
-int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, long paths,
-                    int nthreads, const RetexBudget *budget, RetexError *err);
+int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, int of_emitters,
+                    long paths, int nthreads, const RetexBudget *budget, RetexError *err);
 void caustics_close(Caustics **caustics);
 /* The cell of a point, or NULL where no photons landed. */
 const CausticsCell *caustics_find(const Caustics *caustics, Vec3 position);

@@ -9,6 +9,10 @@
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
 #define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 
+/* Of a path that may meet light sources, as caustics are found: bits of CAUSTICS_… by which it was bent, and that it
+ * left a surface which scatters widely and met only what throws caustics since. */
+enum { SPECULAR_BEGINS = 4 };
+
 /* The fading interiors a ray is in. */
 typedef struct Media {
     const Interior *interiors[MEDIA_MAX];
@@ -37,11 +41,13 @@ typedef struct Path {
     float beta_neutral; /* throughput with NEUTRAL_ALBEDO everywhere and without the eta scale: for Russian roulette */
     float pdf;          /* with which the ray's direction was sampled, per steradian; 0 after a delta lobe */
     LightSampleContext prev_context; /* of the vertex where it was sampled: for MIS */
-    int segments, straight; /* so far; straight: surfaces that did not bend the path, which end no segment */
-    int sharp;              /* so far every bounce was specular, or nearly so */
+    int segments, straight;          /* so far; straight: surfaces that did not bend the path, which end no segment */
+    int sharp;                       /* so far every bounce was specular, or nearly so */
     RayKind kind;
     uint32_t sample; /* in its half of the pixel's */
     int half;
+    int specular;                /* what bent it since it left a surface that scatters widely, see SPECULAR_… */
+    const LightGroup *lit_group; /* of that surface: which light sources shine on it */
     Media media;
     double light[3];             /* sum of its contributions */
     int first_light, last_light; /* of them in the worker's log, or -1 */
@@ -161,8 +167,7 @@ void choose_leaf(PathWorker *worker, Path *path, Shading *s, Vec3 wo);
  * looked at: returns 0 where there is none. *tint gets what light is multiplied by, factors the layers above that are
  * targets, with albedos in storage, a row for each. */
 int choose_leaf_of_light(PathWorker *worker, const Path *path, Shading *s, Vec3 wo, int passing, unsigned texture,
-                         Rgb *tint, Factor *factors, int *nfactors, int most_factors,
-                         Rgb (*storage)[VARIANTS_MAX]);
+                         Rgb *tint, Factor *factors, int *nfactors, int most_factors, Rgb (*storage)[VARIANTS_MAX]);
 
 /* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
 

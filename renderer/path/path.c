@@ -148,6 +148,33 @@ static float eta_scale(const Bsdf *bsdf, const BsdfSample *next)
     return next->transmitted && bsdf->refracts ? bsdf->eta * bsdf->eta : 1;
 }
 
+/* Light sources that the next ray meets. No path could hit a point; but where they throw caustics they are small
+ * spheres to a path that left a surface which scatters widely, and was bent since by what throws caustics. Shadow rays
+ * do not find that light, which goes straight through nothing that bends it. */
+static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfSample *next, const Ray *ray)
+{
+    const PathContext *c = w->context;
+    const Primitive *p = v->s.surface.primitive;
+    Factor factors[SHADOW_FACTORS_MAX];
+    if (next->pdf > 0) {
+        path->specular = SPECULAR_BEGINS, path->lit_group = p->light_group;
+        return;
+    }
+    const int by = next->transmitted || v->s.surface.backside ? CAUSTICS_REFRACT : CAUSTICS_REFLECT;
+    path->specular = path->specular && (p->caustics & by) ? path->specular | by : 0;
+    for (int k = 0; path->specular && k < c->scene->nlights; k++) {
+        const Light *light = &c->scene->lights[k];
+        DirectLightSample met = {.ray = *ray};
+        if (!light->caustics || (path->specular & ~light->caustics & ~SPECULAR_BEGINS) ||
+            !light_reaches_group(light, path->lit_group) || !source_meet(light, ray, &met.light))
+            continue;
+        met.ray.tmax = met.light.shadow_distance * (1 - 1e-6);
+        const int passed = trace_shadow_ray(w, path, &v->s.surface, &met, factors, SHADOW_FACTORS_MAX);
+        if (passed >= 0)
+            path_add_light(w, path, met.light.radiance, factors, passed);
+    }
+}
+
 int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *ray)
 {
     const Shading *s = &v->s;
@@ -181,6 +208,8 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     ray->direction = next->wi;
     ray->tmin = 0, ray->tmax = INFINITY;
     path_next_segment(path, pdf, next->pdf);
+    if (w->context->caustic_sources > 0)
+        meet_sources(w, path, v, next, ray);
     return 1;
 }
 

@@ -25,6 +25,7 @@ typedef struct PathContext {
     int matte;         /* packets may sample matte surfaces together, see matte.h */
     int nvariants;     /* 1..VARIANTS_MAX: sets of textures that each path is evaluated with; 1 where split */
     int halves;        /* of a pixel's samples: 1, or 2 with sample numbers of their own, in turn */
+    int caustic_sources; /* light sources that paths may meet, for they have caustics */
     int white;         /* first hits are white diffuse surfaces that do not emit */
     int has_no_shadow; /* some primitive throws no shadow: shadow rays and paths see different primitives */
     FILE *trace;       /* print every step, or NULL */

@@ -55,11 +55,12 @@ void media_cross(Media *media, const Surface *surface)
         media->interiors[k] = media->interiors[--media->count];
 }
 
-/* What a surface on a shadow ray does to the light: let it pass straight, or block it (0). Light sources, which no path
- * can hit, shine through glass unbent. Refracted light of all other lights is found by paths. */
-static int shadow_factor(const Shading *s, int light_source, Factor *factor)
+/* What a surface on a shadow ray does to the light: let it pass straight, or block it (0). Light sources that have no
+ * caustics, which no path can hit, shine through glass unbent. Refracted light of all other lights is found by paths.
+ * source: NULL for other lights. */
+static int shadow_factor(const Shading *s, const Light *source, Factor *factor)
 {
-    if (s->bsdf.refracts && !light_source)
+    if (s->bsdf.refracts && (!source || (source->caustics & s->surface.primitive->caustics & CAUSTICS_REFRACT)))
         return 0;
     Split passing = s->bsdf.passing;
     if (s->bsdf.disney && s->bsdf.transmission > 0) {
@@ -98,7 +99,7 @@ static void add_factor(PathWorker *w, ShadowFactors *to, Factor factor, const Sh
 }
 
 /* The k-th surface on the ray. Returns 0 where no light passes. */
-static int pass_surface(PathWorker *w, const Path *path, const Surface *surface, int k, Vec3 wo, int light_source,
+static int pass_surface(PathWorker *w, const Path *path, const Surface *surface, int k, Vec3 wo, const Light *source,
                         ShadowFactors *to)
 {
     Shading s;
@@ -114,7 +115,7 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
         s.surface = seen_from_outside(*surface);
     }
     bsdf_setup(&s.bsdf, &s.surface, wo, s.filter, s.transmit);
-    if (!shadow_factor(&s, light_source, &factor))
+    if (!shadow_factor(&s, source, &factor))
         return 0;
     if (factor.target < 0 || is_black4(factor.d))
         *to->light = rgb_mul(*to->light, rgb_of4(factor_whole(&factor)));
@@ -126,7 +127,7 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
 }
 
 /* Follow a shadow ray through transparent surfaces, one after the other. */
-static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, int light_source, Media *media,
+static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, const Light *source, Media *media,
                                   ShadowFactors *to)
 {
     const PathContext *c = w->context;
@@ -141,7 +142,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, int 
         if (!accel_is_transparent(c->accel, &hit))
             return -1;
         surface_at(&surface, c->scene, &ray, &hit);
-        if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), light_source, to))
+        if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), source, to))
             return -1;
         *to->light = rgb_mul(*to->light, media_fade(media, hit.t - ray.tmin, &surface));
         media_cross(media, &surface);
@@ -153,13 +154,13 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, int 
 int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, DirectLightSample *t, Factor *factors,
                      int most_factors)
 {
-    int source = t->light.kind == LIGHT_SAMPLE_SOURCE;
+    const Light *source = t->light.kind == LIGHT_SAMPLE_SOURCE ? t->light.source : NULL;
     Rgb *light = &t->light.radiance;
     if (t->light.shadowless)
         return 0;
     if (!t->traced) {
         w->shadow_rays++;
-        t->visibility = accel_visibility(w->context->accel, &t->ray, source);
+        t->visibility = accel_visibility(w->context->accel, &t->ray, source != NULL);
     }
     if (t->visibility == VISIBILITY_BLOCKED)
         return -1;

@@ -48,7 +48,8 @@ typedef struct RenderParams {
     const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
     int nmerged;
     RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
-    int caustics_guide;      /* 1: photons show paths where caustics come from, see caustics.h; default 0: by chance */
+    int caustics_guide;      /* photons show paths where caustics come from, see caustics.h: 0 (default) those of light
+                                sources, 1 those of emitters too, -1 none */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }

@@ -135,9 +135,11 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
 
 int render_open_guide(Render *r, RetexError *err)
 {
-    if (!r->params.caustics_guide)
+    r->context.caustic_sources = scene_caustic_sources(r->scene);
+    if (r->params.caustics_guide < 0 || (!r->params.caustics_guide && !r->context.caustic_sources))
         return RETEX_OK;
-    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, (long)r->width * r->height * r->params.spp,
+    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, r->params.caustics_guide,
+                               (long)r->width * r->height * r->params.spp,
                                r->params.nthreads, r->params.budget, err);
     r->context.caustics = r->caustics;
     return code;
@@ -258,6 +260,6 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
-    r->context.matte = !r->context.white && !r->caustics && !r->context.has_no_shadow;
+    r->context.matte = !r->context.white && !r->caustics && !r->context.caustic_sources && !r->context.has_no_shadow;
     return code ? code : open_pilots(r, threads, err);
 }

@@ -265,6 +265,14 @@ int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, Re
 
 /* ---- closing ---- */
 
+int scene_caustic_sources(const Scene *scene)
+{
+    int count = 0;
+    for (int k = 0; k < scene->nlights; k++)
+        count += scene->lights[k].caustics != 0;
+    return count;
+}
+
 void scene_close(Scene **scene)
 {
     if (!scene || !*scene)

@@ -322,6 +322,7 @@ typedef struct Primitive {
     const struct LightGroup *light_group; /* that it is in, or NULL */
     const Prototype *prototype; /* that it is part of: its world is the prototype's space; or NULL */
     int inherits;            /* 1: its texture is the instance's */
+    int caustics;            /* CAUSTICS_…: of light sources that have caustics */
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
@@ -330,6 +331,9 @@ typedef struct Primitive {
 } Primitive;
 
 /* ---- lights, camera, sky ---- */
+
+/* How a primitive may throw caustics of light sources, and a light source may shine through such primitives. */
+enum { CAUSTICS_REFRACT = 1, CAUSTICS_REFLECT = 2 };
 
 /* A light_group: its lights shine only on what is in it, without the groups within it. */
 typedef struct LightGroup {
@@ -353,6 +357,8 @@ typedef struct Light {
     int shadowless;
     const struct Csg *projected_through; /* in world space, or NULL: only light that passes it shines on */
     const LightGroup *group; /* or NULL */
+    int caustics;            /* CAUSTICS_…; 0: shines straight through glass */
+    double size;             /* with caustics: radius of the sphere as which refracted and mirrored paths meet it */
 } Light;
 
 /* Whether a light source shines on what is in a group, or in none. */
@@ -459,6 +465,7 @@ const Texture *primitive_target_texture(const Primitive *primitive, int target);
 const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
 /* One -t of the command line: "NAME" or "NAME=IDENT,IDENT". */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
+int scene_caustic_sources(const Scene *scene); /* how many light sources have caustics */
 void scene_close(Scene **scene); /* textures of image maps, then the arena */
 
 #endif

@@ -51,7 +51,7 @@ $ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
 $ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z, ]*, not/expected LIST, not/p'
 > oiiotool ERROR: read : "box.pov?aov=smell": aov: expected LIST, not `smell`
 $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
-> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, ambient, no_ambient, lenient, strict, safe and threads
+> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads
 > oiiotool ERROR: read : "box.pov?spp=many": spp: expected a whole number from 1 to 1048576, not 'many'
 > oiiotool ERROR: read : "box.pov?spp=0": spp: expected a whole number from 1 to 1048576, not '0'
 > oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'

@@ -26,7 +26,7 @@ static Caustics *make_guide(const Scene *scene, int nthreads)
     Lights *lights;
     assert_int_equal(accel_create(&accel, scene, nthreads, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1 << 20, nthreads, NULL, NULL), 0);
+    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1, 1 << 20, nthreads, NULL, NULL), 0);
     lights_close(&lights);
     accel_close(&accel);
     return caustics;
@@ -45,7 +45,7 @@ static void budget_ends_it(void **state)
     retex_budget_stop(budget);
     assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1L << 40, 2, budget, NULL), RETEX_ESTOPPED);
+    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1, 1L << 40, 2, budget, NULL), RETEX_ESTOPPED);
     assert_null(caustics);
     lights_close(&lights);
     accel_close(&accel);
@@ -144,12 +144,12 @@ static void nothing_without_glass(void **state)
     scene_close(&scene);
 }
 
-static RetexSet *render(const Scene *scene, int spp, int without, int nthreads)
+static RetexSet *render(const Scene *scene, int spp, int guide, int nthreads)
 {
     RenderParams p = RENDER_PARAMS_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
-    p.width = 32, p.height = 24, p.spp = spp, p.plain = 1, p.nthreads = nthreads, p.caustics_guide = !without;
+    p.width = 32, p.height = 24, p.spp = spp, p.plain = 1, p.nthreads = nthreads, p.caustics_guide = guide;
     if (render_scene(&set, scene, &p, NULL, &err))
         fail_msg("%s", err.message);
     return set;
@@ -168,16 +168,141 @@ static void mean_stays(void **state)
 {
     (void)state;
     Scene *scene = test_scene(LENS);
-    RetexSet *guided = render(scene, 2048, 0, 0), *chance = render(scene, 2048, 1, 0);
+    RetexSet *guided = render(scene, 2048, 1, 0), *chance = render(scene, 2048, 0, 0);
     double a = mean_of(guided), b = mean_of(chance);
     if (fabs(a - b) > 0.004 * b)
         fail_msg("mean %.5f with the guide, %.5f without", a, b);
     retex_set_close(&guided);
     retex_set_close(&chance);
-    guided = render(scene, 16, 0, 1), chance = render(scene, 16, 0, 7);
+    guided = render(scene, 16, 1, 1), chance = render(scene, 16, 1, 7);
     assert_memory_equal(guided->parts[0].image.pixels, chance->parts[0].image.pixels, 32 * 24 * 3 * sizeof(float));
     retex_set_close(&guided);
     retex_set_close(&chance);
+    scene_close(&scene);
+}
+
+/* ---- light sources ---- */
+
+#define SOURCE_SCENE                                                                                                   \
+    "#version 3.7; global_settings { assumed_gamma 1 photons { count 1000 } }"                                         \
+    "camera { location <0, 3, -4> look_at <0, .2, 0> angle 40 } #default { finish { ambient 0 diffuse 1 } }"           \
+    "plane { y, 0 texture { pigment { rgb .5 } } }"                                                                    \
+    "sphere { 0, .5 texture { pigment { rgbf <1, .8, .6, 1> } finish { diffuse 0 } } interior { ior 1.5 }"             \
+    " photons { target refraction on reflection on } translate <0, .9, 0> }"
+/* Irradiance 2 pi / d^2, of a light of radius .15. */
+static const char SOURCE[] =
+    SOURCE_SCENE "light_source { <.5, 4, 0>, 1e6 fade_distance 1e-3 fade_power 2 retex { radius .15 } }";
+static const char LAMP[] = SOURCE_SCENE
+    "sphere { <.5, 4, 0>, .15 texture { pigment { rgb 1 } finish { diffuse 0 emission 2 / .0225 } } no_image }";
+
+/* A light source with caustics shines as the small sphere does that it is said to be: on the whole, and in blocks of
+ * 4 x 4 pixels. Straight through the glass it does not shine. */
+static void source_is_a_small_lamp(void **state)
+{
+    (void)state;
+    Scene *scenes[] = {test_scene(SOURCE), test_scene(LAMP)};
+    RetexSet *sets[2];
+    double worst = 0;
+    for (int k = 0; k < 2; k++)
+        sets[k] = render(scenes[k], 4096, 1, 0);
+    const double a = mean_of(sets[0]), b = mean_of(sets[1]);
+    if (fabs(a - b) > 0.006 * b)
+        fail_msg("mean %.5f by a light source, %.5f by a lamp", a, b);
+    for (int block = 0; block < 48; block++) {
+        double sums[2] = {0, 0};
+        for (int i = 0; i < 48; i++) {
+            const int x = block % 8 * 4 + i / 3 % 4, y = block / 8 * 4 + i / 12;
+            for (int k = 0; k < 2; k++)
+                sums[k] += (double)sets[k]->parts[0].image.pixels[(y * 32 + x) * 3 + i % 3];
+        }
+        worst = fmax(worst, fabs(sums[0] - sums[1]) / fmax(sums[1], 0.02 * 48 * b));
+    }
+    if (worst > 0.1)
+        fail_msg("a block differs by %.3f", worst);
+    for (int k = 0; k < 2; k++) {
+        retex_set_close(&sets[k]);
+        scene_close(&scenes[k]);
+    }
+}
+
+/* The mean is the same without the guide, where paths meet the light by chance. */
+static void source_needs_no_guide(void **state)
+{
+    (void)state;
+    Scene *scene = test_scene(SOURCE_SCENE "light_source { <0, 4, 0>, .6 retex { radius .8 } }");
+    RetexSet *guided = render(scene, 1024, 0, 0), *chance = render(scene, 4096, -1, 0);
+    const double a = mean_of(guided), b = mean_of(chance);
+    if (fabs(a - b) > 0.004 * b)
+        fail_msg("mean %.5f with the guide, %.5f without", a, b);
+    retex_set_close(&guided);
+    retex_set_close(&chance);
+    scene_close(&scene);
+}
+
+/* Beams keep their light too: a sheet of glass as wide as the picture takes none of it away. */
+static void sheet_keeps_the_light(void **state)
+{
+    (void)state;
+    static const char SHEET[] =
+        "#version 3.7; global_settings { photons { count 1 } } camera { location <0, 1, -3> look_at <0, 0, 1> angle 40 "
+        "}"
+        "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 pigment { rgb .5 } }"
+        "light_source { <3, 6, 0>, 1 parallel point_at 0 }"
+        "box { <-30, 3, -30>, <30, 3.2, 30> pigment { rgbt 1 } finish { diffuse 0 } interior { ior 1.4 } no_image %s }";
+    double means[2];
+    for (int k = 0; k < 2; k++) {
+        char text[1024];
+        snprintf(text, sizeof text, SHEET, k ? "photons { target refraction on }" : "");
+        Scene *scene = test_scene(text);
+        assert_int_equal(scene->lights[0].caustics != 0, k);
+        RetexSet *set = render(scene, 256, 0, 0);
+        means[k] = mean_of(set);
+        retex_set_close(&set);
+        scene_close(&scene);
+    }
+    if (fabs(means[0] - means[1]) > 0.02 * means[0])
+        fail_msg("mean %.5f straight through, %.5f refracted", means[0], means[1]);
+}
+
+/* Round the image of a lamp in a flat mirror, which moves over the mirror as the point moves, lobes are narrow. */
+static void lobes_follow_a_mirror(void **state)
+{
+    (void)state;
+    Scene *scene =
+        test_scene("#version 3.7; global_settings { photons { count 1 } } camera { location <0, 5, -4> look_at 0 }"
+                   "plane { y, 0 pigment { rgb .5 } finish { diffuse 1 } }"
+                   "box { <-1, .2, 2>, <1, 2, 2.1> pigment { rgb 0 } finish { diffuse 0 reflection .9 }"
+                   " photons { target reflection on } } light_source { <0, 3, -1>, 1 }");
+    Caustics *caustics = make_guide(scene, 0);
+    int points = 0, narrow = 0;
+    assert_non_null(caustics);
+    for (int k = 0; k < 400; k++) {
+        const Vec3 p = vec3(-0.9 + 0.09 * (k % 20), 0, 0.1 + 0.08 * (double)(k / 20));
+        const double along = (2 - p.z) / (5 - p.z), height = 3 * along, x = p.x * (1 - along);
+        const CausticsCell *cell = caustics_find(caustics, p);
+        if (height < 0.3 || height > 1.9 || fabs(x) > 0.9 || !cell)
+            continue;
+        points++;
+        narrow += caustics_density(cell, p, vec_normalize(vec_sub(vec3(0, 3, 5), p))) > 1000;
+    }
+    if (points < 100 || narrow < points * 8 / 10)
+        fail_msg("of %d points %d have narrow lobes", points, narrow);
+    caustics_close(&caustics);
+    scene_close(&scene);
+}
+
+/* Light sources are invisible in mirrors and through glass. */
+static void source_stays_invisible(void **state)
+{
+    (void)state;
+    Scene *scene =
+        test_scene("#version 3.7; global_settings { photons { count 1 } } camera { location -3*z look_at 0 angle 40 }"
+                   "box { <-2, -2, 0>, <2, 2, 1> pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection 1 }"
+                   " photons { target reflection on } } light_source { <0, 0, -3>, 1 retex { radius 1 } }");
+    RetexSet *set = render(scene, 16, 0, 1);
+    assert_true(scene->lights[0].caustics != 0);
+    assert_true(mean_of(set) == 0);
+    retex_set_close(&set);
     scene_close(&scene);
 }
 
@@ -189,6 +314,11 @@ int main(void)
         cmocka_unit_test(nothing_without_glass),
         cmocka_unit_test(budget_ends_it),
         cmocka_unit_test(mean_stays),
+        cmocka_unit_test(source_is_a_small_lamp),
+        cmocka_unit_test(lobes_follow_a_mirror),
+        cmocka_unit_test(source_stays_invisible),
+        cmocka_unit_test(source_needs_no_guide),
+        cmocka_unit_test(sheet_keeps_the_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -285,6 +285,50 @@ static void sources_shine_by_their_laws(void **state)
         }
 }
 
+/* A light source that paths may meet gives what it gives as a point: rays over a cone that holds all of it. */
+static void met_sources_give_their_irradiance(void **state)
+{
+    (void)state;
+    const char *const texts[] = {
+        "light_source { 4*y, rgb <1, .5, .25> retex { radius .3 } }",
+        "light_source { 4*y, 1 fade_distance 2 fade_power 2 retex { radius .4 } }",
+        "light_source { 4*y, 1 spotlight radius 30 falloff 60 point_at 0 retex { radius .3 } }",
+        "light_source { 4*y, 1 parallel point_at <1, 0, 0> retex { radius .8 } }",
+        "light_source { 4*y, 1 area_light x, 2*z, 5, 5 }",
+        "light_source { 4*y, 1 area_light x, z, 5, 5 circular orient }",
+        "light_source { 4*y, 1 area_light x, z, 5, 1 retex { radius .3 } }",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "global_settings { photons { count 1 } } camera { look_at 3*z } %s"
+                 "sphere { 2*y, .1 interior { ior 1.5 } photons { target refraction on } }",
+                 texts[k]);
+        Scene *scene = test_scene(text);
+        const Light *light = &scene->lights[0];
+        const Vec3 at = vec3(0.3, 0, -0.2);
+        Vec3 axis, s, t;
+        double distance, sum = 0, sine, cosine;
+        const Rgb wanted = source_irradiance(light, at, light->location, &axis, &distance);
+        enum { N = 1200 };
+        const double less = 0.06; /* 1 - cos of the cone */
+        vec_frame(axis, &s, &t);
+        assert_true(light->caustics && light->size > 0);
+        for (int i = 0; i < N * N; i++) {
+            const double down = less * (i % N + 0.5) / N, across = sqrt(down * (2 - down));
+            LightSample met;
+            turn_sincos((float)(((double)(i / N) + 0.5) / N), &sine, &cosine);
+            const Vec3 d = vec_mad(vec_mad(vec_scale(axis, 1 - down), s, across * cosine), t, across * sine);
+            const Ray ray = {at, d, 0, INFINITY};
+            if (source_meet(light, &ray, &met))
+                sum += (double)met.radiance.r * (1 - down) * 2 * PI * less / N / N;
+        }
+        if (fabs(sum - (double)wanted.r) > 0.02 * (double)wanted.r)
+            fail_msg("%s: %.5f, not %.5f", texts[k], sum, (double)wanted.r);
+        scene_close(&scene);
+    }
+}
+
 /* Irradiance that all samples together find at a point. */
 static double mean_irradiance(const char *text, LightSampleContext p)
 {
@@ -356,6 +400,7 @@ int main(void)
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(photons_carry_all_light),
+        cmocka_unit_test(met_sources_give_their_irradiance),
         cmocka_unit_test(sources_shine_by_their_laws),
         cmocka_unit_test(faces_give_what_their_sheet_gives),
     };

@@ -85,6 +85,34 @@ static void test_light_kinds_written_twice(void **state)
     }
 }
 
+/* Which primitives throw caustics of which lights: what photons blocks say. */
+static void test_photons(void **state)
+{
+    (void)state;
+    static const char TEXT[] =
+        V37 "%s light_source{y, 1} light_source{2*y, 1 photons{refraction off}} light_source{3*y, 1 shadowless}"
+            "sphere{0,1 photons{target 1 reflection on refraction on collect off}}"
+            "union{sphere{0,1} photons{target refraction on reflection off}} sphere{0,1 photons{refraction on}}";
+    char text[1024];
+    snprintf(text, sizeof text, TEXT, "global_settings{photons{count 100 media 10}}");
+    Scene *scene = parse(text);
+    const int both = CAUSTICS_REFRACT | CAUSTICS_REFLECT;
+    assert_int_equal(scene->lights[0].caustics, both);
+    assert_int_equal(scene->lights[1].caustics, CAUSTICS_REFLECT);
+    assert_int_equal(scene->lights[2].caustics, 0);
+    assert_near(scene->lights[1].size, 2.0 / 200);
+    assert_int_equal(scene->primitives[0].caustics, both);
+    assert_int_equal(scene->primitives[1].caustics, CAUSTICS_REFRACT);
+    assert_int_equal(scene->primitives[2].caustics, 0);
+    scene_close(&scene);
+    snprintf(text, sizeof text, TEXT, "");
+    scene = parse(text);
+    assert_int_equal(scene_caustic_sources(scene), 0);
+    assert_int_equal(scene->primitives[0].caustics, 0);
+    scene_close(&scene);
+    expect_error(V37 "light_source{y, 1 retex{radius 0}}", "above 0");
+}
+
 static void test_names_of_insides(void **state)
 {
     (void)state;
@@ -194,6 +222,7 @@ int main(void)
         cmocka_unit_test(test_camera),
         cmocka_unit_test(test_lights),
         cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_photons),
         cmocka_unit_test(test_names_of_insides),
         cmocka_unit_test(test_sky),
         cmocka_unit_test(test_targets),

@@ -157,7 +157,10 @@ enum {
     OBJECT_HOLLOW = 16,
     OBJECT_CUTAWAY_TEXTURES = 32,
     OBJECT_LIGHT_GROUP = 64,
-    OBJECT_GLOBAL_LIGHTS = 128 /* of a light_group */
+    OBJECT_GLOBAL_LIGHTS = 128, /* of a light_group */
+    OBJECT_PHOTON_TARGET = 256, /* the following two count with it */
+    OBJECT_PHOTONS_REFRACT = 512,
+    OBJECT_PHOTONS_REFLECT = 1024
 };
 
 typedef struct ObjectList {
@@ -237,6 +240,7 @@ typedef struct Builder {
     double assumed_gamma;
     double gamma_version; /* the version where it was set */
     int radiosity;        /* global_settings has a block of it */
+    int photons;          /* global_settings has a block of them */
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;
@@ -454,6 +458,10 @@ typedef struct Inherited {
     CsgNode *csg; /* the node that it is an operand of, or NULL */
     const Prototype *prototype; /* that it is part of, or NULL: then the world is its space */
 } Inherited;
+/* photons{…} of an object or light: sets and clears OBJECT_PHOTON… in flags. */
+void parse_photons(Sdl *sdl, unsigned *flags);
+/* caustics.c, at the end of reading: which light sources throw caustics, by which primitives. */
+void find_caustics(Sdl *sdl);
 void place_object(Sdl *sdl, const Object *object);
 void place_within(Sdl *sdl, const Object *object, const Inherited *around);
 int place_instance(Sdl *sdl, const Object *object, const Inherited *around); /* 0: it is to be placed by itself */

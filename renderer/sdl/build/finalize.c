@@ -262,5 +262,6 @@ void finalize_scene(Sdl *sdl)
     camera_finish(sdl);
     find_matte_finishes(sdl);
     set_emission(sdl);
+    find_caustics(sdl);
     list_all_names(sdl);
 }

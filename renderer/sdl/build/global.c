@@ -16,6 +16,7 @@ static void assumed_gamma(Sdl *sdl)
 /* What a renderer of another kind does not need: a number, a colour, a word or a block. */
 static void ignored(Sdl *sdl)
 {
+    builder_of(sdl)->photons |= sdl_is(sdl, "photons");
     static const char *const blocks[] = {"radiosity", "photons", "subsurface", "tracing", NULL};
     for (int i = 0; blocks[i]; i++)
         if (sdl_is(sdl, blocks[i])) {

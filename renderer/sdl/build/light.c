@@ -9,6 +9,7 @@ static Light *light_new(Sdl *sdl)
     light->color = rgb_grey(1);
     light->radius = 30;
     light->falloff = 45;
+    light->caustics = CAUSTICS_REFRACT | CAUSTICS_REFLECT;
     return light;
 }
 
@@ -141,6 +142,28 @@ static int accept_kind(Sdl *sdl, Light *light)
     return 1;
 }
 
+static void photons(Sdl *sdl, Light *light)
+{
+    unsigned flags = (light->caustics & CAUSTICS_REFRACT ? OBJECT_PHOTONS_REFRACT : 0) |
+                     (light->caustics & CAUSTICS_REFLECT ? OBJECT_PHOTONS_REFLECT : 0);
+    parse_photons(sdl, &flags);
+    light->caustics = (flags & OBJECT_PHOTONS_REFRACT ? CAUSTICS_REFRACT : 0) |
+                      (flags & OBJECT_PHOTONS_REFLECT ? CAUSTICS_REFLECT : 0);
+}
+
+/* Our extension: retex{ radius R }. */
+static void extension(Sdl *sdl, Light *light)
+{
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        if (!sdl_accept(sdl, "radius"))
+            sdl_expected(sdl, "radius or } in retex");
+        light->size = sdl_float(sdl);
+        if (!(light->size > 0))
+            sdl_error(sdl, "the radius of a light must be above 0, not %g", light->size);
+    }
+}
+
 /* The object's transform is applied when it is placed: location and point_at are in its own space. */
 static void modifier(Sdl *sdl, Object *object, Light *light)
 {
@@ -155,7 +178,11 @@ static void modifier(Sdl *sdl, Object *object, Light *light)
         projected_through(sdl, object);
     else if (sdl_accept(sdl, "groups"))
         sdl_string(sdl);
-    else if (sdl_is(sdl, "photons") || sdl_is(sdl, "bounded_by"))
+    else if (sdl_accept(sdl, "photons"))
+        photons(sdl, light);
+    else if (sdl_accept(sdl, "retex"))
+        extension(sdl, light);
+    else if (sdl_is(sdl, "bounded_by"))
         skip_statement(sdl);
     else if (sdl_is_color_start(sdl)) {
         Rgbft c = sdl_color(sdl);

@@ -144,7 +144,7 @@ static int accept_clips(Sdl *sdl, Object *object)
 
 static int accept_skipped(Sdl *sdl)
 {
-    if (!sdl_is(sdl, "photons") && !sdl_is(sdl, "radiosity"))
+    if (!sdl_is(sdl, "radiosity"))
         return 0;
     skip_statement(sdl);
     return 1;
@@ -195,6 +195,10 @@ int accept_object_modifier(Sdl *sdl, Object *object)
     }
     if (accept_surface(sdl, object) || accept_flag(sdl, object) || accept_clips(sdl, object) || accept_skipped(sdl))
         return 1;
+    if (sdl_accept(sdl, "photons")) {
+        parse_photons(sdl, &object->flags);
+        return 1;
+    }
     /* The colour of previews, and of very old scenes: `sphere{0,1 color Red}`. */
     if (sdl_is(sdl, "color") || sdl_is(sdl, "colour")) {
         sdl_color(sdl);

@@ -155,6 +155,9 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     p->inverse = (in->flags & OBJECT_INVERSE) != 0;
     p->hollow = (in->flags & OBJECT_HOLLOW) != 0;
     p->light_group = in->light_group;
+    if (in->flags & OBJECT_PHOTON_TARGET)
+        p->caustics = (in->flags & OBJECT_PHOTONS_REFRACT ? CAUSTICS_REFRACT : 0) |
+                      (in->flags & OBJECT_PHOTONS_REFLECT ? CAUSTICS_REFLECT : 0);
     p->idents = in->idents;
     p->line = object->line;
     p->target = -1;

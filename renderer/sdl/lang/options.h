@@ -14,6 +14,7 @@ typedef struct SdlOptions {
     int ndeclares;
     int strict;        /* 1: unsupported features are errors */
     int lenient;       /* 1: unsupported shapes and cameras are not errors; strict has precedence */
+    int caustics;      /* of light sources: 0 what the scene asks for, 1 all, -1 none */
     int ambient;       /* which `ambient` is emission: 0 what was made to shine, 1 all, -1 none */
     long max_steps;    /* limit of statements and evaluations; default 200 million */
     size_t max_memory; /* limit of the scene's arena in bytes; default 8 GiB */
@@ -28,7 +29,7 @@ typedef struct SdlOptions {
 } SdlOptions;
 #define SDL_OPTIONS_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0                       \
+        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0                    \
     }
 
 #endif

@@ -1,0 +1,32 @@
+/* Photons from lights through glass and off mirrors, traced before the picture for the guide to caustics. */
+#ifndef RENDERER_PATH_PHOTONS_H
+#define RENDERER_PATH_PHOTONS_H
+
+#include "accel/accel.h"
+#include "light/lights.h"
+
+/* A photon that landed on a surface that scatters widely. */
+typedef struct Landing {
+    Vec3 position, from; /* from: on the last surface that refracted or mirrored it */
+    float power;
+} Landing;
+
+typedef struct Photons {
+    Landing *landings; /* to be freed */
+    int count, tried;
+} Photons;
+
+/* What photons start from, and how many: see caustics_create. None land where nothing throws caustics. */
+typedef struct PhotonSources {
+    const Scene *scene;
+    const Accel *accel;
+    const Lights *lights;
+    int of_emitters;
+    long paths;
+    const RetexBudget *budget; /* may stop it, or NULL */
+} PhotonSources;
+
+/* The result is the same for every nthreads. */
+int photons_trace(Photons *photons, const PhotonSources *sources, int nthreads, RetexError *err);
+
+#endif
