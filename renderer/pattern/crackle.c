@@ -1,78 +1,98 @@
 /* crackle: by the distances to the nearest of points, of which each unit cube has one at random. */
-#include <stdlib.h>
 #include "pattern/pattern.h"
 
 #define CUBE_EPSILON 1e-10
 
 enum { NEAREST = 3 };
-typedef struct Nearest {
-    double distance[NEAREST]; /* the least first; of metric 2 squared */
+
+/* The search for the points nearest to one. Distances are sums of powers of what coordinates differ by. */
+typedef struct Search {
+    const struct Crackle *crackle;
+    Vec3 p;
+    double offset;            /* its power */
+    double gap[3][5];         /* powers of how far cubes that lie -2 to 2 away are from the point, by axis */
+    double distance[NEAREST]; /* the least first */
+    const double *bound;      /* of distances that are needed */
     Vec3 point;               /* the nearest one */
-} Nearest;
+} Search;
 
-static double distance_of(const struct Crackle *crackle, Vec3 by)
-{
-    const double metric = crackle->metric, offset = crackle->offset;
-    if (metric == 2)
-        return vec_dot(by, by) + offset * offset;
-    if (metric == 1)
-        return fabs(by.x) + fabs(by.y) + fabs(by.z) + offset;
-    return pow(fabs(by.x), metric) + pow(fabs(by.y), metric) + pow(fabs(by.z), metric) + pow(offset, metric);
-}
-
-static double length_of(const struct Crackle *crackle, double distance)
+static double power_of(const struct Crackle *crackle, double by)
 {
     const double metric = crackle->metric;
-    return metric == 2 ? sqrt(distance) : metric == 1 ? distance : pow(distance, 1 / metric);
+    return metric == 2 ? by * by : metric == 1 ? fabs(by) : pow(fabs(by), metric);
 }
 
-/* How far a coordinate of a cube's middle part lies from the cube that many cubes away. */
-static double gap(double at, int away)
+static double root_of(const struct Crackle *crackle, double power)
 {
-    return away > 0 ? away - at : away < 0 ? at - away - 1 : 0;
+    const double metric = crackle->metric;
+    return metric == 2 ? sqrt(power) : metric == 1 ? power : pow(power, 1 / metric);
 }
 
-static void consider(const struct Crackle *crackle, Vec3 p, Vec3 cube, Nearest *found)
+static void consider(Search *search, Vec3 cube)
 {
-    const Vec3 point = vec_add(cube, noise_cell(cube));
-    const double distance = distance_of(crackle, vec_sub(point, p));
-    double *d = found->distance;
+    const struct Crackle *crackle = search->crackle;
+    const Vec3 point = vec_add(cube, noise_cell(cube)), by = vec_sub(point, search->p);
+    const double distance =
+        power_of(crackle, by.x) + power_of(crackle, by.y) + power_of(crackle, by.z) + search->offset;
+    double *d = search->distance;
     if (distance < d[0]) {
         d[2] = d[1], d[1] = d[0], d[0] = distance;
-        found->point = point;
+        search->point = point;
     } else if (distance < d[1])
         d[2] = d[1], d[1] = distance;
     else if (distance < d[2])
         d[2] = distance;
 }
 
-/* In the cubes about the point's own, and those beyond its six sides, as POV-Ray does: 81 of them, near ones first. */
-static void find_nearest(const struct Crackle *crackle, Vec3 p, Nearest *found)
+/* The cubes from low to high away, but those that can have nothing near enough. */
+static void search_box(Search *search, Vec3 own, const int low[3], const int high[3])
 {
+    for (int x = low[0]; x <= high[0]; x++)
+        for (int y = low[1]; y <= high[1]; y++)
+            for (int z = low[2]; z <= high[2]; z++)
+                if ((x || y || z) &&
+                    search->gap[0][x + 2] + search->gap[1][y + 2] + search->gap[2][z + 2] + search->offset <=
+                        *search->bound)
+                    consider(search, vec_add(own, vec3(x, y, z)));
+}
+
+/* The point's own cube, then the 26 about it, then nine beyond each of the six sides of these, as in POV-Ray. */
+static void find_nearest(Search *search)
+{
+    const Vec3 p = search->p;
     const Vec3 own = vec3(floor(p.x + CUBE_EPSILON), floor(p.y + CUBE_EPSILON), floor(p.z + CUBE_EPSILON));
-    const Vec3 at = vec_sub(p, own);
-    for (int reach = 0; reach <= 2; reach++)
-        for (int x = -reach; x <= reach; x++)
-            for (int y = -reach; y <= reach; y++)
-                for (int z = -reach; z <= reach; z++) {
-                    const int most = abs(x) > abs(y) ? abs(x) : abs(y);
-                    if ((most > abs(z) ? most : abs(z)) != reach || (abs(x) == 2) + (abs(y) == 2) + (abs(z) == 2) > 1)
-                        continue;
-                    if (distance_of(crackle, vec3(gap(at.x, x), gap(at.y, y), gap(at.z, z))) <= found->distance[2])
-                        consider(crackle, p, vec_add(own, vec3(x, y, z)), found);
-                }
+    const double at[3] = {p.x - own.x, p.y - own.y, p.z - own.z};
+    for (int axis = 0; axis < 3 && search->crackle->metric > 0; axis++)
+        for (int away = 1; away <= 2; away++) {
+            search->gap[axis][2 + away] = power_of(search->crackle, away - at[axis]);
+            search->gap[axis][2 - away] = power_of(search->crackle, at[axis] + away - 1);
+        }
+    consider(search, own);
+    search_box(search, own, (const int[]){-1, -1, -1}, (const int[]){1, 1, 1});
+    for (int side = 0; side < 6; side++) {
+        int low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+        const int axis = side / 2, away = side % 2 ? 2 : -2;
+        low[axis] = high[axis] = away;
+        if (search->gap[axis][away + 2] + search->offset <= *search->bound)
+            search_box(search, own, low, high);
+    }
 }
 
 static double value(const Pattern *pattern, const PatternPoint *point)
 {
     const struct Crackle *crackle = &pattern->crackle;
-    Nearest found = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, point->p};
-    find_nearest(crackle, point->p, &found);
+    Search s = {.crackle = crackle, .p = point->p, .distance = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .point = point->p};
+    const int needed = crackle->is_solid ? 0 : crackle->form.z != 0 ? 2 : crackle->form.y != 0 ? 1 : 0;
+    s.offset = crackle->offset != 0 ? power_of(crackle, crackle->offset) : 0;
+    s.bound = &s.distance[needed];
+    find_nearest(&s);
     if (crackle->is_solid)
-        return pattern_noise(pattern, found.point);
-    const double sum = crackle->form.x * length_of(crackle, found.distance[0]) +
-                       crackle->form.y * length_of(crackle, found.distance[1]) +
-                       crackle->form.z * length_of(crackle, found.distance[2]);
+        return pattern_noise(pattern, s.point);
+    double sum = crackle->form.x * root_of(crackle, s.distance[0]);
+    if (needed > 0)
+        sum += crackle->form.y * root_of(crackle, s.distance[1]);
+    if (needed > 1)
+        sum += crackle->form.z * root_of(crackle, s.distance[2]);
     return fmin(fmax(sum, 0), 1);
 }
 

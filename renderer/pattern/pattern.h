@@ -57,6 +57,12 @@ double pattern_value(const Pattern *pattern, const PatternPoint *point);
 Vec3 pattern_warp(const Pattern *pattern, Vec3 p);
 double pattern_value_at(const Pattern *pattern, const PatternPoint *warped);
 
+static inline int pattern_is_warped(const Pattern *pattern)
+{
+    const Vec3 turbulence = pattern->turbulence.amount;
+    return pattern->warps || turbulence.x != 0 || turbulence.y != 0 || turbulence.z != 0;
+}
+
 static inline int pattern_noise_generator(const Pattern *pattern)
 {
     return pattern->noise_generator ? *pattern->noise_generator : NOISE_RANGE_CORRECTED;

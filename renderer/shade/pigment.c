@@ -55,6 +55,13 @@ static Rgbft average(const ColorMap *map, Vec3 p, Vec2 uv)
     return (Rgbft){sum.r * scale, sum.g * scale, sum.b * scale, sum.filter * scale, sum.transmit * scale};
 }
 
+/* Where in the image: warps move its points as they do a pattern's. */
+static Vec2 warped_image_uv(const Pigment *pigment, Vec3 p)
+{
+    const int is_warped = pattern_is_warped(&pigment->pattern);
+    return pigment_image_uv(pigment->image, is_warped ? pattern_warp(&pigment->pattern, p) : p);
+}
+
 Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
     PatternPoint warped;
@@ -63,7 +70,7 @@ Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
         break;
     case PIGMENT_IMAGE:
         return working_encode_pigment(pigment->space,
-                                      image_lookup(pigment->image, pigment_image_uv(pigment->image, p)));
+                                      image_lookup(pigment->image, warped_image_uv(pigment, p)));
     case PIGMENT_PATTERN:
         warped = (PatternPoint){.p = pattern_warp(&pigment->pattern, p)};
         return map_color(&pigment->map, pattern_value_at(&pigment->pattern, &warped), warped.p, uv);
@@ -78,7 +85,7 @@ Rgbft pigment_pattern(const Pigment *pigment, Vec3 p, Vec2 uv)
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
     if (pigment->kind == PIGMENT_IMAGE)
-        return image_lookup(pigment->image, pigment_image_uv(pigment->image, p));
+        return image_lookup(pigment->image, warped_image_uv(pigment, p));
     return working_decode_pigment(pigment->space, pigment_in_working_space(pigment, p, uv));
 }
 
@@ -98,7 +105,7 @@ Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
 {
     const Vec2 at = pigment_image_uv(pigment->image, p);
     *target = pigment->uv_mapping ? (Vec2){p.x, p.y} : at;
-    return image_lookup(pigment->image, at);
+    return image_lookup(pigment->image, pattern_is_warped(&pigment->pattern) ? warped_image_uv(pigment, p) : at);
 }
 
 void pigment_prefetch_image(const Pigment *pigment, Vec3 p)

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "pattern/pattern.h"
+#include "pattern/warp.h"
 #include "shade/pigment.h"
 #include "shade/pigment_image.h"
 
@@ -167,6 +168,29 @@ static void images_are_povray(void **state)
     retex_texture_close(&map.texture);
 }
 
+/* A warp changes where the image is read, and not the UV of a replacement. */
+static void warped_images(void **state)
+{
+    ImageMap map = image_map(MAP_PLANAR);
+    Pigment p = {.kind = PIGMENT_IMAGE, .transform = transform_identity()}, straight;
+    Warp warp = {.apply = warp_repeat, .repeat = {.axis = 0, .width = 0.25f, .flip = {1, 1, 1}, .offset = {0, 0.5, 0}}};
+    Vec2 target;
+
+    (void)state;
+    p.image = &map;
+    straight = p;
+    p.pattern.warps = &warp;
+    for (int i = 0; i < 8; i++) {
+        const double x = 0.1 + i * 0.25;
+        const Rgbft seen = pigment_eval(&p, vec3(x, 0.2, 3), nowhere);
+        const Rgbft there = pigment_eval(&straight, vec3(0.1, 0.2 + 0.5 * i, 0), nowhere);
+        assert_true(seen.r == there.r && seen.g == there.g);
+        assert_true(pigment_eval_image(&p, vec3(x, 0.2, 3), &target).g == there.g);
+        assert_true(target.u == x && target.v == 0.2);
+    }
+    retex_texture_close(&map.texture);
+}
+
 static void assert_uv(Vec2 uv, double u, double v)
 {
     assert_near(uv.u, u);
@@ -266,6 +290,7 @@ int main(void)
         cmocka_unit_test(checkers),
         cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(images_are_povray),
+        cmocka_unit_test(warped_images),
         cmocka_unit_test(projections),
         cmocka_unit_test(target_uvs),
         cmocka_unit_test(bakes),
