@@ -198,6 +198,14 @@ RETEX_CPU_INLINE void lattice_noise_body(double x, double y, double z, double *n
 }
 RETEX_CPU_KERNEL(lattice_noise, (double x, double y, double z, double *noise), (x, y, z, noise))
 
+RETEX_CPU_INLINE void lattice_vector_body(double x, double y, double z, Vec3 *noise)
+{
+    Corners corners;
+    find_corners(vec3(x, y, z), &corners);
+    *noise = vec3(sum_corners(&corners, 0), sum_corners(&corners, 4), sum_corners(&corners, 8));
+}
+RETEX_CPU_KERNEL(lattice_vector, (double x, double y, double z, Vec3 *noise), (x, y, z, noise))
+
 static inline double lattice_noise(Vec3 p)
 {
     double noise;
@@ -262,12 +270,12 @@ double noise_value(Vec3 p, int generator)
 
 Vec3 noise_vector(Vec3 p)
 {
-    Corners corners;
+    Vec3 noise;
     if (!is_finite(p))
         return vec3(0, 0, 0);
     need_tables();
-    find_corners(p, &corners);
-    return vec3(sum_corners(&corners, 0), sum_corners(&corners, 4), sum_corners(&corners, 8));
+    lattice_vector_by_level[level](p.x, p.y, p.z, &noise);
+    return noise;
 }
 
 int noise_octaves(double octaves)

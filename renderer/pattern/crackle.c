@@ -44,19 +44,21 @@ static void consider(Search *search, Vec3 cube)
         d[2] = distance;
 }
 
-/* The cubes from low to high away, but those that can have nothing near enough. */
-static void search_box(Search *search, Vec3 own, const int low[3], const int high[3])
+/* The cubes about the point's own: those that share a side with it, an edge, a corner. */
+static const signed char around[26][3] = {
+    {-1, 0, 0},   {0, -1, 0},  {0, 0, -1},  {0, 0, 1},  {0, 1, 0},   {1, 0, 0},  {-1, -1, 0}, {-1, 0, -1}, {-1, 0, 1},
+    {-1, 1, 0},   {0, -1, -1}, {0, -1, 1},  {0, 1, -1}, {0, 1, 1},   {1, -1, 0}, {1, 0, -1},  {1, 0, 1},   {1, 1, 0},
+    {-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}, {-1, 1, 1}, {1, -1, -1}, {1, -1, 1}, {1, 1, -1},  {1, 1, 1}};
+
+static void search_cube(Search *search, Vec3 own, int x, int y, int z)
 {
-    for (int x = low[0]; x <= high[0]; x++)
-        for (int y = low[1]; y <= high[1]; y++)
-            for (int z = low[2]; z <= high[2]; z++)
-                if ((x || y || z) &&
-                    search->gap[0][x + 2] + search->gap[1][y + 2] + search->gap[2][z + 2] + search->offset <=
-                        *search->bound)
-                    consider(search, vec_add(own, vec3(x, y, z)));
+    const double gap = search->gap[0][x + 2] + search->gap[1][y + 2] + search->gap[2][z + 2];
+    if (gap + search->offset <= *search->bound)
+        consider(search, vec_add(own, vec3(x, y, z)));
 }
 
-/* The point's own cube, then the 26 about it, then nine beyond each of the six sides of these, as in POV-Ray. */
+/* The point's own cube, the 26 about it, and nine beyond each side of these, as in POV-Ray; but those that can have
+ * nothing near enough. */
 static void find_nearest(Search *search)
 {
     const Vec3 p = search->p;
@@ -68,13 +70,16 @@ static void find_nearest(Search *search)
             search->gap[axis][2 - away] = power_of(search->crackle, at[axis] + away - 1);
         }
     consider(search, own);
-    search_box(search, own, (const int[]){-1, -1, -1}, (const int[]){1, 1, 1});
+    for (int i = 0; i < 26; i++)
+        search_cube(search, own, around[i][0], around[i][1], around[i][2]);
     for (int side = 0; side < 6; side++) {
-        int low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
         const int axis = side / 2, away = side % 2 ? 2 : -2;
-        low[axis] = high[axis] = away;
-        if (search->gap[axis][away + 2] + search->offset <= *search->bound)
-            search_box(search, own, low, high);
+        if (search->gap[axis][away + 2] + search->offset > *search->bound)
+            continue;
+        for (int i = 0; i < 9; i++) {
+            const int u = i / 3 - 1, v = i % 3 - 1;
+            search_cube(search, own, axis == 0 ? away : u, axis == 1 ? away : axis == 0 ? u : v, axis == 2 ? away : v);
+        }
     }
 }
 
