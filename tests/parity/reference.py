@@ -11,8 +11,8 @@ POV-Ray has no such pictures of its own. They are made thus, with one ray for ea
   max_trace_level 1.
 
 These pictures are made of prepared copies of the scenes: fog of their own is moved out of sight, cameras have no focal
-blur, finishes have no highlights and `brilliance` 1, quick_color is taken out. What is inverse is
-hollow. Shaded pictures are made of unchanged copies, because some scenes write files."""
+blur, finishes have no highlights and `brilliance` 1, quick_color is taken out. What is inverse or
+clipped is hollow. Shaded pictures are made of unchanged copies, because some scenes write files."""
 import concurrent.futures, glob, json, os, re, shutil, subprocess, time
 import numpy as np
 import OpenImageIO as oiio
@@ -95,6 +95,7 @@ def prepared(text):
         at = fog.end()
     # within what is not hollow, POV-Ray has no fog
     text = re.sub(r'\binverse\b(?=\s*[}\s])', 'inverse hollow', text)
+    text = re.sub(r'\bclipped_by\b(?=\s*\{)', 'hollow clipped_by', text)
     text = re.sub(r'\bbrilliance\b(?=[\s(])', 'brilliance 1+0*', text)
     text = re.sub(r'\b(phong|specular)(\s+albedo)?\b(?=[\s(])', r'\1\2 0*', text)
     text = re.sub(r'\baperture\b(?=[\s(])', 'aperture 0*', text)
