@@ -1,6 +1,7 @@
 /* The sky as a light: its radiance, and a table over the sphere for sampling directions by luminance. */
 #include <stdlib.h>
 #include "light/lights.h"
+#include "pattern/pattern.h"
 #include "shade/pigment.h"
 
 #define TABLE_WIDTH 1024 /* over longitude; the height is half of it, over the polar angle */
@@ -27,22 +28,65 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction)
     return sum;
 }
 
-static Vec3 table_direction(double x, double y)
+/* Sines and cosines of the longitudes that cells are looked at, two in each column. */
+typedef struct Longitudes {
+    double sine[2 * TABLE_WIDTH], cosine[2 * TABLE_WIDTH];
+} Longitudes;
+
+static void find_longitudes(Longitudes *longitudes)
 {
-    double phi = 2 * PI * x / TABLE_WIDTH, theta = PI * y / TABLE_HEIGHT;
-    return vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
+    for (int i = 0; i < 2 * TABLE_WIDTH; i++) {
+        const double phi = 2 * PI * (0.5 * i + 0.25) / TABLE_WIDTH;
+        longitudes->sine[i] = sin(phi), longitudes->cosine[i] = cos(phi);
+    }
 }
 
-/* Luminance of a cell, the mean of a few points, so that a small sun between centres is not missed. */
-static float cell_luminance(const Scene *scene, int x, int y)
+/* Luminances of a row's cells, each the mean of a few points, so that a small sun between centres is not missed. Only
+ * the first count cells. */
+static void row_luminances(const Scene *scene, const Longitudes *longitudes, int y, int count, float *luminances)
 {
-    float sum = 0;
-    if (!scene->sky)
-        return fmaxf(0, rgb_luminance(scene->background));
-    for (int k = 0; k < 4; k++)
-        sum += fmaxf(0, rgb_luminance(
-                            sky_radiance(scene, table_direction(x + 0.25 + 0.5 * (k & 1), y + 0.25 + 0.5 * (k >> 1)))));
-    return sum / 4;
+    double sine[2], cosine[2];
+    for (int k = 0; k < 2; k++) {
+        const double theta = PI * (y + 0.25 + 0.5 * k) / TABLE_HEIGHT;
+        sine[k] = sin(theta), cosine[k] = cos(theta);
+    }
+    for (int x = 0; x < count; x++) {
+        float sum = 0;
+        for (int k = 0; k < 4; k++) {
+            const int i = 2 * x + (k & 1), j = k >> 1;
+            const Vec3 direction = {sine[j] * longitudes->cosine[i], cosine[j], sine[j] * longitudes->sine[i]};
+            sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction)));
+        }
+        luminances[x] = sum / 4;
+    }
+}
+
+/* Whether the pigment depends on the height alone, to the bit: as most skies do. */
+static int is_level(const Pigment *pigment)
+{
+    const Pattern *pattern = &pigment->pattern;
+    const double vector[3] = {pattern->vector.x, pattern->vector.y, pattern->vector.z};
+    const Vec3 *turbulence = &pattern->turbulence.amount;
+    if (pigment->kind == PIGMENT_COLOR)
+        return 1;
+    if (pigment->kind != PIGMENT_PATTERN || pattern->ops != &pattern_gradient || pattern->warps || turbulence->x != 0 ||
+        turbulence->y != 0 || turbulence->z != 0 || pigment->uv_mapping)
+        return 0;
+    for (int i = 0; i < pigment->map.count; i++)
+        if (pigment->map.entries[i].pigment)
+            return 0;
+    for (int i = 0; i < 3; i++)
+        if (vector[i] * pigment->transform.inverse[i][0] != 0 || vector[i] * pigment->transform.inverse[i][2] != 0)
+            return 0;
+    return 1;
+}
+
+static int sky_is_level(const Scene *scene)
+{
+    for (int k = 0; scene->sky && k < scene->sky->npigments; k++)
+        if (!is_level(scene->sky->pigments[k]))
+            return 0;
+    return 1;
 }
 
 static void normalize_sums(float *sums, int count)
@@ -61,14 +105,17 @@ int environment_create(Environment **environment, const Scene *scene, RetexError
     Environment *e = malloc(sizeof *e);
     if (!e)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
+    const int looked_at = sky_is_level(scene) ? 1 : TABLE_WIDTH;
+    Longitudes longitudes;
     double total = 0;
+    find_longitudes(&longitudes);
     for (int y = 0; y < TABLE_HEIGHT; y++) {
         double area = (cos(PI * y / TABLE_HEIGHT) - cos(PI * (y + 1) / TABLE_HEIGHT)) * 2 * PI / TABLE_WIDTH, row = 0;
+        float *luminances = e->density[y];
+        row_luminances(scene, &longitudes, y, looked_at, luminances);
         e->conditional[y][0] = 0;
         for (int x = 0; x < TABLE_WIDTH; x++) {
-            float value = cell_luminance(scene, x, y);
-            e->density[y][x] = value;
-            row += value;
+            row += luminances[x] = luminances[x < looked_at ? x : 0];
             e->conditional[y][x + 1] = (float)row;
         }
         normalize_sums(e->conditional[y], TABLE_WIDTH);
