@@ -393,8 +393,31 @@ static int make_row(const Cli *cli, Job *job, int number, Kept *kept, RetexError
     return code ? code : make_picture(cli, job, &row, path, began, err);
 }
 
+/* Which targets' corrections the pictures of a table use. */
+static void find_corrected(const Job *job, int corrected[RETEX_MAX_TARGETS])
+{
+    memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
+    for (int number = 0; number < job->batch.table.nrows; number++) {
+        RetexTextureSpec specs[RETEX_MAX_TARGETS];
+        int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
+        const int nspecs = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
+        for (int t = 0; t < job->set->ntargets; t++)
+            edited[t] = job->samples && job->samples->textures[t][0];
+        for (int i = 0; i < nspecs; i++) {
+            const int t = retex_set_find_target(job->set, specs[i].target);
+            if (t >= 0)
+                edited[t] = 1;
+        }
+        for (int t = 0; t < job->set->ntargets; t++)
+            count += edited[t];
+        for (int t = 0; t < job->set->ntargets && retex_correction_weight(job->set->ntargets, count) > 0; t++)
+            corrected[t] |= edited[t];
+    }
+}
+
 static int run_batch(const Cli *cli, Job *job)
 {
+    int corrected[RETEX_MAX_TARGETS];
     Batch *batch = &job->batch;
     RetexError err = {0};
     Kept kept = {.count = 0};
@@ -407,7 +430,8 @@ static int run_batch(const Cli *cli, Job *job)
         batch_print(batch);
         return batch_finish(batch, NULL);
     }
-    if (retex_set_preload(job->set, job->samples, cli_memory(cli, job->memory), cli->threads, &err))
+    find_corrected(job, corrected);
+    if (retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, &err))
         return batch_finish(batch, &err);
     for (int number = 0; number < batch->table.nrows; number++) {
         const double began = retex_clock_seconds();

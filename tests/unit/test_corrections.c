@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include <retex/set_file.h>
+
 #define PATHS 40
 #define HITS 6
 #define EACH 3        /* most hits of one target on a path: corrections tell no more apart */
@@ -249,10 +251,37 @@ static void several_edited_targets_interpolate(void **state)
     end_film(&f);
 }
 
+/* A table of pictures says whose corrections are brought into memory; all else is. */
+static void only_those_asked_for_are_loaded(void **state)
+{
+    (void)state;
+    static const int second[RETEX_MAX_TARGETS] = {0, 1};
+    Fixture f;
+    Truth truth;
+    RetexError err = {0};
+    make(&f, &truth, &footprints_layout, 2, 2);
+    test_must(retex_set_write(f.set, NULL, test_in_folder("corrections.exr"), NULL, 1, &err), &err);
+    for (int all = 0; all < 2; all++) {
+        RetexSet *set = NULL;
+        int corrections[2] = {0};
+        test_must(retex_set_open(test_in_folder("corrections.exr"), &set, NULL, 1, &err), &err);
+        test_must(retex_set_preload(set, NULL, all ? NULL : second, UINT64_MAX, 1, &err), &err);
+        for (int t = 0; t < set->nterms; t++) {
+            const int loaded = set->parts[set->terms[t].radiance].image.pixels != NULL, edited = set->terms[t].edited;
+            assert_int_equal(loaded, all || edited != 1);
+            corrections[0] += edited == 1, corrections[1] += edited == 2;
+        }
+        assert_true(corrections[0] > 0 && corrections[1] > 0);
+        retex_set_close(&set);
+    }
+    end_film(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(corrections_know_their_kind),
                                        cmocka_unit_test(footprints_are_exact), cmocka_unit_test(paper_is_exact),
-                                       cmocka_unit_test(several_edited_targets_interpolate)};
+                                       cmocka_unit_test(several_edited_targets_interpolate),
+                                       cmocka_unit_test(only_those_asked_for_are_loaded)};
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -163,7 +163,7 @@ static void test_rows_are_those_of_the_whole(void **state)
             assert_memory_equal(row, set->parts[0].image.pixels + 3 * 40 * rows[i], 3 * 40 * sizeof *row);
         }
         retex_pack_scratch_close(&scratch);
-        test_must(retex_set_preload(back, NULL, UINT64_MAX, 2, &err), &err);
+        test_must(retex_set_preload(back, NULL, NULL, UINT64_MAX, 2, &err), &err);
         assert_null(back->parts[0].image.pixels);
     }
     retex_set_close(&back);

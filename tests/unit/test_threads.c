@@ -154,7 +154,7 @@ static int preload(Room *room, int nthreads, RetexError *err)
     RetexSet *set = NULL;
     (void)room;
     int code = retex_set_open(test_in_folder("set.exr"), &set, NULL, nthreads, err);
-    code = code ? code : retex_set_preload(set, NULL, 1u << 30, nthreads, err);
+    code = code ? code : retex_set_preload(set, NULL, NULL, 1u << 30, nthreads, err);
     retex_set_close(&set);
     return code;
 }

@@ -112,12 +112,14 @@ static void mark_wanted(char *wanted, int part)
 }
 
 /* Marks in `wanted` the parts that recombination reads; returns their bytes. */
-static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS_MAX])
+static uint64_t list_read_parts(const RetexSet *set, const int *corrected, char wanted[RETEX_SET_PARTS_MAX])
 {
     uint64_t bytes = 0;
 
     memset(wanted, 0, RETEX_SET_PARTS_MAX);
     for (int i = 0; i < set->nterms; i++) {
+        if (corrected && set->terms[i].edited && !corrected[set->terms[i].edited - 1])
+            continue;
         mark_wanted(wanted, set->terms[i].radiance);
         mark_wanted(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
     }
@@ -135,10 +137,11 @@ static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS
     return bytes;
 }
 
-int retex_set_preload(RetexSet *set, RetexSamples *samples, uint64_t most_bytes, int nthreads, RetexError *err)
+int retex_set_preload(RetexSet *set, RetexSamples *samples, const int *corrected, uint64_t most_bytes, int nthreads,
+                      RetexError *err)
 {
     char wanted[RETEX_SET_PARTS_MAX];
-    const uint64_t of_set = list_read_parts(set, wanted);
+    const uint64_t of_set = list_read_parts(set, corrected, wanted);
     const uint64_t left = of_set > most_bytes ? most_bytes : most_bytes - of_set;
     uint64_t of_samples = 0;
     int code = of_set > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);

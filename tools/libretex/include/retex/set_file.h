@@ -36,8 +36,9 @@ uint64_t retex_set_bytes(const RetexSet *set);
 /* Load what recombination reads, for several pictures one after the other: the parts of the set that it reads, if they
  * take at most most_bytes, and the samples, if the rest of most_bytes is enough for them; else they stay where they
  * are. */
-int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
-                      RetexError *err);
+int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */,
+                      const int *corrected /* by target: 1: its corrections too; NULL: those of all */,
+                      uint64_t most_bytes, int nthreads, RetexError *err);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
