@@ -184,9 +184,9 @@ static Vec2 selector_uv(const Point *at, const Pigment *selector)
 static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Leaf from)
 {
     const double *values = tree->values;
+    const PatternPoint point = surface_pattern_point(at->surface);
     const int last = tree->count - 1, chooses = tree->selector->pattern.ops->colors > 0;
-    const double value =
-        pigment_value(tree->selector, surface_texture_point(at->surface), selector_uv(at, tree->selector));
+    const double value = pigment_value(tree->selector, &point, selector_uv(at, tree->selector));
     const Surface warped = warped_surface(at, tree);
     const Point within = {&warped, at->wo, at->merge};
     int k = 0;

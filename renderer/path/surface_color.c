@@ -2,6 +2,13 @@
 #include "path/surface_color.h"
 #include "shade/pigment.h"
 
+PatternPoint surface_pattern_point(const Surface *surface)
+{
+    const Vec3 normal = surface->shading_normal;
+    return (PatternPoint){surface_texture_point(surface), surface->backside ? vec_neg(normal) : normal,
+                          surface->direction};
+}
+
 static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
 {
     const Pigment *pigment = surface->texture->pigment;
@@ -32,7 +39,8 @@ Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *targe
         of = surface_uv(surface);
     if (surface->target >= 0)
         *target = target_uv_of(surface, &of);
-    return pigment_eval(pigment, surface_texture_point(surface), of.uv);
+    const PatternPoint point = surface_pattern_point(surface);
+    return pigment_eval_at(pigment, &point, of.uv);
 }
 
 ImagePlace shading_prefetch(const Surface *surface)

@@ -2,6 +2,7 @@
 #ifndef RENDERER_PATH_SURFACE_COLOR_H
 #define RENDERER_PATH_SURFACE_COLOR_H
 
+#include "pattern/pattern.h"
 #include "shape/surface.h"
 
 /* Where an image is looked up on a surface: a point of its pattern space, if it is known already. */
@@ -10,6 +11,8 @@ typedef struct ImagePlace {
     Vec3 point;
 } ImagePlace;
 
+/* What patterns may ask of a surface; the point is in the world. */
+PatternPoint surface_pattern_point(const Surface *surface);
 /* The original's colour; and, of a target, the UV at which a replacement is looked up. place: what shading_prefetch
  * found, or NULL. */
 Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *target);

@@ -10,20 +10,23 @@ typedef enum PatternArguments {
     ARGUMENTS_NONE,
     ARGUMENTS_FLOAT,  /* Pattern.number */
     ARGUMENTS_VECTOR, /* Pattern.vector, a direction of any length */
-    /* read over so far */
-    ARGUMENTS_BLOCK,
-    ARGUMENTS_FILE,
-    ARGUMENTS_JULIA,
-    ARGUMENTS_MAGNET,
-    ARGUMENTS_OBJECT,
-    ARGUMENTS_SLOPE
+    /* Pattern.data, which sdl/build/pattern_data.c makes */
+    ARGUMENTS_BRICK, /* nothing, but mortar and brick_size may follow: Pattern.number, Pattern.vector */
+    ARGUMENTS_DENSITY_FILE,
+    ARGUMENTS_FRACTAL,
+    ARGUMENTS_FUNCTION,
+    ARGUMENTS_IMAGE,
+    ARGUMENTS_OBJECT, /* in braces, with the list of colours */
+    ARGUMENTS_PIGMENT,
+    ARGUMENTS_SLOPE,
+    ARGUMENTS_BLOCK /* read over */
 } PatternArguments;
 
-/* Where a pattern is evaluated, in pattern space. */
+/* Where a pattern is evaluated. */
 typedef struct PatternPoint {
-    Vec3 p;
-    Vec3 normal; /* of the surface there; zero where there is none: sky, functions */
-    Vec3 view;   /* the direction of the ray that sees it; zero where there is none */
+    Vec3 p;      /* in pattern space */
+    Vec3 normal; /* of the surface there, in the world, towards the viewer; zero where there is none: sky, functions */
+    Vec3 view;   /* the direction of the ray that sees it, in the world; zero where there is none */
 } PatternPoint;
 
 struct PatternOps {

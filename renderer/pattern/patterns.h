@@ -8,26 +8,41 @@
 /* By keyword: pattern_NAME is the row. */
 #define PATTERN_TABLE(X) \
     X(agate) \
+    X(aoi) \
     X(boxed) \
     X(bozo) \
+    X(brick) \
     X(bumps) \
     X(cells) \
     X(checker) \
     X(crackle) \
     X(cubic) \
     X(cylindrical) \
+    X(density_file) \
     X(dents) \
+    X(function) \
     X(gradient) \
     X(granite) \
+    X(hexagon) \
+    X(image_pattern) \
+    X(julia) \
     X(leopard) \
+    X(magnet) \
+    X(mandel) \
     X(marble) \
+    X(object) \
     X(onion) \
+    X(pigment_pattern) \
     X(planar) \
     X(quilted) \
     X(radial) \
     X(ripples) \
+    X(slope) \
     X(spherical) \
+    X(spiral1) \
     X(spotted) \
+    X(square) \
+    X(triangular) \
     X(waves) \
     X(wood) \
     X(wrinkles)
@@ -35,26 +50,11 @@
 /* POV-Ray's patterns that are read, with a warning, and replaced by their mean colour: keyword, PatternArguments,
  * length of the list of colours, name in the warning. */
 #define UNSUPPORTED_PATTERNS(X) \
-    X(aoi, NONE, 0, "aoi") \
-    X(brick, NONE, 2, "brick") \
-    X(density_file, FILE, 0, "density_file") \
     X(facets, NONE, 0, "facets") \
-    X(function, BLOCK, 0, "function pattern") \
-    X(hexagon, NONE, 3, "hexagon") \
-    X(image_pattern, BLOCK, 0, "image_pattern") \
-    X(julia, JULIA, 0, "julia") \
-    X(magnet, MAGNET, 0, "magnet") \
-    X(mandel, FLOAT, 0, "mandel") \
-    X(object, OBJECT, 0, "object pattern") \
     X(pavement, NONE, 0, "pavement") \
-    X(pigment_pattern, BLOCK, 0, "pigment_pattern") \
     X(projection, BLOCK, 0, "projection") \
-    X(slope, SLOPE, 0, "slope") \
-    X(spiral1, FLOAT, 0, "spiral") \
     X(spiral2, FLOAT, 0, "spiral") \
-    X(square, NONE, 4, "square") \
-    X(tiling, FLOAT, 0, "tiling") \
-    X(triangular, NONE, 6, "triangular")
+    X(tiling, FLOAT, 0, "tiling")
 
 #define X(name) extern const PatternOps pattern_##name;
 PATTERN_TABLE(X)

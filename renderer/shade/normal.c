@@ -63,7 +63,9 @@ static Vec3 slope_tilt(const Normal *bumps, Vec3 p, Vec3 n)
 
 static Vec3 map_tilt(const Normal *bumps, const Place *place, int keeps_size, Vec3 p, Vec3 n)
 {
-    const double value = pattern_value_at(&bumps->pattern, &(PatternPoint){.p = p});
+    const Surface *surface = place->surface;
+    const Vec3 facing = surface->backside ? vec_neg(surface->shading_normal) : surface->shading_normal;
+    const double value = pattern_value_at(&bumps->pattern, &(PatternPoint){p, facing, surface->direction});
     int low, high;
     double t = 0;
     if (bumps->pattern.ops->colors)

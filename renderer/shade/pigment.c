@@ -10,14 +10,27 @@ static Rgbft blend(const Rgbft *a, const Rgbft *b, float t)
                    a->filter + (b->filter - a->filter) * t, a->transmit + (b->transmit - a->transmit) * t};
 }
 
-/* An entry's colour at a point of the pattern space of the map's pigment. */
-static Rgbft entry_color(const ColorMapEntry *entry, Vec3 p, Vec2 uv)
+/* The same surface, in the pigment's own pattern space. */
+static PatternPoint inside(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
 {
-    return entry->pigment ? pigment_in_working_space(entry->pigment, pigment_point(entry->pigment, p, uv), uv)
-                          : entry->color;
+    return (PatternPoint){pigment_point(pigment, at->p, uv), at->normal, at->view};
 }
 
-static Rgbft map_color(const ColorMap *map, double value, Vec3 p, Vec2 uv)
+static PatternPoint warped(const Pattern *pattern, const PatternPoint *at)
+{
+    return (PatternPoint){pattern_warp(pattern, at->p), at->normal, at->view};
+}
+
+/* An entry's colour at a point of the pattern space of the map's pigment. */
+static Rgbft entry_color(const ColorMapEntry *entry, const PatternPoint *at, Vec2 uv)
+{
+    if (!entry->pigment)
+        return entry->color;
+    const PatternPoint point = inside(entry->pigment, at, uv);
+    return pigment_in_working_space(entry->pigment, &point, uv);
+}
+
+static Rgbft map_color(const ColorMap *map, double value, const PatternPoint *at, Vec2 uv)
 {
     const ColorMapEntry *entry = map->entries;
     int last = map->count - 1, i = 0;
@@ -25,26 +38,26 @@ static Rgbft map_color(const ColorMap *map, double value, Vec3 p, Vec2 uv)
     if (map->count == 0)
         return (Rgbft){(float)value, (float)value, (float)value, 0, 0};
     if (value >= entry[last].value)
-        return entry_color(&entry[last], p, uv);
+        return entry_color(&entry[last], at, uv);
     if (value <= entry[0].value)
-        return entry_color(&entry[0], p, uv);
+        return entry_color(&entry[0], at, uv);
     while (value > entry[i].value)
         i++;
-    const Rgbft above = entry_color(&entry[i], p, uv);
+    const Rgbft above = entry_color(&entry[i], at, uv);
     /* Of several entries at exactly this value the first one counts. */
     if (value == entry[i].value)
         return above;
-    const Rgbft below = entry_color(&entry[i - 1], p, uv);
+    const Rgbft below = entry_color(&entry[i - 1], at, uv);
     return blend(&below, &above, (float)((value - entry[i - 1].value) / (entry[i].value - entry[i - 1].value)));
 }
 
-static Rgbft average(const ColorMap *map, Vec3 p, Vec2 uv)
+static Rgbft average(const ColorMap *map, const PatternPoint *at, Vec2 uv)
 {
     Rgbft sum = {0};
     double weights = 0;
 
     for (int i = 0; i < map->count; i++) {
-        const Rgbft c = entry_color(&map->entries[i], p, uv);
+        const Rgbft c = entry_color(&map->entries[i], at, uv);
         const float w = (float)map->entries[i].value;
 
         sum.r += w * c.r, sum.g += w * c.g, sum.b += w * c.b, sum.filter += w * c.filter,
@@ -62,31 +75,45 @@ static Vec2 warped_image_uv(const Pigment *pigment, Vec3 p)
     return pigment_image_uv(pigment->image, is_warped ? pattern_warp(&pigment->pattern, p) : p);
 }
 
-Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 p, Vec2 uv)
+static Rgbft image_color(const Pigment *pigment, Vec3 p)
 {
-    PatternPoint warped;
+    return image_lookup(pigment->image, warped_image_uv(pigment, p));
+}
+
+Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
+{
+    PatternPoint point;
+
     switch (pigment->kind) {
     case PIGMENT_COLOR:
         break;
     case PIGMENT_IMAGE:
-        return working_encode_pigment(pigment->space,
-                                      image_lookup(pigment->image, warped_image_uv(pigment, p)));
+        return working_encode_pigment(pigment->space, image_color(pigment, at->p));
     case PIGMENT_PATTERN:
-        warped = (PatternPoint){.p = pattern_warp(&pigment->pattern, p)};
-        return map_color(&pigment->map, pattern_value_at(&pigment->pattern, &warped), warped.p, uv);
+        point = warped(&pigment->pattern, at);
+        return map_color(&pigment->map, pattern_value_at(&pigment->pattern, &point), &point, uv);
     case PIGMENT_AVERAGE:
-        return average(&pigment->map, pattern_warp(&pigment->pattern, p), uv);
+        point = warped(&pigment->pattern, at);
+        return average(&pigment->map, &point, uv);
     }
     return pigment->color;
 }
 
-Rgbft pigment_pattern(const Pigment *pigment, Vec3 p, Vec2 uv)
+Rgbft pigment_as_written(const Pigment *pigment, Vec3 p)
+{
+    const Vec2 uv = {p.x, p.y};
+    const PatternPoint point = inside(pigment, &(PatternPoint){.p = p}, uv);
+
+    return pigment_in_working_space(pigment, &point, uv);
+}
+
+Rgbft pigment_pattern(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
 {
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
     if (pigment->kind == PIGMENT_IMAGE)
-        return image_lookup(pigment->image, warped_image_uv(pigment, p));
-    return working_decode_pigment(pigment->space, pigment_in_working_space(pigment, p, uv));
+        return image_color(pigment, at->p);
+    return working_decode_pigment(pigment->space, pigment_in_working_space(pigment, at, uv));
 }
 
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)
@@ -96,16 +123,22 @@ Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)
 
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
+    return pigment_eval_at(pigment, &(PatternPoint){.p = p}, uv);
+}
+
+Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
+{
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
-    return pigment_pattern(pigment, pigment_point(pigment, p, uv), uv);
+    const PatternPoint point = inside(pigment, at, uv);
+    return pigment_pattern(pigment, &point, uv);
 }
 
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
 {
     const Vec2 at = pigment_image_uv(pigment->image, p);
     *target = pigment->uv_mapping ? (Vec2){p.x, p.y} : at;
-    return image_lookup(pigment->image, pattern_is_warped(&pigment->pattern) ? warped_image_uv(pigment, p) : at);
+    return pattern_is_warped(&pigment->pattern) ? image_color(pigment, p) : image_lookup(pigment->image, at);
 }
 
 void pigment_prefetch_image(const Pigment *pigment, Vec3 p)

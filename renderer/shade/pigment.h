@@ -2,19 +2,23 @@
 #ifndef RENDERER_SHADE_PIGMENT_H
 #define RENDERER_SHADE_PIGMENT_H
 
-#include "scene/scene.h"
+#include "pattern/pattern.h"
 
 /* World point p; uv is the shape's UV (used with uv_mapping). Thread-safe. */
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* The same of a surface whose normal patterns may ask for; at->p is in the world. */
+Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
+/* The same as numbers of the scene's working space; a plain colour as it is kept in the pigment. */
+Rgbft pigment_as_written(const Pigment *pigment, Vec3 p);
 /* The colour at a point of pattern space, in the scene's working space. */
-Rgbft pigment_in_working_space(const Pigment *pigment, Vec3 pattern_point, Vec2 uv);
+Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* The same point in pattern space. */
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The colour of an image's pigment at a point of pattern space, and target_uv's UV there. */
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *target);
 /* Of a pigment that chooses among textures: its pattern's value, or which colour the pattern chooses; and the index of
  * a material_map's image. */
-double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv);
+double pigment_value(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 int pigment_index(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* Moves a world point to where the textures that it chooses among are evaluated, as its pattern's warps do. Returns 0
  * where they move nothing. */

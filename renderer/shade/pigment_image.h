@@ -9,6 +9,6 @@ int image_is_outside(const ImageMap *image, Vec2 uv);
 /* The image's colour at its own UV, with its alpha and `filter all` and `transmit all`. */
 Rgbft image_lookup(const ImageMap *image, Vec2 uv);
 /* The pigment's colour at a point of its pattern space, scene-linear. */
-Rgbft pigment_pattern(const Pigment *pigment, Vec3 p, Vec2 uv);
+Rgbft pigment_pattern(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 
 #endif

@@ -2,9 +2,10 @@
 #include "pattern/pattern.h"
 #include "shade/pigment_image.h"
 
-double pigment_value(const Pigment *pigment, Vec3 p, Vec2 uv)
+double pigment_value(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
 {
-    return pattern_value(&pigment->pattern, &(PatternPoint){.p = pigment_point(pigment, p, uv)});
+    const PatternPoint point = {pigment_point(pigment, at->p, uv), at->normal, at->view};
+    return pattern_value(&pigment->pattern, &point);
 }
 
 int pigment_warp(const Pigment *pigment, Vec3 *p)

@@ -113,6 +113,7 @@ void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit 
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
 
+    surface->direction = ray->direction;
     if (hit->instance)
         instance_at(surface, primitive, ray, hit);
     else if (primitive->shape.ops->triangles)

@@ -28,6 +28,7 @@ typedef struct Surface {
     Vec3 position;
     Vec3 geometric_normal;   /* outward, as the shape has it (not turned to the ray) */
     Vec3 shading_normal;     /* outward, interpolated where the mesh has normals; same side as geometric_normal */
+    Vec3 direction;          /* of the ray */
     int backside;            /* 1: the ray came from inside (dot(direction, geometric_normal) > 0) */
     double b1, b2;           /* as in Hit */
     const Instance *instance; /* as in Hit */

@@ -209,8 +209,8 @@ static void test_textures_of_a_checker(void **state)
     assert_int_equal(tree->kind, TEXTURE_MAP);
     assert_ptr_equal(tree->selector->pattern.ops, &pattern_checker);
     assert_near(tree->leaves[1]->pigment->color.g, 0);
-    assert_int_equal((int)pigment_value(tree->selector, vec3(1, 0, 1), (Vec2){0, 0}), 0);
-    assert_int_equal((int)pigment_value(tree->selector, vec3(3, 0, 1), (Vec2){0, 0}), 1);
+    assert_int_equal((int)pigment_value(tree->selector, &(PatternPoint){.p = vec3(1, 0, 1)}, (Vec2){0, 0}), 0);
+    assert_int_equal((int)pigment_value(tree->selector, &(PatternPoint){.p = vec3(3, 0, 1)}, (Vec2){0, 0}), 1);
     assert_string_equal(messages, "");
     scene_close(&scene);
 }

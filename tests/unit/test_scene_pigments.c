@@ -1,5 +1,6 @@
 /* Pigments as the scene language builds them: colours of tests/data/pigments.txt, which POV-Ray gave
- * (tests/lib/povray_pigments.py), the space in which colours blend, and what maps of pigments must bear. */
+ * (tests/lib/povray_pigments.py), and of its pictures; the space in which colours blend; and what maps of pigments and
+ * nested patterns must bear. */
 #include "lib_scene_text.h"
 
 #include <retex/color.h>
@@ -50,8 +51,63 @@ static void colors_are_povray(void **state)
     }
     fclose(file);
     scene_close(&scene);
-    assert_true(bodies >= 5);
+    assert_true(bodies >= 50);
     assert_int_equal(wrong, 0);
+}
+
+/* Pixels of POV-Ray's picture of the unit sphere, seen along z by parallel rays (+Q1, 16 bits). */
+static void patterns_that_see_normals(void **state)
+{
+    static const struct {
+        const char *body;
+        Vec3 p;
+        double value;
+    } cases[] = {
+        {"slope { <1,2,-1> altitude y,-1,1 } scale 2", {0.634146, 0.731707, -0.249926}, 0.84262},
+        {"slope { <1,2,-1> altitude y,-1,1 } scale 2", {-0.243902, 0.146341, -0.958695}, 0.60642},
+        {"slope { y, .3, .8 }", {0.634146, 0.731707, -0.249926}, 0.92255},
+        {"slope { y, .3, .8 }", {0.292683, -0.341463, -0.893163}, 0.17815},
+        {"aoi", {0.634146, 0.731707, -0.249926}, 0.58041},
+        {"aoi", {-0.243902, 0.146341, -0.958695}, 0.90819},
+        {"gradient y pigment_map { [0 slope x] [1 aoi] } scale 2", {0.634146, 0.731707, -0.249926}, 0.66807},
+        {"gradient y pigment_map { [0 slope x] [1 aoi] } scale 2", {0.292683, -0.341463, -0.893163}, 0.80764},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[300];
+        snprintf(text, sizeof text, V37 "sphere { 0, 1 pigment { %s } }", cases[i].body);
+        Scene *scene = parse(text);
+        const PatternPoint at = {cases[i].p, cases[i].p, vec3(0, 0, 1)};
+        const double got = (double)pigment_eval_at(only(scene)->texture->pigment, &at, (Vec2){0, 0}).r;
+        if (fabs(got - cases[i].value) > 2e-5)
+            fail_msg("%s: %.6f is not %.6f", cases[i].body, got, cases[i].value);
+        scene_close(&scene);
+    }
+}
+
+/* A function in a pattern in a function, and so on: nothing is so deep that the stack ends. */
+static void nested_patterns_end(void **state)
+{
+    char text[16000];
+    int used = snprintf(text, sizeof text, V37 "#declare F0 = function { x }\n");
+    (void)state;
+    for (int i = 0; i < 100; i++)
+        used += snprintf(text + used, sizeof text - (size_t)used,
+                         "#declare F%d = function { pattern { function { F%d(x, y, z) } } }\n", i + 1, i);
+    snprintf(
+        text + used, sizeof text - (size_t)used,
+        "sphere { 0, 1 pigment { function { F15(x, y, z) } } } sphere { 0, 1 pigment { function { F100(x, y, z) } } }");
+    Scene *scene = parse(text);
+    assert_near(color_at(&scene->primitives[0], 0.5, 0, 0).r, 0.5);
+    assert_near(color_at(&scene->primitives[1], 0.5, 0, 0).r, 0);
+    scene_close(&scene);
+}
+
+static void density_files_are_checked(void **state)
+{
+    (void)state;
+    expect_error(V37 "sphere { 0, 1 pigment { density_file df3 \"tests/data/palette.png\" } }", "ends early");
+    expect_error(V37 "sphere { 0, 1 pigment { density_file df3 \"none.df3\" } }", "none.df3");
 }
 
 /* Half of black and white is .5 of whatever the scene computes in. */
@@ -101,9 +157,9 @@ static void large_maps_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(colors_are_povray),
-        cmocka_unit_test(blends_in_the_working_space),
-        cmocka_unit_test(large_maps_are_refused),
+        cmocka_unit_test(colors_are_povray),           cmocka_unit_test(patterns_that_see_normals),
+        cmocka_unit_test(nested_patterns_end),         cmocka_unit_test(density_files_are_checked),
+        cmocka_unit_test(blends_in_the_working_space), cmocka_unit_test(large_maps_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,9 +37,7 @@ void gaps_report(Sdl *sdl, const Gaps *gaps)
     for (int i = 0; gaps->patterns >> i && i < pattern_count(); i++)
         if (gaps->patterns >> i & 1) {
             const PatternOps *pattern = pattern_at(i);
-            sdl_unsupported(sdl, pattern->name,
-                            pattern->arguments == ARGUMENTS_OBJECT ? "the colour outside the object is used"
-                                                                   : "its mean colour is used");
+            sdl_unsupported(sdl, pattern->name, "its mean colour is used");
         }
     for (int i = 0; gaps->bits >> i && i < GAP_COUNT; i++)
         if (gaps->bits >> i & 1)

@@ -49,6 +49,7 @@ typedef struct ParsedImage {
     char colorspace[64]; /* of the file; "" = by its type */
     double gamma;        /* the file's numbers have this power of light; where it is not 1, colorspace is linear */
     float (*palette)[2]; /* filter and transmit of each entry; NAN: as of all; or NULL */
+    int use_alpha;       /* of an image_pattern: its value is the transparency */
     int working;         /* 1: the numbers of an integer file are colours of the working space, taken as they are */
     const char *file;    /* where it is written, for messages */
     int line;
@@ -304,7 +305,10 @@ Rgbft pigment_mean(const Pigment *pigment);
 ParsedPigment *parse_selector(Sdl *sdl, char end, ParsedTextureMap *map);
 ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */
 ParsedColorMap *parse_pigment_map(Sdl *sdl); /* after pigment_map */
-int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment); /* a pattern's keyword and arguments, no list of colours */
+/* A pattern's keyword and arguments, no list of colours. Of `object`, the list and the closing brace follow. */
+int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment);
+void parse_pattern_data(Sdl *sdl, ParsedPigment *pigment);        /* pattern_data.c: after the keyword */
+int accept_pattern_data_modifier(Sdl *sdl, Pattern *pattern);
 /* textures: gets a list of textures in place of colours; NULL: there are colours. */
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures);
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
@@ -424,6 +428,7 @@ double font_kerning(const Font *font, unsigned left, unsigned right);
 int object_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
 int object_trace(Sdl *sdl, const Value *object, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
 int object_inside(Sdl *sdl, const Value *object, Vec3 p);
+const Csg *object_solid(Sdl *sdl, const Object *object); /* in its own space; kept for the next call */
 
 /* camera.c, global.c */
 void camera_default(ParsedCamera *camera);

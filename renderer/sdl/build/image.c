@@ -85,9 +85,10 @@ static int image_option(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
         gamma_keyword(sdl, image);
     else if (sdl_accept(sdl, "premultiplied"))
         sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "use_color") || sdl_accept(sdl, "use_colour") || sdl_accept(sdl, "use_index") ||
-             sdl_accept(sdl, "use_alpha"))
-        ;
+    else if (sdl_accept(sdl, "use_color") || sdl_accept(sdl, "use_colour") || sdl_accept(sdl, "use_index"))
+        image->use_alpha = 0;
+    else if (sdl_accept(sdl, "use_alpha"))
+        image->use_alpha = 1;
     else if (sdl_accept(sdl, "repeat") || sdl_accept(sdl, "offset"))
         place_keyword(sdl, pigment);
     else

@@ -137,13 +137,13 @@ static int accept_normal_pattern(Sdl *sdl, Reader *r)
         return 0;
     const PatternOps *ops = r->pattern->pigment.pattern.ops;
     n->nslopes = n->nentries = 0;
-    if (ops->arguments == ARGUMENTS_OBJECT)
-        sdl_skip_block(sdl);
     if (normal_vectors(ops))
         n->kind = NORMAL_VECTORS, r->pattern->gaps.patterns = 0;
     else
         n->kind = NORMAL_SLOPE;
     parse_normal_list(sdl, r, ops->colors);
+    if (ops->arguments == ARGUMENTS_OBJECT)
+        sdl_expect(sdl, "}");
     return 1;
 }
 

@@ -30,32 +30,10 @@ static void parse_list(Sdl *sdl, ParsedPigment *pigment, int n, ParsedTextureMap
 
 /* ---- patterns ---- */
 
-static void slope_arguments(Sdl *sdl)
-{
-    if (sdl_is(sdl, "{")) {
-        sdl_skip_block(sdl);
-        return;
-    }
-    sdl_vector(sdl);
-    sdl_optional_comma(sdl);
-    for (int i = 0; i < 2 && is_float_start(sdl); i++)
-        sdl_float(sdl), sdl_optional_comma(sdl);
-}
-
-static void magnet_arguments(Sdl *sdl)
-{
-    sdl_float(sdl);
-    if (sdl_accept(sdl, "julia")) {
-        sdl_vector2(sdl);
-        sdl_optional_comma(sdl);
-    } else
-        sdl_expect(sdl, "mandel");
-    sdl_float(sdl);
-}
-
 /* What stands between the keyword and a list of colours. */
-static void pattern_arguments(Sdl *sdl, Pattern *pattern)
+static void pattern_arguments(Sdl *sdl, ParsedPigment *pigment)
 {
+    Pattern *pattern = &pigment->pigment.pattern;
     switch (pattern->ops->arguments) {
     case ARGUMENTS_FLOAT:
         pattern->number = sdl_float(sdl);
@@ -69,33 +47,12 @@ static void pattern_arguments(Sdl *sdl, Pattern *pattern)
     case ARGUMENTS_BLOCK:
         sdl_skip_block(sdl);
         break;
-    case ARGUMENTS_FILE:
-        sdl_accept(sdl, "df3"), sdl_string(sdl);
-        break;
-    case ARGUMENTS_JULIA:
-        sdl_vector2(sdl), sdl_optional_comma(sdl), sdl_float(sdl);
-        break;
-    case ARGUMENTS_MAGNET:
-        magnet_arguments(sdl);
-        break;
-    case ARGUMENTS_SLOPE:
-        slope_arguments(sdl);
-        break;
     case ARGUMENTS_NONE:
-    case ARGUMENTS_OBJECT:
+        break;
+    default:
+        parse_pattern_data(sdl, pigment);
         break;
     }
-}
-
-/* object { OBJECT COLOURS }: a list of two, the first outside. */
-static void object_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
-{
-    sdl_expect(sdl, "{");
-    if (!accept_ident(sdl, VALUE_OBJECT) && !accept_object(sdl))
-        sdl_expected(sdl, "an object");
-    sdl_optional_comma(sdl);
-    parse_list(sdl, pigment, 2, textures);
-    sdl_expect(sdl, "}");
 }
 
 int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
@@ -115,7 +72,7 @@ int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
     if (!ops->value)
         gaps_add_pattern(&pigment->gaps, index);
     pigment->averaged = !ops->value;
-    pattern_arguments(sdl, &p->pattern);
+    pattern_arguments(sdl, pigment);
     return 1;
 }
 
@@ -126,7 +83,7 @@ int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
         if (ops->colors)
             parse_list(sdl, pigment, ops->colors, textures);
         if (ops->arguments == ARGUMENTS_OBJECT)
-            object_pattern(sdl, pigment, textures);
+            sdl_expect(sdl, "}");
         return 1;
     }
     if (sdl_accept(sdl, "average"))
@@ -165,9 +122,8 @@ static int accept_wave(Sdl *sdl, Pattern *p)
 /* Modifiers of patterns that are averaged, and of noise: read over. */
 static int accept_ignored(Sdl *sdl)
 {
-    static const char *const floats[] = {"mortar",      "coords",   "accuracy",
-                                         "interpolate", "exponent", "blend_mode", NULL};
-    static const char *const expressions[] = {"brick_size", "size", "altitude", NULL};
+    static const char *const floats[] = {"coords", "accuracy", "blend_mode", NULL};
+    static const char *const expressions[] = {"size", "altitude", NULL};
     static const char *const pairs[] = {"exterior", "interior", NULL};
     for (int i = 0; floats[i]; i++)
         if (sdl_accept(sdl, floats[i])) {
@@ -231,6 +187,8 @@ int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment)
         p->frequency = (float)sdl_float(sdl); /* as POV-Ray keeps it */
     else if (sdl_accept(sdl, "phase"))
         p->phase = (float)sdl_float(sdl);
+    else if (accept_pattern_data_modifier(sdl, p))
+        return 1;
     else
         return accept_turbulence(sdl, &p->turbulence) || accept_warp(sdl, &pigment->pigment) || accept_wave(sdl, p) ||
                accept_noise_generator(sdl, p) || accept_row_modifier(sdl, p) || accept_ignored(sdl);

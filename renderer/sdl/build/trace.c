@@ -20,7 +20,7 @@ struct Tracer {
     Solid *buckets[BUCKETS];
 };
 
-static const Csg *solid_of(Sdl *sdl, const Object *object)
+const Csg *object_solid(Sdl *sdl, const Object *object)
 {
     Builder *builder = builder_of(sdl);
     if (!builder->tracer)
@@ -49,7 +49,7 @@ int object_inside(Sdl *sdl, const Value *value, Vec3 p)
     const Object *object = object_of(value);
     if (!object)
         return -1;
-    const Csg *csg = solid_of(sdl, object);
+    const Csg *csg = object_solid(sdl, object);
     sdl_step(sdl, csg->root->nwide);
     return isfinite(p.x + p.y + p.z) && csg_inside(csg->root, p);
 }
@@ -104,7 +104,7 @@ int object_trace(Sdl *sdl, const Value *value, Vec3 from, Vec3 direction, Vec3 *
     const Vec3 all = vec_add(from, query.ray.direction);
     if (!isfinite(all.x + all.y + all.z) || vec_length(query.ray.direction) == 0)
         return 1;
-    const Csg *csg = solid_of(sdl, object);
+    const Csg *csg = object_solid(sdl, object);
     sdl_step(sdl, csg->nunbounded);
     if (!csg_intersect(csg, &query))
         return 1;
