@@ -1,6 +1,9 @@
 /* brick: bricks with mortar between, every second course and wall moved by half a brick. */
 #include "pattern/pattern.h"
 
+/* POV-Ray's: keeps a wall that goes through the edge of mortar from speckling. */
+#define BRICK_EPSILON 1e-10
+
 static double fraction(double x)
 {
     return x - floor(x);
@@ -9,8 +12,8 @@ static double fraction(double x)
 /* Mortar is along the low end of each cell; cells begin one mortar before the origin. */
 static double value(const Pattern *pattern, const PatternPoint *point)
 {
-    const double mortar = pattern->number;
-    const Vec3 size = pattern->vector, p = vec_add(point->p, vec3(mortar, mortar, mortar));
+    const double mortar = pattern->number, moved = mortar + BRICK_EPSILON;
+    const Vec3 size = pattern->vector, p = vec_add(point->p, vec3(moved, moved, moved));
     const double x = p.x / size.x, y = p.y / size.y, z = p.z / size.z;
     const int second = fraction(y / 2) > 0.5;
 

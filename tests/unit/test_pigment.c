@@ -111,6 +111,25 @@ static void checkers(void **state)
     assert_true(pigment_is_constant(&p));
 }
 
+/* Seen in POV-Ray: 1e-10 below the end of mortar is mortar, 1e-11 below it is brick. */
+static void bricks(void **state)
+{
+    ColorMapEntry colors[] = {{0, {0, 0, 0, 0, 0}, NULL}, {1, {1, 0, 0, 0, 0}, NULL}};
+    Pigment p = pigment(&pattern_brick);
+
+    (void)state;
+    p.map = (ColorMap){2, colors};
+    p.pattern.number = 0.5;
+    p.pattern.vector = vec3(8, 3, 4.5);
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 3; k++) {
+            const double at = k == 0 ? -2e-10 : k == 1 ? -1e-11 : 0;
+            const Vec3 q = axis == 0 ? vec3(at, 1, 1) : axis == 1 ? vec3(1, at, 1) : vec3(1, 4, at);
+
+            assert_true(pigment_eval(&p, q, nowhere).r == (k > 0));
+        }
+}
+
 /* ---- images ---- */
 
 #define WIDTH 4
@@ -287,6 +306,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gradients_are_povray),
         cmocka_unit_test(color_maps),
+        cmocka_unit_test(bricks),
         cmocka_unit_test(checkers),
         cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(images_are_povray),
