@@ -98,7 +98,7 @@ static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i
     Bsdf b;
     bsdf_setup(&b, &surface, at->wo, *d, *i);
     *coat = 1 - rgb_luminance(split_apply(b.passing, rgb_grey(1))) / (*d + *i);
-    *coat = at_most(not_negative(*coat), 1) + at_most(split_neutral(b.highlight), 1);
+    *coat = at_most(not_negative(*coat), 1) + at_most(b.highlights, 1);
     *d = rgb_luminance(b.passing.d), *i = rgb_luminance(b.passing.i);
 }
 

@@ -127,20 +127,15 @@ void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, i
     bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit);
 }
 
-static int is_mirror(const Finish *finish)
-{
-    return !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
-}
-
 /* Of the sharpest lobe: POV-Ray's reflection and clear refraction are mirrors. */
 float shading_roughness(const Shading *s)
 {
     const Bsdf *b = &s->bsdf;
     if (b->disney)
         return b->roughness;
-    if (is_mirror(s->surface.texture->finish) || !rgb_is_black(b->passing.d) || !rgb_is_black(b->passing.i))
+    if (finish_is_mirror(s->surface.texture->finish) || !rgb_is_black(b->passing.d) || !rgb_is_black(b->passing.i))
         return 0;
-    return b->alpha > 0 ? sqrtf(b->alpha) : 1;
+    return b->highlights > 0 ? sqrtf(bsdf_highlight_alpha(b)) : 1;
 }
 
 float shading_metallic(const Shading *s)
@@ -149,6 +144,7 @@ float shading_metallic(const Shading *s)
     const Finish *finish = s->surface.texture->finish;
     if (b->disney)
         return b->metallic;
-    double most = fmax(is_mirror(finish) ? finish->reflection_metallic : 0, b->alpha > 0 ? finish->metallic : 0);
+    double most =
+        fmax(finish_is_mirror(finish) ? finish->reflection_metallic : 0, b->highlights > 0 ? finish->metallic : 0);
     return (float)fmin(1, fmax(0, most));
 }

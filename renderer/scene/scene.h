@@ -169,6 +169,8 @@ typedef struct Finish {
     int reflection_fresnel;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     int conserve_energy;
+    double irid, irid_thickness; /* thin film: its amount, and its thickness in units of irid_wavelength */
+    Rgb irid_phase;          /* 2 pi thickness / wavelength; set at the end of reading */
     /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it
      * is present it replaces all of the above but ambient and emission. */
     struct {
@@ -182,11 +184,15 @@ typedef struct Finish {
     int matte;               /* finish_is_matte; set at the end of reading; 0 is only slower */
 } Finish;
 
+static inline int finish_is_mirror(const Finish *f)
+{
+    return !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
+}
 /* Most surfaces: nothing but Lambert's law, on either side; or on the side that is seen. */
 static inline int finish_is_lambert(const Finish *f)
 {
     return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&
-           rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max);
+           f->crand <= 0 && f->irid <= 0 && !finish_is_mirror(f);
 }
 static inline int finish_is_matte(const Finish *f)
 {

@@ -12,8 +12,6 @@ static float power5(float x)
  * in. */
 static Split microfacet_fresnel(const Bsdf *b, float cos_h)
 {
-    if (!b->disney)
-        return metallic_tint(b->highlight, cos_h);
     float m = b->metallic, w = power5(1 - cos_h), a = b->transmission;
     float f0 = (b->coat_eta - 1) / (b->coat_eta + 1);
     float r0_indep = (1 - m) * f0 * f0 * b->specular_tint;
@@ -27,19 +25,20 @@ static Split microfacet_fresnel(const Bsdf *b, float cos_h)
 /* Share of the choice with which light at a microfacet goes through rather than back. */
 static float through_share(const Bsdf *b, float cos_h)
 {
-    if (!b->disney || b->transmission <= 0 || b->eta == 1)
+    if (b->transmission <= 0 || b->eta == 1)
         return 0;
     float through = b->transmission * (1 - fresnel_dielectric(cos_h, b->eta)) * NEUTRAL_ALBEDO;
     return through > 0 ? through / (through + split_neutral(microfacet_fresnel(b, cos_h))) : 0;
 }
 
-/* Lambert with POV-Ray's brilliance. */
+/* Lambert times the cosine, with POV-Ray's brilliance and grain. */
 static float lambert_value(const Bsdf *b, float reflectance, float cosine)
 {
-    return reflectance / (float)PI * (b->brilliance == 1 ? 1 : powf(cosine, b->brilliance - 1));
+    float value = reflectance / (float)PI * (b->brilliance == 1 ? 1 : powf(cosine, b->brilliance - 1)) * cosine;
+    return b->grain > 0 ? not_negative(value - b->grain / (float)PI) : value;
 }
 
-/* Diffuse lobe over albedo: Lambert, or Burley's 2015 diffuse and retro-reflective lobes. */
+/* Diffuse lobe over albedo, times the cosine: Lambert, or Burley's 2015 diffuse and retro-reflective lobes. */
 static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
 {
     if (!b->disney)
@@ -48,7 +47,7 @@ static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
     float cos_d = (float)vec_dot(wi, h), fl = power5(1 - (float)cos_i), fv = power5(1 - (float)b->cos_o);
     float rr = 2 * b->roughness * cos_d * cos_d;
     float lambert = (1 - fl / 2) * (1 - fv / 2), retro = rr * (fl + fv + fl * fv * (rr - 1));
-    return b->diffuse / (float)PI * (lambert + retro);
+    return b->diffuse / (float)PI * (lambert + retro) * (float)cos_i;
 }
 
 static Vec3 to_local(const Bsdf *b, Vec3 w)
@@ -90,6 +89,53 @@ static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
     return (Split){rgb_grey((float)value), {0, 0, 0}};
 }
 
+/* The value of a highlight, and its density: of directions about one in which its cosine is 1. */
+static float highlight_value(const Highlight *h, float cosine, float jacobian, float *pdf)
+{
+    if (h->amount <= 0 || cosine <= 0)
+        return 0;
+    float lobe = powf(cosine, h->exponent);
+    *pdf += h->p * (h->exponent + 1) / (2 * (float)PI) * lobe * jacobian;
+    return h->amount * lobe / (float)PI;
+}
+
+/* POV-Ray's highlights have no cosine of the light. Divided by the larger cosine instead of it the BSDF is symmetric,
+ * and the same where they are brightest. */
+static Split highlight_reflection(const Bsdf *b, Vec3 wi, float cos_i, float *pdf)
+{
+    float between = (float)vec_dot(wi, b->wo), cos_o = (float)b->cos_o;
+    float cos_h = sqrtf(not_negative(1 + between) / 2); /* between either direction and the half vector */
+    if (cos_h <= 0)
+        return (Split){{0, 0, 0}, {0, 0, 0}};
+    float value = highlight_value(&b->blinn, (cos_i + cos_o) / (2 * cos_h), 1 / (4 * cos_h), pdf) +
+                  highlight_value(&b->phong, 2 * cos_i * cos_o - between, 1, pdf);
+    value *= cos_i < cos_o ? cos_i / cos_o : 1;
+    float tinted = value * b->highlight_metallic;
+    return metallic_tint((Split){rgb_grey(tinted), rgb_grey(value - tinted)}, cos_h);
+}
+
+float bsdf_highlight_alpha(const Bsdf *b)
+{
+    if (b->highlights <= 0)
+        return 0;
+    float blinn = b->blinn.amount > 0 ? b->blinn.exponent : 0;
+    float phong = b->phong.amount > 0 ? 4 * b->phong.exponent : 0; /* its angle is about twice that of half vectors */
+    return sqrtf(2 / (fmaxf(blinn, phong) + 2));
+}
+
+Rgb bsdf_irid(const Bsdf *b, float cos_i)
+{
+    float sum = cos_i + (float)b->cos_o;
+    return rgb(1 + b->irid * cosf(b->irid_phase.r * sum), 1 + b->irid * cosf(b->irid_phase.g * sum),
+               1 + b->irid * cosf(b->irid_phase.b * sum));
+}
+
+static Split under_film(const Bsdf *b, Split s, float cos_i)
+{
+    Rgb factor = bsdf_irid(b, cos_i);
+    return (Split){rgb_mul(s.d, factor), rgb_mul(s.i, factor)};
+}
+
 static void split_add(Split *sum, Split s)
 {
     sum->d = rgb_add(sum->d, s.d);
@@ -100,15 +146,20 @@ static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, int light_sou
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
     if (b->diffuse > 0) {
-        sum.d = rgb_grey(diffuse_value(b, wi, cos_i) * (float)cos_i);
+        sum.d = rgb_grey(diffuse_value(b, wi, cos_i));
         *pdf += b->p_diffuse * (float)(cos_i / PI);
     }
-    if (b->alpha > 0 && (light_source || !b->highlight_lights_only)) {
+    if (b->alpha > 0) {
         float p = 0;
         split_add(&sum, glossy_reflection(b, wi, &p));
         *pdf += b->p_glossy * p;
     }
-    return sum;
+    if (b->highlights > 0 && (light_source || !b->highlight_lights_only)) {
+        float p = 0;
+        split_add(&sum, highlight_reflection(b, wi, (float)cos_i, &p));
+        *pdf += b->p_glossy * p;
+    }
+    return b->irid > 0 ? under_film(b, sum, (float)cos_i) : sum;
 }
 
 static Split eval_lambert(const Bsdf *b, Vec3 wi, float *pdf)
@@ -129,7 +180,7 @@ static Split eval_transmission(const Bsdf *b, Vec3 wi, double cos_i, float *pdf)
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
     if (b->diffuse_back > 0) {
-        sum.d = rgb_grey(lambert_value(b, b->diffuse_back, (float)-cos_i) * (float)-cos_i);
+        sum.d = rgb_grey(lambert_value(b, b->diffuse_back, (float)-cos_i));
         *pdf += b->p_back * (float)(-cos_i / PI);
     }
     if (b->alpha > 0 && b->disney && b->transmission > 0 && b->eta != 1) {
@@ -166,7 +217,7 @@ static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     if (!b->hidden)
         return eval_mirrored(b, wi, light_source, pdf);
     Bsdf diffuse = *b, rest = *b;
-    diffuse.normal = b->diffuse_normal, diffuse.alpha = 0;
+    diffuse.normal = b->diffuse_normal, diffuse.alpha = diffuse.highlights = 0;
     rest.diffuse = rest.diffuse_back = 0;
     Split sum = eval_mirrored(&diffuse, wi, light_source, pdf);
     split_add(&sum, eval_mirrored(&rest, wi, light_source, pdf));
@@ -188,13 +239,19 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     return (Split){{0, 0, 0}, {0, 0, 0}};
 }
 
+/* About an axis, where the cosine of the angle to it and the sine are known. */
+static Vec3 direction_about(Vec3 axis, double cosine, double sine, float turn)
+{
+    double sine_turn, cosine_turn;
+    Vec3 s, t;
+    turn_sincos(turn, &sine_turn, &cosine_turn);
+    vec_frame(axis, &s, &t);
+    return vec_mad(vec_mad(vec_scale(axis, cosine), s, sine * cosine_turn), t, sine * sine_turn);
+}
+
 static Vec3 cosine_direction(Vec3 normal, float u1, float u2)
 {
-    double r = sqrt(u1), sine, cosine;
-    Vec3 s, t;
-    turn_sincos(u2, &sine, &cosine);
-    vec_frame(normal, &s, &t);
-    return vec_mad(vec_mad(vec_scale(normal, sqrt(1 - u1)), s, r * cosine), t, r * sine);
+    return direction_about(normal, sqrt(1 - u1), sqrt(u1), u2);
 }
 
 /* Value and density are the same but for a factor. */
@@ -239,6 +296,18 @@ static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *
         return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
     *wi = reflect(b->wo, h);
     return vec_dot(*wi, b->normal) > 0; /* below the horizon: a second bounce, which the lobe leaves out */
+}
+
+/* The half vector of `specular`, or the direction of `phong`, by the power of its cosine. */
+static int sample_highlight(const Bsdf *b, float choice, float u1, float u2, Vec3 *wi)
+{
+    int is_blinn = choice < b->blinn.p;
+    double cosine = pow(1 - (double)u1, 1 / (1.0 + (double)(is_blinn ? b->blinn : b->phong).exponent));
+    double sine = sqrt(fmax(0, 1 - cosine * cosine));
+    *wi = direction_about(is_blinn ? b->normal : reflect(b->wo, b->normal), cosine, sine, u2);
+    if (is_blinn)
+        *wi = reflect(b->wo, *wi);
+    return vec_dot(*wi, b->normal) > 0;
 }
 
 static Split split_scale(Split s, float k)
@@ -299,7 +368,7 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
         if (b->p_glossy <= 0)
             return 0;
         float choice = u / b->p_glossy; /* the rest of u, uniform in [0,1) again */
-        if (!sample_glossy(b, choice, u1, u2, &sample->wi))
+        if (!(b->highlights > 0 ? sample_highlight : sample_glossy)(b, choice, u1, u2, &sample->wi))
             return 0;
         sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
     }

@@ -2,9 +2,9 @@
  *
  *     f = d * albedo + i        (supplement 4.1; d, i >= 0)
  *
- * Lobes: Lambertian or Disney diffuse and retro-reflection, a GGX microfacet reflection, a mirror, smooth or rough
- * transmission, and straight passage through a surface that does not refract. Directions point away from the surface;
- * wo is where the path came from. Cosines are about the shading normal.
+ * Lobes: Lambertian or Disney diffuse and retro-reflection, a GGX microfacet reflection, POV-Ray's highlights, a
+ * mirror, smooth or rough transmission, and straight passage through a surface that does not refract. Directions point
+ * away from the surface; wo is where the path came from. Cosines are about the shading normal.
  *
  * Where a `normal` of the scene tilts the surface (`bumped`), lobes are about the tilted normal, and what they would
  * send to the wrong side of the surface is mirrored at the surface, as it would go on from one side of a groove to the
@@ -19,6 +19,13 @@
 
 #include "base/vec.h"
 #include "shade/split.h"
+
+/* One of POV-Ray's highlights: amount (cosine)^exponent, of what a light source of colour 1 is seen as. */
+typedef struct Highlight {
+    float amount;            /* 0: there is none */
+    float exponent;
+    float p;                 /* of sampling it, within p_glossy */
+} Highlight;
 
 typedef struct Bsdf {
     Vec3 normal;             /* shading normal on wo's side */
@@ -37,14 +44,19 @@ typedef struct Bsdf {
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
     float transmission;
     Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
-    float alpha;             /* GGX; 0 = no microfacet lobe, or a smooth one that counts as mirror */
+    float alpha;             /* GGX of disney; 0 = no microfacet lobe, or a smooth one that counts as mirror */
 
     Vec3 s, t;               /* with normal the frame of the microfacet lobe */
     float brilliance;
     float metallic, roughness, specular_tint, coat_eta; /* disney */
     float coverage;          /* disney: share of the surface that is there, where an image cuts holes */
-    Split highlight;         /* POV-Ray highlight: reflectance of the microfacet lobe, head-on */
-    int highlight_lights_only; /* the highlight reflects light sources only: the mirror lobe reflects all else */
+    float highlights;        /* the most that they reflect; 0: there are none */
+    Highlight blinn, phong;  /* `specular`: of the half vector and the normal; `phong`: of light and mirror direction */
+    float highlight_metallic; /* the share that is tinted by the pigment */
+    int highlight_lights_only; /* highlights reflect light sources only: the mirror lobe reflects all else */
+    float grain;             /* `crand`: taken off the diffuse lobe */
+    float irid;              /* thin film: reflected light times 1 + irid cos(irid_phase (cos_i + cos_o)) */
+    Rgb irid_phase;
     int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
     Split mirror;            /* weight of the mirror lobe, already at cos_o */
 } Bsdf;
@@ -62,6 +74,11 @@ typedef struct BsdfSample {
 Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
+
+/* The GGX alpha that is as wide as the sharpest highlight; 0 where there is none. */
+float bsdf_highlight_alpha(const Bsdf *bsdf);
+/* The factor of a thin film on reflected light. */
+Rgb bsdf_irid(const Bsdf *bsdf, float cos_i);
 
 /* Of the surface, whoever looks: where bumps face away from wo, so does it. */
 static inline Vec3 bsdf_surface_normal(const Bsdf *b)

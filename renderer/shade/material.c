@@ -22,53 +22,85 @@ int finish_transmits(const Finish *finish)
     return finish->retex.present && finish->retex.transmission > 0 && finish->retex.metallic < 1;
 }
 
-/* POV-Ray's highlights are Blinn's (N.H)^n and Phong's (R.V)^p with a peak of `amount`. The GGX lobe of the same width
- * and, for amounts without `albedo`, of the same peak under a unit light: reflectance = 4 alpha^2 amount. */
-static void setup_highlight(Bsdf *b, const Finish *f)
+/* At most `left` of the light is reflected by them. Their amounts are the peaks in POV-Ray's
+ * pictures. */
+static void setup_highlights(Bsdf *b, const Finish *f, float left)
 {
-    double exponent, amount;
-    int albedo;
-    if (f->specular > 0)
-        exponent = 1 / fmax(f->roughness, 1e-6), amount = f->specular, albedo = f->specular_albedo;
-    else
-        exponent = 4 * f->phong_size, amount = f->phong, albedo = f->phong_albedo;
-    if (amount <= 0)
+    double n = fmax(0, 1 / fmax(f->roughness, 1e-6)), p = fmax(0, f->phong_size);
+    /* What a highlight of amount 1 reflects, seen head-on: the integral of its power. With `albedo`, what it reflects
+     * is written in place of the amount. */
+    double per_blinn = 4 * (2 - exp2(-n / 2)) / (n + 2), per_phong = 2 / (p + 1);
+    double blinn = fmax(0, f->specular_albedo ? f->specular / per_blinn : f->specular);
+    double phong = fmax(0, f->phong_albedo ? f->phong / per_phong : f->phong);
+    double of_blinn = blinn * per_blinn, of_phong = phong * per_phong, sum = of_blinn + of_phong;
+    if (!(sum > 0))
         return;
-    double alpha = sqrt(2 / (exponent + 2));
-    float reflectance = clamp01(albedo ? amount : 4 * alpha * alpha * amount);
-    float metallic = clamp01(f->metallic);
-    b->alpha = fmaxf((float)alpha, 2 * SMOOTH_ALPHA);
-    b->highlight = (Split){rgb_grey(reflectance * metallic), rgb_grey(reflectance * (1 - metallic))};
+    double scale = sum > (double)left ? (double)left / sum : 1;
+    b->highlights = (float)(sum * scale);
+    b->blinn = (Highlight){(float)(blinn * scale), (float)n, (float)(of_blinn / sum)};
+    b->phong = (Highlight){(float)(phong * scale), (float)p, (float)(of_phong / sum)};
+    b->highlight_metallic = clamp01(f->metallic);
 }
 
 /* `reflection`: from the minimum seen head-on to the maximum at grazing angles, by Fresnel's equations or POV-Ray's
  * falloff curve. */
 static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
 {
-    if (rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max) && !(transparent && b->refracts))
+    if (!finish_is_mirror(f) && !(transparent && b->refracts))
         return; /* most surfaces: spares them powf */
     float rise = f->reflection_fresnel ? fresnel_dielectric((float)b->cos_o, b->eta)
                                        : powf(1 - (float)b->cos_o, (float)f->reflection_falloff);
     Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
     if (transparent && b->refracts && fresnel_dielectric((float)b->cos_o, b->eta) >= 1)
         r = rgb_grey(1);
+    r = rgb(clamp01(r.r), clamp01(r.g), clamp01(r.b));
     float metallic = clamp01(f->reflection_metallic);
     b->mirror = metallic_tint((Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)}, (float)b->cos_o);
 }
 
+/* mirror: what it may reflect without the film. */
+static void setup_film(Bsdf *b, const Finish *f, float mirror)
+{
+    b->irid = at_most((float)f->irid, 1);
+    b->irid_phase = f->irid_phase;
+    float most = rgb_max(split_apply(b->mirror, rgb_grey(1)));
+    Rgb factor = rgb_scale(bsdf_irid(b, (float)b->cos_o), most > mirror ? mirror / most : 1);
+    b->mirror = (Split){rgb_mul(b->mirror.d, factor), rgb_mul(b->mirror.i, factor)};
+}
+
+/* No surface gives back more light than it gets: what mirror and highlights reflect is taken first, and what is below
+ * has the rest. Its share for a white pigment is at most 1, or `diffuse` where that is more: then the pigment is dark.
+ * gain: the most by which a film brightens reflected light. */
+static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain)
+{
+    float grow = 2 / (b->brilliance + 1), passing = rgb_max(split_apply(b->passing, rgb_grey(1)));
+    float reflected = (b->diffuse + b->diffuse_back) * grow * gain, sum = reflected + passing;
+    float left = not_negative(1 - specular * gain) * fmaxf(1, (float)fmax(f->diffuse, f->diffuse_back));
+    if (sum <= left)
+        return;
+    float scale = left / sum;
+    b->diffuse *= scale, b->diffuse_back *= scale, b->grain *= scale;
+    b->passing = (Split){rgb_scale(b->passing.d, scale), rgb_scale(b->passing.i, scale)};
+}
+
 static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
 {
-    float opacity = clamp01(1 - filter - transmit);
-    b->brilliance = (float)f->brilliance;
+    float opacity = clamp01(1 - filter - transmit), gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
+    b->brilliance = not_negative((float)f->brilliance);
     float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
     b->diffuse = (float)fmax(0, f->diffuse) * opacity * norm;
     b->diffuse_back = (float)fmax(0, f->diffuse_back) * opacity * norm;
-    setup_highlight(b, f);
+    b->grain = (float)fmax(0, f->crand) / 2;
     setup_mirror(b, f, opacity < 1);
-    b->highlight_lights_only = !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
+    float mirror = at_most(rgb_max(split_apply(b->mirror, rgb_grey(1))), 1 / gain);
+    b->highlight_lights_only = finish_is_mirror(f);
+    setup_highlights(b, f, 1 / gain - (b->highlight_lights_only ? 0 : mirror));
     /* Mirrored light does not pass: POV-Ray does so with conserve_energy only. */
     float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
     b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
+    limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain);
+    if (gain > 1)
+        setup_film(b, f, mirror);
 }
 
 /* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
@@ -107,10 +139,8 @@ static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
 /* Estimate of the reflectance of the microfacet lobe at cos_o, for the probability of sampling it. */
 static float glossy_estimate(const Bsdf *b)
 {
-    if (b->alpha <= 0 || b->highlight_lights_only)
+    if (b->alpha <= 0)
         return 0;
-    if (!b->disney)
-        return split_neutral(b->highlight);
     float m = b->metallic, f = fresnel_dielectric((float)b->cos_o, b->coat_eta);
     return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission) *
            b->coverage;
@@ -118,7 +148,7 @@ static float glossy_estimate(const Bsdf *b)
 
 static void setup_choice(Bsdf *b)
 {
-    float glossy = glossy_estimate(b);
+    float glossy = b->disney ? glossy_estimate(b) : b->highlight_lights_only ? 0 : b->highlights;
     if (b->disney && !b->smooth && b->eta != 1)
         glossy += b->transmission;
     float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy, split_neutral(b->mirror),
@@ -133,11 +163,13 @@ static void setup_choice(Bsdf *b)
 static void setup_lambert(Bsdf *b, const Finish *f)
 {
     float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = f->diffuse_back > 0 ? (float)f->diffuse_back : 0;
-    float sum = diffuse + back;
-    b->lambert = 1, b->disney = 0, b->alpha = b->transmission = 0;
+    b->lambert = 1, b->disney = 0, b->alpha = b->transmission = b->highlights = 0;
     b->passing = (Split){{0, 0, 0}, {0, 0, 0}};
-    b->diffuse = diffuse, b->diffuse_back = back;
     b->p_glossy = b->p_mirror = b->p_passing = b->p_diffuse = b->p_back = 0;
+    float sum = diffuse + back, scale = fmaxf(1, fmaxf(diffuse, back)) / sum; /* see limit_energy */
+    if (scale < 1)
+        diffuse *= scale, back *= scale, sum *= scale;
+    b->diffuse = diffuse, b->diffuse_back = back;
     if (sum > 0)
         b->p_diffuse = diffuse / sum, b->p_back = back / sum;
 }

@@ -22,7 +22,7 @@
     X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
     X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
-    X(IRID, "irid", "it is ignored") \
+    X(IRID_TURBULENCE, "turbulence of irid", "the film is of one thickness") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
     X(DISPERSION, "dispersion", "one ior is used for all colours")
@@ -242,6 +242,7 @@ typedef struct Builder {
     double gamma_version; /* the version where it was set */
     int radiosity;        /* global_settings has a block of it */
     int photons;          /* global_settings has a block of them */
+    Rgb irid_wavelength;
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;

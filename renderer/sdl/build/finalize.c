@@ -102,11 +102,15 @@ static void visit_albedo(Sdl *sdl, const Texture **texture, void *context)
         check_albedo(sdl, texture_leaf(*texture, k));
 }
 
-/* Paths ask for it at every vertex. */
-static void find_matte_finishes(Sdl *sdl)
+/* What paths ask for at every vertex. */
+static void complete_finishes(Sdl *sdl)
 {
-    for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next)
+    const Rgb w = builder_of(sdl)->irid_wavelength;
+    for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
+        const float path = (float)(2 * PI * f->finish.irid_thickness);
         f->finish.matte = finish_is_matte(&f->finish);
+        f->finish.irid_phase = rgb(w.r > 0 ? path / w.r : 0, w.g > 0 ? path / w.g : 0, w.b > 0 ? path / w.b : 0);
+    }
 }
 
 /* ---- emitters ---- */
@@ -260,7 +264,7 @@ void finalize_scene(Sdl *sdl)
     find_shining(sdl);
     decode_colors(sdl);
     camera_finish(sdl);
-    find_matte_finishes(sdl);
+    complete_finishes(sdl);
     set_emission(sdl);
     find_caustics(sdl);
     list_all_names(sdl);

@@ -93,6 +93,22 @@ static void retex_block(Sdl *sdl, Finish *f)
     }
 }
 
+/* irid{ AMOUNT [thickness T] [turbulence T] }: a thin film. */
+static void irid(Sdl *sdl, ParsedFinish *finish)
+{
+    Finish *f = &finish->finish;
+    sdl_expect(sdl, "{");
+    f->irid = sdl_float(sdl);
+    while (!sdl_accept(sdl, "}"))
+        if (sdl_accept(sdl, "thickness"))
+            f->irid_thickness = sdl_float(sdl);
+        else if (sdl_accept(sdl, "turbulence")) {
+            if (sdl_float(sdl) != 0)
+                gaps_add(&finish->gaps, GAP_IRID_TURBULENCE);
+        } else
+            sdl_expected(sdl, "thickness, turbulence or } in irid");
+}
+
 static void diffuse(Sdl *sdl, Finish *f)
 {
     f->diffuse_albedo = sdl_accept(sdl, "albedo");
@@ -159,10 +175,9 @@ static void item(Sdl *sdl, ParsedFinish *finish)
         f->conserve_energy = sdl_optional_bool(sdl, 1);
     else if (sdl_accept(sdl, "retex"))
         retex_block(sdl, f);
-    else if (sdl_accept(sdl, "irid")) {
-        gaps_add(&finish->gaps, GAP_IRID);
-        sdl_skip_block(sdl);
-    } else if (sdl_accept(sdl, "subsurface")) {
+    else if (sdl_accept(sdl, "irid"))
+        irid(sdl, finish);
+    else if (sdl_accept(sdl, "subsurface")) {
         gaps_add(&finish->gaps, GAP_SUBSURFACE);
         sdl_skip_block(sdl);
     } else

@@ -25,14 +25,12 @@ static void ignored(Sdl *sdl)
             return;
         }
     static const char *const settings[] = {
-        "adc_bailout", "number_of_waves", "irid_wavelength", "max_intersections",
-        "mm_per_unit", "max_trace_level", "hf_gray_16",      "charset",         NULL};
+        "adc_bailout", "number_of_waves", "max_intersections", "mm_per_unit", "max_trace_level", "hf_gray_16",
+        "charset",     NULL};
     for (int i = 0; settings[i]; i++)
         if (sdl_accept(sdl, settings[i])) {
             if (strcmp(settings[i], "charset") == 0)
                 sdl_next(sdl);
-            else if (strcmp(settings[i], "irid_wavelength") == 0)
-                sdl_color(sdl);
             else
                 sdl_optional_bool(sdl, 1);
             return;
@@ -50,6 +48,9 @@ void parse_global_settings(Sdl *sdl)
         else if (sdl_accept(sdl, "ambient_light")) {
             Rgbft c = sdl_color(sdl);
             scene->ambient_light = rgb(c.r, c.g, c.b);
+        } else if (sdl_accept(sdl, "irid_wavelength")) {
+            const Rgbft c = sdl_color(sdl);
+            builder_of(sdl)->irid_wavelength = rgb(c.r, c.g, c.b);
         } else if (sdl_accept(sdl, "noise_generator")) {
             const double generator = sdl_float(sdl);
             if (!(generator >= 1 && generator < 4))
