@@ -60,15 +60,26 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
     return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, nthreads, err);
 }
 
-/* The projection axis of the planar UV of a plane or box: the axis of its smallest extent. */
-static int dominant_axis(const Primitive *p)
+/* The axis of pattern space along which the planar UV of a plane is projected, if the plane goes through 0 at right
+ * angles to it: it is what is baked of the pattern. Else -1. */
+static int baked_axis(const Primitive *p, const Pigment *pigment)
 {
-    if (p->shape.ops != &shape_plane)
-        return 1;
-    Vec3 n = transform_normal(&p->transform, vec3(0, 1, 0));
-    n = transform_inverse_vector(&p->texture->pigment->transform, n);
-    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    return x > y && x > z ? 0 : y >= z ? 1 : 2;
+    const double flat = 1e-9;
+    const Vec3 at = transform_inverse_point(&pigment->transform, transform_point(&p->transform, vec3(0, 0, 0)));
+    const Vec3 normal = transform_normal(&p->transform, vec3(0, 1, 0));
+    const Vec3 n = vec_normalize(transform_inverse_normal(&pigment->transform, normal));
+    const double along[3] = {fabs(n.x), fabs(n.y), fabs(n.z)}, offset[3] = {at.x, at.y, at.z};
+    for (int axis = 0; axis < 3 && p->shape.ops == &shape_plane; axis++)
+        if (along[axis] > 1 - flat && fabs(offset[axis]) < flat)
+            return axis;
+    return -1;
+}
+
+/* A pattern in space is no function of UV but on such a plane: of other surfaces, footprints keep its means. */
+static int is_function_of_uv(const Primitive *p, const Pigment *pigment)
+{
+    return pigment->kind == PIGMENT_COLOR || pigment->kind == PIGMENT_IMAGE || pigment->uv_mapping ||
+           pigment_is_constant(pigment) || baked_axis(p, pigment) >= 0;
 }
 
 /* The primitive that is the target and its pigment; NULL where textures of a tree that are the target have different
@@ -94,8 +105,9 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
 {
     const Primitive *p = NULL;
     const Pigment *pigment = target_pigment(scene, t, &p);
-    if (!pigment)
+    if (!pigment || !is_function_of_uv(p, pigment))
         return RETEX_OK;
+    const int axis = baked_axis(p, pigment);
     RetexTarget *target = &set->targets[t];
     for (int k = 0; k < 2; k++) {
         int whole = pigment->kind == PIGMENT_IMAGE || !(target->uv_max[k] > target->uv_min[k]);
@@ -110,7 +122,7 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
     if (code)
         return code;
     target->original = part;
-    return fill_original(&set->parts[part].image, pigment, dominant_axis(p), target, nthreads, err);
+    return fill_original(&set->parts[part].image, pigment, axis < 0 ? 1 : axis, target, nthreads, err);
 }
 
 int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *err)
