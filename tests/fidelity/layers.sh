@@ -34,6 +34,15 @@ for layout in footprints paper; do
     compare 'a picture in a blend and below a layer' "$([ $layout = paper ] && echo 30 || echo 40)" 1e-2 "Lower=$floor"
 done
 
+# --replace is the scene that its author would edit: another colour, as opaque as before
+sed '/declare Glaze/s/rgbf <[^>]*>/rgbf <0.2, 0.7, 0.9, 0.6>/; /declare Glaze/s/rgbft <[^>]*>/rgbft <0.2, 0.7, 0.9, 0.5, 0.2>/' \
+    "$scene" >"$work/edited.pov"
+render --plain --replace 'Glaze=rgb(.2,.7,.9)' -o "$work/new.exr"
+scene=$work/edited.pov
+render --plain -o "$work/wanted.exr"
+same "$work/new.exr" "$work/wanted.exr" 80 'the picture with a layer replaced is that of the edited scene'
+scene=$here/tests/data/layers.pov
+
 # shares of the picture: what is seen of each
 retex-render --list-targets --size 96x72 "$scene" >"$work/shares"
 result "$(awk '$2 == "Glaze" { glaze = $1 + 0 } $2 == "Lower" { lower = $1 + 0 } $2 == "Upper" { upper = $1 + 0 }
