@@ -41,23 +41,43 @@ static void find_longitudes(Longitudes *longitudes)
     }
 }
 
-/* Luminances of a row's cells, each the mean of a few points, so that a small sun between centres is not missed. Only
- * the first count cells. */
+static int has_image(const Pigment *pigment)
+{
+    if (pigment->kind == PIGMENT_IMAGE)
+        return 1;
+    for (int i = 0; pigment->kind != PIGMENT_COLOR && i < pigment->map.count; i++)
+        if (pigment->map.entries[i].pigment && has_image(pigment->map.entries[i].pigment))
+            return 1;
+    return 0;
+}
+
+static int sky_has_image(const Scene *scene)
+{
+    for (int k = 0; scene->sky && k < scene->sky->npigments; k++)
+        if (has_image(scene->sky->pigments[k]))
+            return 1;
+    return 0;
+}
+
+/* Luminances of a row's cells, only of the first count. In pictures a cell's is the mean of four points, so that a
+ * small sun between centres is not missed; of patterns, which take long, it is that of one of the four in turn. */
 static void row_luminances(const Scene *scene, const Longitudes *longitudes, int y, int count, float *luminances)
 {
+    const int whole = count == 1 || sky_has_image(scene);
     double sine[2], cosine[2];
     for (int k = 0; k < 2; k++) {
         const double theta = PI * (y + 0.25 + 0.5 * k) / TABLE_HEIGHT;
         sine[k] = sin(theta), cosine[k] = cos(theta);
     }
     for (int x = 0; x < count; x++) {
+        const int first = whole ? 0 : (x + 2 * y) & 3, end = whole ? 4 : first + 1;
         float sum = 0;
-        for (int k = 0; k < 4; k++) {
+        for (int k = first; k < end; k++) {
             const int i = 2 * x + (k & 1), j = k >> 1;
             const Vec3 direction = {sine[j] * longitudes->cosine[i], cosine[j], sine[j] * longitudes->sine[i]};
             sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction)));
         }
-        luminances[x] = sum / 4;
+        luminances[x] = sum / (float)(end - first);
     }
 }
 
