@@ -571,6 +571,19 @@ int lights_emit(const Lights *lights)
     return lights->nemitters > 0 && lights->emitter_sums[lights->nemitters] > 0;
 }
 
+#define SMALL 6.0 /* so many radii away */
+#define MUCH 0.1  /* of all power */
+
+int lights_small_emitter(const Lights *lights, Vec3 from)
+{
+    double power = 0;
+    for (int k = 0; k < lights->nemitters; k++) {
+        const Entry *e = &lights->entries[k];
+        power += vec_length(vec_sub(e->center, from)) > SMALL * e->radius ? e->strength : 0;
+    }
+    return power > 0 && power >= MUCH * lights->emitter_sums[lights->nemitters];
+}
+
 int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point)
 {
     if (!lights_emit(lights))

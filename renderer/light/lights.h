@@ -62,6 +62,8 @@ typedef struct EmissionPoint {
     float power; /* luminance of its radiance, with NEUTRAL_ALBEDO, over the density of the point: area is in it */
 } EmissionPoint;
 int lights_emit(const Lights *lights); /* 1: there are shapes that do */
+/* Whether much of their power is that of shapes that look small from a point. */
+int lights_small_emitter(const Lights *lights, Vec3 from);
 /* Shapes are chosen by their power. Returns 0 where there is none. */
 int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point);
 /* Estimate of the irradiance of all lights on a surface that faces them. */

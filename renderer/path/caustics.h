@@ -19,6 +19,8 @@
 
 typedef struct Caustics Caustics;
 
+typedef enum CausticsOf { CAUSTICS_OF_SOURCES, CAUSTICS_OF_EMITTERS, CAUSTICS_OF_SMALL_EMITTERS } CausticsOf;
+
 typedef struct CausticsCell {
     float x[CAUSTICS_LOBES], y[CAUSTICS_LOBES], z[CAUSTICS_LOBES]; /* where photons came from, in world space */
     float move[9][CAUSTICS_LOBES];       /* how that point moves with the vertex, row by row */
@@ -30,10 +32,11 @@ typedef struct CausticsCell {
     float share; /* probability of sampling by the guide, 0..0.5 */
 } CausticsCell;
 
-/* of_emitters: 1 = of shapes that emit too, 0 = of light sources that have caustics only.
+/* Whose caustics: of light sources that have them, always; of shapes that emit, never, always, or where they are small
+ * and the guide is worth its time.
  * paths: the number of paths of the picture; photons take a small share of their time. *caustics is NULL where there
  * are no caustics, or where the budget (NULL = none) stops it. The result is the same for every nthreads. */
-int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, int of_emitters,
+int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, CausticsOf of,
                     long paths, int nthreads, const RetexBudget *budget, RetexError *err);
 void caustics_close(Caustics **caustics);
 /* The cell of a point, or NULL where no photons landed. */

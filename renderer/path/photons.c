@@ -312,6 +312,18 @@ static int trace_all(Tracing *m, long paths, int nthreads, Photons *photons, Ret
     return retex_budget_check(m->budget, err);
 }
 
+int photons_small_emitters(const Scene *scene, const Lights *lights)
+{
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Primitive *p = &scene->primitives[k];
+        Vec3 low, high;
+        if (!p->prototype && primitive_casts_caustics(p) && shape_bounds(p, &low, &high) &&
+            lights_small_emitter(lights, vec_scale(vec_add(low, high), 0.5)))
+            return 1;
+    }
+    return 0;
+}
+
 int photons_trace(Photons *photons, const PhotonSources *sources, int nthreads, RetexError *err)
 {
     Tracing m = {.scene = sources->scene,

@@ -16,6 +16,9 @@ typedef struct Photons {
     int count, tried;
 } Photons;
 
+/* Whether a shape that emits looks small from what may throw caustics: there photons may be worth their time. */
+int photons_small_emitters(const Scene *scene, const Lights *lights);
+
 /* What photons start from, and how many: see caustics_create. None land where nothing throws caustics. */
 typedef struct PhotonSources {
     const Scene *scene;

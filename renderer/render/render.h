@@ -49,7 +49,7 @@ typedef struct RenderParams {
     int nmerged;
     RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
     int caustics_guide;      /* photons show paths where caustics come from, see caustics.h: 0 (default) those of light
-                                sources, 1 those of emitters too, -1 none */
+                                sources and, where it pays, of small emitters, 1 of all emitters too, -1 none */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }

@@ -5,6 +5,7 @@
 #include "film/footprints/footprints.h"
 #include "film/paper/paper.h"
 #include "render/checkpoints.h"
+#include "path/photons.h"
 #include "render/internal.h"
 
 static int check_params(const RenderParams *p, RetexError *err)
@@ -136,11 +137,15 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
 int render_open_guide(Render *r, RetexError *err)
 {
     r->context.caustic_sources = scene_caustic_sources(r->scene);
-    if (r->params.caustics_guide < 0 || (!r->params.caustics_guide && !r->context.caustic_sources))
+    const int guide = r->params.caustics_guide;
+    const int small = guide == 0 && photons_small_emitters(r->scene, r->lights);
+    if (guide < 0 || (!guide && !small && !r->context.caustic_sources))
         return RETEX_OK;
-    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, r->params.caustics_guide,
-                               (long)r->width * r->height * r->params.spp,
-                               r->params.nthreads, r->params.budget, err);
+    const CausticsOf of = guide > 0                    ? CAUSTICS_OF_EMITTERS
+                          : r->context.caustic_sources ? CAUSTICS_OF_SOURCES
+                                                       : CAUSTICS_OF_SMALL_EMITTERS;
+    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, of,
+                               (long)r->width * r->height * r->params.spp, r->params.nthreads, r->params.budget, err);
     r->context.caustics = r->caustics;
     return code;
 }

@@ -26,7 +26,8 @@ static Caustics *make_guide(const Scene *scene, int nthreads)
     Lights *lights;
     assert_int_equal(accel_create(&accel, scene, nthreads, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1, 1 << 20, nthreads, NULL, NULL), 0);
+    assert_int_equal(
+        caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1 << 20, nthreads, NULL, NULL), 0);
     lights_close(&lights);
     accel_close(&accel);
     return caustics;
@@ -45,7 +46,8 @@ static void budget_ends_it(void **state)
     retex_budget_stop(budget);
     assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1, 1L << 40, 2, budget, NULL), RETEX_ESTOPPED);
+    assert_int_equal(caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1L << 40, 2, budget, NULL),
+                     RETEX_ESTOPPED);
     assert_null(caustics);
     lights_close(&lights);
     accel_close(&accel);
@@ -168,7 +170,7 @@ static void mean_stays(void **state)
 {
     (void)state;
     Scene *scene = test_scene(LENS);
-    RetexSet *guided = render(scene, 2048, 1, 0), *chance = render(scene, 2048, 0, 0);
+    RetexSet *guided = render(scene, 2048, 1, 0), *chance = render(scene, 2048, -1, 0);
     double a = mean_of(guided), b = mean_of(chance);
     if (fabs(a - b) > 0.004 * b)
         fail_msg("mean %.5f with the guide, %.5f without", a, b);
@@ -179,6 +181,30 @@ static void mean_stays(void **state)
     retex_set_close(&guided);
     retex_set_close(&chance);
     scene_close(&scene);
+}
+
+/* Without being asked the guide is there for a small lamp over glass, and not for a large one. */
+static void switches_itself_on(void **state)
+{
+    (void)state;
+    for (int small = 0; small < 2; small++) {
+        char text[2048];
+        snprintf(text, sizeof text, "%s", LENS);
+        char *radius = strstr(text, ", .6 ");
+        assert_non_null(radius);
+        memcpy(radius, small ? ", .1 " : ", 2. ", 5);
+        Scene *scene = test_scene(text);
+        RetexSet *sets[3];
+        for (int guide = -1; guide < 2; guide++)
+            sets[guide + 1] = render(scene, 16, guide, 1);
+        const size_t bytes = 32 * 24 * 3 * sizeof(float);
+        const float *asked = sets[1]->parts[0].image.pixels;
+        assert_int_equal(memcmp(asked, sets[0]->parts[0].image.pixels, bytes) == 0, !small);
+        assert_int_equal(memcmp(asked, sets[2]->parts[0].image.pixels, bytes) == 0, small);
+        for (int k = 0; k < 3; k++)
+            retex_set_close(&sets[k]);
+        scene_close(&scene);
+    }
 }
 
 /* ---- light sources ---- */
@@ -314,6 +340,7 @@ int main(void)
         cmocka_unit_test(nothing_without_glass),
         cmocka_unit_test(budget_ends_it),
         cmocka_unit_test(mean_stays),
+        cmocka_unit_test(switches_itself_on),
         cmocka_unit_test(source_is_a_small_lamp),
         cmocka_unit_test(lobes_follow_a_mirror),
         cmocka_unit_test(source_stays_invisible),
