@@ -192,7 +192,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
             if (!v->is_last)
                 sample_direct_light(w, path, v);
         } else if (w->first_hits_wanted > 0 && path->segments == 1) { /* who observes first hits looks at BSDFs */
-            bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
+            shading_bsdf(&v->s, vec_neg(ray->direction));
         }
     }
     observe_first_hit(w, path, v, ray, hit);

@@ -60,7 +60,7 @@ static void print_hit(const PathContext *c, const Hit *hit, const Shading *s)
 void find_bsdf(PathWorker *w, const Path *path, Vertex *v, const Ray *ray, const Hit *hit)
 {
     const PathContext *c = w->context;
-    bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
+    shading_bsdf(&v->s, vec_neg(ray->direction));
     if (c->white && is_first_hit(path))
         whiten(v, ray);
     if (c->trace)

@@ -17,7 +17,7 @@ static void set_colors(Shading *s, Rgbft c, const RenderVariant *variants, int n
     const Surface *surface = &s->surface;
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
     s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
-    s->replaced = s->is_leaf = 0;
+    s->replaced = s->is_leaf = s->is_layer = 0;
     if (surface->target < 0)
         return;
     for (int v = 0; variants && v < nvariants; v++)
@@ -36,6 +36,13 @@ void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *var
     set_colors(s, c, variants, nvariants);
 }
 
+void shading_bsdf(Shading *s, Vec3 wo)
+{
+    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit);
+    if (s->is_layer)
+        bsdf_stop_passing(&s->bsdf);
+}
+
 /* ---- trees of textures ---- */
 
 void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const RenderVariant *variants, int nvariants)
@@ -45,6 +52,7 @@ void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const Rend
         s->uv = surface_target_uv(&s->surface);
     set_colors(s, leaf->color, variants, nvariants);
     s->is_leaf = 1;
+    s->is_layer = leaf->is_layer;
 }
 
 void shading_above(Shading *s, const Surface *whole, const LayerAbove *above, const RenderVariant *variants,
@@ -96,7 +104,7 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         const Leaf *leaf = &leaves.leaf[k];
         SeenLeaf seen = {.share = leaves_share(&leaves, k), .targets = leaf_targets(&leaves, leaf)};
         shading_leaf(&seen.s, &whole, leaf, variants, 1);
-        bsdf_setup(&seen.s.bsdf, &seen.s.surface, wo, seen.s.filter, seen.s.transmit);
+        shading_bsdf(&seen.s, wo);
         seen.albedo = seen_albedo(&seen.s, &whole, &leaves, leaf, variants);
         visit(context, &seen);
     }
@@ -124,7 +132,7 @@ void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, i
         most_seen_leaf(s, variants, nvariants, wo);
     else
         shading_color(s, NULL, variants, nvariants);
-    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit);
+    shading_bsdf(s, wo);
 }
 
 /* Of the sharpest lobe: POV-Ray's reflection and clear refraction are mirrors. */

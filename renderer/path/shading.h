@@ -15,6 +15,7 @@ typedef struct Shading {
     Surface surface;
     Rgb albedo;   /* the original's */
     int is_leaf;  /* of a tree of textures: the surface has others too */
+    int is_layer; /* of that leaf, see leaves.h: nothing passes it by itself */
     int replaced; /* some variant has another one: by variant */
     Rgb albedos[VARIANTS_MAX];
     float filter, transmit;
@@ -32,6 +33,9 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
 {
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
+
+/* The BSDF, once the rest is known. */
+void shading_bsdf(Shading *shading, Vec3 wo);
 
 /* ---- trees of textures, see leaves.h ---- */
 

@@ -235,6 +235,14 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
         vec_frame(b->normal, &b->s, &b->t);
 }
 
+void bsdf_stop_passing(Bsdf *b)
+{
+    const float rest = 1 - b->p_passing, scale = rest > 0 ? 1 / rest : 0;
+    b->passing = (Split){{0, 0, 0}, {0, 0, 0}};
+    b->p_passing = 0;
+    b->p_diffuse *= scale, b->p_back *= scale, b->p_glossy *= scale, b->p_mirror *= scale;
+}
+
 /* ---- caustics ---- */
 
 #define STRONG_MIRROR 0.25f /* reflectance from which on a mirror is worth photons */

@@ -7,6 +7,8 @@
 
 /* The BSDF of a surface seen along wo. Opacity comes from the pigment: filter and transmit. */
 void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit);
+/* Without the lobe of light that passes straight or refracted. */
+void bsdf_stop_passing(Bsdf *bsdf);
 /* The normals on wo's side: for shading, and the shape's own. */
 void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
 /* 1 where the extension lets light through, whatever the pigment says. */
