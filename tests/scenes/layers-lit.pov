@@ -6,7 +6,8 @@
 //   2: the average of b, with weight 1, and white of diffuse .5, with weight 3
 //   3: white of diffuse 1 in the shadow of a pane that the camera does not see: of a layer <.9,.6,.3> of filter .5 and
 //      transmit .2 over a clear one <.4,.8,1> of filter .6 and transmit .4
-//   4: under varnish that mirrors .3, with filter .7 and transmit .3 of white: b of diffuse .8 times .7
+//   4: under varnish that mirrors .3, with filter .7 and transmit .3 of white: b of diffuse .8 times .7; the lamp in this
+//      box is hidden by b
 //
 // size 5x1  spp 4096  tolerance 6e-3 absolute
 // expect 0,0 0.33 0.285 0.3825
@@ -36,3 +37,7 @@ polygon {
     translate <-4, 0, -4> no_image
 }
 Square(4) texture { Lower } texture { pigment { rgbft <1, 1, 1, 0.7, 0.3> } finish { diffuse 0 reflection 0.3 } } }
+polygon {
+    5, <1.7, -0.8>, <2.3, -0.8>, <2.3, 0.8>, <1.7, 0.8>, <1.7, -0.8>
+    pigment { rgb 1 } finish { diffuse 0 emission 0.5 } translate 0.5 * z
+}
