@@ -390,6 +390,43 @@ static void domes_are_left_to_paths(void **state)
     }
 }
 
+/* Directions of the sky are sampled by its luminance; whatever is looked at less closely, the densities add up to 1. */
+static void skies_are_sampled_by_luminance(void **state)
+{
+    (void)state;
+    enum { N = 500 };
+    static const struct {
+        const char *pigments;
+        double within; /* of the luminance over its mean, in the mean of all directions; edges of a sun are far off */
+    } skies[] = {
+        {"pigment { gradient y color_map { [0 rgb .2] [1 rgb 1] } }", 0.002},
+        {"pigment { gradient y color_map { [0 rgb .2] [1 rgb 1] } scale 2 translate -y }", 0.002},
+        {"pigment { gradient x color_map { [0 rgb .2] [1 rgb 1] } }", 0.01},
+        {"pigment { gradient y color_map { [0 rgb .2] [1 rgb 1] } rotate 90 * x }", 0.01},
+        {"pigment { planar color_map { [0 rgb .2] [1 rgb 1] } scale .7 }", 0.015},
+        {"pigment { bozo color_map { [0 rgb .2] [1 rgb 1] } scale .2 }", 0.02},
+        {"pigment { rgb .1 } pigment { gradient y color_map { [.999 rgbt 1] [.999 rgb 500] } rotate 60 * x }", 0.85}};
+    for (size_t k = 0; k < sizeof skies / sizeof *skies; k++) {
+        char text[1000];
+        snprintf(text, sizeof text, "%s sky_sphere { %s }", HEAD, skies[k].pigments);
+        Scene *scene = test_scene(text);
+        Environment *sky;
+        double whole = 0, off = 0;
+        assert_int_equal(environment_create(&sky, scene, NULL), 0);
+        for (int i = 0; i < N * N; i++) {
+            const double z = 1 - 2 * (i / N + 0.5) / N, phi = 2 * PI * (i % N + 0.5) / N, r = sqrt(1 - z * z);
+            const Vec3 d = vec3(r * cos(phi), z, r * sin(phi));
+            const double pdf = (double)environment_pdf(sky, d) * 4 * PI;
+            whole += pdf;
+            off += fabs(pdf - (double)(rgb_luminance(sky_radiance(scene, d)) / environment_mean(sky)));
+        }
+        if (!(fabs(whole / N / N - 1) < 0.03 && off / N / N < skies[k].within))
+            fail_msg("sky %zu: densities add up to %.4f, and are %.4f off", k, whole / N / N, off / N / N);
+        environment_close(&sky);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -397,6 +434,7 @@ int main(void)
         cmocka_unit_test(tree_frequencies),
         cmocka_unit_test(tree_of_one_place),
         cmocka_unit_test(domes_are_left_to_paths),
+        cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(photons_carry_all_light),
