@@ -1,5 +1,5 @@
 /* Patterns by unit cubes: cells, quilted; and by the side of a cube. */
-#include "pattern/pattern.h"
+#include "pattern/cubes.h"
 
 #define CUBE_EPSILON 1e-10 /* POV-Ray's: a hair below a boundary counts as beyond it */
 
@@ -10,15 +10,11 @@ static double cells(const Pattern *pattern, const PatternPoint *point)
     return noise_cell(vec3(floor(p.x + CUBE_EPSILON), floor(p.y + CUBE_EPSILON), floor(p.z + CUBE_EPSILON))).x;
 }
 
-/* A Bezier curve of the distance from the centre of the cube, from 0 to 1 by way of the two control values. The last
- * factor is POV-Ray's for 2 over the root of 27. */
 static double quilted(const Pattern *pattern, const PatternPoint *point)
 {
     const Vec3 p = point->p;
     const Vec3 from = vec3(p.x - floor(p.x) - 0.5, p.y - floor(p.y) - 0.5, p.z - floor(p.z) - 0.5);
-    const double t = vec_length(from), s = 1 - t;
-    const double curve = 3 * s * s * t * pattern->control[0] + 3 * s * t * t * pattern->control[1] + t * t * t;
-    return curve * (fabs(from.x) + fabs(from.y) + fabs(from.z)) * (1.154700538 / 3);
+    return quilted_curve(pattern, vec_length(from)) * (fabs(from.x) + fabs(from.y) + fabs(from.z)) / 3;
 }
 
 /* Which of the sides +x, +y, +z, -x, -y, -z is seen from the middle. */
@@ -38,4 +34,5 @@ static double cubic(const Pattern *pattern, const PatternPoint *point)
 
 const PatternOps pattern_cells = {.keyword = "cells", .value = cells};
 const PatternOps pattern_cubic = {.keyword = "cubic", .colors = 6, .value = cubic};
+const PatternOps pattern_facets = {.keyword = "facets", .name = "facets of a pigment"}; /* of normals only */
 const PatternOps pattern_quilted = {.keyword = "quilted", .value = quilted};

@@ -20,6 +20,7 @@
     X(cylindrical) \
     X(density_file) \
     X(dents) \
+    X(facets) \
     X(function) \
     X(gradient) \
     X(granite) \
@@ -50,7 +51,6 @@
 /* POV-Ray's patterns that are read, with a warning, and replaced by their mean colour: keyword, PatternArguments,
  * length of the list of colours, name in the warning. */
 #define UNSUPPORTED_PATTERNS(X) \
-    X(facets, NONE, 0, "facets") \
     X(pavement, NONE, 0, "pavement") \
     X(projection, BLOCK, 0, "projection") \
     X(spiral2, FLOAT, 0, "spiral") \

@@ -175,7 +175,7 @@ static int accept_named(Sdl *sdl, Reader *r)
 
 static int is_facets(const Pigment *pattern)
 {
-    return pattern->pattern.ops && strcmp(pattern->pattern.ops->keyword, "facets") == 0;
+    return pattern->pattern.ops == &pattern_facets;
 }
 
 static void normal_item(Sdl *sdl, Reader *r)
