@@ -48,8 +48,6 @@ static Vec3 slope_tilt(const Normal *bumps, Vec3 p, Vec3 n)
                                     {-0.471404521, -0.333333333, 0.816496581},
                                     {-0.471404521, -0.333333333, -0.816496581},
                                     {0, 1, 0}};
-    if (bumps->size == 0)
-        return n;
     const double strength = -0.1 * bumps->size / bumps->accuracy; /* POV-Ray's */
     for (int i = 0; i < 4; i++) {
         const PatternPoint at = {.p = vec_mad(p, corners[i], bumps->accuracy)};
@@ -118,6 +116,9 @@ static Vec3 unit(Vec3 n, Vec3 before)
 
 static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3 p, Vec3 n)
 {
+    const int needs_value = bumps->kind == NORMAL_SLOPE || bumps->kind == NORMAL_MAP;
+    if (needs_value && (!bumps->pattern.ops || !bumps->pattern.ops->value))
+        return n; /* no pattern, or one that is not supported */
     keeps_size |= bumps->keeps_size;
     if (bumps->uv_mapping) {
         const Vec2 uv = surface_uv(place->surface).uv;

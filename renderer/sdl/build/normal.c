@@ -227,9 +227,6 @@ const ParsedNormal *parse_normal_body(Sdl *sdl, const ParsedNormal *from, char e
     n->pattern = r.pattern->pigment.pattern;
     n->transform = r.pattern->pigment.transform;
     gaps_join(&normal->gaps, &r.pattern->gaps);
-    const int needs_value = n->kind == NORMAL_SLOPE || n->kind == NORMAL_MAP;
-    if (needs_value && (!n->pattern.ops || !n->pattern.ops->value))
-        n->kind = NORMAL_SLOPE, n->size = 0; /* nothing is known of the pattern */
     if (n->kind == NORMAL_AVERAGE && n->nentries == 0)
         sdl_error(sdl, "`average` needs a normal_map");
     return normal;
