@@ -4,8 +4,8 @@
 
 #include "pattern/pattern.h"
 
-/* quilted: a Bezier curve of the distance from the centre of the cube, from 0 to 1 by way of the two control values. The
- * factor is POV-Ray's for 2 over the root of 3. */
+/* quilted: a Bezier curve of the distance from the centre of the cube, from 0 to 1 by way of the two control values.
+ * The factor is POV-Ray's for 2 over the root of 3. */
 static inline double quilted_curve(const Pattern *pattern, double t)
 {
     const double s = 1 - t;

@@ -2,15 +2,21 @@
 #ifndef RENDERER_PATTERN_WAVE_SOURCES_H
 #define RENDERER_PATTERN_WAVE_SOURCES_H
 
-#include "base/vec.h"
+#include "pattern/pattern.h"
 
-enum { WAVE_SOURCES = 10 }; /* POV-Ray's default number_of_waves */
+enum { WAVE_SOURCES_MAX = 256 };
 
 typedef struct WaveSource {
     Vec3 at;
     double frequency; /* of `waves` */
 } WaveSource;
 
-const WaveSource *wave_sources(void); /* WAVE_SOURCES of them; thread-safe */
+const WaveSource *wave_sources(void); /* WAVE_SOURCES_MAX of them; thread-safe */
+
+/* How many of them count. */
+static inline int wave_count(const Pattern *pattern)
+{
+    return pattern->number_of_waves ? *pattern->number_of_waves : 10;
+}
 
 #endif

@@ -1,4 +1,4 @@
-/* Waves about ten points: of one length (ripples) or of several. */
+/* Waves about points: of one length (ripples) or of several. */
 #include "pattern/pattern.h"
 #include "pattern/wave_sources.h"
 
@@ -18,19 +18,21 @@ static double wave(const Pattern *pattern, double distance)
 static double ripples(const Pattern *pattern, const PatternPoint *point)
 {
     const WaveSource *source = wave_sources();
+    const int count = wave_count(pattern);
     double sum = 0;
-    for (int i = 0; i < WAVE_SOURCES; i++)
+    for (int i = 0; i < count; i++)
         sum += wave(pattern, distance_from(&source[i], point->p));
-    return (1 + sum / WAVE_SOURCES) / 2;
+    return (1 + sum / count) / 2;
 }
 
 static double waves(const Pattern *pattern, const PatternPoint *point)
 {
     const WaveSource *source = wave_sources();
+    const int count = wave_count(pattern);
     double sum = 0;
-    for (int i = 0; i < WAVE_SOURCES; i++)
+    for (int i = 0; i < count; i++)
         sum += wave(pattern, distance_from(&source[i], point->p) * source[i].frequency) / source[i].frequency;
-    return 0.2 * sum / WAVE_SOURCES + 0.5;
+    return 0.2 * sum / count + 0.5;
 }
 
 const PatternOps pattern_ripples = {.keyword = "ripples", .value = ripples};

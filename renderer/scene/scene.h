@@ -90,6 +90,7 @@ typedef struct Pattern {
         int is_solid;
     } crackle;
     const void *data;        /* what else the row's value reads */
+    const int *number_of_waves; /* the scene's; NULL: the default, 10 */
     const int *noise_generator; /* its own, or the scene's; NULL: the default one. See base/noise.h */
     const Warp *warps;       /* the last written first */
     Turbulence turbulence;   /* next to the pattern, after all warps */
@@ -448,6 +449,7 @@ typedef struct Scene {
     Light *lights;
     ImageMap **images;
     WorkingSpace working_space;
+    int number_of_waves;     /* of ripples and waves */
     int noise_generator;     /* of noise that names none: 1 to 3, see base/noise.h */
     Rgb ambient_light;
     /* every identifier that textures, pigments, materials or objects in use came through */

@@ -31,12 +31,13 @@ static Vec3 wrinkles(const Normal *b, Vec3 p, Vec3 n)
 static Vec3 from_sources(const Normal *b, Vec3 p, Vec3 n, int of_waves)
 {
     const WaveSource *sources = wave_sources();
-    for (int i = 0; i < WAVE_SOURCES; i++) {
+    const int count = wave_count(&b->pattern);
+    for (int i = 0; i < count; i++) {
         const Vec3 away = vec_sub(p, sources[i].at);
         const double length = vec_length(away), distance = length > 0 ? length : 1;
         const double frequency = of_waves ? sources[i].frequency : 1;
         const double wave = sin(2 * PI * (distance * b->pattern.frequency * frequency + b->pattern.phase));
-        n = vec_mad(n, away, b->size * wave / (frequency * distance * WAVE_SOURCES));
+        n = vec_mad(n, away, b->size * wave / (frequency * distance * count));
     }
     return n;
 }

@@ -1,5 +1,6 @@
 /* global_settings, background and sky_sphere. */
 #include <string.h>
+#include "pattern/wave_sources.h"
 #include "sdl/build/builder.h"
 
 static void assumed_gamma(Sdl *sdl)
@@ -24,9 +25,8 @@ static void ignored(Sdl *sdl)
             skip_statement(sdl);
             return;
         }
-    static const char *const settings[] = {
-        "adc_bailout", "number_of_waves", "max_intersections", "mm_per_unit", "max_trace_level", "hf_gray_16",
-        "charset",     NULL};
+    static const char *const settings[] = {"adc_bailout", "max_intersections", "mm_per_unit", "max_trace_level",
+                                           "hf_gray_16",  "charset",           NULL};
     for (int i = 0; settings[i]; i++)
         if (sdl_accept(sdl, settings[i])) {
             if (strcmp(settings[i], "charset") == 0)
@@ -51,6 +51,11 @@ void parse_global_settings(Sdl *sdl)
         } else if (sdl_accept(sdl, "irid_wavelength")) {
             const Rgbft c = sdl_color(sdl);
             builder_of(sdl)->irid_wavelength = rgb(c.r, c.g, c.b);
+        } else if (sdl_accept(sdl, "number_of_waves")) {
+            const double count = sdl_float(sdl);
+            if (!(count >= 1 && count <= WAVE_SOURCES_MAX))
+                sdl_error(sdl, "number_of_waves %g: there are 1 to %d", count, WAVE_SOURCES_MAX);
+            scene->number_of_waves = (int)count;
         } else if (sdl_accept(sdl, "noise_generator")) {
             const double generator = sdl_float(sdl);
             if (!(generator >= 1 && generator < 4))

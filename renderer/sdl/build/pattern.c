@@ -69,6 +69,7 @@ int accept_pattern_word(Sdl *sdl, ParsedPigment *pigment)
     p->pattern.wave = ops->wave;
     if (!p->pattern.noise_generator)
         p->pattern.noise_generator = &sdl_scene(sdl)->noise_generator;
+    p->pattern.number_of_waves = &sdl_scene(sdl)->number_of_waves;
     if (!ops->value)
         gaps_add_pattern(&pigment->gaps, index);
     pigment->averaged = !ops->value;
