@@ -7,19 +7,11 @@
 #define TABLE_WIDTH 1024 /* over longitude; the height is half of it, over the polar angle */
 #define TABLE_HEIGHT 512
 
-enum {
-    BLOCK = 4, /* cells along the side of a block */
-    BLOCKS_X = TABLE_WIDTH / BLOCK,
-    BLOCKS_Y = TABLE_HEIGHT / BLOCK
-};
-#define BRIGHT 4 /* times as bright as the mean: the cells of such a block are looked at one by one */
-
 struct Environment {
     float mean;
     float conditional[TABLE_HEIGHT][TABLE_WIDTH + 1]; /* running sums of a row, from 0 to 1 */
     float marginal[TABLE_HEIGHT + 1];
     float density[TABLE_HEIGHT][TABLE_WIDTH]; /* per solid angle */
-    float peaks[BLOCKS_Y][BLOCKS_X];          /* of blocks, while the table is made */
 };
 
 Rgb sky_radiance(const Scene *scene, Vec3 direction)
@@ -117,86 +109,6 @@ static int sky_is_level(const Scene *scene)
     return 1;
 }
 
-/* Whether the pigment may have details of any size: pictures, objects and functions, alone or in a map. */
-static int has_details(const Pigment *p)
-{
-    int found = p->kind == PIGMENT_IMAGE || (p->kind == PIGMENT_PATTERN && p->pattern.data);
-    for (int k = 0; k < p->map.count && !found; k++)
-        found = p->map.entries[k].pigment && has_details(p->map.entries[k].pigment);
-    return found;
-}
-
-static int sky_has_details(const SkySphere *sky)
-{
-    int found = 0;
-    for (int k = 0; k < sky->npigments; k++)
-        found |= has_details(sky->pigments[k]);
-    return found;
-}
-
-/* The mean luminance of size x size cells from x, y on, by a few points; *peak is the brightest of them. */
-static float mean_luminance(const Scene *scene, int x, int y, int size, float *peak)
-{
-    float sum = 0;
-    *peak = 0;
-    for (int k = 0; k < 4; k++) {
-        const double phi = 2 * PI * (x + size * (0.25 + 0.5 * (k & 1))) / TABLE_WIDTH;
-        const double theta = PI * (y + size * (0.25 + 0.5 * (k >> 1))) / TABLE_HEIGHT;
-        const Vec3 direction = {sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi)};
-        const float luminance = fmaxf(0, rgb_luminance(sky_radiance(scene, direction)));
-        sum += luminance;
-        *peak = fmaxf(*peak, luminance);
-    }
-    return sum / 4;
-}
-
-/* Whether the block or a neighbour is. */
-static int is_bright(const Environment *e, int x, int y, float limit)
-{
-    for (int j = y - 1; j <= y + 1; j++)
-        for (int i = x - 1; i <= x + 1; i++)
-            if (j >= 0 && j < BLOCKS_Y && e->peaks[j][(i + BLOCKS_X) % BLOCKS_X] > limit)
-                return 1;
-    return 0;
-}
-
-/* Clouds: a few points of each block, and of each cell of bright blocks and their neighbours. */
-static void look_at_blocks(Environment *e, const Scene *scene)
-{
-    double sum = 0;
-    for (int y = 0; y < TABLE_HEIGHT; y += BLOCK)
-        for (int x = 0; x < TABLE_WIDTH; x += BLOCK) {
-            const float mean = mean_luminance(scene, x, y, BLOCK, &e->peaks[y / BLOCK][x / BLOCK]);
-            for (int k = 0; k < BLOCK * BLOCK; k++)
-                e->density[y + k / BLOCK][x + k % BLOCK] = mean;
-            sum += (double)mean * sin(PI * (y + BLOCK / 2) / TABLE_HEIGHT);
-        }
-    const float limit = (float)(BRIGHT * sum * PI / 2 / (BLOCKS_X * BLOCKS_Y));
-    for (int y = 0; y < TABLE_HEIGHT; y++)
-        for (int x = 0; x < TABLE_WIDTH; x++) {
-            float peak;
-            if (is_bright(e, x / BLOCK, y / BLOCK, limit))
-                e->density[y][x] = mean_luminance(scene, x, y, 1, &peak);
-        }
-}
-
-/* Looking at a sky two million times takes longer than a small picture: where it may be, it is looked at less often. */
-static void find_luminances(Environment *e, const Scene *scene)
-{
-    const int level = sky_is_level(scene);
-    Longitudes longitudes;
-    if (!level && !sky_has_details(scene->sky)) {
-        look_at_blocks(e, scene);
-        return;
-    }
-    find_longitudes(&longitudes);
-    for (int y = 0; y < TABLE_HEIGHT; y++) {
-        row_luminances(scene, &longitudes, y, level ? 1 : TABLE_WIDTH, e->density[y]);
-        for (int x = 1; level && x < TABLE_WIDTH; x++)
-            e->density[y][x] = e->density[y][0];
-    }
-}
-
 static void normalize_sums(float *sums, int count)
 {
     float total = sums[count];
@@ -213,13 +125,17 @@ int environment_create(Environment **environment, const Scene *scene, RetexError
     Environment *e = malloc(sizeof *e);
     if (!e)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
+    const int looked_at = sky_is_level(scene) ? 1 : TABLE_WIDTH;
+    Longitudes longitudes;
     double total = 0;
-    find_luminances(e, scene);
+    find_longitudes(&longitudes);
     for (int y = 0; y < TABLE_HEIGHT; y++) {
         double area = (cos(PI * y / TABLE_HEIGHT) - cos(PI * (y + 1) / TABLE_HEIGHT)) * 2 * PI / TABLE_WIDTH, row = 0;
+        float *luminances = e->density[y];
+        row_luminances(scene, &longitudes, y, looked_at, luminances);
         e->conditional[y][0] = 0;
         for (int x = 0; x < TABLE_WIDTH; x++) {
-            row += e->density[y][x];
+            row += luminances[x] = luminances[x < looked_at ? x : 0];
             e->conditional[y][x + 1] = (float)row;
         }
         normalize_sums(e->conditional[y], TABLE_WIDTH);
