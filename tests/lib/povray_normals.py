@@ -77,6 +77,19 @@ uv_mapping bump_map { png "bumps.png" bump_size 3 interpolate 2 }
 uv_mapping bumps .5 scale .1
 bumps 0.4 bump_size .9 scale .2
 bumps -.6 scale .3
+square .5 scale .4
+triangular .5 scale .4
+cubic .5 scale .5
+cells .4 scale .3
+boxed 1 scale 3
+planar .8 scale 2
+cylindrical .9 scale 3
+mandel 20 .5 scale .7
+spotted .6 scale .3
+hexagon normal { bumps .5 scale .1 } normal { bumps .1 } normal { dents 1 scale .2 } scale .4
+function { sin(x*5)*.5+.5 } .5
+spiral1 3 .4 scale .5
+image_pattern { png "bumps.png" } .3 scale 2
 '''.strip().split('\n')
 RADIUS, STEP, CELL = 1.5, 4.07, 32   # of spheres; between them; pixels of each
 COLUMNS = 8
