@@ -45,6 +45,7 @@ CASES = [
     'light_source { 0, 1 area_light x, z, 5, 5 rotate 30*y scale 2 translate <1,3,-1> }',
     'light_source { <1,3,-1>, 1 looks_like { sphere { 0, .3 no_image finish { emission 0 diffuse 0 } } } }',
     THROUGH + 'box { <-.5,2,-1.5>, <1,2.2,0> } } }', THROUGH + 'box { <-2,1.2,-1.5>, <0,1.3,2> } } }',
+    THROUGH + 'box { <-4,.1,-3>, <4,.2,3> } } }',
     THROUGH + 'torus { 1, .3 translate .3*y } } }', THROUGH + 'box { <-.5,2,-1.5>, <1,2.2,0> } } translate x }',
     GROUP + '}', GROUP + 'global_lights on }', GROUP + 'global_lights off }', GROUP + 'translate -x }',
     GROUP + 'light_group { ' + INNER + 'global_lights off } global_lights on }',
