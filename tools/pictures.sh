@@ -86,23 +86,25 @@ else
     echo "$sample does not exist (package povray-examples): its pictures are unchanged" >&2
 fi
 
-# Samples of POV-Ray, from the top down as in samples.txt: POV-Ray's picture, ours, and a target retextured.
+# Samples of POV-Ray in the order of samples.txt, two in a row: POV-Ray's picture, ours, a target retextured, and the
+# scene rendered again with that texture.
 examples=/usr/share/doc/povray/examples
 if [ -d "$examples" ] && command -v povray >/dev/null; then
     rows=
     while read -r what scene target texture; do
         case $what in '#'*) continue ;; esac
         base=$sets/sample-$what
-        [ -e "$base.exr" ] || retex-render -q --lenient --size 240x180 --spp "$spp" -t "$target" "$examples/$scene.pov" \
-            --denoise -o "$base.exr"
+        sample() { retex-render -q --lenient --size 240x180 --spp "$spp" "$@" --denoise "$examples/$scene.pov"; }
+        [ -e "$base.exr" ] || sample -t "$target" -o "$base.exr"
+        [ -e "$base-again.png" ] || sample --plain --seed 1 --replace "$target=$textures/$texture" -o "$base-again.png"
         (cd "$(dirname "$examples/$scene")" &&
             povray "${scene##*/}.pov" -D +A0.1 +W240 +H180 "+O$base-povray.png" >/dev/null 2>&1 </dev/null)
         retex-combine -q "$base.exr" -o "$base.png"
         retex-combine -q "$base.exr" --texture "$target=$textures/$texture" -o "$base-retextured.png"
-        rows="$rows $base-povray.png $base.png $base-retextured.png"
+        rows="$rows $base-povray.png $base.png $base-retextured.png $base-again.png"
     done <tests/long/samples.txt
     # shellcheck disable=SC2086 # words wanted
-    oiiotool --nosoftwareattrib $rows --mosaic:pad=4 3x6 --eraseattrib ".*" -o "$out/povray-samples.jpg"
+    oiiotool --nosoftwareattrib $rows --mosaic:pad=4 8x6 --eraseattrib ".*" --compression jpeg:88 -o "$out/povray-samples.jpg"
 else
     echo "there is no povray or no $examples: povray-samples.jpg is unchanged" >&2
 fi
