@@ -64,6 +64,7 @@ PIGMENTS = [
     ('image_pattern { png "tests/data/colours-alpha.png" }', 2),
     (f'image_map {{ {COLOURS} interpolate 2 }} turbulence .3', 2),
     (f'gradient x pigment_map {{ [0 image_map {{ {COLOURS} interpolate 2 }} scale .4] [1 {Y}] }}', 2),
+    *[(f'hexagon rgb 0, rgb .5, rgb 1 scale {scale}', 6) for scale in (.3, .5, .7, 1.1)], # few points are near a corner
 ]
 
 
