@@ -47,6 +47,10 @@ $ retex-pack -q a.exr -o a.retex; retex-combine -q a.retex --texture Floor=brick
 $ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
 > box.pov?spp=1&size=16x12&aov=depth,normal :   16 x   12, 3 channel, float pov (3 subimages)
 
+# A flag that is set to 0 is not set: numbers of images.
+$ for p in '' '&plain=0' '&plain=1' '&plain=1&no_ambient=0'; do oiiotool -a "box.pov?spp=1&size=8x8&targets=Floor$p" -o flag.exr 2>err; oiiotool --info -a flag.exr | grep -c ' subimage '; done | xargs
+> 22 22 0 0
+
 # What is wrong with options.
 $ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z, ]*, not/expected LIST, not/p'
 > oiiotool ERROR: read : "box.pov?aov=smell": aov: expected LIST, not `smell`
