@@ -115,6 +115,40 @@ static void the_first_of_equals_wins(void **state)
         }
 }
 
+/* A disc lies between two triangles, nearer to both than float tells apart. The nearest of the three is hit, whichever
+ * of the triangles Embree reports. */
+static void layers_closer_than_float_keep_their_order(void **state)
+{
+    const double gap = 1e-9;
+    MeshFace face = {{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}, -1};
+    Vec3 corners[2][3];
+    Mesh layers[2];
+    Primitive primitives[3];
+    Scene scene;
+
+    (void)state;
+    for (int near = 0; near < 2; near++) {
+        for (int k = 0; k < 2; k++) {
+            double z = 1 + (k == near ? 0 : 2 * gap);
+            corners[k][0] = vec3(-4, -3, z), corners[k][1] = vec3(4, -3, z), corners[k][2] = vec3(0, 5, z);
+            layers[k] = (Mesh){.vertices = corners[k], .nvertices = 3, .faces = &face, .nfaces = 1};
+            primitives[k] = shape(&shape_mesh, transform_identity());
+            primitives[k].shape.mesh = &layers[k];
+        }
+        primitives[2] = shape(&shape_disc, transform_translate(vec3(0, 0, 1 + gap)));
+        primitives[2].shape.r0 = 4, primitives[2].shape.r1 = 0;
+        Accel *accel = create(&scene, primitives, 3);
+        for (int i = 0; i < 200; i++) {
+            Ray ray = {vec3(uniform() - 0.5, uniform() - 0.5, 0.2 * uniform()), {0, 0, 1}, 0, INFINITY};
+            Hit hit;
+            ray.direction = vec_normalize(vec3(0.2 * uniform(), 0.2 * uniform(), 1));
+            assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit));
+            assert_int_equal(hit.primitive, near);
+        }
+        accel_close(&accel);
+    }
+}
+
 /* ---- against every triangle ---- */
 
 /* Distance, or infinity; *edge: how near the ray passes to the triangle's edge, in barycentrics. */
@@ -475,6 +509,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_of_equals_wins),
+        cmocka_unit_test(layers_closer_than_float_keep_their_order),
         cmocka_unit_test(agrees_with_every_triangle),
         cmocka_unit_test(closed_meshes_are_tight),
         cmocka_unit_test(no_self_intersection),
