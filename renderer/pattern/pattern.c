@@ -35,13 +35,6 @@ int pattern_find(const char *keyword)
 
 /* ---- values ---- */
 
-static double triangle_wave(double x)
-{
-    double offset = x - floor(x);
-
-    return offset >= 0.5 ? 2 * (1 - offset) : 2 * offset;
-}
-
 static double apply_wave(const Pattern *pattern, double value)
 {
     if (pattern->frequency != 0)

@@ -35,7 +35,7 @@ struct PatternOps {
     int colors; /* it chooses among so many colours; 0: it makes a value, which a wave and a color_map turn into one */
     const ColorMap *map; /* its colours where none are written, or NULL: black to white */
     WaveKind wave;       /* where none is written */
-    int has_turbulence; /* value() uses Pattern.turbulence in its own way, so that the point is not moved by it */
+    int has_turbulence;  /* value() uses Pattern.turbulence in its own way, so that the point is not moved by it */
     /* At a point that is warped already: which colour, from 0; or the value, before the wave. NULL: not supported. */
     double (*value)(const Pattern *pattern, const PatternPoint *point);
     const char *name; /* in the warning that it is not supported */
@@ -48,9 +48,13 @@ int pattern_find(const char *keyword); /* its index, or -1 */
 
 /* POV-Ray's defaults: no turbulence, no warps, frequency 1. */
 #define TURBULENCE_INIT ((Turbulence){.lambda = 2, .omega = 0.5, .octaves = 6})
-#define PATTERN_INIT \
-    ((Pattern){.frequency = 1, .wave_exponent = 1, .turbulence = TURBULENCE_INIT, .agate_turbulence = 1, \
-               .control = {1, 1}, .crackle = {.form = {-1, 1, 0}, .metric = 2}})
+#define PATTERN_INIT                                                                                                   \
+    ((Pattern){.frequency = 1,                                                                                         \
+               .wave_exponent = 1,                                                                                     \
+               .turbulence = TURBULENCE_INIT,                                                                          \
+               .agate_turbulence = 1,                                                                                  \
+               .control = {1, 1},                                                                                      \
+               .crackle = {.form = {-1, 1, 0}, .metric = 2}})
 
 /* POV-Ray's order: from the point through the warps, the last written first, and turbulence; the value there; then
  * frequency, phase and wave. The value is 0..1, or which colour. */
@@ -59,6 +63,12 @@ double pattern_value(const Pattern *pattern, const PatternPoint *point);
  * point that went it. */
 Vec3 pattern_warp(const Pattern *pattern, Vec3 p);
 double pattern_value_at(const Pattern *pattern, const PatternPoint *warped);
+
+static inline double triangle_wave(double x)
+{
+    const double offset = x - floor(x);
+    return offset >= 0.5 ? 2 * (1 - offset) : 2 * offset;
+}
 
 static inline int pattern_is_warped(const Pattern *pattern)
 {

@@ -41,6 +41,7 @@
     X(slope) \
     X(spherical) \
     X(spiral1) \
+    X(spiral2) \
     X(spotted) \
     X(square) \
     X(triangular) \
@@ -53,7 +54,6 @@
 #define UNSUPPORTED_PATTERNS(X) \
     X(pavement, NONE, 0, "pavement") \
     X(projection, BLOCK, 0, "projection") \
-    X(spiral2, FLOAT, 0, "spiral") \
     X(tiling, FLOAT, 0, "tiling")
 
 #define X(name) extern const PatternOps pattern_##name;

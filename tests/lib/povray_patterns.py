@@ -96,7 +96,11 @@ bozo turbulence .3 warp { turbulence .5 } scale 2
 bozo warp { turbulence .3 } warp { turbulence .5 } scale 2
 bozo frequency -2 phase .2
 bozo frequency 0 phase .2
-bozo translate <.1,.2,.3> scale 2 warp { spherical } rotate <10,20,30> warp { repeat x } turbulence .2 scale .4'''.split('\n')
+bozo translate <.1,.2,.3> scale 2 warp { spherical } rotate <10,20,30> warp { repeat x } turbulence .2 scale .4
+spiral1 1
+spiral1 3 frequency 2
+spiral2 2
+spiral2 5 ramp_wave phase .3'''.split('\n')
 PIGMENTS = '''agate
 bozo
 granite
