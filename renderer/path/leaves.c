@@ -5,12 +5,13 @@
 #include "pattern/pattern.h"
 #include "shade/material.h"
 #include "shade/pigment.h"
+#include "shade/working_space.h"
 
 /* Where leaves are asked for. */
 typedef struct Point {
     const Surface *surface;
     Vec3 wo;
-    int merge;
+    const WorkingSpace *space; /* of the scene; NULL: linear */
 } Point;
 
 static void add_texture(Leaves *leaves, const Point *at, const Texture *texture, Leaf from);
@@ -34,42 +35,9 @@ int leaf_passes(const Leaf *leaf)
 
 /* ---- leaves ---- */
 
-static int same_finish(const Texture *a, const Texture *b)
+static void add_leaf(Leaves *leaves, const Leaf *leaf)
 {
-    return a->normal == b->normal && (a->finish == b->finish || memcmp(a->finish, b->finish, sizeof *a->finish) == 0);
-}
-
-/* What an opaque surface scatters and emits is linear in its colour. */
-static int may_merge(const Leaf *leaf)
-{
-    return leaf->target < 0 && leaf->above < 0 && !leaf->is_layer && is_opaque(leaf);
-}
-
-static Rgb tinted(const Leaf *leaf, float weight)
-{
-    return rgb_scale(rgb_mul(rgb(leaf->color.r, leaf->color.g, leaf->color.b), leaf->tint), weight);
-}
-
-static int merge_leaf(Leaves *leaves, const Leaf *leaf)
-{
-    for (int k = 0; k < leaves->count && may_merge(leaf); k++) {
-        Leaf *to = &leaves->leaf[k];
-        const float weight = to->weight + leaf->weight;
-        if (!may_merge(to) || !same_finish(to->texture, leaf->texture) || !(weight > 0))
-            continue;
-        const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
-        to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};
-        to->tint = rgb_grey(1);
-        to->neutral = (to->neutral * to->weight + leaf->neutral * leaf->weight) / weight;
-        to->weight = weight, to->chance += leaf->chance;
-        return 1;
-    }
-    return 0;
-}
-
-static void add_leaf(Leaves *leaves, const Point *at, const Leaf *leaf)
-{
-    if (leaves->count < LEAVES_MAX && !(at->merge && merge_leaf(leaves, leaf)))
+    if (leaves->count < LEAVES_MAX)
         leaves->leaf[leaves->count++] = *leaf;
 }
 
@@ -103,7 +71,7 @@ static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i
 }
 
 /* Goes below a layer. */
-static void add_above(Leaves *leaves, Leaf *from, float d, float i)
+static void add_above(Leaves *leaves, const Point *at, Leaf *from, float d, float i)
 {
     const float sum = d + i;
     const Rgb c = rgb(from->color.r, from->color.g, from->color.b);
@@ -111,7 +79,9 @@ static void add_above(Leaves *leaves, Leaf *from, float d, float i)
     d /= sum, i /= sum;
     from->neutral *= d * NEUTRAL_ALBEDO + i;
     if (from->target < 0 || d == 0) {
+        const Rgb working = working_encode(at->space, c);
         from->tint = rgb_mul(from->tint, rgb_add(rgb_scale(c, d), rgb_grey(i)));
+        from->working_tint = rgb_mul(from->working_tint, rgb_add(rgb_scale(working, d), rgb_grey(i)));
     } else if (leaves->nabove < LEAVES_MAX) {
         leaves->above[leaves->nabove] = (LayerAbove){from->texture, from->target, from->color, d, i, from->above};
         from->above = leaves->nabove++;
@@ -125,7 +95,7 @@ static int add_layer(Leaves *leaves, const Point *at, Leaf *from)
     float d, i, coat;
     if (is_opaque(from) || finish_transmits(finish)) {
         from->chance = from->weight;
-        add_leaf(leaves, at, from);
+        add_leaf(leaves, from);
         return 0;
     }
     layer_passage(from, at, &d, &i, &coat);
@@ -136,10 +106,10 @@ static int add_layer(Leaves *leaves, const Point *at, Leaf *from)
     else
         self.is_layer = 1, self.chance = self.weight * (opacity + coat);
     if (self.chance > 0)
-        add_leaf(leaves, at, &self);
+        add_leaf(leaves, &self);
     if (!(d + i > 0))
         return 0;
-    add_above(leaves, from, d, i);
+    add_above(leaves, at, from, d, i);
     return 1;
 }
 
@@ -188,7 +158,7 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
     const int last = tree->count - 1, chooses = tree->selector->pattern.ops->colors > 0;
     const double value = pigment_value(tree->selector, &point, selector_uv(at, tree->selector));
     const Surface warped = warped_surface(at, tree);
-    const Point within = {&warped, at->wo, at->merge};
+    const Point within = {&warped, at->wo, at->space};
     int k = 0;
     if (chooses) {
         add_part(leaves, &within, tree, value < last ? (int)value : last, 1, from);
@@ -219,7 +189,7 @@ static void add_texture(Leaves *leaves, const Point *at, const Texture *texture,
     if (!tree) {
         set_color(&from, at, texture);
         from.chance = from.weight;
-        add_leaf(leaves, at, &from);
+        add_leaf(leaves, &from);
         return;
     }
     switch (tree->kind) {
@@ -239,19 +209,104 @@ static void add_texture(Leaves *leaves, const Point *at, const Texture *texture,
     }
 }
 
-void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
-{
-    const Point at = {surface, wo, merge};
-    leaves->count = leaves->nabove = 0;
-    add_texture(leaves, &at, surface->texture, (Leaf){.weight = 1, .tint = {1, 1, 1}, .neutral = 1, .above = -1});
-}
-
-/* ---- choosing ---- */
+/* ---- leaves together ---- */
 
 static float seen(const Leaf *leaf)
 {
     return leaf->weight * (leaf->is_layer ? not_negative(1 - leaf->color.filter - leaf->color.transmit) : 1);
 }
+
+static Rgb tinted(const Leaf *leaf, float weight)
+{
+    return rgb_scale(rgb_mul(rgb(leaf->color.r, leaf->color.g, leaf->color.b), leaf->tint), weight);
+}
+
+/* POV-Ray adds colours as numbers of the working space. */
+static int blends_as_written(const Leaf *leaf)
+{
+    return leaf->target < 0 && leaf->above < 0 && (leaf->is_layer || leaf->color.filter <= 0);
+}
+
+static float ratio(float a, float b)
+{
+    return b > 0 ? a / b : 1;
+}
+
+/* Darkens the colours of leaves so that they show together what POV-Ray shows. Light that passes is none of it, and
+ * what targets show stays linear in their albedo. */
+static void blend_in_working_space(Leaves *leaves, const WorkingSpace *space)
+{
+    Rgb written = {0, 0, 0}, linear = {0, 0, 0};
+    float weights = 0;
+    for (int k = 0; k < leaves->count; k++) {
+        const Leaf *leaf = &leaves->leaf[k];
+        const float weight = blends_as_written(leaf) ? seen(leaf) : 0;
+        const Rgb c = rgb(leaf->color.r, leaf->color.g, leaf->color.b);
+        written = rgb_add(written, rgb_scale(rgb_mul(working_encode(space, c), leaf->working_tint), weight));
+        linear = rgb_add(linear, tinted(leaf, weight));
+        weights += weight;
+    }
+    if (!(weights > 0))
+        return;
+    const Rgb sum = rgb_scale(working_decode(space, rgb_scale(written, 1 / weights)), weights);
+    const Rgb by = rgb(ratio(sum.r, linear.r), ratio(sum.g, linear.g), ratio(sum.b, linear.b));
+    for (int k = 0; k < leaves->count; k++) {
+        Rgbft *c = &leaves->leaf[k].color;
+        if (blends_as_written(&leaves->leaf[k]))
+            c->r *= by.r, c->g *= by.g, c->b *= by.b;
+    }
+}
+
+static int same_finish(const Texture *a, const Texture *b)
+{
+    return a->normal == b->normal && (a->finish == b->finish || memcmp(a->finish, b->finish, sizeof *a->finish) == 0);
+}
+
+/* What an opaque surface scatters and emits is linear in its colour. */
+static int may_merge(const Leaf *leaf)
+{
+    return leaf->target < 0 && leaf->above < 0 && !leaf->is_layer && is_opaque(leaf);
+}
+
+static int merge_leaf(Leaves *leaves, const Leaf *leaf)
+{
+    for (int k = 0; k < leaves->count && may_merge(leaf); k++) {
+        Leaf *to = &leaves->leaf[k];
+        const float weight = to->weight + leaf->weight;
+        if (!may_merge(to) || !same_finish(to->texture, leaf->texture) || !(weight > 0))
+            continue;
+        const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
+        to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};
+        to->tint = rgb_grey(1);
+        to->neutral = (to->neutral * to->weight + leaf->neutral * leaf->weight) / weight;
+        to->weight = weight, to->chance += leaf->chance;
+        return 1;
+    }
+    return 0;
+}
+
+static void merge_leaves(Leaves *leaves)
+{
+    const int count = leaves->count;
+    leaves->count = 0;
+    for (int k = 0; k < count; k++)
+        if (!merge_leaf(leaves, &leaves->leaf[k]))
+            leaves->leaf[leaves->count++] = leaves->leaf[k];
+}
+
+void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
+{
+    const Point at = {surface, wo, surface->texture->pigment->space};
+    leaves->count = leaves->nabove = 0;
+    add_texture(leaves, &at, surface->texture,
+                (Leaf){.weight = 1, .tint = {1, 1, 1}, .working_tint = {1, 1, 1}, .neutral = 1, .above = -1});
+    if (leaves->count > 1 && !working_is_linear(at.space))
+        blend_in_working_space(leaves, at.space);
+    if (merge)
+        merge_leaves(leaves);
+}
+
+/* ---- choosing ---- */
 
 float leaves_share(const Leaves *leaves, int k)
 {

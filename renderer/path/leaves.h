@@ -3,7 +3,10 @@
  * Of a map, parts count by the blend of its entries. Of layers, each hides what is below by its opacity: a layer of
  * colour c shows c (1 - filter - transmit), and multiplies what is below by filter c + transmit. What a tree shows is
  * the sum of what its leaves show, each multiplied by its weight and by the colours of the layers above it. Weights
- * depend on opacity and place alone, never on the colour of a target. */
+ * depend on opacity and place alone, never on the colour of a target.
+ *
+ * POV-Ray adds and multiplies these colours in the scene's working space. Where that is not linear, the colours of
+ * leaves that are no targets, and are not below one, are made darker so that their sum is POV-Ray's. */
 #ifndef RENDERER_PATH_LEAVES_H
 #define RENDERER_PATH_LEAVES_H
 
@@ -25,12 +28,13 @@ typedef struct Leaf {
     const Texture *texture;
     int target;
     Rgbft color;
-    float weight;  /* that its light is multiplied by */
-    float chance;  /* of being chosen, in proportion to the other leaves' */
-    Rgb tint;      /* by the layers above that are no targets */
-    float neutral; /* what all layers above do to light, with NEUTRAL_ALBEDO */
-    int above;     /* index of the lowest target above it, or -1 */
-    int is_layer;  /* others lie below: its filter and transmit say how opaque it is, but nothing passes by itself */
+    float weight;     /* that its light is multiplied by */
+    float chance;     /* of being chosen, in proportion to the other leaves' */
+    Rgb tint;         /* by the layers above that are no targets */
+    Rgb working_tint; /* the same of colours of the working space */
+    float neutral;    /* what all layers above do to light, with NEUTRAL_ALBEDO */
+    int above;        /* index of the lowest target above it, or -1 */
+    int is_layer;     /* others lie below: its filter and transmit say how opaque it is, but nothing passes by itself */
 } Leaf;
 
 typedef struct Leaves {

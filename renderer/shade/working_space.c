@@ -17,19 +17,19 @@ static float encode(const WorkingSpace *space, float x)
     return (float)copysign(space->kind == WORKING_SRGB ? retex_srgb_encode(v) : pow(v, 1 / space->gamma), x);
 }
 
-static int is_linear(const WorkingSpace *space)
+int working_is_linear(const WorkingSpace *space)
 {
     return !space || space->kind == WORKING_LINEAR;
 }
 
 Rgb working_decode(const WorkingSpace *space, Rgb c)
 {
-    return is_linear(space) ? c : rgb(decode(space, c.r), decode(space, c.g), decode(space, c.b));
+    return working_is_linear(space) ? c : rgb(decode(space, c.r), decode(space, c.g), decode(space, c.b));
 }
 
 Rgb working_encode(const WorkingSpace *space, Rgb c)
 {
-    return is_linear(space) ? c : rgb(encode(space, c.r), encode(space, c.g), encode(space, c.b));
+    return working_is_linear(space) ? c : rgb(encode(space, c.r), encode(space, c.g), encode(space, c.b));
 }
 
 static Rgbft with_color(Rgbft from, Rgb c)
@@ -39,10 +39,10 @@ static Rgbft with_color(Rgbft from, Rgb c)
 
 Rgbft working_decode_pigment(const WorkingSpace *space, Rgbft c)
 {
-    return is_linear(space) ? c : with_color(c, working_decode(space, rgb(c.r, c.g, c.b)));
+    return working_is_linear(space) ? c : with_color(c, working_decode(space, rgb(c.r, c.g, c.b)));
 }
 
 Rgbft working_encode_pigment(const WorkingSpace *space, Rgbft c)
 {
-    return is_linear(space) ? c : with_color(c, working_encode(space, rgb(c.r, c.g, c.b)));
+    return working_is_linear(space) ? c : with_color(c, working_encode(space, rgb(c.r, c.g, c.b)));
 }

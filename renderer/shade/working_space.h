@@ -4,7 +4,8 @@
 
 #include "scene/scene.h"
 
-Rgb working_decode(const WorkingSpace *space /* NULL: linear */, Rgb color); /* to scene-linear */
+int working_is_linear(const WorkingSpace *space /* NULL: linear */);
+Rgb working_decode(const WorkingSpace *space, Rgb color); /* to scene-linear */
 Rgb working_encode(const WorkingSpace *space, Rgb linear);
 
 /* The same of pigments' colours: filter and transmit are shares, not colours. */

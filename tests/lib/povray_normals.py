@@ -166,4 +166,5 @@ def main(statements):
                 print('at', *(f'{v:.6f}' for v in at), *(f'{v:.6f}' for v in base), *(f'{v:.5f}' for v in n))
 
 
-main(sys.argv[1:] or STATEMENTS)
+if __name__ == '__main__':
+    main(sys.argv[1:] or STATEMENTS)
