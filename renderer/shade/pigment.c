@@ -77,7 +77,7 @@ static Vec2 warped_image_uv(const Pigment *pigment, Vec3 p)
 
 static Rgbft image_color(const Pigment *pigment, Vec3 p)
 {
-    return image_lookup(pigment->image, warped_image_uv(pigment, p));
+    return image_lookup(pigment, warped_image_uv(pigment, p));
 }
 
 Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
@@ -138,7 +138,7 @@ Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
 {
     const Vec2 at = pigment_image_uv(pigment->image, p);
     *target = pigment->uv_mapping ? (Vec2){p.x, p.y} : at;
-    return pattern_is_warped(&pigment->pattern) ? image_color(pigment, p) : image_lookup(pigment->image, at);
+    return pattern_is_warped(&pigment->pattern) ? image_color(pigment, p) : image_lookup(pigment, at);
 }
 
 void pigment_prefetch_image(const Pigment *pigment, Vec3 p)

@@ -28,7 +28,7 @@ static void bake_row(void *context, int y, int thread)
     for (int x = 0; x < b->dst->width; x++, pixel += 3) {
         double u = b->low[0] + (b->high[0] - b->low[0]) * (x + 0.5) / b->dst->width;
         Rgbft c = pigment->kind == PIGMENT_IMAGE && !pigment->uv_mapping
-                      ? image_lookup(pigment->image, (Vec2){u, v})
+                      ? image_lookup(pigment, (Vec2){u, v})
                       : pigment_pattern(pigment, &(PatternPoint){.p = from_uv(pigment, b->axis, u, v)}, (Vec2){u, v});
         pixel[0] = c.r, pixel[1] = c.g, pixel[2] = c.b;
     }

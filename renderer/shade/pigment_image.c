@@ -1,6 +1,7 @@
 /* image_map: projections and look-up, as POV-Ray's (measured): UV (0,0) is the lower left corner of the image, texel
- * centres are at (i + 0.5) / width, `interpolate` wraps round the edges. */
+ * centres are at (i + 0.5) / width, `interpolate` wraps round the edges and blends numbers of the working space. */
 #include "shade/pigment_image.h"
+#include "shade/working_space.h"
 
 /* Round the y axis, 0..1. */
 static double turn(Vec3 p)
@@ -49,9 +50,10 @@ static int wrapped(int i, int n)
     return (i %= n) < 0 ? i + n : i;
 }
 
-/* Column i, row j from below, of the image repeated. */
-static Rgbft texel(const ImageMap *image, int i, int j)
+/* Column i, row j from below, of the image repeated; in the working space. */
+static Rgbft texel(const Pigment *pigment, int i, int j)
 {
+    const ImageMap *image = pigment->image;
     const int x = wrapped(i, image->width), y = wrapped(j, image->height);
     const float *through = image->transparency
                                ? image->transparency[(size_t)(image->height - 1 - y) * (size_t)image->width + (size_t)x]
@@ -59,8 +61,9 @@ static Rgbft texel(const ImageMap *image, int i, int j)
     float rgba[4];
 
     retex_texture_nearest(image->texture, (x + 0.5) / image->width, (y + 0.5) / image->height, rgba);
-    return with_transparency(image, rgba, through ? through[0] : image->filter_all,
-                             through ? through[1] : image->transmit_all);
+    const Rgbft c = with_transparency(image, rgba, through ? through[0] : image->filter_all,
+                                      through ? through[1] : image->transmit_all);
+    return working_encode_pigment(pigment->space, c);
 }
 
 static void add(Rgbft *sum, Rgbft c, double weight)
@@ -72,12 +75,12 @@ static void add(Rgbft *sum, Rgbft c, double weight)
 }
 
 /* From the centre of texel (i, j) to that of (i + 1, j + 1). */
-static Rgbft bilinear(const ImageMap *image, int i, int j, double x, double y)
+static Rgbft bilinear(const Pigment *pigment, int i, int j, double x, double y)
 {
     Rgbft sum = {0};
 
     for (int k = 0; k < 4; k++)
-        add(&sum, texel(image, i + (k & 1), j + (k >> 1)), (k & 1 ? x : 1 - x) * (k >> 1 ? y : 1 - y));
+        add(&sum, texel(pigment, i + (k & 1), j + (k >> 1)), (k & 1 ? x : 1 - x) * (k >> 1 ? y : 1 - y));
     return sum;
 }
 
@@ -90,7 +93,7 @@ static void cubic_weights(double t, double weights[4])
     weights[3] = t * t * (-0.5 + 0.5 * t);
 }
 
-static Rgbft bicubic(const ImageMap *image, int i, int j, double x, double y)
+static Rgbft bicubic(const Pigment *pigment, int i, int j, double x, double y)
 {
     double across[4], up[4];
     Rgbft sum = {0};
@@ -98,12 +101,12 @@ static Rgbft bicubic(const ImageMap *image, int i, int j, double x, double y)
     cubic_weights(x, across);
     cubic_weights(y, up);
     for (int k = 0; k < 16; k++)
-        add(&sum, texel(image, i - 1 + k % 4, j - 1 + k / 4), across[k % 4] * up[k / 4]);
+        add(&sum, texel(pigment, i - 1 + k % 4, j - 1 + k / 4), across[k % 4] * up[k / 4]);
     return sum;
 }
 
 /* By the inverse squares of the distances to the four texels. */
-static Rgbft by_distance(const ImageMap *image, int i, int j, double x, double y)
+static Rgbft by_distance(const Pigment *pigment, int i, int j, double x, double y)
 {
     double weights[4], total = 0;
     Rgbft sum = {0};
@@ -112,41 +115,44 @@ static Rgbft by_distance(const ImageMap *image, int i, int j, double x, double y
         const double dx = x - (k & 1), dy = y - (k >> 1), square = dx * dx + dy * dy;
 
         if (square < 1e-12)
-            return texel(image, i + (k & 1), j + (k >> 1));
+            return texel(pigment, i + (k & 1), j + (k >> 1));
         total += weights[k] = 1 / square;
     }
     for (int k = 0; k < 4; k++)
-        add(&sum, texel(image, i + (k & 1), j + (k >> 1)), weights[k] / total);
+        add(&sum, texel(pigment, i + (k & 1), j + (k >> 1)), weights[k] / total);
     return sum;
 }
 
 /* Between texels; or the texel itself, where the image's palette tells its transparency. */
-static Rgbft interpolate(const ImageMap *image, Vec2 uv)
+static Rgbft interpolate(const Pigment *pigment, Vec2 uv)
 {
+    const ImageMap *image = pigment->image;
     const double offset = image->interpolate ? 0.5 : 0;
     const double x = (uv.u - floor(uv.u)) * image->width - offset, y = (uv.v - floor(uv.v)) * image->height - offset;
     const int i = (int)floor(x), j = (int)floor(y);
 
     switch (image->interpolate) {
     case 0:
-        return texel(image, i, j);
+        return texel(pigment, i, j);
     case 3:
-        return bicubic(image, i, j, x - i, y - j);
+        return bicubic(pigment, i, j, x - i, y - j);
     case 4:
-        return by_distance(image, i, j, x - i, y - j);
+        return by_distance(pigment, i, j, x - i, y - j);
     default:
-        return bilinear(image, i, j, x - i, y - j);
+        return bilinear(pigment, i, j, x - i, y - j);
     }
 }
 
-Rgbft image_lookup(const ImageMap *image, Vec2 uv)
+Rgbft image_lookup(const Pigment *pigment, Vec2 uv)
 {
+    const ImageMap *image = pigment->image;
+    const int blends = image->interpolate && !working_is_linear(pigment->space);
     float rgba[4];
 
     if (image_is_outside(image, uv))
         return (Rgbft){1, 1, 1, 0, 1};
-    if (image->interpolate > 2 || image->transparency)
-        return interpolate(image, uv);
+    if (image->interpolate > 2 || image->transparency || blends)
+        return working_decode_pigment(pigment->space, interpolate(pigment, uv));
     if (image->interpolate)
         retex_texture_point(image->texture, uv.u, uv.v, rgba);
     else

@@ -5,14 +5,16 @@
 
 A line `scene HEAD`, with the working space, is followed by lines `texture STATEMENTS`, and these by lines `at X Y R G B`:
 the colour, scene-linear, at a point of the plane z = 0, which faces -z. The colours are those of a picture in which
-surfaces shine by `ambient` alone."""
+surfaces shine by `ambient` alone. Of scenes before 3.7, filters are left out: POV-Ray then takes a dark filter as more
+opaque."""
 import os
 import subprocess
 import tempfile
 from povray_normals import read_png16
 
 HEADS = ['#version 3.7; global_settings { assumed_gamma 1 }', '#version 3.7; global_settings { assumed_gamma 2.2 }',
-         '#version 3.7; global_settings { assumed_gamma srgb }', '#version 3.7;']
+         '#version 3.7; global_settings { assumed_gamma srgb }', '#version 3.7;', '#version 3.5;',
+         '#version 3.6; global_settings { assumed_gamma 1.5 }', '#version 3.6; global_settings { assumed_gamma 1 }']
 TEXTURES = '''
 texture { pigment { rgb <.9,.4,.1> } } texture { pigment { rgbt <.1,.3,.8,.6> } }
 texture { pigment { rgb <.9,.4,.1> } } texture { pigment { rgbf <.1,.3,.8,.6> } }
@@ -22,6 +24,9 @@ texture { pigment { rgb <.1,.8,.3> } } texture { pigment { gradient x color_map 
 texture { gradient x texture_map { [0 pigment { rgb <.9,.4,.1> }] [1 pigment { rgb <.1,.5,.9> } finish { phong .1 }] } }
 texture { average texture_map { [1 pigment { rgb <.9,.4,.1> }] [3 pigment { gradient y }] } }
 texture { pigment { average pigment_map { [1 rgb <.9,.4,.1>] [3 gradient y] } } }
+texture { pigment { image_map { png "colours.png" interpolate 2 } } }
+texture { pigment { image_map { png "colours.png" interpolate 3 } } }
+texture { pigment { image_map { png "colours.png" interpolate 4 } } }
 '''.strip().split('\n')
 CELL = 5   # pixels of a texture
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../data')
@@ -55,6 +60,8 @@ def main():
         rows = picture(head)
         print('scene', head)
         for k, texture in enumerate(TEXTURES):
+            if 'rgbf' in texture and '3.7' not in head:
+                continue
             print('texture', texture.strip())
             for j in range(CELL):
                 i = 2 * j % CELL

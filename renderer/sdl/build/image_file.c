@@ -6,17 +6,24 @@
 #include "base/digest.h"
 #include "sdl/build/builder.h"
 
+/* How a file's numbers become light: NULL or the name of their colour space, and a power. */
+typedef struct Numbers {
+    const char *colorspace;
+    double gamma;
+} Numbers;
+
 /* In scenes before 3.7 the numbers of 8- and 16-bit files are colours of the working space, as they are. */
-static const char *colorspace_of(Sdl *sdl, const ParsedImage *image)
+static Numbers numbers_of(Sdl *sdl, const ParsedImage *image)
 {
     const Builder *builder = builder_of(sdl);
     const double version = builder->has_assumed_gamma ? builder->gamma_version : sdl_version(sdl);
+    const WorkingSpace space = working_space(sdl);
     const char *dot = strrchr(image->map.path, '.');
     int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
                            strcmp(dot, ".HDR") == 0);
-    if (image->working && !is_float && version < 3.7 && working_space(sdl).kind == WORKING_LINEAR)
-        return "linear";
-    return image->colorspace[0] ? image->colorspace : NULL;
+    if (image->working && !is_float && version < 3.7 && space.kind != WORKING_SRGB)
+        return (Numbers){"linear", space.kind == WORKING_POWER ? space.gamma : 1};
+    return (Numbers){image->colorspace[0] ? image->colorspace : NULL, image->gamma};
 }
 
 static int has_alpha(const RetexImage *pixels)
@@ -65,8 +72,9 @@ static void set_transparency(Sdl *sdl, ParsedImage *image)
 
 static int same_image(Sdl *sdl, const ParsedImage *a, const ParsedImage *b)
 {
-    const char *x = colorspace_of(sdl, a), *y = colorspace_of(sdl, b);
-    return strcmp(a->map.path, b->map.path) == 0 && strcmp(x ? x : "", y ? y : "") == 0 && a->gamma == b->gamma;
+    const Numbers x = numbers_of(sdl, a), y = numbers_of(sdl, b);
+    return strcmp(a->map.path, b->map.path) == 0 && x.gamma == y.gamma &&
+           strcmp(x.colorspace ? x.colorspace : "", y.colorspace ? y.colorspace : "") == 0;
 }
 
 static void add_image(Sdl *sdl, ParsedImage *image)
@@ -113,12 +121,13 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
     RetexError err = {0};
     sdl_add_file(sdl, map->path);
     const SdlOptions *options = sdl_options(sdl);
+    const Numbers numbers = numbers_of(sdl, image);
     ImageWarning warning = {sdl, image};
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     spec.budget = options->budget;
     snprintf(spec.image, sizeof spec.image, "%s", map->path);
     const RetexReadParams params = {.size = sizeof params,
-                                    .colorspace = colorspace_of(sdl, image),
+                                    .colorspace = numbers.colorspace,
                                     .access = sdl_access(sdl),
                                     .budget = options->budget,
                                     .pixel_bytes = IMAGE_PEAK_BYTES,
@@ -126,8 +135,8 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
                                     .warn_context = &warning};
     sdl_step(sdl, 1);
     if (retex_image_read(&pixels, map->path, &params, options->nthreads, &err) == 0) {
-        if (image->gamma != 1)
-            apply_gamma(&pixels, image->gamma);
+        if (numbers.gamma != 1)
+            apply_gamma(&pixels, numbers.gamma);
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
         map->height = pixels.height;
