@@ -9,8 +9,8 @@ set -eu
 
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
-# reads and writes manifests, libisal-dev deflates and inflates, libfreetype-dev reads the fonts of text in scenes,
-# libpng-dev palettes of pictures.
+# reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libfreetype-dev reads the fonts of text in
+# scenes, libpng-dev palettes of pictures.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -27,6 +27,7 @@ pkg blosc libblosc-dev
 pkg jansson libjansson-dev
 pkg zlib zlib1g-dev
 pkg libisal libisal-dev
+pkg libdeflate libdeflate-dev
 pkg freetype2 libfreetype-dev
 pkg libpng libpng-dev
 file /usr/share/fonts/truetype/povray/timrom.ttf fonts-povray
@@ -121,10 +122,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh. Delete this file after other versions of the libraries have been installed."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg blosc zlib libisal)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg blosc zlib libisal libdeflate)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal libdeflate)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal libdeflate) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z) $(cflags freetype2 libpng)"

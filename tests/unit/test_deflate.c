@@ -1,5 +1,5 @@
-/* Deflate: zlib inflates the data that the library deflated, of any bytes, any length and in pieces. Inflate: the
- * library inflates the data that zlib deflated. Checksums are those of zlib. */
+/* Deflate: zlib decompresses the streams that the library compressed, of any bytes, any length, whole or in pieces. The
+ * library decompresses the streams that zlib compressed. Checksums are those of zlib. */
 #include "lib_test.h"
 
 #include <stdlib.h>
@@ -78,18 +78,11 @@ static void test_comes_back(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room); /* exactly, so that a sanitizer sees what lies beyond */
         assert_non_null(packed);
-        const size_t whole = retex_deflate(NULL, packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
         assert_true(whole > 0 && whole <= room);
         check_inflates(packed, whole, count);
         free(packed);
     }
-}
-
-static size_t deflate_piece(int stored, unsigned char *to, size_t room, const unsigned char *from, size_t count,
-                            int is_last)
-{
-    return stored ? retex_deflate_stored(to, room, from, count, is_last)
-                  : retex_deflate(NULL, to, room, from, count, is_last);
 }
 
 /* Two pieces of one stream; the first ends at a whole byte. */
@@ -103,12 +96,10 @@ static void test_pieces(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        for (int stored = 0; stored < 4; stored++) { /* one of the pieces, or both */
-            size_t at = deflate_piece(stored & 1, packed, room, bytes, first, 0);
-            assert_true(at > 0);
-            at += deflate_piece(stored & 2, packed + at, room - at, bytes + first, count - first, 1);
-            check_inflates(packed, at, count);
-        }
+        size_t at = retex_deflate(packed, room, bytes, first, 0);
+        assert_true(at > 0);
+        at += retex_deflate(packed + at, room - at, bytes + first, count - first, 1);
+        check_inflates(packed, at, count);
         free(packed);
     }
 }
@@ -128,11 +119,11 @@ static void test_same_again(void **state)
         for (size_t i = step; i < count; i++) /* repetitions, not quite whole */
             if (round % 2 && test_random(&seed) < 0.9)
                 bytes[i] = bytes[i - step];
-        const size_t packed_bytes = retex_deflate(NULL, first, room, bytes, count, 1);
+        const size_t packed_bytes = retex_deflate(first, room, bytes, count, 1);
         memcpy(moved + round % 64, bytes, count);
-        retex_deflate(NULL, again, room, back, (size_t)(5000 * test_random(&seed)), 1);
+        retex_deflate(again, room, back, (size_t)(5000 * test_random(&seed)), 1);
         free(hole);
-        assert_int_equal(retex_deflate(NULL, again, room, moved + round % 64, count, 1), packed_bytes);
+        assert_int_equal(retex_deflate(again, room, moved + round % 64, count, 1), packed_bytes);
         assert_memory_equal(first, again, packed_bytes);
         free(first);
         free(again);
@@ -150,13 +141,11 @@ static void test_little_room(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        const size_t whole = retex_deflate(NULL, packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
         assert_true(whole <= room);
         if (whole)
             check_inflates(packed, whole, count);
         refused += !whole;
-        const size_t stored = retex_deflate_stored(packed, room, bytes, count, 1);
-        assert_int_equal(stored, count + 5 <= room ? count + 5 : 0);
         free(packed);
     }
     assert_in_range(refused, 50, 450);
@@ -171,17 +160,52 @@ static void test_is_short(void **state)
     uint32_t seed = 11;
     for (int round = 0; round < 4 * KINDS; round++) {
         fill(round % KINDS, MOST, &seed);
-        const double share = (double)retex_deflate(NULL, packed, sizeof packed, bytes, MOST, 1) / MOST;
+        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 1) / MOST;
         print_message("kind %d: %.4f\n", round % KINDS, share);
         assert_true(share > 0 && share < most[round % KINDS]);
     }
 }
 
-/* What zlib deflates comes back; cut off, of another length or with a bit changed that matters it is refused. */
-static void test_inflates(void **state)
+/* zlib decompresses what the library compressed: the same bytes each time, never more than there is room for. */
+static void test_compresses(void **state)
 {
     (void)state;
+    RetexZlib zlib = {NULL, NULL}, other = {NULL, NULL};
+    uint32_t seed = 19;
+    assert_true(retex_zlib_open(&zlib) && retex_zlib_open(&zlib) && retex_zlib_open(&other));
+    for (int round = 0; round < 300; round++) {
+        const size_t count = (size_t)((round % 30 ? 3000 : MOST) * test_random(&seed)), room = compressBound(count) + 9;
+        unsigned char *first = malloc(room);
+        assert_non_null(first);
+        fill(round % KINDS, count, &seed);
+        const size_t packed = retex_zlib_compress(&zlib, first, room, bytes, count);
+        uLongf back_bytes = sizeof back;
+        assert_in_range(packed, 1, room);
+        assert_int_equal(uncompress(back, &back_bytes, first, packed), Z_OK);
+        assert_int_equal(back_bytes, count);
+        assert_memory_equal(back, bytes, count);
+        unsigned char *again = malloc(room), *tight = malloc(packed);
+        assert_true(again && tight);
+        retex_zlib_compress(&other, again, room, back, count / 2);
+        assert_int_equal(retex_zlib_compress(&other, again, room, bytes, count), packed);
+        assert_memory_equal(first, again, packed);
+        const size_t fitted = retex_zlib_compress(&other, tight, packed, bytes, count);
+        assert_true(fitted == 0 || fitted == packed);
+        free(tight);
+        free(again);
+        free(first);
+    }
+    retex_zlib_close(&zlib);
+    retex_zlib_close(&other);
+}
+
+/* What zlib compresses comes back; cut off, of another length or with a bit changed that matters it is refused. */
+static void test_decompresses(void **state)
+{
+    (void)state;
+    RetexZlib zlib = {NULL, NULL};
     uint32_t seed = 13;
+    assert_true(retex_zlib_open(&zlib));
     for (int round = 0; round < 300; round++) {
         const size_t count = (size_t)(20000 * test_random(&seed)) + 1;
         uLongf packed_bytes = compressBound(count);
@@ -190,16 +214,18 @@ static void test_inflates(void **state)
         assert_non_null(out);
         fill(round % KINDS, count, &seed);
         assert_int_equal(compress2(packed, &packed_bytes, bytes, count, round % 10), Z_OK);
-        assert_true(retex_inflate(NULL, out, count, packed, packed_bytes));
+        assert_true(retex_zlib_decompress(&zlib, out, count, packed, packed_bytes));
         assert_memory_equal(out, bytes, count);
-        assert_false(retex_inflate(NULL, out, count - 1, packed, packed_bytes));
-        assert_false(retex_inflate(NULL, out, count + 1, packed, packed_bytes));
-        assert_false(retex_inflate(NULL, out, count, packed, (size_t)((double)packed_bytes * test_random(&seed))));
+        assert_false(retex_zlib_decompress(&zlib, out, count - 1, packed, packed_bytes));
+        assert_false(retex_zlib_decompress(&zlib, out, count + 1, packed, packed_bytes));
+        assert_false(
+            retex_zlib_decompress(&zlib, out, count, packed, (size_t)((double)packed_bytes * test_random(&seed))));
         packed[(size_t)((double)packed_bytes * test_random(&seed))] ^= (unsigned char)(1 << round % 8);
-        assert_true(!retex_inflate(NULL, out, count, packed, packed_bytes) || memcmp(out, bytes, count) == 0);
+        assert_true(!retex_zlib_decompress(&zlib, out, count, packed, packed_bytes) || memcmp(out, bytes, count) == 0);
         free(packed);
         free(out);
     }
+    retex_zlib_close(&zlib);
 }
 
 static void test_checksums(void **state)
@@ -223,9 +249,9 @@ static void test_checksums(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comes_back),  cmocka_unit_test(test_pieces),   cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_little_room), cmocka_unit_test(test_is_short), cmocka_unit_test(test_inflates),
-        cmocka_unit_test(test_checksums),
+        cmocka_unit_test(test_comes_back),   cmocka_unit_test(test_pieces),    cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_little_room),  cmocka_unit_test(test_is_short),  cmocka_unit_test(test_compresses),
+        cmocka_unit_test(test_decompresses), cmocka_unit_test(test_checksums),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

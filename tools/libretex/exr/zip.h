@@ -5,11 +5,13 @@
 
 #include <stddef.h>
 
+#include "io/deflate.h"
+
 /* Scratch memory of one thread for chunks. Begin with {0}. */
 typedef struct RetexZip {
     unsigned char *scratch;
     size_t scratch_bytes;
-    void *work;
+    RetexZlib zlib;
 } RetexZip;
 
 /* Allocate all scratch memory for chunks of up to so many bytes. 0 where memory is short. */

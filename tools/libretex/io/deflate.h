@@ -1,28 +1,36 @@
-/* Deflate (RFC 1951) by ISA-L, several times as fast as zlib. Private to libretex. */
+/* Deflate (RFC 1951), several times as fast as zlib: whole zlib streams by libdeflate, pieces of a stream by ISA-L.
+ * Private to libretex. */
 #ifndef RETEX_IO_DEFLATE_H
 #define RETEX_IO_DEFLATE_H
 
 #include <stddef.h>
 
-/* The largest size that `bytes` bytes may have when deflated. */
+/* What one thread compresses and decompresses zlib streams with. Begin with {0}. */
+typedef struct RetexZlib {
+    struct libdeflate_compressor *compressor;
+    struct libdeflate_decompressor *decompressor;
+} RetexZlib;
+
+/* 0 where memory is short. Does nothing where all is there already. */
+int retex_zlib_open(RetexZlib *zlib);
+void retex_zlib_close(RetexZlib *zlib);
+
+/* Compress bytes into a zlib stream (RFC 1950: header, raw stream, Adler-32). Returns its size, or 0 where it does not
+ * fit into capacity. */
+size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capacity, const unsigned char *bytes,
+                           size_t count);
+
+/* Decompress a zlib stream into exactly count bytes. Returns 1, or 0 where the stream is damaged, or has fewer or more
+ * bytes. */
+int retex_zlib_decompress(RetexZlib *zlib, unsigned char *bytes, size_t count, const unsigned char *packed,
+                          size_t packed_bytes);
+
+/* The largest size that a piece of `bytes` bytes may have. */
 size_t retex_deflate_bound(size_t bytes);
 
-/* The size of the scratch memory that deflating or inflating needs; its contents before and after do not matter. The
- * functions below use such memory as scratch, or allocate it where scratch is NULL. */
-size_t retex_deflate_scratch_bytes(void);
-
-/* Deflate bytes into a piece of a raw stream, at a fast level: in noise a longer search finds no more. The last piece
- * ends the stream; any other ends at a whole byte, where the next piece can begin. Returns the size of the piece, or 0
- * where it does not fit into capacity or memory is short. */
-size_t retex_deflate(void *scratch, unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
-                     int is_last);
-
-/* The same with stored blocks, without compression: a little larger than the bytes are. */
-size_t retex_deflate_stored(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
-                            int is_last);
-
-/* Inflate a zlib stream (RFC 1950: header, raw stream, Adler-32) into exactly count bytes. Returns 1, or 0 where the
- * stream is damaged, has fewer or more bytes, or memory is short. */
-int retex_inflate(void *scratch, unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes);
+/* Deflate bytes into a piece of a raw stream, at a fast level. The last piece ends the stream; any other ends at a
+ * whole byte, where the next piece can begin. Returns the size of the piece, or 0 where it does not fit into capacity
+ * or memory is short. */
+size_t retex_deflate(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count, int is_last);
 
 #endif

@@ -94,7 +94,7 @@ static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes,
     const size_t bound = retex_deflate_bound(bytes);
     unsigned char *data = malloc(head + bound + tail);
 
-    *packed_bytes = data ? retex_deflate(NULL, data + head, bound, filtered, bytes, is_last) : 0;
+    *packed_bytes = data ? retex_deflate(data + head, bound, filtered, bytes, is_last) : 0;
     if (*packed_bytes)
         return data;
     free(data);
