@@ -22,7 +22,8 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction)
     for (int k = 0; k < scene->sky->npigments; k++) {
         Rgbft c = pigment_eval(scene->sky->pigments[k], direction, (Vec2){0, 0});
         float opaque = fmaxf(0, 1 - c.filter - c.transmit);
-        Rgb color = rgb(c.r, c.g, c.b), through = rgb_add(rgb_scale(color, c.filter), rgb_grey(c.transmit));
+        Rgb color = rgb(c.r, c.g, c.b), tint = scene->sky->filters ? color : rgb_grey(1),
+            through = rgb_add(rgb_scale(tint, c.filter), rgb_grey(c.transmit));
         sum = rgb_add(rgb_mul(sum, through), rgb_mul(rgb_scale(color, opaque), scene->sky->emission));
     }
     return sum;

@@ -420,6 +420,7 @@ typedef struct SkySphere {
     int npigments;           /* later ones lie over earlier ones by their filter and transmit */
     const Pigment **pigments;
     Rgb emission;            /* factor on it, default 1 */
+    int filters;             /* filter tints what lies below; in scenes before version 3.7 it is the same as transmit */
 } SkySphere;
 
 typedef struct Target {

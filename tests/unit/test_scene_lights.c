@@ -143,6 +143,14 @@ static void test_sky(void **state)
     assert_near(seen.g, (0.5 * 0.4 + 0.3) * 0.5 * 2 + 0.2 * 0.4 * 2);
     assert_near(seen.b, (0.5 * 0.8 + 0.3) * 0.5 * 2 + 0.2 * 0.8 * 2);
     scene_close(&scene);
+    /* In older scenes filter tints nothing; the version at the scene's end counts. POV-Ray shows .3501, .5, .75. */
+    scene = parse("#version 3.7; global_settings{assumed_gamma 1}"
+                  "sky_sphere{pigment{rgb <.2,.4,.8>} pigment{rgbf <.5,.6,.7,.5>}} #version 3.6;");
+    seen = sky_radiance(scene, vec3(0, 1, 0));
+    assert_near(seen.r, 0.35);
+    assert_near(seen.g, 0.5);
+    assert_near(seen.b, 0.75);
+    scene_close(&scene);
 }
 
 /* ---- targets ---- */

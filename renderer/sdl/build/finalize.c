@@ -232,6 +232,7 @@ static void build_sky(Sdl *sdl)
     scene->sky = sdl_alloc(sdl, sizeof *scene->sky);
     scene->sky->npigments = sky->npigments;
     scene->sky->emission = sky->emission;
+    scene->sky->filters = sdl_version(sdl) >= 3.7;
     scene->sky->pigments = sdl_alloc(sdl, (size_t)sky->npigments * sizeof *scene->sky->pigments);
     for (int i = 0; i < sky->npigments; i++) {
         gaps_report(sdl, &sky->pigments[i]->gaps);
