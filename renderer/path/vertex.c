@@ -72,7 +72,7 @@ static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
                                  v->numbers->direction_v[v->lane]);
     if (vec_dot(sample->wi, b->normal) <= 0 || vec_dot(sample->wi, b->geometric) <= 0)
         return 0;
-    Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
+    Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
     if (sample->pdf <= 0)
         return 0;
     sample->weight = (Split){rgb_scale(f.d, 1 / sample->pdf), rgb_scale(f.i, 1 / sample->pdf)};
@@ -136,7 +136,8 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
     const int is_source = light->kind == LIGHT_SAMPLE_SOURCE;
     if (is_source && !light_reaches_group(light->source, s->surface.primitive->light_group))
         return;
-    Split f = bsdf_eval(&s->bsdf, light->direction, is_source, &sample->pdf);
+    const BsdfLight kind = !is_source ? BSDF_ANY_LIGHT : light->shadowless ? BSDF_SHADOWLESS : BSDF_LIGHT_SOURCE;
+    Split f = bsdf_eval(&s->bsdf, light->direction, kind, &sample->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
         return;
     if (!is_source)

@@ -142,7 +142,7 @@ static void split_add(Split *sum, Split s)
     sum->i = rgb_add(sum->i, s.i);
 }
 
-static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, int light_source, float *pdf)
+static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, BsdfLight light, float *pdf)
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
     if (b->diffuse > 0) {
@@ -154,7 +154,7 @@ static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, int light_sou
         split_add(&sum, glossy_reflection(b, wi, &p));
         *pdf += b->p_glossy * p;
     }
-    if (b->highlights > 0 && (light_source || !b->highlight_lights_only)) {
+    if (b->highlights > 0 && light != BSDF_SHADOWLESS && (light == BSDF_LIGHT_SOURCE || !b->highlight_lights_only)) {
         float p = 0;
         split_add(&sum, highlight_reflection(b, wi, (float)cos_i, &p));
         *pdf += b->p_glossy * p;
@@ -197,7 +197,7 @@ static Vec3 mirrored(Vec3 w, Vec3 n)
 }
 
 /* What lobes send along wi, and what they send to the wrong side, which is mirrored along wi. */
-static Split eval_mirrored(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+static Split eval_mirrored(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     const Vec3 from[2] = {wi, mirrored(wi, b->geometric)};
     const double side = vec_dot(wi, b->geometric);
@@ -205,35 +205,35 @@ static Split eval_mirrored(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     for (int k = 0; k < 2; k++) {
         double cos_i = vec_dot(from[k], b->normal);
         if (cos_i > 0 && side > 0)
-            split_add(&sum, eval_reflection(b, from[k], cos_i, light_source, pdf));
+            split_add(&sum, eval_reflection(b, from[k], cos_i, light, pdf));
         else if (cos_i < 0 && side < 0)
             split_add(&sum, eval_transmission(b, from[k], cos_i, pdf));
     }
     return sum;
 }
 
-static Split eval_bumped(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+static Split eval_bumped(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     if (!b->hidden)
-        return eval_mirrored(b, wi, light_source, pdf);
+        return eval_mirrored(b, wi, light, pdf);
     Bsdf diffuse = *b, rest = *b;
     diffuse.normal = b->diffuse_normal, diffuse.alpha = diffuse.highlights = 0;
     rest.diffuse = rest.diffuse_back = 0;
-    Split sum = eval_mirrored(&diffuse, wi, light_source, pdf);
-    split_add(&sum, eval_mirrored(&rest, wi, light_source, pdf));
+    Split sum = eval_mirrored(&diffuse, wi, light, pdf);
+    split_add(&sum, eval_mirrored(&rest, wi, light, pdf));
     return sum;
 }
 
-Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+Split bsdf_eval(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     if (b->lambert)
         return eval_lambert(b, wi, pdf);
     *pdf = 0;
     if (b->bumped)
-        return eval_bumped(b, wi, light_source, pdf);
+        return eval_bumped(b, wi, light, pdf);
     double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
     if (cos_i > 0 && side > 0)
-        return eval_reflection(b, wi, cos_i, light_source, pdf);
+        return eval_reflection(b, wi, cos_i, light, pdf);
     if (cos_i < 0 && side < 0)
         return eval_transmission(b, wi, cos_i, pdf);
     return (Split){{0, 0, 0}, {0, 0, 0}};
@@ -374,7 +374,7 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
     }
     if (b->bumped && (vec_dot(sample->wi, b->geometric) < 0) != sample->transmitted)
         sample->wi = mirrored(sample->wi, b->geometric);
-    Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
+    Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
     if (sample->pdf <= 0)
         return 0;
     sample->weight = split_scale(f, 1 / sample->pdf);

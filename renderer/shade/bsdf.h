@@ -69,9 +69,16 @@ typedef struct BsdfSample {
     int straight;            /* passed without bending: the same ray goes on */
 } BsdfSample;
 
-/* f |cos_i| for a given direction; light_source: the light is one of POV-Ray's, which no path can hit. *pdf gets the
- * density with which bsdf_sample would find wi (0 where it never does). */
-Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
+/* What light comes from. */
+typedef enum BsdfLight {
+    BSDF_ANY_LIGHT,          /* what paths may meet: other surfaces and the sky */
+    BSDF_LIGHT_SOURCE,       /* one of POV-Ray's light sources, which no path can hit */
+    BSDF_SHADOWLESS          /* such a one without shadows: it has no highlights */
+} BsdfLight;
+
+/* f |cos_i| for a given direction. *pdf gets the density with which bsdf_sample would find wi (0 where it never
+ * does). */
+Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, BsdfLight light, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
 

@@ -161,6 +161,34 @@ static void point_light_over_a_plane(void **state)
     stage_close(&s);
 }
 
+/* Each pixel is as bright as without a highlight if the light has no shadows, and brighter if it has. */
+static void shadowless_lights_have_no_highlights(void **state)
+{
+    (void)state;
+    RetexSet *sets[3];
+    for (int k = 0; k < 3; k++) {
+        Stage s;
+        stage_open(&s);
+        s.scene->camera = orthographic_camera(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
+        stage_add(&s, &shape_plane, transform_identity(), 1, 0.5f, 0.25f);
+        s.finishes[0].diffuse = 0.3;
+        s.finishes[0].phong = s.finishes[0].specular = k > 0 ? 0.2 : 0;
+        s.finishes[0].phong_size = 5, s.finishes[0].roughness = 0.2;
+        s.scene->nlights = 1;
+        s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0, 2, 0}, .color = {1, 1, 1}, .shadowless = k < 2};
+        sets[k] = stage_render(&s, 1, 1, 1);
+        stage_close(&s);
+    }
+    for (int y = 0; y < 12; y++)
+        for (int x = 0; x < 16; x++) {
+            const double plain = pixel(sets[0], x, y)[2];
+            expect(pixel(sets[1], x, y)[2], plain, 1e-6, "shadowless");
+            assert_true(pixel(sets[2], x, y)[2] > plain * 1.1);
+        }
+    for (int k = 0; k < 3; k++)
+        retex_set_close(&sets[k]);
+}
+
 static void sphere_emitter_irradiance(void **state)
 {
     (void)state;
@@ -644,6 +672,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(furnace_is_invisible),
                                        cmocka_unit_test(point_light_over_a_plane),
+                                       cmocka_unit_test(shadowless_lights_have_no_highlights),
                                        cmocka_unit_test(sphere_emitter_irradiance),
                                        cmocka_unit_test(slab_reflects_by_fresnel),
                                        cmocka_unit_test(crops_are_cut_from_the_whole),
