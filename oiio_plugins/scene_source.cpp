@@ -83,7 +83,7 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     sdl.declares = declares.data(), sdl.ndeclares = int(declares.size());
     sdl.message = keep_warning, sdl.message_context = warnings;
     warnings->clear();
-    must(job_open_scene(&scene, path.c_str(), &sdl, targets.data(), int(targets.size()), &err), err);
+    must(job_open_scene(&scene, path.c_str(), &sdl, &options.render, targets.data(), int(targets.size()), &err), err);
     job_warn_dark(scene, &sdl);
     return {scene, close_scene};
 }

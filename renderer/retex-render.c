@@ -241,7 +241,7 @@ int main(int argc, char **argv)
     a.render.denoise_data = a.denoise || keeps;
     a.render.stored = keeps && !a.denoise;
     double started = retex_clock_seconds();
-    if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
+    if (job_open_scene(&scene, a.scene, &a.sdl, &a.render, a.targets, a.ntargets, &err))
         fail(&a, &err);
     announce_files_of_scene(&a, scene);
     if (a.aov_dir && aov_files_check(a.aov_dir, &err))

@@ -18,9 +18,14 @@ int job_numbers(const char *text, char separator, int count, int *numbers);
  * which nobody means. Values of built-in names must be numbers. */
 int job_check_declare(const char *declare, RetexError *err);
 
-/* Read a scene and find its targets, each in the form of -t. An empty scene is refused. */
-int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const char *const *targets, int ntargets,
-                   RetexError *err);
+/* Read a scene and find its targets, each in the form of -t. An empty scene is refused. render: the size of the picture
+ * whose pixels targets may name. */
+int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
+                   const char *const *targets, int ntargets, RetexError *err);
+
+/* The second half of it: targets by pixels, and then the others. */
+int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
+                        RetexError *err);
 
 /* Whether no surface belongs to target t. A surface belongs to the first target that names it, so a target without
  * surfaces is a mistake. */

@@ -273,6 +273,30 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
     periodic[0] = any && u, periodic[1] = any && v;
 }
 
+/* Of textures that are blended from corner to corner none is seen alone. */
+ObjectPart first_hit_part(const Scene *scene, const Surface *surface)
+{
+    const Shape *shape = &surface->primitive->shape;
+    const FaceTextures *textures = shape->mesh && shape->mesh->corner_textures ? NULL : shape->textures;
+    int part = 0;
+    for (int k = 0; textures && k < textures->count && !part; k++)
+        if (textures->list[k] == surface->texture)
+            part = k + 1;
+    return object_part(scene, surface->primitive, part);
+}
+
+int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *part)
+{
+    Ray ray;
+    Hit hit;
+    Surface surface;
+    if (!centre_hit(window, x, y, &ray, &hit))
+        return 0;
+    surface_at(&surface, window->scene, &ray, &hit);
+    *part = first_hit_part(window->scene, &surface);
+    return 1;
+}
+
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err)
 {
     double shares[RETEX_MAX_TARGETS] = {0};

@@ -1,4 +1,5 @@
 /* A whole render: all parts of the scene's light are rendered into a set. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <retex/clock.h>
@@ -151,6 +152,50 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
     FirstHitWindow window = render_window(&r);
     if (!code)
         code = first_hit_idents(&window, shares, err);
+    render_close(&r);
+    return code;
+}
+
+/* The pixel nearest to one that shows nothing; 0 where none shows anything. */
+static int nearest_object(const FirstHitWindow *w, const int from[2], int nearest[2])
+{
+    double best = INFINITY;
+    ObjectPart part;
+    for (int y = 0; y < w->h; y++)
+        for (int x = 0; x < w->w; x++) {
+            const double distance = hypot(x - from[0], y - from[1]);
+            if (distance >= best || !first_hit_object(w, x, y, &part))
+                continue;
+            best = distance;
+            nearest[0] = x, nearest[1] = y;
+        }
+    return best < INFINITY;
+}
+
+static int pick(const FirstHitWindow *w, const int pixel[2], ObjectPart *part, RetexError *err)
+{
+    int nearest[2];
+    if (pixel[0] >= w->w || pixel[1] >= w->h)
+        return retex_fail(err, RETEX_EINVAL, "pixel @%d:%d does not lie inside the picture of %dx%d", pixel[0],
+                          pixel[1], w->w, w->h);
+    if (first_hit_object(w, pixel[0], pixel[1], part))
+        return RETEX_OK;
+    if (!nearest_object(w, pixel, nearest))
+        return retex_fail(err, RETEX_ENOTFOUND, "pixel @%d:%d shows no object, nor does any other", pixel[0], pixel[1]);
+    return retex_fail(err, RETEX_ENOTFOUND, "pixel @%d:%d shows no object; the nearest that does is @%d:%d", pixel[0],
+                      pixel[1], nearest[0], nearest[1]);
+}
+
+int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ObjectPart *parts,
+                RetexError *err)
+{
+    RenderParams whole = *params;
+    Render r;
+    memset(whole.crop, 0, sizeof whole.crop);
+    int code = render_open(&r, scene, &whole, err);
+    const FirstHitWindow window = render_window(&r);
+    for (int k = 0; k < count && !code; k++)
+        code = pick(&window, pixels[k], &parts[k], err);
     render_close(&r);
     return code;
 }

@@ -7,7 +7,7 @@
 #include <retex/aov.h>
 #include <retex/budget.h>
 #include "render/control_variate.h"
-#include "scene/scene.h"
+#include "scene/selector.h"
 #include "scene/variant.h"
 
 /* Begin with RENDER_PARAMS_INIT. */
@@ -83,6 +83,10 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
 
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
+
+/* The object, or part of an object, that each of these pixels shows at its centre. x and y as in the picture. */
+int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ObjectPart *parts,
+                RetexError *err);
 
 /* Scene units that a unit of u and of v spans on each target; see uv_scale.h. */
 int render_uv_scales(const Scene *scene, int nthreads, double scales[][2], RetexError *err);

@@ -26,6 +26,14 @@ typedef struct IdentList {
     const struct IdentList *next;
 } IdentList;
 
+/* Where the statements stand that a thing is from, from the inside out: those of its shape, of the groups that it is
+ * in, of `object{Ident}`. What a macro writes stands where the macro is called. Immutable and shared, as IdentList. */
+typedef struct PlaceList {
+    const char *file;
+    int line;
+    const struct PlaceList *next;
+} PlaceList;
+
 /* ---- pigments ---- */
 
 typedef enum PigmentKind {
@@ -314,6 +322,7 @@ typedef struct Instance {
     Transform transform;     /* the prototype's space to the world */
     const Texture *texture;  /* in the prototype's space: of primitives that inherit theirs; NULL where none does */
     const IdentList *idents;
+    const PlaceList *places;
     int target, texture_target; /* by idents; by the texture. -1: none */
     int line;
 } Instance;
@@ -331,6 +340,7 @@ typedef struct Primitive {
     int inherits;            /* 1: its texture is the instance's */
     int caustics;            /* CAUSTICS_…: of light sources that have caustics */
     const IdentList *idents; /* names of the objects it is part of */
+    const PlaceList *places; /* their statements; NULL where the scene is made without a file */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
@@ -425,7 +435,7 @@ typedef struct SkySphere {
 
 typedef struct Target {
     char name[RETEX_NAME_MAX];
-    char idents[512];        /* matched identifiers, comma-separated */
+    char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
 } Target;
 
 typedef struct SceneFile {
@@ -472,7 +482,7 @@ static inline int texture_leaf_target(const Texture *leaf, int whole)
 const Texture *primitive_target_texture(const Primitive *primitive, int target);
 /* The same of the instance's own texture and names, and a primitive that has it; of may be NULL. */
 const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
-/* One -t of the command line: "NAME" or "NAME=IDENT,IDENT". */
+/* Each of one -t of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see selector.h. */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
 int scene_caustic_sources(const Scene *scene); /* how many light sources have caustics */
 void scene_close(Scene **scene); /* textures of image maps, then the arena */

@@ -198,6 +198,7 @@ typedef struct Object {
     int depth;    /* of nested groups */
     double parts; /* objects in it, counted through identifiers */
     const IdentList *idents;
+    const PlaceList *places;
     int line;
     Gaps gaps;
 } Object;
@@ -386,6 +387,7 @@ const ParsedMaterial *parse_material(Sdl *sdl);
 /* object.c, shape.c, polygon.c, mesh.c, light.c */
 const Object *accept_object(Sdl *sdl); /* an object statement or identifier, or NULL where none is next */
 Object *object_new(Sdl *sdl, ObjectKind kind);
+const PlaceList *places_join(Sdl *sdl, const PlaceList *within, const PlaceList *around);
 void object_report(Sdl *sdl, const Object *object); /* what of it is not supported */
 void object_count_child(Sdl *sdl, Object *object, const Object *child); /* counts; an error beyond all bounds */
 void object_move(Object *object, const Transform *by);
@@ -460,6 +462,7 @@ typedef struct Inherited {
     int uv_mapping;
     unsigned flags;
     const IdentList *idents;
+    const PlaceList *places;
     const LightGroup *light_group;
     CsgNode *csg; /* the node that it is an operand of, or NULL */
     const Prototype *prototype; /* that it is part of, or NULL: then the world is its space */

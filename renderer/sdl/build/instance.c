@@ -112,6 +112,7 @@ static Prototype *prototype_new(Sdl *sdl, const Object *object, const GroupKey *
     contents.flags = 0;
     contents.uv_mapping = 0;
     contents.idents = NULL;
+    contents.places = NULL;
     prototype->number = scene->nprototypes++;
     prototype->next = builder->prototypes;
     builder->prototypes = prototype;
@@ -173,6 +174,7 @@ static void add_instance(Sdl *sdl, const Object *object, const Inherited *around
                                                        .transform = *to_world,
                                                        .texture = texture ? &texture->texture : NULL,
                                                        .idents = sdl_ident_join(sdl, around->idents, object->idents),
+                                                       .places = places_join(sdl, object->places, around->places),
                                                        .target = -1,
                                                        .texture_target = -1,
                                                        .line = object->line};

@@ -17,6 +17,27 @@ Object *object_new(Sdl *sdl, ObjectKind kind)
     return object;
 }
 
+/* ---- places ---- */
+
+enum { MAX_PLACES = 16 }; /* of a statement and those around it; others are left out */
+
+const PlaceList *places_join(Sdl *sdl, const PlaceList *within, const PlaceList *around)
+{
+    PlaceList *first = NULL, **end = &first;
+    int count = 0;
+    if (!within || !around)
+        return within ? within : around;
+    for (; within && count < MAX_PLACES; within = within->next, count++) {
+        if (!within->next && within->line == around->line && strcmp(within->file, around->file) == 0)
+            break;
+        *end = sdl_alloc(sdl, sizeof **end);
+        **end = *within;
+        end = (PlaceList **)&(*end)->next;
+    }
+    *end = (PlaceList *)around;
+    return first;
+}
+
 void object_report(Sdl *sdl, const Object *object)
 {
     gaps_report(sdl, &object->gaps);
@@ -359,8 +380,15 @@ const Object *accept_object(Sdl *sdl)
         return known_object(sdl);
     if (sdl_peek(sdl)->kind != TOKEN_WORD)
         return NULL;
+    PlaceList here = {.next = NULL}, *place;
+    sdl_place(sdl, &here.file, &here.line);
     statement_begin(sdl);
-    const Object *object = statement(sdl);
+    Object *object = (Object *)statement(sdl); /* its own copy */
     statement_end(sdl);
+    if (object) {
+        place = sdl_alloc(sdl, sizeof *place);
+        *place = here;
+        object->places = places_join(sdl, object->places, place);
+    }
     return object;
 }

@@ -159,6 +159,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
         p->caustics = (in->flags & OBJECT_PHOTONS_REFRACT ? CAUSTICS_REFRACT : 0) |
                       (in->flags & OBJECT_PHOTONS_REFLECT ? CAUSTICS_REFLECT : 0);
     p->idents = in->idents;
+    p->places = in->places;
     p->line = object->line;
     p->target = -1;
 }
@@ -304,6 +305,7 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
         here.interior = object->interior;
     here.flags = flags_within(object, around);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
+    here.places = places_join(sdl, object->places, around->places);
     if (object->flags & OBJECT_LIGHT_GROUP) {
         LightGroup *group = sdl_alloc(sdl, sizeof *group);
         group->global_lights = around->light_group ? around->light_group->global_lights /* as POV-Ray has it */

@@ -85,6 +85,8 @@ void sdl_unsupported_geometry(Sdl *sdl, const char *name, const char *instead);
 void sdl_warn(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3);
 void sdl_warn_at(Sdl *sdl, const char *file, int line, const char *fmt, ...) RETEX_PRINTF(4, 5);
 
+/* Where the next token stands; one of a macro, where the macro is called. */
+void sdl_place(Sdl *sdl, const char **file, int *line);
 const Token *sdl_peek(Sdl *sdl);                     /* the next token, after directives and macros */
 const Token *sdl_next(Sdl *sdl);                     /* consumes the next token; valid until the next call */
 int sdl_accept(Sdl *sdl, const char *word_or_punct); /* consumes the next token if it matches; 1 if so */

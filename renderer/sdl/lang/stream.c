@@ -170,6 +170,18 @@ const Token *sdl_peek(Sdl *sdl)
     return &sdl->token;
 }
 
+void sdl_place(Sdl *sdl, const char **file, int *line)
+{
+    const Token *token = sdl_peek(sdl);
+    *file = token->file, *line = token->line;
+    for (int k = 1; k < sdl->nframes; k++)
+        if (sdl->frames[k].macro_start != LINK_NONE) {
+            const Frame *caller = &sdl->frames[k - 1];
+            *file = caller->source->name, *line = (int)caller->cursor[-1].line;
+            return;
+        }
+}
+
 const Token *sdl_peek_operator(Sdl *sdl, int frame)
 {
     if (!sdl->have && !fill(sdl, frame, 0))

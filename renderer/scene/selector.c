@@ -1,0 +1,467 @@
+/* The forms of selectors: a row each. See selector.h. */
+#include <ctype.h>
+#include <fnmatch.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <retex/nearest.h>
+#include "scene/selector.h"
+
+struct SelectorForm {
+    const char *what; /* as messages name it */
+    int (*begins)(const char *text);
+    int (*read)(Selector *selector, const Scene *scene, RetexError *err);
+    /* Whether it selects a texture, or an object; NULL: never. */
+    int (*texture)(const Selector *selector, const Texture *texture);
+    int (*object)(const Selector *selector, const ObjectPart *object);
+    /* How far a surface is from being selected, and the text that would select it; INFINITY: nothing of this form does.
+     * NULL: read tells of mistakes itself. */
+    double (*near)(const Selector *selector, const Texture *texture, const ObjectPart *object, char text[SELECTOR_MAX]);
+};
+
+size_t selector_length(const char *list)
+{
+    int depth = 0;
+    size_t n = 0;
+    for (; list[n] && (list[n] != ',' || depth > 0); n++)
+        depth += (list[n] == '(') - (list[n] == ')');
+    return n;
+}
+
+ObjectPart object_part(const Scene *scene, const Primitive *p, int part)
+{
+    return (ObjectPart){p->idents, p->places, (int)(p - scene->primitives) + 1, part};
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static int malformed(const Selector *selector, const char *expected, RetexError *err)
+{
+    return retex_fail(err, RETEX_EINVAL, "target `%s`: expected %s", selector->text, expected);
+}
+
+/* ---- IDENT ---- */
+
+static int lower_equal(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++)
+        if (tolower((unsigned char)*a) != tolower((unsigned char)*b))
+            return 0;
+    return *a == *b;
+}
+
+static int contains(const char *text, const char *part)
+{
+    size_t n = strlen(part);
+    for (; n > 0 && *text; text++) {
+        size_t i = 0;
+        while (i < n && tolower((unsigned char)text[i]) == tolower((unsigned char)part[i]))
+            i++;
+        if (i == n)
+            return 1;
+    }
+    return 0;
+}
+
+static int near(const char *name, const char *wanted)
+{
+    return retex_word_distance(name, wanted) <= retex_word_tolerance(wanted) || contains(name, wanted) ||
+           (strlen(name) > 2 && contains(wanted, name));
+}
+
+static void append(char *text, size_t size, const char *part)
+{
+    size_t used = strlen(text);
+    if (used + strlen(part) + 1 < size)
+        memcpy(text + used, part, strlen(part) + 1);
+}
+
+static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
+{
+    char list[512] = "";
+    int shown = 0, close = 0;
+    for (int i = 0; i < scene->nidents; i++)
+        close += near(scene->idents[i], wanted);
+    for (int i = 0; i < scene->nidents && shown < 12; i++) {
+        if (close > 0 && !near(scene->idents[i], wanted))
+            continue;
+        append(list, sizeof list, shown++ ? ", " : "");
+        append(list, sizeof list, scene->idents[i]);
+    }
+    if (scene->nidents == 0)
+        return retex_fail(err, RETEX_ENOTFOUND, "no target `%s`: the scene uses no declared texture or object", wanted);
+    return retex_fail(err, RETEX_ENOTFOUND, "no texture, pigment, material or object `%s` in the scene; %s: %s%s",
+                      wanted, close > 0 ? "similar" : "there are", list,
+                      close == 0 && scene->nidents > shown ? ", …" : "");
+}
+
+/* Exact, else the only one that differs in case alone. */
+static int find_ident(const Scene *scene, const char *wanted, const char **found, RetexError *err)
+{
+    const char *any_case = NULL, *second = NULL;
+    for (int i = 0; i < scene->nidents; i++) {
+        if (strcmp(scene->idents[i], wanted) == 0) {
+            *found = scene->idents[i];
+            return 0;
+        }
+        if (lower_equal(scene->idents[i], wanted)) {
+            second = any_case;
+            any_case = scene->idents[i];
+        }
+    }
+    if (second)
+        return retex_fail(err, RETEX_ENOTFOUND, "`%s` could be `%s` or `%s`: write it as the scene does", wanted,
+                          second, any_case);
+    if (!any_case)
+        return fail_unknown(scene, wanted, err);
+    *found = any_case;
+    return 0;
+}
+
+static int begins_any(const char *text)
+{
+    (void)text;
+    return 1;
+}
+
+static int read_ident(Selector *selector, const Scene *scene, RetexError *err)
+{
+    int code = find_ident(scene, selector->text, &selector->name, err);
+    selector->text = selector->name;
+    return code;
+}
+
+static int named(const IdentList *idents, const char *name)
+{
+    for (; idents; idents = idents->next)
+        if (strcmp(idents->name, name) == 0)
+            return 1;
+    return 0;
+}
+
+static int texture_named(const Selector *selector, const Texture *texture)
+{
+    return named(texture->idents, selector->name);
+}
+
+static int object_named(const Selector *selector, const ObjectPart *object)
+{
+    return named(object->idents, selector->name);
+}
+
+/* ---- #N, #N.K ---- */
+
+static int begins_number(const char *text)
+{
+    return *text == '#';
+}
+
+static int read_number(Selector *selector, const Scene *scene, RetexError *err)
+{
+    char *end = "";
+    const char *at = selector->text + 1;
+    const long number = isdigit((unsigned char)*at) ? strtol(at, &end, 10) : 0;
+    long part = 0;
+    if (*end == '.' && isdigit((unsigned char)end[1]))
+        part = strtol(end + 1, &end, 10);
+    if (!isdigit((unsigned char)*at) || *end)
+        return malformed(selector, "#N, an object's number, or #N.K, one of its textures", err);
+    if (number < 1 || number > scene->nprimitives)
+        return retex_fail(err, RETEX_ENOTFOUND,
+                          "no object `%s`: the scene has %d, from #1 on; --list-targets -v lists "
+                          "those that are seen",
+                          selector->text, scene->nprimitives);
+    const FaceTextures *textures = scene->primitives[number - 1].shape.textures;
+    const int parts = textures ? textures->count : 0;
+    if (part > parts)
+        return retex_fail(err, RETEX_ENOTFOUND, "no texture `%s`: the parts of object #%ld have %d of their own",
+                          selector->text, number, parts);
+    selector->number = (int)number, selector->part = (int)part;
+    return RETEX_OK;
+}
+
+static int object_numbered(const Selector *selector, const ObjectPart *object)
+{
+    return selector->number == object->number && (!selector->part || selector->part == object->part);
+}
+
+int selector_of_object(char text[SELECTOR_MAX], const ObjectPart *object)
+{
+    if (!object->number)
+        return 0;
+    int n = snprintf(text, SELECTOR_MAX, "#%d", object->number);
+    if (object->part)
+        snprintf(text + n, SELECTOR_MAX - (size_t)n, ".%d", object->part);
+    return 1;
+}
+
+/* ---- ~rgb(r,g,b) ---- */
+
+static int begins_color(const char *text)
+{
+    return *text == '~';
+}
+
+static int read_color(Selector *selector, const Scene *scene, RetexError *err)
+{
+    float rgb[3];
+    int used = 0;
+    (void)scene;
+    if (sscanf(selector->text, "~rgb( %f , %f , %f )%n", &rgb[0], &rgb[1], &rgb[2], &used) != 3 || !used ||
+        selector->text[used] || !isfinite(rgb[0]) || !isfinite(rgb[1]) || !isfinite(rgb[2]))
+        return malformed(selector, "~rgb(r,g,b) with three numbers, scene-linear", err);
+    selector->color = (Rgb){rgb[0], rgb[1], rgb[2]};
+    return RETEX_OK;
+}
+
+static int color_of(const Texture *texture, Rgb *color)
+{
+    if (!texture || texture->tree || texture->pigment->kind != PIGMENT_COLOR)
+        return 0;
+    *color = (Rgb){texture->pigment->color.r, texture->pigment->color.g, texture->pigment->color.b};
+    return 1;
+}
+
+/* Texts have three digits. */
+static int same_number(float a, float b)
+{
+    return fabsf(a - b) <= 5e-4f + 6e-3f * fmaxf(fabsf(a), fabsf(b));
+}
+
+static int texture_colored(const Selector *selector, const Texture *texture)
+{
+    Rgb color;
+    const Rgb *wanted = &selector->color;
+    return color_of(texture, &color) && same_number(color.r, wanted->r) && same_number(color.g, wanted->g) &&
+           same_number(color.b, wanted->b);
+}
+
+int selector_of_color(char text[SELECTOR_MAX], const Texture *texture)
+{
+    Rgb color;
+    if (!color_of(texture, &color))
+        return 0;
+    snprintf(text, SELECTOR_MAX, "~rgb(%.3g,%.3g,%.3g)", color.r, color.g, color.b);
+    return 1;
+}
+
+static double near_color(const Selector *selector, const Texture *texture, const ObjectPart *object,
+                         char text[SELECTOR_MAX])
+{
+    Rgb color;
+    (void)object;
+    if (!selector_of_color(text, texture) || !color_of(texture, &color))
+        return INFINITY;
+    return fabs(color.r - selector->color.r) + fabs(color.g - selector->color.g) + fabs(color.b - selector->color.b);
+}
+
+/* ---- FILE:LINE ---- */
+
+static int begins_place(const char *text)
+{
+    const char *colon = strrchr(text, ':');
+    return colon && colon > text && isdigit((unsigned char)colon[1]) && !colon[1 + strspn(colon + 1, "0123456789")];
+}
+
+static int read_place(Selector *selector, const Scene *scene, RetexError *err)
+{
+    const char *colon = strrchr(selector->text, ':');
+    selector->name = arena_string(scene->arena, selector->text, (size_t)(colon - selector->text));
+    selector->number = (int)fmin(strtod(colon + 1, NULL), 1e9);
+    return selector->name ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
+}
+
+static int is_file(const Selector *selector, const char *path)
+{
+    return strcmp(path, selector->name) == 0 || strcmp(base_name(path), selector->name) == 0;
+}
+
+static int object_placed(const Selector *selector, const ObjectPart *object)
+{
+    for (const PlaceList *at = object->places; at; at = at->next)
+        if (at->line == selector->number && is_file(selector, at->file))
+            return 1;
+    return 0;
+}
+
+int selector_of_place(char text[SELECTOR_MAX], const PlaceList *place)
+{
+    return place && snprintf(text, SELECTOR_MAX, "%s:%d", base_name(place->file), place->line) < SELECTOR_MAX;
+}
+
+static double near_place(const Selector *selector, const Texture *texture, const ObjectPart *object,
+                         char text[SELECTOR_MAX])
+{
+    double best = INFINITY;
+    const PlaceList *nearest = NULL;
+    (void)texture;
+    for (const PlaceList *at = object->places; at; at = at->next) {
+        const double distance = fabs((double)at->line - selector->number) + (is_file(selector, at->file) ? 0 : 1e9);
+        if (distance < best)
+            best = distance, nearest = at;
+    }
+    return selector_of_place(text, nearest) ? best : INFINITY;
+}
+
+/* ---- *IMAGE ---- */
+
+static int begins_image(const char *text)
+{
+    return strpbrk(text, "*?[.") != NULL;
+}
+
+static int read_image(Selector *selector, const Scene *scene, RetexError *err)
+{
+    (void)scene, (void)err;
+    selector->name = selector->text;
+    return RETEX_OK;
+}
+
+/* The first image of a pigment or of its map's pigments that the selector matches; any where it is NULL. */
+static const char *image_of(const Pigment *pigment, const Selector *selector)
+{
+    if (pigment->kind == PIGMENT_IMAGE && pigment->image && pigment->image->path) {
+        const char *path = pigment->image->path;
+        if (!selector || fnmatch(selector->name, path, 0) == 0 || fnmatch(selector->name, base_name(path), 0) == 0)
+            return path;
+    }
+    for (int k = 0; k < pigment->map.count; k++) {
+        const Pigment *part = pigment->map.entries[k].pigment;
+        const char *found = part ? image_of(part, selector) : NULL;
+        if (found)
+            return found;
+    }
+    return NULL;
+}
+
+static int texture_shows_image(const Selector *selector, const Texture *texture)
+{
+    return image_of(texture->pigment, selector) != NULL;
+}
+
+int selector_of_image(char text[SELECTOR_MAX], const Texture *texture)
+{
+    const char *path = texture && !texture->tree ? image_of(texture->pigment, NULL) : NULL;
+    if (!path || snprintf(text, SELECTOR_MAX, "*%s", base_name(path)) >= SELECTOR_MAX)
+        return 0;
+    for (char *at = text + 1; *at; at++) /* what would mean something else in a pattern or a list */
+        if (strchr(",*?[]()\\", *at))
+            *at = '?';
+    return 1;
+}
+
+static double near_image(const Selector *selector, const Texture *texture, const ObjectPart *object,
+                         char text[SELECTOR_MAX])
+{
+    (void)object;
+    return selector_of_image(text, texture) ? retex_word_distance(selector->name, text) : INFINITY;
+}
+
+/* ---- the table ---- */
+
+static const SelectorForm forms[] = {
+    {"object", begins_number, read_number, NULL, object_numbered, NULL},
+    {"surface of the colour", begins_color, read_color, texture_colored, NULL, near_color},
+    {"object that begins in", begins_place, read_place, NULL, object_placed, near_place},
+    {"image", begins_image, read_image, texture_shows_image, NULL, near_image},
+    {"identifier", begins_any, read_ident, texture_named, object_named, NULL},
+};
+
+int selector_matches(const Selector *selector, const Texture *texture, const ObjectPart *object)
+{
+    const SelectorForm *form = selector->form;
+    return (texture && !texture->tree && form->texture && form->texture(selector, texture)) ||
+           (object && form->object && form->object(selector, object));
+}
+
+/* ---- whether there is what it selects ---- */
+
+enum { NEAREST = 5 };
+typedef struct Search {
+    const Selector *selector;
+    int found, count;
+    double distances[NEAREST]; /* ascending */
+    char texts[NEAREST][SELECTOR_MAX];
+} Search;
+
+static void add_near(Search *search, double distance, const char *text)
+{
+    int k = 0;
+    for (int i = 0; i < search->count; i++)
+        if (strcmp(search->texts[i], text) == 0)
+            return;
+    while (k < search->count && search->distances[k] <= distance)
+        k++;
+    if (k == NEAREST)
+        return;
+    if (search->count < NEAREST)
+        search->count++;
+    for (int i = search->count - 1; i > k; i--) {
+        search->distances[i] = search->distances[i - 1];
+        memcpy(search->texts[i], search->texts[i - 1], SELECTOR_MAX);
+    }
+    search->distances[k] = distance;
+    snprintf(search->texts[k], SELECTOR_MAX, "%s", text);
+}
+
+static void look_at(Search *search, const Texture *texture, const ObjectPart *object)
+{
+    char text[SELECTOR_MAX];
+    for (int k = 0; !search->found && k < (texture ? texture_leaf_count(texture) : 1); k++) {
+        const Texture *leaf = texture ? texture_leaf(texture, k) : NULL;
+        search->found = selector_matches(search->selector, leaf, object);
+        const double distance = search->selector->form->near(search->selector, leaf, object, text);
+        if (distance < INFINITY)
+            add_near(search, distance, text);
+    }
+}
+
+static int fail_no_match(const Search *search, RetexError *err)
+{
+    char list[256] = "";
+    for (int k = 0; k < search->count; k++) {
+        append(list, sizeof list, k ? ", " : "; nearest: ");
+        append(list, sizeof list, search->texts[k]);
+    }
+    return retex_fail(err, RETEX_ENOTFOUND, "no %s `%s` in the scene%s", search->selector->form->what,
+                      search->selector->text, list);
+}
+
+static int check_match(const Selector *selector, const Scene *scene, RetexError *err)
+{
+    Search search = {.selector = selector};
+    const Texture *texture;
+    int target;
+    if (!selector->form->near)
+        return RETEX_OK;
+    for (int i = 0; i < scene->nprimitives && !search.found; i++) {
+        const Primitive *p = &scene->primitives[i];
+        const int own = 1 + (p->interior_texture != NULL);
+        for (int k = 0; !search.found && (texture = primitive_texture(p, k, &target)); k++) {
+            const ObjectPart object = object_part(scene, p, k < own ? 0 : k - own + 1);
+            look_at(&search, k == 0 && p->inherits ? NULL : texture, &object);
+        }
+    }
+    for (int i = 0; i < scene->ninstances && !search.found; i++) {
+        const ObjectPart object = {.idents = scene->instances[i].idents, .places = scene->instances[i].places};
+        look_at(&search, scene->instances[i].texture, &object);
+    }
+    return search.found ? RETEX_OK : fail_no_match(&search, err);
+}
+
+int selector_read(Selector *selector, const Scene *scene, const char *text, RetexError *err)
+{
+    const SelectorForm *form = forms;
+    while (!form->begins(text))
+        form++;
+    *selector = (Selector){.form = form, .text = arena_string(scene->arena, text, strlen(text))};
+    if (!selector->text)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
+    int code = form->read(selector, scene, err);
+    return code ? code : check_match(selector, scene, err);
+}
