@@ -41,5 +41,15 @@ $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) |
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
+# retex-import alone uses Assimp.
+IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c))
+$(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(LIBRETEX_LIBS)
+
+$(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
+
 all: $(LIBRETEX) $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

@@ -11,6 +11,8 @@ $ retex-denoise --version
 > retex-denoise 0.1.0
 $ retex-info --version
 > retex-info 0.1.0
+$ retex-import --version
+> retex-import 0.1.0
 $ retex-render --version
 > retex-render 0.1.0
 

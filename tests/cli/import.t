@@ -1,0 +1,194 @@
+# retex-import: what becomes of models, compared with a scene that says the same in POV-Ray's words.
+$ /usr/bin/python3 $TESTS/import_models.py && cp $TESTS/import_reference.pov reference.pov && grep '^camera' reference.pov >camera.inc
+$ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
+
+# look MODEL: import it, put the reference's camera into the scene, and render what is seen first.
+$ printf '%s\n' 'retex-import -q "$@" -o scene || exit' 'cat camera.inc >>scene/scene.pov' 'retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr' 'rm -r scene' >look
+$ printf '%s\n' 'for part in albedo depth uv; do retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs; done' >same
+
+# Depth, colour and UV are the reference's: nothing is mirrored, each card is in its place.
+$ for m in card.gltf card.glb second.gltf opaque.gltf card.obj card.dae; do sh look $m && sh same ${m%.*}.exr reference.exr; done
+$ for m in card.stl card.ply; do sh look $m --up z && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 card.exr reference.exr; done
+
+# glTF's own camera is the reference's.
+$ retex-import -q card.glb -o own && retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,uv own/own.pov -o own.exr && sh same own.exr reference.exr
+
+# A transform of the texture is one of its UV; a factor of its colours is in a new image.
+$ sh look turned.gltf && sh look turned_uv.gltf && retex-diff -q --part albedo --fail-psnr 35 turned.exr turned_uv.exr
+$ sh look tinted.gltf && sh look tinted_image.gltf && retex-diff -q --part albedo --fail-abs 0.004 tinted.exr tinted_image.exr
+$ retex-diff -q --part albedo --fail-psnr 25 turned.exr card.exr || echo turned
+> turned
+
+# The scene: instances share a mesh, materials are targets.
+$ cat own/own.pov
+> // Made of card.glb by retex-import 0.1.0.
+> //   retex-render own.pov --list-targets
+> //   povray own.pov         (in this folder)
+>
+> #version 3.7;
+>
+> global_settings {
+>   assumed_gamma 1
+>   max_trace_level 12
+>   radiosity { count 200 error_bound 0.5 recursion_limit 2 }
+> }
+> #default { finish { ambient 0 } }
+>
+> // ---- camera ----
+>
+> #declare Camera_nodes_2 = camera {
+>   location <0.75, 0.5, -2.5>
+>   sky <0, 1, 0>
+>   right x * 1.33333333
+>   up y
+>   angle 44.8272352
+>   look_at <0.75, 0.5, -1.5>
+> }
+> camera { Camera_nodes_2 }
+>
+> // ---- light ----
+>
+> sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }
+>
+> // ---- materials: each can be a target of retexturing ----
+>
+> #declare Wood = texture {
+>   pigment { uv_mapping image_map { png "textures/Image.png" interpolate 2 } }
+>   finish {
+>     diffuse 0.96 specular albedo 0.04 roughness 1
+>     #ifdef (Retex) retex { metallic 0 roughness 1 ior 1.5 } #end
+>   }
+> }
+>
+> // ---- objects ----
+>
+> #include "own-meshes.inc"
+>
+> object { Mesh_card texture { Wood } } // front
+> object { Mesh_card texture { Wood } matrix <0, 0, 1, 0, 1, 0, -1, 0, 0, 1.25, 0, 0> } // side
+$ retex-render --list-targets own/own.pov
+>  35.21%  Mesh_card
+>  35.21%  Wood
+$ ls own own/textures; cmp own/textures/Image.png F.png
+> own:
+> own-meshes.inc
+> own.pov
+> textures
+>
+> own/textures:
+> Image.png
+
+# The mask cuts: the picture's right half is a hole.
+$ sh look masked.gltf && retex-diff -q --part albedo --fail-psnr 25 masked.exr card.exr || echo a hole
+> a hole
+
+# A lamp shines with glTF's strength.
+$ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.pov
+> #declare Lamp = texture {
+>   pigment { rgb <1, 0.5, 0.25> }
+>   finish {
+>     diffuse 0 emission rgb 4
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote glowing/glowing.pov
+$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 glowing/glowing.pov -o lamp.exr && make_values lamp.exr 0,0
+> 4 2 1
+
+# Names become identifiers.
+$ retex-import names.obj -o names && grep declare names/names.pov
+> #declare Sphere = texture {
+> #declare Sphere_2 = texture {
+> #declare Material_2nd = texture {
+> #declare Material = texture {
+! retex-import: no camera in the model: the scene is framed
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 4 materials, 4 meshes, 4 objects, 4 triangles
+! retex-import: wrote names/names.pov
+
+# Missing images are told; files outside of the model's folder are not read.
+$ retex-import below/missing.gltf -o missing
+! retex-import: warning: there is no image `http://example.org/wood.png`
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote missing/missing.pov
+$ retex-import below/out.gltf -o out; ls -d out*
+! retex-import: error: below/out.gltf: the model names the file `../secret.png`, which is outside of its folder; -I DIR adds folders that may be read
+! ls: cannot access 'out*': No such file or directory
+= 2
+$ retex-import below/out.gltf -I . -o out && ls out/textures
+> Secret.png
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote out/out.pov
+$ retex-import below/buffer.gltf -o buffer
+! retex-import: error: below/buffer.gltf: the model names the file `below/../F.png`, which is outside of its folder; -I DIR adds folders that may be read
+= 2
+
+# Damaged models: one line, and nothing is left.
+$ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj; do retex-import $m -o damaged; echo $?; done; ls -d damaged*
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-import: error: short.glb: No suitable reader found for the file format of file "short.glb".
+! retex-import: error: empty.obj: OBJ-file is too small.
+! retex-import: error: noise.fbx: FBX-Parser unexpected end of file
+! retex-import: error: huge.gltf: GLTF: Accessor with offset/length (0/4000000000) is out of range.
+! retex-import: error: cycle.gltf: GLTF: Object at index 0 in array "nodes" has recursive reference to itself
+! retex-import: error: faces.obj: OBJ: vertex index out of range
+! ls: cannot access 'damaged*': No such file or directory
+= 2
+$ retex-import nothing.glb -o damaged
+! retex-import: error: cannot read nothing.glb: No such file or directory
+= 2
+
+# Too little memory.
+$ retex-import --max-memory 60 large.obj -o little; echo $?; ls -d little*
+> 2
+! retex-import: error: large.obj: out of memory: reading it takes more than --max-memory
+! ls: cannot access 'little*': No such file or directory
+= 2
+
+# What exists stays.
+$ retex-import card.glb -o own
+! retex-import: error: own exists; --force writes into it
+= 2
+$ echo mine >own/mine.txt; retex-import -q --force card.gltf -o own/ && cat own/mine.txt && head -n 1 own/own.pov && ls -d own*
+> mine
+> // Made of card.gltf by retex-import 0.1.0.
+> own
+> own.exr
+$ retex-import card.glb
+! retex-import: error: no output: give a folder to make, -o NAME
+= 2
+$ retex-import card.glb -o .
+! retex-import: error: -o .: expected the name of a folder to make
+= 2
+$ retex-import card.glb -o -
+! retex-import: error: -o -: expected the name of a folder to make
+= 2
+$ retex-import -o x
+! retex-import: error: no model given
+= 2
+$ retex-import - -o x
+! retex-import: error: a model is read from a file, for it may name others
+= 2
+$ retex-import --up x card.glb -o x
+! retex-import: error: --up: expected y or z, not 'x'
+= 2
+$ retex-import --camera 2 card.glb -o x
+! retex-import: error: --camera 2: the model has 1 camera, the first is Camera_nodes_2
+= 2
+$ retex-import --camera 1 card.glb -o x
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote x/x.pov
+
+# A sky. Seen from inside, its left is on the left: the picture's middle is in direction x, its right half towards -z.
+$ retex-import --sky F.png card.glb -o sky && grep sky_sphere sky/sky.pov && ls sky/textures
+> sky_sphere { pigment { image_map { png "textures/sky.png" map_type 1 interpolate 2 } scale <-1, 1, 1> } }
+> Image.png
+> sky.png
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote sky/sky.pov

@@ -1,0 +1,186 @@
+"""Writes models into the current folder, for import.t: a card with the letter F facing the viewer, and the same card again
+as a side wall to the right, going away from the viewer; and damaged ones."""
+import base64
+import json
+import math
+import os
+import struct
+import zlib
+
+
+def chunk(kind, data):
+    return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+
+
+def png(width, height, pixel, channels):
+    rows = b''.join(b'\0' + b''.join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
+    head = struct.pack('>IIBBBBB', width, height, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    return b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', head) + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b'')
+
+
+def letter(x, y):
+    if 3 <= x < 6 and 2 <= y < 14 or 3 <= x < 13 and 2 <= y < 5 or 3 <= x < 10 and 7 <= y < 9:
+        return 180, 20, 30
+    return (30, 40, 180) if y == 15 else (20, 120, 40) if x == 0 else (235, 225, 200)
+
+
+def write(name, data):
+    with open(name, 'wb') as out:
+        out.write(data if isinstance(data, bytes) else data.encode())
+
+
+F = png(16, 16, letter, 3)
+write('F.png', F)
+# opaque in the left half only; colours below the right half too
+half = png(16, 16, lambda x, y: letter(x, y) + ((255 if x < 8 else 100),), 4)
+positions = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+uvs = [(0, 1), (1, 1), (1, 0), (0, 0)]  # of glTF: v down
+faces = [(0, 1, 2), (0, 2, 3)]
+buffer = (b''.join(struct.pack('<3f', *p) for p in positions) + b''.join(struct.pack('<2f', *p) for p in uvs) +
+          b''.join(struct.pack('<3H', *f) for f in faces))
+MATERIAL = {'name': 'wood', 'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}, 'metallicFactor': 0}}
+
+
+def gltf(material, image=F, nodes=None, buffer_uri=None, second_uv=False, buffer=buffer):
+    attributes = {'POSITION': 0, 'TEXCOORD_0': 1}
+    if second_uv:
+        attributes = {'POSITION': 0, 'TEXCOORD_0': 3, 'TEXCOORD_1': 1}
+    return {
+        'asset': {'version': '2.0'},
+        'scene': 0,
+        'scenes': [{'nodes': list(range(len(nodes))) if nodes else [0, 1, 2]}],
+        'nodes': nodes or [
+            {'mesh': 0, 'name': 'front'},
+            # a quarter turn to the left about y: x becomes -z
+            {'mesh': 0, 'name': 'side', 'rotation': [0, .5**.5, 0, .5**.5], 'translation': [1.25, 0, 0]},
+            {'camera': 0, 'translation': [.75, .5, 2.5]}],
+        'cameras': [{'type': 'perspective', 'perspective': {'yfov': .6, 'aspectRatio': 4 / 3, 'znear': .1}}],
+        'meshes': [{'name': 'card', 'primitives': [{'attributes': attributes, 'indices': 2, 'material': 0}]}],
+        'materials': [material],
+        'textures': [{'source': 0}],
+        'images': [image if isinstance(image, dict) else
+                   {'uri': 'data:image/png;base64,' + base64.b64encode(image).decode()}],
+        'accessors': [
+            {'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3', 'min': [0, 0, 0], 'max': [1, 1, 0]},
+            {'bufferView': 1, 'componentType': 5126, 'count': 4, 'type': 'VEC2'},
+            {'bufferView': 2, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'},
+            {'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC2'}],
+        'bufferViews': [{'buffer': 0, 'byteOffset': 0, 'byteLength': 48},
+                        {'buffer': 0, 'byteOffset': 48, 'byteLength': 32},
+                        {'buffer': 0, 'byteOffset': 80, 'byteLength': 12}],
+        'buffers': [{'byteLength': len(buffer), 'uri': buffer_uri or
+                     'data:application/octet-stream;base64,' + base64.b64encode(buffer).decode()}],
+    }
+
+
+def glb(scene, data):
+    text = json.dumps(scene).encode()
+    text += b' ' * (-len(text) % 4)
+    data += b'\0' * (-len(data) % 4)
+    body = struct.pack('<II', len(text), 0x4e4f534a) + text + struct.pack('<II', len(data), 0x004e4942) + data
+    return struct.pack('<III', 0x46546c67, 2, 12 + len(body)) + body
+
+
+write('card.gltf', json.dumps(gltf(MATERIAL)))
+inside = gltf(MATERIAL, {'bufferView': 3, 'mimeType': 'image/png'})
+inside['bufferViews'].append({'buffer': 0, 'byteOffset': 92, 'byteLength': len(F)})
+inside['buffers'] = [{'byteLength': 92 + len(F)}]
+card = glb(inside, buffer + F)
+write('card.glb', card)
+write('second.gltf', json.dumps(gltf(dict(MATERIAL, pbrMetallicRoughness={
+    'baseColorTexture': {'index': 0, 'texCoord': 1}, 'metallicFactor': 0}), second_uv=True)))
+turned = dict(MATERIAL, pbrMetallicRoughness={'metallicFactor': 0, 'baseColorTexture': {
+    'index': 0, 'extensions': {'KHR_texture_transform': {'offset': [.25, .5], 'rotation': .5, 'scale': [2, 3]}}}})
+write('turned.gltf', json.dumps(dict(gltf(turned), extensionsUsed=['KHR_texture_transform'])))
+# The same by the definition: scaled, turned counter-clockwise as seen with v down, moved.
+c, s = math.cos(.5), math.sin(.5)
+moved = [(.25 + c * 2 * u + s * 3 * v, .5 - s * 2 * u + c * 3 * v) for u, v in uvs]
+write('turned_uv.gltf', json.dumps(gltf(MATERIAL, buffer=buffer[:48] + b''.join(
+    struct.pack('<2f', *uv) for uv in moved) + buffer[80:])))
+write('masked.gltf', json.dumps(gltf(dict(MATERIAL, alphaMode='MASK'), half)))
+write('opaque.gltf', json.dumps(gltf(MATERIAL, half)))
+write('tinted.gltf', json.dumps(gltf(dict(MATERIAL, pbrMetallicRoughness={
+    'baseColorTexture': {'index': 0}, 'baseColorFactor': [.5, 1, .25, 1], 'metallicFactor': 0}))))
+
+
+def encoded(code, factor):
+    x = code / 255
+    x = (x / 12.92 if x <= .04045 else ((x + .055) / 1.055)**2.4) * factor
+    return round(255 * (12.92 * x if x <= .0031308 else 1.055 * x**(1 / 2.4) - .055))
+
+
+write('tinted_image.gltf', json.dumps(gltf(MATERIAL, png(16, 16, lambda x, y: [
+    encoded(code, factor) for code, factor in zip(letter(x, y), (.5, 1, .25))], 3))))
+write('glowing.gltf', json.dumps(dict(gltf({
+    'name': 'lamp', 'pbrMetallicRoughness': {'baseColorFactor': [0, 0, 0, 1]}, 'emissiveFactor': [1, .5, .25],
+    'extensions': {'KHR_materials_emissive_strength': {'emissiveStrength': 4}}}),
+    extensionsUsed=['KHR_materials_emissive_strength'])))
+
+# The same card in other formats; both are placed, for these have no instances.
+side = [(1.25, y, -x) for x, y, _ in positions]
+obj = 'mtllib card.mtl\n' + ''.join('v %g %g %g\n' % p for p in positions + side)
+obj += ''.join('vt %g %g\n' % (u, 1 - v) for u, v in uvs) + 'usemtl wood\n'
+obj += ''.join('f %s\n' % ' '.join('%d/%d' % (4 * k + i + 1, i + 1) for i in range(4)) for k in range(2))
+write('card.obj', obj)
+write('card.mtl', 'newmtl wood\nKd 0.3 0.3 0.3\nmap_Kd F.png\n')
+# z up: y of the card is z
+ply = 'ply\nformat ascii 1.0\nelement vertex 8\n' + ''.join('property float %s\n' % a for a in 'xyz')
+ply += ''.join('property uchar %s\n' % a for a in ('red', 'green', 'blue'))
+ply += 'element face 4\nproperty list uchar int vertex_indices\nend_header\n'
+ply += ''.join('%g %g %g %d 128 0\n' % (x, -z, y, 255 if y else 0) for x, y, z in positions + side)
+ply += ''.join('3 %d %d %d\n' % tuple(4 * k + i for i in f) for k in range(2) for f in faces)
+write('card.ply', ply)
+stl = b'\0' * 80 + struct.pack('<I', 4)
+for k in range(2):
+    for f in faces:
+        corners = [(positions + side)[4 * k + i] for i in f]
+        stl += struct.pack('<12fH', 0, 0, 1, *[c for x, y, z in corners for c in (x, -z, y)], 0)
+write('card.stl', stl)
+write('card.dae', '''<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_images><image id="i"><init_from>F.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
+<technique sid="c"><lambert><diffuse><texture texture="t" texcoord="UV"/></diffuse></lambert></technique>
+</profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="wood"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g" name="card"><mesh>
+<source id="p"><float_array id="pa" count="12">%s</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="u"><float_array id="ua" count="8">%s</float_array><technique_common>
+<accessor source="#ua" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor>
+</technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="2" material="w"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#u" offset="1" set="0"/><p>%s</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="S">
+%s</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>
+''' % (' '.join('%g %g %g' % p for p in positions), ' '.join('%g %g' % (u, 1 - v) for u, v in uvs),
+       ' '.join('%d %d' % (i, i) for f in faces for i in f),
+       ''.join('<node id="%s"><matrix>%s</matrix><instance_geometry url="#g"><bind_material><technique_common>'
+               '<instance_material symbol="w" target="#m"/></technique_common></bind_material></instance_geometry>'
+               '</node>\n' % n for n in (('a', '1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1'),
+                                         ('b', '0 0 1 1.25 0 1 0 0 -1 0 0 0 0 0 0 1')))))
+
+# Damage.
+write('short.glb', card[:len(card) // 2])
+write('empty.obj', '')
+write('noise.fbx', bytes(i * 37 % 256 for i in range(4096)))
+huge = gltf(MATERIAL)
+huge['accessors'][0]['count'] = 1000000000
+write('huge.gltf', json.dumps(huge))
+write('cycle.gltf', json.dumps(gltf(MATERIAL, nodes=[{'mesh': 0, 'children': [1]}, {'children': [0]}])))
+write('faces.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9999999\n')
+os.makedirs('below', exist_ok=True)
+write('secret.png', F)
+write('below/out.gltf', json.dumps(gltf(MATERIAL, {'uri': '../secret.png'})))
+write('below/buffer.gltf', json.dumps(gltf(MATERIAL, buffer_uri='../F.png')))
+write('below/missing.gltf', json.dumps(gltf(MATERIAL, {'uri': 'http://example.org/wood.png'})))
+write('names.obj', 'mtllib names.mtl\n' + ''.join('v %g %g %g\n' % p for p in positions) +
+      ''.join('usemtl %s\nf 1 2 3\n' % n for n in ('sphere', 'Sphere', '2nd', '\u6728')))
+write('names.mtl', ''.join('newmtl %s\nKd 1 0 0\n' % n for n in ('sphere', 'Sphere', '2nd', '\u6728')))
+write('large.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' * 1000000 + 'f 1 2 3\n')

@@ -1,0 +1,141 @@
+/* Cameras: all of the model's are declared, one is used; where there is none, the scene is framed. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/internal.h"
+
+#define PI 3.14159265358979323846
+
+static void print_vector(FILE *out, const char *what, const double v[3])
+{
+    fprintf(out, "  %s <%.7g, %.7g, %.7g>\n", what, v[0], v[1], v[2]);
+}
+
+/* Position, direction and up of a camera in the scene. */
+static void place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
+{
+    const Affine node = import_node_transform(import, camera->mName.data);
+    const struct aiVector3D zero = {0, 0, 0}, ahead = {0, 0, -1}, above = {0, 1, 0};
+    const struct aiVector3D *p = import->is_gltf ? &zero : &camera->mPosition;
+    const struct aiVector3D *d = import->is_gltf ? &ahead : &camera->mLookAt;
+    const struct aiVector3D *u = import->is_gltf ? &above : &camera->mUp;
+    affine_point(&node, (double[3]){(double)p->x, (double)p->y, (double)p->z}, at);
+    affine_vector(&node, (double[3]){(double)d->x, (double)d->y, (double)d->z}, to);
+    affine_vector(&node, (double[3]){(double)u->x, (double)u->y, (double)u->z}, up);
+    const double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    const double tall = sqrt(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
+    at[2] = 0 - at[2], to[2] = 0 - to[2], up[2] = 0 - up[2];
+    for (int k = 0; k < 3; k++) {
+        to[k] = at[k] + (length > 0 ? to[k] / length : k == 2);
+        up[k] = tall > 0 ? up[k] / tall : k == 1;
+    }
+}
+
+/* The picture's width by its height, and either the angle from left to right or the width of a parallel projection. */
+typedef struct View {
+    double aspect, angle, width;
+} View;
+
+static View view_of(const Import *import, int index)
+{
+    const struct aiCamera *camera = import->scene->mCameras[index];
+    View view = {(double)camera->mAspect, (double)camera->mHorizontalFOV, 2 * (double)camera->mOrthographicWidth};
+    if (index < import->gltf.ncameras) {
+        const GltfCamera *gltf = &import->gltf.cameras[index];
+        view.width = gltf->width;
+        view.aspect = gltf->width > 0 && gltf->height > 0 ? gltf->width / gltf->height : gltf->aspect;
+        view.angle = 2 * atan(tan(gltf->angle / 2) * (view.aspect > 0 ? view.aspect : 4.0 / 3));
+    }
+    if (!(view.aspect > 0.01 && view.aspect < 100))
+        view.aspect = 4.0 / 3;
+    if (!(view.angle > 0.001 && view.angle < 3.1))
+        view.angle = PI / 3;
+    return view;
+}
+
+static void write_camera(const Import *import, int index, const char *name, FILE *out)
+{
+    const View view = view_of(import, index);
+    double at[3], to[3], up[3];
+    place(import, import->scene->mCameras[index], at, to, up);
+    fprintf(out, "#declare %s = camera {\n", name);
+    if (view.width > 0)
+        fprintf(out, "  orthographic\n");
+    print_vector(out, "location", at);
+    print_vector(out, "sky", up);
+    if (view.width > 0) {
+        const double width = view.width * import->options->scale;
+        fprintf(out, "  right x * %.7g\n  up y * %.7g\n", width, width / view.aspect);
+    } else
+        fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", view.aspect, view.angle * 180 / PI);
+    print_vector(out, "look_at", to);
+    fprintf(out, "}\n");
+}
+
+/* From the right in front and above, so that a sphere about the scene fits. */
+static void write_framing(const Import *import, FILE *out)
+{
+    double middle[3], radius = 0, at[3];
+    const double from[3] = {0.45, 0.35, -0.82}, angle = 40;
+    for (int k = 0; k < 3; k++) {
+        const double half = (import->high[k] - import->low[k]) / 2;
+        middle[k] = import->low[k] + half;
+        radius += half * half;
+    }
+    radius = sqrt(radius);
+    for (int k = 0; k < 3; k++)
+        at[k] = middle[k] + from[k] * radius / tan(angle / 2 * 0.75 * PI / 180);
+    fprintf(out, "camera {\n");
+    print_vector(out, "location", at);
+    fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", angle);
+    print_vector(out, "look_at", middle);
+    fprintf(out, "}\n\n");
+    import_tell(import, IMPORT_INFO, "no camera in the model: the scene is framed");
+}
+
+/* The number of the camera that --camera asks for. */
+static int choose(const Import *import, char (*names)[NAME_SIZE], int *chosen, RetexError *err)
+{
+    const char *asked = import->options->camera;
+    const unsigned count = import->scene->mNumCameras;
+    char *end;
+    *chosen = 0;
+    if (!asked)
+        return RETEX_OK;
+    const long number = strtol(asked, &end, 10);
+    for (unsigned i = 0; i < count; i++)
+        if ((!*end && number == (long)i + 1) || strcmp(asked, import->scene->mCameras[i]->mName.data) == 0 ||
+            strcmp(asked, names[i]) == 0) {
+            *chosen = (int)i;
+            return RETEX_OK;
+        }
+    return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %u camera%s%s%.100s", asked, count,
+                      count == 1 ? "" : "s", count ? ", the first is " : "", count ? names[0] : "");
+}
+
+int cameras_write(Import *import, FILE *out, RetexError *err)
+{
+    const struct aiScene *scene = import->scene;
+    char(*names)[NAME_SIZE] = calloc(scene->mNumCameras + 1, sizeof *names), name[TEXT_SIZE + 8];
+    int chosen, code = names ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    fprintf(out, "// ---- camera ----\n\n");
+    for (unsigned i = 0; !code && i < scene->mNumCameras; i++) {
+        snprintf(name, sizeof name, "Camera_%s", scene->mCameras[i]->mName.data);
+        if (!names_make(&import->names, name, "Camera", names[i]))
+            code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+        else
+            write_camera(import, (int)i, names[i], out);
+    }
+    if (!code)
+        code = choose(import, names, &chosen, err);
+    if (!code && scene->mNumCameras) {
+        fprintf(out, "camera { %s }\n\n", names[chosen]);
+        if (scene->mNumCameras > 1)
+            import_tell(import, IMPORT_INFO, "camera %d of %u is used, %s; --camera takes another one", chosen + 1,
+                        scene->mNumCameras, names[chosen]);
+    } else if (!code)
+        write_framing(import, out);
+    free(names);
+    return code;
+}

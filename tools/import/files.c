@@ -1,0 +1,181 @@
+/* Files that a model names. Assimp reads them through functions of ours: those in the model's folder and in the folders
+ * of -I, and no others. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "import/internal.h"
+
+int files_begin(Import *import, RetexError *err)
+{
+    const ImportOptions *options = import->options;
+    char folder[PATH_MAX];
+    const char *slash = strrchr(options->model, '/');
+    const size_t length = slash ? (size_t)(slash - options->model) + 1 : 0;
+    if (length >= sizeof folder)
+        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", options->model, strerror(ENAMETOOLONG));
+    memcpy(folder, options->model, length);
+    strcpy(folder + length, length ? "" : ".");
+    if (access(options->model, R_OK) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", options->model, strerror(errno));
+    if (!realpath(folder, import->root))
+        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", options->model, strerror(errno));
+    import->access = (RetexAccess)RETEX_ACCESS_INIT;
+    import->access.safe = 1; /* names in a model are a stranger's */
+    import->access.roots = import->roots;
+    import->roots[import->access.nroots++] = import->root;
+    for (int i = 0; i < options->nalso; i++) {
+        char *resolved = realpath(options->also[i], NULL);
+        if (!resolved)
+            return retex_fail(err, RETEX_EIO, "-I %s: %s", options->also[i], strerror(errno));
+        import->roots[import->access.nroots++] = resolved;
+    }
+    return RETEX_OK;
+}
+
+/* ---- what Assimp calls ---- */
+
+static size_t read_file(struct aiFile *file, char *to, size_t size, size_t count)
+{
+    return fread(to, size, count, (FILE *)file->UserData);
+}
+
+static size_t write_file(struct aiFile *file, const char *from, size_t size, size_t count)
+{
+    (void)file, (void)from, (void)size, (void)count;
+    return 0;
+}
+
+static size_t tell_file(struct aiFile *file)
+{
+    const long at = ftell((FILE *)file->UserData);
+    return at < 0 ? 0 : (size_t)at;
+}
+
+static size_t file_size(struct aiFile *file)
+{
+    struct stat info;
+    return fstat(fileno((FILE *)file->UserData), &info) == 0 ? (size_t)info.st_size : 0;
+}
+
+static aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin)
+{
+    const int whence = origin == aiOrigin_SET ? SEEK_SET : origin == aiOrigin_CUR ? SEEK_CUR : SEEK_END;
+    return fseek((FILE *)file->UserData, (long)offset, whence) == 0 ? aiReturn_SUCCESS : aiReturn_FAILURE;
+}
+
+static void flush_file(struct aiFile *file)
+{
+    (void)file;
+}
+
+static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode)
+{
+    Import *import = (Import *)io->UserData;
+    int descriptor = -1;
+    RetexError err = {0};
+    RetexAccess of_user = RETEX_ACCESS_INIT;
+    of_user.safe = import->options->safe;
+    const int is_model = strcmp(name, import->options->model) == 0;
+    struct stat info;
+    if (mode[0] != 'r')
+        return NULL;
+    if (retex_access_open(is_model ? &of_user : &import->access, name, &descriptor, &err)) {
+        if (err.code == RETEX_EACCESS && !import->denied[0])
+            snprintf(import->denied, sizeof import->denied, "%s", name);
+        return NULL;
+    }
+    struct aiFile *file = calloc(1, sizeof *file);
+    FILE *stream = fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) ? fdopen(descriptor, "rb") : NULL;
+    if (!file || !stream) {
+        free(file);
+        close(descriptor);
+        return NULL;
+    }
+    *file = (struct aiFile){read_file, write_file, tell_file, file_size, seek_file, flush_file, (aiUserData)stream};
+    return file;
+}
+
+static void close_file(struct aiFileIO *io, struct aiFile *file)
+{
+    (void)io;
+    fclose((FILE *)file->UserData);
+    free(file);
+}
+
+struct aiFileIO *files_io(Import *import)
+{
+    struct aiFileIO *io = calloc(1, sizeof *io);
+    if (io)
+        *io = (struct aiFileIO){open_file, close_file, (aiUserData)import};
+    return io;
+}
+
+void files_close_io(struct aiFileIO *io)
+{
+    free(io);
+}
+
+/* ---- images ---- */
+
+static RetexAccessResult try_file(Import *import, const char *folder, const char *below, const char *name,
+                                  char path[PATH_MAX])
+{
+    if (snprintf(path, PATH_MAX, "%s%s", below, name) >= PATH_MAX)
+        return RETEX_ACCESS_ABSENT;
+    const RetexAccessResult result = retex_access_check(&import->access, folder, path);
+    if (result == RETEX_ACCESS_ALLOWED && path[0] != '/') {
+        char whole[PATH_MAX];
+        if (snprintf(whole, sizeof whole, "%s/%s", folder, path) >= PATH_MAX)
+            return RETEX_ACCESS_ABSENT;
+        strcpy(path, whole);
+    }
+    return result;
+}
+
+/* Names come from other machines: "C:\work\wood.png", "file:///work/my%20wood.png". */
+static void clean_name(const char *name, char clean[PATH_MAX])
+{
+    size_t n = 0;
+    if (strncmp(name, "file://", 7) == 0)
+        name += 7;
+    for (const char *c = name; *c && n + 1 < PATH_MAX; c++) {
+        unsigned code;
+        if (*c == '%' && sscanf(c + 1, "%2x", &code) == 1 && code >= 32 && strlen(c) > 2) {
+            clean[n++] = (char)code;
+            c += 2;
+        } else
+            clean[n++] = *c == '\\' ? '/' : *c;
+    }
+    clean[n] = '\0';
+}
+
+/* As it is named; else its last part in each folder, and in folders below that often have textures. */
+int files_find(Import *import, const char *name, char path[PATH_MAX], int *found, RetexError *err)
+{
+    static const char *const below[] = {"", "textures/", "Textures/", "images/", "maps/"};
+    char clean[PATH_MAX];
+    int outside = 0;
+    clean_name(name, clean);
+    *found = 1;
+    for (int i = 0; i < import->access.nroots; i++) {
+        const RetexAccessResult result = try_file(import, import->roots[i], "", clean, path);
+        if (result == RETEX_ACCESS_ALLOWED)
+            return RETEX_OK;
+        outside |= result == RETEX_ACCESS_OUTSIDE;
+    }
+    const char *slash = strrchr(clean, '/'), *last = slash ? slash + 1 : clean;
+    for (int i = 0; i < import->access.nroots && *last; i++)
+        for (size_t k = 0; k < sizeof below / sizeof *below; k++)
+            if (try_file(import, import->roots[i], below[k], last, path) == RETEX_ACCESS_ALLOWED)
+                return RETEX_OK;
+    *found = 0;
+    if (outside)
+        return retex_fail(err, RETEX_EACCESS,
+                          "%s: the model names the file `%s`, which is outside of its folder; "
+                          "-I DIR adds folders that may be read",
+                          import->options->model, clean);
+    return RETEX_OK;
+}

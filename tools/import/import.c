@@ -1,0 +1,377 @@
+/* A model becomes a scene: Assimp reads it, NAME.pov and NAME-meshes.inc are written. */
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <retex/version.h>
+
+#include "import/internal.h"
+
+/* ---- messages ---- */
+
+void import_tell(const Import *import, char kind, const char *fmt, ...)
+{
+    char text[1024];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    import->options->tell(import->options->context, kind, text);
+}
+
+void import_leave_out(Import *import, LeftOut what)
+{
+    static const char *const texts[] = {
+        [LEFT_NORMAL_MAP] = "normal maps are left out",
+        [LEFT_ROUGHNESS_MAP] = "of roughness maps the mean is taken",
+        [LEFT_METALLIC_MAP] = "of metallic maps the mean is taken",
+        [LEFT_EMISSION_MAP] = "emission from images is left out where a surface has another colour too",
+        [LEFT_TRANSMISSION_MAP] = "transmission maps are left out",
+        [LEFT_SPECULAR_MAP] = "specular maps are left out",
+        [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface has an image",
+        [LEFT_CLEARCOAT] = "clear coats are left out",
+        [LEFT_SHEEN] = "sheen is left out",
+        [LEFT_ANIMATION] = "animations are left out",
+        [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
+        [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
+        [LEFT_LINES] = "points and lines are left out",
+    };
+    if (import->left_out >> what & 1)
+        return;
+    import->left_out |= 1ul << what;
+    import_tell(import, IMPORT_WARNING, "%s", texts[what]);
+}
+
+const char *import_plain(const char *text, char plain[NAME_SIZE])
+{
+    int n = 0;
+    for (; *text && n + 1 < NAME_SIZE; text++)
+        plain[n++] = (unsigned char)*text < 32 || *text == 127 ? '?' : *text;
+    plain[n] = '\0';
+    return plain;
+}
+
+/* ---- the model ---- */
+
+static int has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+/* Which of its axes is up is known of some formats; Assimp turns others so that y is. */
+static void set_world(Import *import)
+{
+    const ImportOptions *options = import->options;
+    const char up = options->up ? options->up : has_ending(options->model, ".stl") ? 'z' : 'y';
+    const double s = options->scale;
+    const Affine y_up = {{{s, 0, 0, 0}, {0, s, 0, 0}, {0, 0, s, 0}}};
+    const Affine z_up = {{{s, 0, 0, 0}, {0, 0, s, 0}, {0, -s, 0, 0}}};
+    import->world = up == 'z' ? z_up : y_up;
+}
+
+static int read_model(Import *import, RetexError *err)
+{
+    const ImportOptions *options = import->options;
+    unsigned flags = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords |
+                     aiProcess_ValidateDataStructure | aiProcess_RemoveComponent;
+    import->is_gltf = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb");
+    import->is_fbx = has_ending(options->model, ".fbx");
+    if (!import->is_gltf)
+        flags |= aiProcess_JoinIdenticalVertices;
+    if (import->is_fbx)
+        flags |= aiProcess_GlobalScale;
+    if (options->smooth > 0)
+        flags |= aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices;
+    struct aiPropertyStore *properties = aiCreatePropertyStore();
+    struct aiFileIO *io = files_io(import);
+    if (!properties || !io)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, aiComponent_TANGENTS_AND_BITANGENTS);
+    aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, (ai_real)options->smooth);
+    import->scene = aiImportFileExWithProperties(options->model, flags, io, properties);
+    aiReleasePropertyStore(properties);
+    files_close_io(io);
+    if (import->denied[0])
+        return retex_fail(err, RETEX_EACCESS,
+                          "%s: the model names the file `%s`, which is outside of its folder; "
+                          "-I DIR adds folders that may be read",
+                          options->model, import->denied);
+    if (!import->scene && strstr(aiGetErrorString(), "bad_alloc"))
+        return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
+                          options->model);
+    if (!import->scene)
+        return retex_fail(err, RETEX_EFORMAT, "%s: %.400s", options->model, aiGetErrorString());
+    if (!import->scene->mRootNode || !import->scene->mNumMeshes || !import->scene->mNumMaterials)
+        return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", options->model);
+    return RETEX_OK;
+}
+
+static void note_left_out(Import *import)
+{
+    const struct aiScene *scene = import->scene;
+    if (scene->mNumAnimations)
+        import_leave_out(import, LEFT_ANIMATION);
+    for (unsigned i = 0; i < scene->mNumMeshes; i++)
+        if (scene->mMeshes[i]->mNumBones)
+            import_leave_out(import, LEFT_SKIN);
+}
+
+/* ---- nodes ---- */
+
+typedef struct Bounds {
+    double low[3], high[3];
+    int any;
+} Bounds;
+
+/* Calls `visit` for every node, with its transform; without recursion, for files may nest deeply. Returns 0 without
+ * memory. */
+typedef void Visit(Import *import, const struct aiNode *node, const Affine *world, void *context);
+
+typedef struct Place {
+    const struct aiNode *node;
+    Affine world;
+} Place;
+
+static int visit_nodes(Import *import, Visit *visit, void *context)
+{
+    size_t count = 1, capacity = 256;
+    Place *places = malloc(capacity * sizeof *places);
+    if (!places)
+        return 0;
+    places[0] = (Place){import->scene->mRootNode, import->world};
+    while (count) {
+        const Place place = places[--count];
+        const Affine own = affine_from(&place.node->mTransformation), world = affine_multiply(&place.world, &own);
+        visit(import, place.node, &world, context);
+        if (count + place.node->mNumChildren > capacity) {
+            capacity = 2 * (count + place.node->mNumChildren);
+            Place *more = realloc(places, capacity * sizeof *places);
+            if (!more) {
+                free(places);
+                return 0;
+            }
+            places = more;
+        }
+        for (unsigned i = place.node->mNumChildren; i-- > 0;)
+            places[count++] = (Place){place.node->mChildren[i], world};
+    }
+    free(places);
+    return 1;
+}
+
+typedef struct Search {
+    const char *name;
+    Affine world;
+    int found;
+} Search;
+
+static void compare_name(Import *import, const struct aiNode *node, const Affine *world, void *context)
+{
+    Search *search = context;
+    (void)import;
+    if (!search->found && strcmp(node->mName.data, search->name) == 0) {
+        search->world = *world;
+        search->found = 1;
+    }
+}
+
+Affine import_node_transform(const Import *import, const char *name)
+{
+    Search search = {name, import->world, 0};
+    visit_nodes((Import *)import, compare_name, &search);
+    return search.world;
+}
+
+static void add_bounds(Import *import, const struct aiNode *node, const Affine *world, void *context)
+{
+    const Affine placed = affine_mirror_z(world);
+    const Bounds *bounds = context;
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        const Bounds *b = node->mMeshes[i] < import->scene->mNumMeshes ? &bounds[node->mMeshes[i]] : NULL;
+        if (!b || !b->any)
+            continue;
+        for (int corner = 0; corner < 8; corner++) {
+            const double p[3] = {corner & 1 ? b->high[0] : b->low[0], corner & 2 ? b->high[1] : b->low[1],
+                                 corner & 4 ? b->high[2] : b->low[2]};
+            double q[3];
+            affine_point(&placed, p, q);
+            for (int k = 0; k < 3; k++) {
+                import->low[k] = fmin(import->low[k], q[k]);
+                import->high[k] = fmax(import->high[k], q[k]);
+            }
+        }
+    }
+}
+
+/* Of all that is placed. */
+static int find_bounds(Import *import, RetexError *err)
+{
+    Bounds *bounds = calloc(import->scene->mNumMeshes + 1, sizeof *bounds);
+    if (!bounds)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    for (unsigned i = 0; i < import->scene->mNumMeshes; i++)
+        bounds[i].any = mesh_bounds(import->scene->mMeshes[i], bounds[i].low, bounds[i].high);
+    for (int k = 0; k < 3; k++)
+        import->low[k] = INFINITY, import->high[k] = -INFINITY;
+    const int done = visit_nodes(import, add_bounds, bounds);
+    free(bounds);
+    if (!done)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    for (int k = 0; k < 3; k++)
+        if (!isfinite(import->low[k]) || !isfinite(import->high[k]))
+            return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", import->options->model);
+    return RETEX_OK;
+}
+
+static void write_object(Import *import, const struct aiNode *node, const Affine *world, void *context)
+{
+    FILE *out = context;
+    const Affine placed = affine_mirror_z(world);
+    char plain[NAME_SIZE];
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        const unsigned index = node->mMeshes[i];
+        if (index >= import->scene->mNumMeshes || !import->meshes[index][0])
+            continue;
+        const ImportMaterial *material = &import->materials[import->scene->mMeshes[index]->mMaterialIndex];
+        fprintf(out, "object { %s %s { %s }", import->meshes[index], material->is_solid ? "material" : "texture",
+                material->name);
+        affine_print(out, &placed);
+        fprintf(out, " } // %s\n", import_plain(node->mName.data, plain));
+        import->objects++;
+    }
+}
+
+/* ---- the files ---- */
+
+static FILE *open_output(const Import *import, const char *what, char path[PATH_MAX], RetexError *err)
+{
+    if (snprintf(path, PATH_MAX, "%s/%s%s", import->options->folder, import->options->name, what) >= PATH_MAX) {
+        retex_fail(err, RETEX_EIO, "the name of the output is too long");
+        return NULL;
+    }
+    FILE *out = fopen(path, "wb");
+    if (!out)
+        retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(errno));
+    return out;
+}
+
+static int close_output(FILE *out, const char *path, RetexError *err)
+{
+    const int failed = ferror(out);
+    if (fclose(out) != 0 || failed)
+        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(errno ? errno : EIO));
+    return RETEX_OK;
+}
+
+static int write_meshes(Import *import, RetexError *err)
+{
+    char path[PATH_MAX];
+    FILE *out = open_output(import, "-meshes.inc", path, err);
+    if (!out)
+        return RETEX_EIO;
+    fprintf(out, "// Meshes of %s.pov.\n", import->options->name);
+    const int code = meshes_write(import, out, err), closed = close_output(out, path, code ? NULL : err);
+    return code ? code : closed;
+}
+
+static void write_head(const Import *import, FILE *out)
+{
+    const char *slash = strrchr(import->options->model, '/'), *name = import->options->name;
+    char plain[NAME_SIZE];
+    fprintf(out,
+            "// Made of %s by retex-import %s.\n"
+            "//   retex-render %s.pov --list-targets\n"
+            "//   povray %s.pov         (in this folder)\n\n"
+            "#version 3.7;\n\n"
+            "global_settings {\n"
+            "  assumed_gamma 1\n"
+            "  max_trace_level 12\n"
+            "  radiosity { count 200 error_bound 0.5 recursion_limit 2 }\n"
+            "}\n"
+            "#default { finish { ambient 0 } }\n\n",
+            import_plain(slash ? slash + 1 : import->options->model, plain), RETEX_VERSION, name, name);
+}
+
+static int write_scene(Import *import, RetexError *err)
+{
+    char path[PATH_MAX], *materials = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&materials, &size);
+    int code = memory ? materials_write(import, memory, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (memory && fclose(memory) != 0 && !code)
+        code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (!code)
+        code = write_meshes(import, err);
+    FILE *out = code ? NULL : open_output(import, ".pov", path, err);
+    if (!out) {
+        free(materials);
+        return code ? code : RETEX_EIO;
+    }
+    write_head(import, out);
+    code = cameras_write(import, out, err);
+    if (!code)
+        code = lights_write(import, out, err);
+    if (!code) {
+        fwrite(materials, 1, size, out);
+        fprintf(out, "// ---- objects ----\n\n#include \"%s-meshes.inc\"\n\n", import->options->name);
+        if (!visit_nodes(import, write_object, out))
+            code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+    }
+    free(materials);
+    const int closed = close_output(out, path, code ? NULL : err);
+    return code ? code : closed;
+}
+
+static void tell_summary(const Import *import)
+{
+    int materials = 0, meshes = 0;
+    for (unsigned i = 0; i < import->scene->mNumMaterials; i++)
+        materials += import->materials[i].is_used;
+    for (unsigned i = 0; i < import->scene->mNumMeshes; i++)
+        meshes += import->meshes[i][0] != '\0';
+    import_tell(import, IMPORT_INFO, "%d material%s, %d mesh%s, %ld object%s, %ld triangle%s", materials,
+                materials == 1 ? "" : "s", meshes, meshes == 1 ? "" : "es", import->objects,
+                import->objects == 1 ? "" : "s", import->triangles, import->triangles == 1 ? "" : "s");
+}
+
+int import_model(const ImportOptions *options, RetexError *err)
+{
+    Import import = {.options = options};
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%s/textures", options->folder);
+    int code = files_begin(&import, err);
+    if (!code && mkdir(folder, 0777) != 0)
+        code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
+    if (!code) {
+        set_world(&import);
+        code = read_model(&import, err);
+    }
+    if (!code && import.is_gltf)
+        gltf_read(&import);
+    if (!code)
+        code = find_bounds(&import, err);
+    if (!code)
+        code = write_scene(&import, err);
+    if (!code) {
+        note_left_out(&import);
+        tell_summary(&import);
+    }
+    rmdir(folder); /* where no image is in it */
+    /* the process ends now, and with it what Assimp has */
+    images_free(&import);
+    gltf_free(&import.gltf);
+    names_free(&import.names);
+    names_free(&import.files);
+    free(import.materials);
+    free(import.meshes);
+    return code;
+}

@@ -1,0 +1,37 @@
+/* retex-import: a model that Assimp reads becomes a scene in POV-Ray's language. All of it runs in a child process that
+ * may crash; tools/retex-import.c starts and limits it. */
+#ifndef RETEX_IMPORT_H
+#define RETEX_IMPORT_H
+
+#include <retex/access.h>
+#include <retex/budget.h>
+#include <retex/error.h>
+
+/* How messages are told: `kind` is one of these letters. */
+enum { IMPORT_WARNING = 'w', IMPORT_INFO = 'i', IMPORT_DETAIL = 'd' };
+typedef void ImportTell(void *context, char kind, const char *text);
+
+typedef struct ImportOptions {
+    const char *model;       /* the file to import */
+    const char *name;        /* of the scene; the file is NAME.pov */
+    const char *folder;      /* to write into: it exists and is empty */
+    const char *sky;         /* a picture of the sky, or NULL */
+    const char *camera;      /* name or number from 1, or NULL: the first */
+    const char *const *also; /* more folders that may be read, of -I */
+    int nalso;
+    char up;       /* 'y' or 'z': the model's axis that is up; 0: what its format says */
+    double scale;  /* of all lengths */
+    double lights; /* factor of all light sources */
+    double smooth; /* degrees: edges that are flatter become smooth where a mesh has no normals; 0: none */
+    int safe;      /* 1: pictures of common formats only */
+    long max_pixels;
+    double seconds; /* of the processor, for reading */
+    RetexBudget *budget;
+    ImportTell *tell;
+    void *context;
+} ImportOptions;
+
+/* Write the scene's files. */
+int import_model(const ImportOptions *options, RetexError *err);
+
+#endif

@@ -1,0 +1,159 @@
+/* What the files of retex-import share. */
+#ifndef RETEX_IMPORT_INTERNAL_H
+#define RETEX_IMPORT_INTERNAL_H
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include "import/import.h"
+
+enum { NAME_MAX_LENGTH = 48, NAME_SIZE = 64, TEXT_SIZE = sizeof((struct aiString *)NULL)->data }; /* of Assimp */
+
+/* ---- names.c: identifiers that are legal, unique whatever the case, and no keywords ---- */
+
+typedef struct Names {
+    struct NamesEntry *entries;
+    size_t size, count;
+} Names;
+
+/* Make an identifier of a text; of `fallback` where the text has no letters. Returns 0 without memory. */
+int names_make(Names *names, const char *text, const char *fallback, char name[NAME_SIZE]);
+void names_free(Names *names);
+
+/* ---- affine.c: transforms of the scene, in doubles ---- */
+
+typedef struct Affine {
+    double m[3][4]; /* of column vectors, as Assimp's: the last column is the translation */
+} Affine;
+
+extern const Affine affine_identity;
+Affine affine_from(const struct aiMatrix4x4 *m);
+Affine affine_multiply(const Affine *a, const Affine *b); /* b first */
+void affine_point(const Affine *a, const double p[3], double out[3]);
+void affine_vector(const Affine *a, const double v[3], double out[3]);
+/* The same map for points whose z has the other sign: from a right-handed space to POV-Ray's left-handed one. */
+Affine affine_mirror_z(const Affine *a);
+/* Write as transforms of POV-Ray with a space before each; nothing for the identity. */
+void affine_print(FILE *out, const Affine *a);
+
+/* ---- the import ---- */
+
+typedef struct Import Import;
+
+typedef enum AlphaMode { ALPHA_IGNORE, ALPHA_BLEND, ALPHA_MASK } AlphaMode;
+
+/* An image as a pigment uses it. Where the file as it is will not do, a new one is made. */
+typedef struct ImageUse {
+    const char *source;  /* as the model names it; "*3" is the fourth one inside of it */
+    const char *opacity; /* an image whose alpha or grey is the opacity, or NULL */
+    float factor[3];     /* multiplies the colours, linear */
+    float opacity_factor;
+    AlphaMode alpha;
+    float cutoff; /* of ALPHA_MASK */
+} ImageUse;
+
+typedef struct ImportMaterial {
+    char name[NAME_SIZE];
+    int uv_set;    /* of the meshes, which the image uses */
+    int has_image; /* the meshes need uv_set */
+    int is_solid;  /* declared as a material, with an interior */
+    int is_used;
+} ImportMaterial;
+
+/* Of a glTF file: what Assimp leaves out. */
+typedef struct GltfCamera {
+    double angle, aspect; /* from top to bottom, in radians; width by height. 0 = not there */
+    double width, height; /* of an orthographic one, or 0 */
+} GltfCamera;
+
+typedef struct Gltf {
+    float *strengths; /* of emission, by material */
+    GltfCamera *cameras;
+    int nmaterials, ncameras;
+} Gltf;
+
+struct Import {
+    const ImportOptions *options;
+    const struct aiScene *scene;
+    RetexAccess access; /* of files that the model names */
+    const char *roots[64];
+    char root[PATH_MAX];   /* folder of the model, resolved */
+    char denied[PATH_MAX]; /* the first file outside that the model asked for */
+    int is_gltf, is_fbx;
+    Gltf gltf;
+    Names names, files; /* identifiers; names of files */
+    Affine world;       /* from the model's space: axes and scale, before z is mirrored */
+    ImportMaterial *materials;
+    char (*meshes)[NAME_SIZE]; /* identifiers; "" = without surface */
+    double low[3], high[3];    /* of the scene as written */
+    long triangles, objects;
+    int emits; /* some material shines */
+    struct ImageFile *images;
+    int nimages, image_capacity;
+    unsigned long left_out; /* bits of LeftOut */
+};
+
+/* Features that a scene cannot say yet: told once each. */
+typedef enum LeftOut {
+    LEFT_NORMAL_MAP,
+    LEFT_ROUGHNESS_MAP,
+    LEFT_METALLIC_MAP,
+    LEFT_EMISSION_MAP,
+    LEFT_TRANSMISSION_MAP,
+    LEFT_SPECULAR_MAP,
+    LEFT_VERTEX_COLORS,
+    LEFT_CLEARCOAT,
+    LEFT_SHEEN,
+    LEFT_ANIMATION,
+    LEFT_SKIN,
+    LEFT_AMBIENT_LIGHT,
+    LEFT_LINES
+} LeftOut;
+
+void import_leave_out(Import *import, LeftOut what);
+void import_tell(const Import *import, char kind, const char *fmt, ...) RETEX_PRINTF(3, 4);
+
+/* files.c */
+int files_begin(Import *import, RetexError *err);
+struct aiFileIO *files_io(Import *import);
+void files_close_io(struct aiFileIO *io);
+/* Find a file that the model names, in its folder and those of -I. RETEX_EACCESS: it is outside of them. found = 0: it
+ * is nowhere. */
+int files_find(Import *import, const char *name, char path[PATH_MAX], int *found, RetexError *err);
+
+/* gltf.c */
+void gltf_read(Import *import);
+void gltf_free(Gltf *gltf);
+
+/* images.c */
+/* Put the image into the scene's folder. file: its name there, or "" where it is missing, which is told. */
+int images_use(Import *import, const ImageUse *use, char file[NAME_SIZE + 32], RetexError *err);
+/* The mean of an image's channels as numbers; found = 0: it is missing. */
+int images_mean(Import *import, const char *source, float mean[4], int *found, RetexError *err);
+int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err);
+/* POV-Ray's keyword for a file's format. */
+const char *images_keyword(const char *file);
+void images_free(Import *import);
+
+/* materials.c */
+int materials_write(Import *import, FILE *out, RetexError *err);
+/* meshes.c */
+int meshes_write(Import *import, FILE *out, RetexError *err);
+/* The bounds of a mesh, z mirrored. Returns 0 if it is empty. */
+int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3]);
+/* lights.c */
+int lights_write(Import *import, FILE *out, RetexError *err);
+/* cameras.c */
+int cameras_write(Import *import, FILE *out, RetexError *err);
+/* The world transform of the first node of that name, z not mirrored. */
+Affine import_node_transform(const Import *import, const char *name);
+/* Text for a comment, without control characters. */
+const char *import_plain(const char *text, char plain[NAME_SIZE]);
+
+#endif

@@ -1,0 +1,189 @@
+/* Light sources and the sky. A light_source of colour c gives an irradiance of pi c. */
+#include <math.h>
+#include <string.h>
+
+#include "import/internal.h"
+
+#define PI 3.14159265358979323846
+
+/* glTF counts in candela and lux. Blender writes 683 lumens for a watt; of other programs the numbers are taken as
+ * they are. */
+static double photometric(const Import *import)
+{
+    struct aiMetadata *meta = import->scene->mMetaData;
+    for (unsigned i = 0; meta && i < meta->mNumProperties; i++) {
+        const struct aiMetadataEntry *entry = &meta->mValues[i];
+        if (entry->mType == AI_AISTRING && entry->mData &&
+            strstr(((const struct aiString *)entry->mData)->data, "Blender I/O"))
+            return 1 / 683.0;
+    }
+    return 1;
+}
+
+typedef struct Falloff {
+    double factor, distance, power; /* of the colour; power 0 = none */
+} Falloff;
+
+/* POV-Ray's is 2 / (1 + (d / distance)^power). */
+static Falloff falloff_of(const Import *import, const struct aiLight *light)
+{
+    const double scale = import->options->scale;
+    const double c = fmax((double)light->mAttenuationConstant, 0), l = fmax((double)light->mAttenuationLinear, 0);
+    const double q = fmax((double)light->mAttenuationQuadratic, 0), near = 0.02;
+    if (import->is_gltf) /* intensity / d^2 is the irradiance */
+        return (Falloff){photometric(import) * scale * scale / (2 * PI * near * near), near, 2};
+    if (q > 1e-12 && c > 1e-6)
+        return (Falloff){0.5 / c, sqrt(c / q) * scale, 2};
+    if (q > 1e-12)
+        return (Falloff){0.5 * scale * scale / (q * near * near), near, 2};
+    if (l > 1e-12 && c > 1e-6)
+        return (Falloff){0.5 / c, c / l * scale, 1};
+    return (Falloff){c > 1e-6 ? 1 / c : 1, 0, 0};
+}
+
+static void print_vector(FILE *out, const char *what, const double v[3])
+{
+    fprintf(out, "%s<%.7g, %.7g, %.7g>", what, v[0], v[1], v[2]);
+}
+
+static void print_color(FILE *out, const struct aiLight *light, double factor)
+{
+    const struct aiColor3D *c = &light->mColorDiffuse;
+    const double rgb[3] = {(double)c->r, (double)c->g, (double)c->b};
+    fprintf(out, ", rgb <");
+    for (int k = 0; k < 3; k++)
+        fprintf(out, "%s%.6g", k ? ", " : "", isfinite(rgb[k]) && rgb[k] > 0 ? rgb[k] * factor : 0);
+    fprintf(out, ">");
+}
+
+/* Degrees from the axis; Assimp keeps what each format has. */
+static double half_angle(const Import *import, float angle)
+{
+    const double degrees = (double)angle * 180 / PI * (import->is_gltf ? 1 : 0.5);
+    return isfinite(degrees) ? fmin(fmax(degrees, 0), 90) : 45;
+}
+
+static void print_spot(const Import *import, const struct aiLight *light, FILE *out)
+{
+    const double outer = half_angle(import, light->mAngleOuterCone);
+    const double inner = fmin(half_angle(import, light->mAngleInnerCone), outer);
+    fprintf(out, " spotlight radius %.5g falloff %.5g", fmin(inner, outer - 0.01), outer);
+}
+
+static int is_left_out(const struct aiLight *light)
+{
+    return light->mType == aiLightSource_AMBIENT || light->mType == aiLightSource_UNDEFINED;
+}
+
+/* Other formats than glTF have no unit of light, and programs write watts, per cents or factors. Where the lights would
+ * leave the middle of the scene black or white, they are scaled together. */
+static double exposure(const Import *import)
+{
+    double sum = 0;
+    if (import->is_gltf)
+        return 1;
+    for (unsigned i = 0; i < import->scene->mNumLights; i++) {
+        const struct aiLight *light = import->scene->mLights[i];
+        const struct aiVector3D *p = &light->mPosition;
+        const struct aiColor3D *c = &light->mColorDiffuse;
+        const Affine node = import_node_transform(import, light->mName.data);
+        double at[3], squared = 0, color = fmax((double)c->r, fmax((double)c->g, (double)c->b));
+        affine_point(&node, (double[3]){(double)p->x, (double)p->y, (double)p->z}, at);
+        at[2] = -at[2];
+        for (int k = 0; k < 3; k++)
+            squared += pow(at[k] - (import->low[k] + import->high[k]) / 2, 2);
+        if (light->mType != aiLightSource_DIRECTIONAL) {
+            const Falloff f = falloff_of(import, light);
+            color *= f.factor * (f.power > 0 ? 2 / (1 + pow(sqrt(squared) / f.distance, f.power)) : 1);
+        }
+        if (!is_left_out(light) && isfinite(color))
+            sum += color;
+    }
+    return sum > 0 && (sum > 4 || sum < 0.1) ? 1 / sum : 1;
+}
+
+static void write_light(const Import *import, const struct aiLight *light, double user, FILE *out)
+{
+    const Affine node = import_node_transform(import, light->mName.data);
+    const double p[3] = {(double)light->mPosition.x, (double)light->mPosition.y, (double)light->mPosition.z};
+    const double d[3] = {(double)light->mDirection.x, (double)light->mDirection.y, (double)light->mDirection.z};
+    double at[3], to[3], middle[3], radius = 0;
+    char plain[NAME_SIZE];
+    affine_point(&node, p, at);
+    affine_vector(&node, d, to);
+    at[2] = 0 - at[2], to[2] = 0 - to[2];
+    double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    if (!(length > 0) || !isfinite(length))
+        to[0] = to[2] = 0, to[1] = -1, length = 1;
+    for (int k = 0; k < 3; k++) {
+        to[k] /= length;
+        middle[k] = (import->low[k] + import->high[k]) / 2;
+        radius += pow((import->high[k] - import->low[k]) / 2, 2);
+    }
+    fprintf(out, "// %s\nlight_source {", import_plain(light->mName.data, plain));
+    if (light->mType == aiLightSource_DIRECTIONAL) {
+        for (int k = 0; k < 3; k++)
+            at[k] = middle[k] - to[k] * 2 * (sqrt(radius) + 1);
+        print_vector(out, " ", at);
+        print_color(out, light, user * (import->is_gltf ? photometric(import) / PI : 1));
+        print_vector(out, " parallel point_at ", middle);
+    } else {
+        const Falloff falloff = falloff_of(import, light);
+        print_vector(out, " ", at);
+        print_color(out, light, user * falloff.factor);
+        if (light->mType == aiLightSource_SPOT)
+            print_spot(import, light, out);
+        if (light->mType == aiLightSource_AREA && light->mSize.x > 0 && light->mSize.y > 0)
+            fprintf(out, " area_light x*%.6g, z*%.6g, 5, 5 area_illumination jitter",
+                    (double)light->mSize.x * import->options->scale, (double)light->mSize.y * import->options->scale);
+        if (light->mType == aiLightSource_SPOT) {
+            for (int k = 0; k < 3; k++)
+                to[k] += at[k];
+            print_vector(out, " point_at ", to);
+        }
+        if (falloff.power > 0)
+            fprintf(out, " fade_distance %.6g fade_power %g", falloff.distance, falloff.power);
+    }
+    fprintf(out, " }\n");
+}
+
+static int write_sky(Import *import, FILE *out, int has_light, RetexError *err)
+{
+    char file[NAME_SIZE + 32];
+    if (import->options->sky) {
+        const int code = images_add_sky(import, file, err);
+        if (code)
+            return code;
+        /* seen from inside */
+        fprintf(out, "sky_sphere { pigment { image_map { %s \"%s\" map_type 1 interpolate 2 } scale <-1, 1, 1> } }\n\n",
+                images_keyword(file), file);
+        return RETEX_OK;
+    }
+    if (has_light) {
+        fprintf(out, "\n");
+        return RETEX_OK;
+    }
+    fprintf(out, "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }\n\n");
+    import_tell(import, IMPORT_INFO, "no light in the model: a soft sky lights it");
+    return RETEX_OK;
+}
+
+int lights_write(Import *import, FILE *out, RetexError *err)
+{
+    const struct aiScene *scene = import->scene;
+    const double scaled = exposure(import);
+    int any = import->emits;
+    if (scaled != 1)
+        import_tell(import, IMPORT_INFO, "the lights of this format have no unit: they are scaled by %.3g", scaled);
+    fprintf(out, "// ---- light ----\n\n");
+    for (unsigned i = 0; i < scene->mNumLights; i++) {
+        const struct aiLight *light = scene->mLights[i];
+        if (is_left_out(light)) {
+            import_leave_out(import, LEFT_AMBIENT_LIGHT);
+            continue;
+        }
+        write_light(import, light, scaled * import->options->lights, out);
+        any = 1;
+    }
+    return write_sky(import, out, any, err);
+}

@@ -1,0 +1,241 @@
+/* Meshes: a mesh2 for each of the model's, declared once and placed by the objects of the scene. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/color.h>
+
+#include "import/internal.h"
+
+enum { MOST_COLORS = 4096 };
+
+static int is_finite(const struct aiVector3D *v)
+{
+    return isfinite(v->x) && isfinite(v->y) && isfinite(v->z);
+}
+
+/* A triangle with an area, whose indices and positions are numbers that there are. */
+static int is_surface(const struct aiMesh *mesh, const struct aiFace *face)
+{
+    const struct aiVector3D *p[3];
+    if (face->mNumIndices != 3)
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        if (face->mIndices[k] >= mesh->mNumVertices)
+            return 0;
+        p[k] = &mesh->mVertices[face->mIndices[k]];
+        if (!is_finite(p[k]))
+            return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        const struct aiVector3D *a = p[k], *b = p[(k + 1) % 3];
+        if (a->x == b->x && a->y == b->y && a->z == b->z)
+            return 0;
+    }
+    return 1;
+}
+
+static long count_surfaces(const struct aiMesh *mesh)
+{
+    long n = 0;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        n += is_surface(mesh, &mesh->mFaces[i]);
+    return n;
+}
+
+int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3])
+{
+    int any = 0;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        if (!is_surface(mesh, &mesh->mFaces[i]))
+            continue;
+        for (int k = 0; k < 3; k++) {
+            const struct aiVector3D *v = &mesh->mVertices[mesh->mFaces[i].mIndices[k]];
+            const double p[3] = {(double)v->x, (double)v->y, -(double)v->z};
+            for (int j = 0; j < 3; j++) {
+                low[j] = any ? fmin(low[j], p[j]) : p[j];
+                high[j] = any ? fmax(high[j], p[j]) : p[j];
+            }
+            any = 1;
+        }
+    }
+    return any;
+}
+
+static void write_vectors(FILE *out, const char *what, const struct aiVector3D *v, unsigned count, int is_normal)
+{
+    fprintf(out, "  %s { %u", what, count);
+    for (unsigned i = 0; i < count; i++) {
+        if (is_finite(&v[i]) && (!is_normal || v[i].x != 0 || v[i].y != 0 || v[i].z != 0))
+            fprintf(out, ",\n<%.8g,%.8g,%.8g>", (double)v[i].x, (double)v[i].y, v[i].z == 0 ? 0 : -(double)v[i].z);
+        else
+            fprintf(out, is_normal ? ",\n<0,1,0>" : ",\n<0,0,0>");
+    }
+    fprintf(out, "\n  }\n");
+}
+
+static void write_uvs(FILE *out, const struct aiVector3D *v, unsigned count)
+{
+    fprintf(out, "  uv_vectors { %u", count);
+    for (unsigned i = 0; i < count; i++) {
+        const int good = isfinite(v[i].x) && isfinite(v[i].y);
+        fprintf(out, ",\n<%.7g,%.7g>", good ? (double)v[i].x : 0, good ? (double)v[i].y : 0);
+    }
+    fprintf(out, "\n  }\n");
+}
+
+/* ---- colours of vertices: a texture for each, of so few that POV-Ray can hold them ---- */
+
+typedef struct Colors {
+    int *of_vertex;   /* index of the texture */
+    int (*levels)[3]; /* of each texture */
+    int count, bits;
+} Colors;
+
+static int level_of(float c, int bits, int is_linear)
+{
+    const double x = fmin(fmax(isfinite(c) ? (double)c : 0, 0), 1), encoded = is_linear ? retex_srgb_encode(x) : x;
+    return (int)lrint(encoded * ((1 << bits) - 1));
+}
+
+/* Returns 0 if there are more than MOST_COLORS. */
+static int index_colors(const struct aiMesh *mesh, int is_linear, int *known, Colors *colors)
+{
+    const struct aiColor4D *c = mesh->mColors[0];
+    memset(known, 0, sizeof *known << 3 * colors->bits);
+    colors->count = 0;
+    for (unsigned i = 0; i < mesh->mNumVertices; i++) {
+        const int level[3] = {level_of(c[i].r, colors->bits, is_linear), level_of(c[i].g, colors->bits, is_linear),
+                              level_of(c[i].b, colors->bits, is_linear)};
+        int *slot = &known[((level[0] << colors->bits) + level[1]) * (1 << colors->bits) + level[2]];
+        if (!*slot) {
+            if (colors->count == MOST_COLORS)
+                return 0;
+            memcpy(colors->levels[colors->count], level, sizeof level);
+            *slot = ++colors->count;
+        }
+        colors->of_vertex[i] = *slot - 1;
+    }
+    return 1;
+}
+
+static int find_colors(const Import *import, const struct aiMesh *mesh, Colors *colors, RetexError *err)
+{
+    enum { MOST_BITS = 7 };
+    int *known = malloc(sizeof *known << 3 * MOST_BITS);
+    colors->of_vertex = malloc(sizeof *colors->of_vertex * mesh->mNumVertices);
+    colors->levels = malloc(sizeof *colors->levels * MOST_COLORS);
+    if (known && colors->of_vertex && colors->levels)
+        for (colors->bits = MOST_BITS; !index_colors(mesh, import->is_gltf, known, colors);)
+            colors->bits--;
+    else
+        retex_fail(err, RETEX_ENOMEM, "out of memory");
+    const int code = known && colors->of_vertex && colors->levels ? RETEX_OK : RETEX_ENOMEM;
+    free(known);
+    return code;
+}
+
+static void write_colors(FILE *out, const Colors *colors, const char *material)
+{
+    const double most = (1 << colors->bits) - 1;
+    fprintf(out, "  texture_list { %d", colors->count);
+    for (int i = 0; i < colors->count; i++) {
+        const int *level = colors->levels[i];
+        fprintf(out, ",\ntexture { %s pigment { rgb <%.4g,%.4g,%.4g> } }", material, retex_srgb_decode(level[0] / most),
+                retex_srgb_decode(level[1] / most), retex_srgb_decode(level[2] / most));
+    }
+    fprintf(out, "\n  }\n");
+}
+
+/* Whether vertices have colours that show: not where all are white. */
+static int has_colors(const struct aiMesh *mesh)
+{
+    const struct aiColor4D *c = mesh->mColors[0];
+    for (unsigned i = 0; c && i < mesh->mNumVertices; i++)
+        if (c[i].r < 0.999f || c[i].g < 0.999f || c[i].b < 0.999f)
+            return 1;
+    return 0;
+}
+
+/* ---- */
+
+static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const Colors *colors)
+{
+    fprintf(out, "  face_indices { %ld", count);
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const unsigned *v = mesh->mFaces[i].mIndices;
+        if (!is_surface(mesh, &mesh->mFaces[i]))
+            continue;
+        fprintf(out, ",\n<%u,%u,%u>", v[0], v[1], v[2]);
+        if (!colors->of_vertex)
+            continue;
+        const int a = colors->of_vertex[v[0]], b = colors->of_vertex[v[1]], c = colors->of_vertex[v[2]];
+        if (a == b && b == c)
+            fprintf(out, ",%d", a);
+        else
+            fprintf(out, ",%d,%d,%d", a, b, c);
+    }
+    fprintf(out, "\n  }\n");
+}
+
+static const struct aiVector3D *uvs_of(const struct aiMesh *mesh, const ImportMaterial *material)
+{
+    if (material->has_image && mesh->mTextureCoords[material->uv_set])
+        return mesh->mTextureCoords[material->uv_set];
+    return mesh->mTextureCoords[0];
+}
+
+static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err)
+{
+    const struct aiMesh *mesh = import->scene->mMeshes[index];
+    const ImportMaterial *material = &import->materials[mesh->mMaterialIndex];
+    const long count = count_surfaces(mesh);
+    Colors colors = {0};
+    char plain[NAME_SIZE], name[TEXT_SIZE + 8];
+    if (count == 0)
+        return RETEX_OK;
+    if (mesh->mNumVertices > 100000000 || count > 100000000)
+        return retex_fail(err, RETEX_ELIMIT, "%s: a mesh of more than 100 million triangles or vertices",
+                          import->options->model);
+    snprintf(name, sizeof name, "Mesh_%s", mesh->mName.data);
+    if (!names_make(&import->names, name, "Mesh", import->meshes[index]))
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (has_colors(mesh) && material->has_image)
+        import_leave_out(import, LEFT_VERTEX_COLORS);
+    else if (has_colors(mesh)) {
+        const int code = find_colors(import, mesh, &colors, err);
+        if (code)
+            return code;
+    }
+    fprintf(out, "\n// %s: %ld triangle%s\n#declare %s = mesh2 {\n", import_plain(mesh->mName.data, plain), count,
+            count == 1 ? "" : "s", import->meshes[index]);
+    write_vectors(out, "vertex_vectors", mesh->mVertices, mesh->mNumVertices, 0);
+    if (mesh->mNormals)
+        write_vectors(out, "normal_vectors", mesh->mNormals, mesh->mNumVertices, 1);
+    if (uvs_of(mesh, material))
+        write_uvs(out, uvs_of(mesh, material), mesh->mNumVertices);
+    if (colors.of_vertex)
+        write_colors(out, &colors, material->name);
+    write_faces(out, mesh, count, &colors);
+    fprintf(out, "}\n");
+    import->triangles += count;
+    free(colors.of_vertex);
+    free(colors.levels);
+    return RETEX_OK;
+}
+
+int meshes_write(Import *import, FILE *out, RetexError *err)
+{
+    const struct aiScene *scene = import->scene;
+    import->meshes = calloc(scene->mNumMeshes + 1, sizeof *import->meshes);
+    if (!import->meshes)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
+        if (scene->mMeshes[i]->mMaterialIndex >= scene->mNumMaterials)
+            return retex_fail(err, RETEX_EFORMAT, "%s: a mesh without a material", import->options->model);
+        const int code = write_mesh(import, i, out, err);
+        if (code)
+            return code;
+    }
+    return RETEX_OK;
+}

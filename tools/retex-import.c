@@ -1,0 +1,367 @@
+/* retex-import: make a scene of a model in glTF, OBJ, FBX and other formats. See retex-import(1).
+ *
+ * A child process does all of it: it reads the model through Assimp and fills a new folder beside the output. It may
+ * crash and run into its limits. This process waits, passes on messages, and at the end renames the folder or removes
+ * it. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <retex/retex.h>
+
+#include "cli.h"
+#include "import/import.h"
+#include "watchdog.h"
+
+enum { MOST_FOLDERS = 32, READ_SECONDS = 600 };
+
+static const CliOption options[] = {
+    {"camera", 0, "N", "use the Nth camera of the model, or the one of that name; default the first", 0},
+    {"sky", 0, "FILE", "put a picture around the scene, which lights it: HDR, EXR, PNG, JPEG or TIFF", 0},
+    {"up", 0, "AXIS", "the model's axis that is up, y or z; default what its format says", 0},
+    {"scale", 0, "S", "multiply all lengths", 0},
+    {"lights", 0, "F", "multiply the light of all light sources", 0},
+    {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
+    {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0},
+    {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0},
+    {0},
+};
+
+/* The folder that is being filled. Read by the watchdog's thread. */
+static char unfinished[PATH_MAX];
+static _Atomic pid_t child;
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info, (void)kind, (void)where;
+    remove(path);
+    return 0;
+}
+
+static void remove_unfinished(const char *why)
+{
+    const pid_t pid = atomic_load(&child);
+    (void)why;
+    if (pid > 0) {
+        kill(pid, SIGKILL);
+        waitpid(pid, NULL, 0);
+    }
+    if (unfinished[0])
+        nftw(unfinished, remove_entry, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+}
+
+_Noreturn static void give_up(const Cli *cli, const RetexError *err)
+{
+    remove_unfinished("");
+    unfinished[0] = '\0';
+    cli_fail(cli, err);
+}
+
+/* ---- the child ---- */
+
+/* Messages go to the parent as lines: a letter and the text. */
+static void send_line(void *context, char kind, const char *text)
+{
+    FILE *to = context;
+    fputc(kind, to);
+    for (const char *c = text; *c; c++)
+        fputc(*c == '\n' ? ' ' : *c, to);
+    fputc('\n', to);
+    fflush(to);
+}
+
+static void set_limit(int what, rlim_t soft)
+{
+    struct rlimit limit;
+    if (getrlimit(what, &limit) == 0) {
+        limit.rlim_cur = limit.rlim_max == RLIM_INFINITY || soft < limit.rlim_max ? soft : limit.rlim_max;
+        setrlimit(what, &limit);
+    }
+}
+
+/* Bytes that are mapped already. */
+static rlim_t mapped(void)
+{
+    unsigned long pages = 0;
+    FILE *in = fopen("/proc/self/statm", "r");
+    if (in) {
+        if (fscanf(in, "%lu", &pages) != 1)
+            pages = 0;
+        fclose(in);
+    }
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}
+
+_Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
+{
+    RetexError err = {0};
+    sigset_t none;
+    const double seconds = cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS;
+    const int nothing = open("/dev/null", O_RDWR);
+    FILE *lines = fdopen(to, "w");
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    dup2(nothing, STDIN_FILENO); /* Assimp and the C++ runtime may print: only our lines count */
+    dup2(nothing, STDOUT_FILENO);
+    dup2(nothing, STDERR_FILENO);
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    signal(SIGINT, SIG_IGN); /* of the terminal: the parent ends this process */
+    set_limit(RLIMIT_CORE, 0);
+    set_limit(RLIMIT_CPU, (rlim_t)seconds + 1);
+    if (retex_budget_memory(cli->budget))
+        set_limit(RLIMIT_AS, mapped() + (rlim_t)retex_budget_memory(cli->budget));
+    unsetenv("OCIO"); /* images are written as sRGB */
+    if (!lines)
+        _exit(CLI_FAIL);
+    import->context = lines;
+    import->tell = send_line;
+    const int code = import_model(import, &err);
+    if (code)
+        send_line(lines, 'e', err.message);
+    fflush(lines);
+    _exit(code ? CLI_FAIL : CLI_OK);
+}
+
+/* ---- the parent ---- */
+
+static void pass_on(const Cli *cli, char kind, const char *text)
+{
+    if (kind == IMPORT_WARNING)
+        cli_warn(cli, "%s", text);
+    else if (kind == IMPORT_INFO)
+        cli_info(cli, "%s", text);
+    else
+        cli_detail(cli, "%s", text);
+}
+
+/* Why the child ended without a word. */
+static int explain(const Cli *cli, const char *model, int status, RetexError *err)
+{
+    const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (number == SIGXCPU)
+        return retex_fail(err, RETEX_ELIMIT, "%s: not read within %g s of processor time", model,
+                          cli->limits.seconds > 0 ? cli->limits.seconds : READ_SECONDS);
+    if (number == SIGKILL)
+        return retex_fail(err, RETEX_ELIMIT, "%s: the process that reads it was killed", model);
+    return retex_fail(err, RETEX_EFORMAT,
+                      "%s: Assimp ended while it read the file (%s): it is damaged, or needs more than the %.0f MB of "
+                      "--max-memory",
+                      model, number ? strsignal(number) : "without a word",
+                      (double)retex_budget_memory(cli->budget) / (1 << 20));
+}
+
+static int run_import(const Cli *cli, ImportOptions *import, RetexError *err)
+{
+    int ends[2], status;
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return retex_fail(err, RETEX_EIO, "no pipe: %s", strerror(errno));
+    fflush(NULL);
+    const pid_t pid = fork();
+    if (pid == 0) {
+        close(ends[0]);
+        run_child(cli, import, ends[1]);
+    }
+    close(ends[1]);
+    if (pid < 0) {
+        close(ends[0]);
+        return retex_fail(err, RETEX_EIO, "no process to read the model: %s", strerror(errno));
+    }
+    atomic_store(&child, pid);
+    FILE *lines = fdopen(ends[0], "r");
+    char *line = NULL;
+    size_t size = 0;
+    int code = RETEX_OK;
+    for (ssize_t length; lines && (length = getline(&line, &size, lines)) > 1;) {
+        if (line[length - 1] == '\n')
+            line[length - 1] = '\0';
+        if (line[0] == 'e')
+            code = retex_fail(err, RETEX_EFORMAT, "%s", line + 1);
+        else
+            pass_on(cli, line[0], line + 1);
+    }
+    free(line);
+    if (lines)
+        fclose(lines);
+    pid_t ended;
+    do
+        ended = waitpid(pid, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    atomic_store(&child, 0);
+    if (!code && (ended != pid || status != 0))
+        code = explain(cli, import->model, ended == pid ? status : 0, err);
+    return code;
+}
+
+/* ---- the folder ---- */
+
+static int move_file(const char *from, const char *to, const char *name, RetexError *err)
+{
+    char a[PATH_MAX], b[PATH_MAX];
+    if (snprintf(a, sizeof a, "%s/%s", from, name) >= PATH_MAX || snprintf(b, sizeof b, "%s/%s", to, name) >= PATH_MAX)
+        return retex_fail(err, RETEX_EIO, "%s: the name is too long", to);
+    if (rename(a, b) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", b, strerror(errno));
+    return RETEX_OK;
+}
+
+/* Move the files of a folder into another one. */
+static int move_files(const char *from, const char *to, RetexError *err)
+{
+    DIR *folder = opendir(from);
+    int code = folder ? RETEX_OK : retex_fail(err, RETEX_EIO, "cannot read %s: %s", from, strerror(errno));
+    for (const struct dirent *entry; !code && (entry = readdir(folder));) {
+        char inner[PATH_MAX], target[PATH_MAX];
+        struct stat info;
+        if (entry->d_name[0] == '.')
+            continue;
+        if (snprintf(inner, sizeof inner, "%s/%s", from, entry->d_name) >= PATH_MAX ||
+            snprintf(target, sizeof target, "%s/%s", to, entry->d_name) >= PATH_MAX || lstat(inner, &info) != 0)
+            code = retex_fail(err, RETEX_EIO, "%s: the name is too long", to);
+        else if (!S_ISDIR(info.st_mode))
+            code = move_file(from, to, entry->d_name, err);
+        else if (mkdir(target, 0777) != 0 && errno != EEXIST)
+            code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", target, strerror(errno));
+        else
+            code = move_files(inner, target, err);
+    }
+    if (folder)
+        closedir(folder);
+    return code;
+}
+
+static int exists(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0;
+}
+
+/* The last part of the output's name, without slashes at its end. */
+static void take_name(const Cli *cli, char folder[PATH_MAX], char name[NAME_MAX + 1])
+{
+    if (!cli->output)
+        cli_die(cli, "no output: give a folder to make, -o NAME");
+    size_t length = strlen(cli->output);
+    while (length > 1 && cli->output[length - 1] == '/')
+        length--;
+    if (length >= PATH_MAX - 16)
+        cli_die(cli, "-o: the name is too long");
+    memcpy(folder, cli->output, length);
+    folder[length] = '\0';
+    const char *slash = strrchr(folder, '/'), *last = slash ? slash + 1 : folder;
+    if (strcmp(cli->output, "-") == 0 || !*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0 ||
+        strlen(last) > NAME_MAX - 16)
+        cli_die(cli, "-o %s: expected the name of a folder to make", cli->output);
+    strcpy(name, last);
+    for (const char *c = name; *c; c++)
+        if (*c == '"' || *c == '\\' || (unsigned char)*c < 32)
+            cli_die(cli, "-o: a scene's name cannot have quotes, backslashes or control characters");
+}
+
+static void import_to(const Cli *cli, ImportOptions *import, int force)
+{
+    char folder[PATH_MAX], name[NAME_MAX + 1];
+    RetexError err = {0};
+    take_name(cli, folder, name);
+    if (exists(folder) && !force)
+        cli_die(cli, "%s exists; --force writes into it", folder);
+    snprintf(unfinished, sizeof unfinished, "%.4000s.XXXXXX", folder);
+    watchdog_at_end(remove_unfinished);
+    if (!mkdtemp(unfinished)) {
+        const int why = errno;
+        unfinished[0] = '\0';
+        cli_die(cli, "cannot make the folder %s: %s", folder, strerror(why));
+    }
+    const mode_t mask = umask(0);
+    umask(mask);
+    chmod(unfinished, 0777 & ~mask);
+    import->folder = unfinished;
+    import->name = name;
+    if (run_import(cli, import, &err))
+        give_up(cli, &err);
+    watchdog_go_on();
+    const int there = exists(folder);
+    int code = !there && rename(unfinished, folder) != 0
+                   ? retex_fail(&err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno))
+                   : RETEX_OK;
+    if (there)
+        code = move_files(unfinished, folder, &err);
+    if (code)
+        give_up(cli, &err);
+    if (there)
+        remove_unfinished("");
+    unfinished[0] = '\0';
+    cli_info(cli, "wrote %s/%s.pov", folder, name);
+}
+
+static char take_axis(const Cli *cli)
+{
+    if (strcmp(cli->value, "y") != 0 && strcmp(cli->value, "z") != 0)
+        cli_die(cli, "--up: expected y or z, not '%s'", cli->value);
+    return cli->value[0];
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = {.tool = "retex-import",
+               .usage = "MODEL -o NAME [options]",
+               .about = "Make a scene of a model: glTF, OBJ, FBX, Collada, 3DS, PLY, STL and what else Assimp reads. "
+                        "The folder NAME gets NAME.pov, its meshes and its textures.",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
+    const char *also[MOST_FOLDERS];
+    ImportOptions import = {.scale = 1, .lights = 1, .also = also};
+    const CliOption *option;
+    int force = 0;
+
+    while ((option = cli_next(&cli))) {
+        if (option == &cli_positional) {
+            if (import.model)
+                cli_surplus(&cli, "one model at a time");
+            import.model = cli.value;
+        } else if (strcmp(option->name, "camera") == 0) {
+            import.camera = cli.value;
+        } else if (strcmp(option->name, "sky") == 0) {
+            import.sky = cli.value;
+        } else if (strcmp(option->name, "up") == 0) {
+            import.up = take_axis(&cli);
+        } else if (strcmp(option->name, "scale") == 0) {
+            import.scale = cli_number(&cli, option, 1e-9, 1e9);
+        } else if (strcmp(option->name, "lights") == 0) {
+            import.lights = cli_number(&cli, option, 0, 1e9);
+        } else if (strcmp(option->name, "smooth") == 0) {
+            import.smooth = cli_number(&cli, option, 0, 175);
+        } else if (strcmp(option->name, "include") == 0) {
+            if (import.nalso == MOST_FOLDERS)
+                cli_die(&cli, "-I: more than %d folders", MOST_FOLDERS);
+            also[import.nalso++] = cli.value;
+        } else {
+            force = 1;
+        }
+    }
+    if (!import.model)
+        cli_die(&cli, "no model given");
+    if (strcmp(import.model, "-") == 0)
+        cli_die(&cli, "a model is read from a file, for it may name others");
+    cli_input(&cli, import.model, "a model");
+    cli_reads(&cli, "the model", import.model);
+    cli_reads(&cli, "--sky", import.sky);
+    import.safe = cli.access.safe;
+    import.max_pixels = cli.limits.pixels;
+    import.budget = cli.budget;
+    import_to(&cli, &import, force);
+    return cli_close(&cli, CLI_OK);
+}
