@@ -190,8 +190,9 @@ static int inside(const Shape *shape, Vec3 p)
     return vec_dot(p, p) <= f->radius * f->radius && escape(f, p, NULL) == 0;
 }
 
-/* The iterate that is about as large as it may be, and by how much it moves there. */
-static int iterate_at_limit(const JuliaFractal *f, Vec3 p, double *slope)
+/* The iterate that is about as large as it may be, and by how much it moves there; *last: how much the one after the
+ * last does. */
+static int iterate_at_limit(const JuliaFractal *f, Vec3 p, double *slope, double *last)
 {
     Quad z = quad_of(f, p);
     double moved = 1, best = INFINITY;
@@ -209,27 +210,42 @@ static int iterate_at_limit(const JuliaFractal *f, Vec3 p, double *slope)
         moved *= fmax(sqrt(growth(f, z, norm_of(z))), 1e-3);
         z = next_iterate(f, z);
     }
+    *last = moved;
     return found;
 }
 
-static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
+/* Where the size of an iterate grows; 0 where that cannot be told. slope: by how much the iterate moves there. */
+static Vec3 size_gradient(const JuliaFractal *f, Vec3 p, int k, double slope)
 {
-    const JuliaFractal *f = primitive->shape.data;
-    double slope = 1, change[3];
-
-    (void)face;
-    out->p = out->normal = p;
-    if (vec_length(p) > f->radius * (1 - 1e-9))
-        return;
-    const int k = iterate_at_limit(f, p, &slope);
     const double h = 1e-4 / fmax(slope, 1e-2);
+    double change[3];
+
     for (int i = 0; i < 3; i++) {
         const Vec3 step = vec3(h * (i == 0), h * (i == 1), h * (i == 2));
         change[i] = size_after(f, vec_add(p, step), k) - size_after(f, vec_sub(p, step), k);
     }
     const Vec3 gradient = vec_normalize(vec3(change[0], change[1], change[2]));
+    return vec_length(gradient) > 0.5 ? gradient : vec3(0, 0, 0);
+}
+
+/* The surface is where the largest iterate has the limit's size. POV-Ray shades with that of the iterate after the last
+ * one, which is finer. */
+static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
+{
+    const JuliaFractal *f = primitive->shape.data;
+    double slope = 1, last;
+
+    (void)face;
+    out->p = out->normal = p;
+    if (vec_length(p) > f->radius * (1 - 1e-9))
+        return;
+    const int k = iterate_at_limit(f, p, &slope, &last);
+    const Vec3 gradient = size_gradient(f, p, k, slope);
     if (vec_length(gradient) > 0.5)
         out->normal = gradient;
+    const Vec3 finer = size_gradient(f, p, f->iterations + 1, last);
+    if (vec_dot(finer, out->normal) > 0)
+        out->shading_normal = finer;
 }
 
 static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)

@@ -36,6 +36,41 @@ static void test_against_povray(void **state)
     }
 }
 
+/* Normals of trace() of POV-Ray 3.7.0.10. */
+static void test_normals_against_povray(void **state)
+{
+    static const struct {
+        const char *options;
+        double x[3], y[3], z[3]; /* where rays along the axes enter, from -6 */
+    } cases[] = {
+        {"sqr max_iteration 4", {-.92377, -.25085, .28936}, {.31718, -.92577, .20579}, {.28197, .17553, -.94323}},
+        {"cube max_iteration 3", {-.89989, .43156, -.06292}, {.02534, -.96523, .26016}, {.11544, .14632, -.98248}},
+        {"hypercomplex sqr max_iteration 4",
+         {-.88638, -.32567, .32905},
+         {.08033, -.70485, .70479},
+         {.12303, .70171, -.70176}}};
+    (void)state;
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 V37 "#declare J = julia_fractal{<.1,.2,-.3,.15> %s precision 2000} #declare N = <0,0,0>;"
+                     "#declare P = trace(J, <-6,.1,.2>, x, N); light_source{N, 1}"
+                     "#declare P = trace(J, <.1,-6,.2>, y, N); light_source{N, 1}"
+                     "#declare P = trace(J, <.1,.2,-6>, z, N); light_source{N, 1}",
+                 cases[n].options);
+        Scene *scene = parse(text);
+        const double *expected[3] = {cases[n].x, cases[n].y, cases[n].z};
+        assert_int_equal(scene->nlights, 3);
+        for (int k = 0; k < 3; k++) {
+            const Vec3 is = scene->lights[k].location;
+            const Vec3 wanted = vec3(expected[k][0], expected[k][1], expected[k][2]);
+            if (vec_length(vec_sub(is, wanted)) > 0.005)
+                fail_msg("%s, axis %d: %.5f %.5f %.5f", cases[n].options, k, is.x, is.y, is.z);
+        }
+        scene_close(&scene);
+    }
+}
+
 /* Quaternions by their product. */
 static void product(const double a[4], const double b[4], double out[4])
 {
@@ -119,9 +154,8 @@ static void test_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_povray),
-        cmocka_unit_test(test_iterations),
-        cmocka_unit_test(test_crossings),
+        cmocka_unit_test(test_against_povray), cmocka_unit_test(test_normals_against_povray),
+        cmocka_unit_test(test_iterations),     cmocka_unit_test(test_crossings),
         cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -91,7 +91,7 @@ static Vec3 normal_at(const CsgQuery *found)
     const Scene scene = {.primitives = (Primitive *)p, .nprimitives = 1};
     Surface surface;
     surface_at(&surface, &scene, &found->ray, &hit);
-    return surface.geometric_normal;
+    return surface.shading_normal;
 }
 
 int object_trace(Sdl *sdl, const Value *value, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal)
