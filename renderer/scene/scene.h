@@ -42,7 +42,13 @@ typedef enum PigmentKind {
     PIGMENT_PATTERN,
     PIGMENT_AVERAGE /* the mean of the map's entries, by their values as weights */
 } PigmentKind;
-typedef enum MapType { MAP_PLANAR = 0, MAP_SPHERICAL = 1, MAP_CYLINDRICAL = 2, MAP_TORUS = 5 } MapType;
+typedef enum MapType {
+    MAP_PLANAR = 0,
+    MAP_SPHERICAL = 1,
+    MAP_CYLINDRICAL = 2,
+    MAP_TORUS = 5,
+    MAP_ANGULAR = 7 /* a light probe: angles from the z axis are distances from the middle */
+} MapType;
 
 /* The space of which the scene's colours are numbers. Pigments blend in it. */
 typedef enum WorkingSpaceKind { WORKING_LINEAR, WORKING_SRGB, WORKING_POWER } WorkingSpaceKind;
@@ -64,12 +70,18 @@ typedef struct ColorMap {
 typedef enum WaveKind { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveKind;
 
 /* An image file in the scene's memory; one for each file and interpretation. */
+/* What is done to UV after the projection. */
+typedef struct ImagePlacement {
+    Vec2 repeat, offset;     /* times repeat, minus offset */
+} ImagePlacement;
+
 typedef struct ImageMap {
-    const char *path;        /* as found on disk */
+    const char *path;        /* as found on disk; NULL: the scene draws it */
     RetexTexture *texture;   /* scene-linear, alpha unassociated; owned by the scene (closed with it) */
     int width, height;
     int has_alpha;
     MapType map_type;
+    const ImagePlacement *place; /* or NULL */
     int once;                /* 1: outside (0,0)-(1,1) fully transparent */
     int interpolate;         /* POV-Ray's: 0 none (nearest texel), 2 bilinear, 3 bicubic, 4 normalised distance; others
                                 are taken as bilinear */

@@ -11,8 +11,10 @@ static double turn(Vec3 p)
     return t < 0 ? t + 1 : t;
 }
 
-Vec2 pigment_image_uv(const ImageMap *image, Vec3 p)
+static Vec2 projection(const ImageMap *image, Vec3 p)
 {
+    double length, radius;
+
     switch (image->map_type) {
     case MAP_PLANAR:
         break;
@@ -23,16 +25,34 @@ Vec2 pigment_image_uv(const ImageMap *image, Vec3 p)
     case MAP_TORUS:
         /* The ring has radius 1. */
         return (Vec2){turn(p), 0.5 + atan2(p.y, hypot(p.x, p.z) - 1) / (2 * PI)};
+    case MAP_ANGULAR:
+        length = hypot(p.x, p.y);
+        radius = length > 0 ? atan2(length, p.z) / (2 * PI * length) : 0;
+        return (Vec2){0.5 + p.x * radius, 0.5 + p.y * radius};
     }
     return (Vec2){p.x, p.y};
 }
 
+Vec2 pigment_image_uv(const ImageMap *image, Vec3 p)
+{
+    const Vec2 uv = projection(image, p);
+    const ImagePlacement *place = image->place;
+
+    return place ? (Vec2){uv.u * place->repeat.u - place->offset.u, uv.v * place->repeat.v - place->offset.v} : uv;
+}
+
+/* Both as projected and as placed by repeat and offset, as in POV-Ray. */
 int image_is_outside(const ImageMap *image, Vec2 uv)
 {
     int outside_u = uv.u < 0 || uv.u > 1, outside_v = uv.v < 0 || uv.v > 1;
 
     if (!image->once)
         return 0;
+    if (image->place) {
+        const double u = (uv.u + image->place->offset.u) / image->place->repeat.u,
+                     v = (uv.v + image->place->offset.v) / image->place->repeat.v;
+        outside_u |= u < 0 || u > 1, outside_v |= v < 0 || v > 1;
+    }
     return image->map_type == MAP_PLANAR ? outside_u || outside_v : image->map_type == MAP_CYLINDRICAL && outside_v;
 }
 

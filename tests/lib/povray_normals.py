@@ -72,6 +72,7 @@ bump_map { png "bumps.png" map_type 2 interpolate 4 bump_size 5 }
 bump_map { png "bumps.png" map_type 5 bump_size 5 interpolate 2 }
 bump_map { png "bumps.png" once interpolate 3 } bump_size 4 scale .8
 bump_map { png "index.png" use_index bump_size .3 }
+bump_map { function 9,7 { y*y*y*.5 + x*x*.4 } bump_size 5 interpolate 2 }
 bump_map { png "index.png" use_color bump_size 2 interpolate 2 }
 uv_mapping bump_map { png "bumps.png" bump_size 3 interpolate 2 }
 uv_mapping bumps .5 scale .1

@@ -65,6 +65,18 @@ PIGMENTS = [
     (f'image_map {{ {COLOURS} interpolate 2 }} turbulence .3', 2),
     (f'gradient x pigment_map {{ [0 image_map {{ {COLOURS} interpolate 2 }} scale .4] [1 {Y}] }}', 2),
     *[(f'hexagon rgb 0, rgb .5, rgb 1 scale {scale}', 6) for scale in (.3, .5, .7, 1.1)], # few points are near a corner
+    ('image_map { function 5,4 { x*.9 + y*.05 } }', 2),
+    ('image_map { function 7,3 { pattern { bozo scale .2 } } interpolate 2 }', 2),
+    ('image_map { function 6,5 { pigment { gradient x color_map { [0 rgbft <.9,.1,.2,.3,.4>] [1 rgb <0,1,.5>] } } } '
+     'interpolate 3 }', 2),
+    ('image_map { function 5,4 { pigment { checker rgb <1,.2,.3>, rgb <.2,.3,.4> scale .3 } } filter all .3 once }', 1),
+    (f'image_map {{ {COLOURS} repeat <2,3> }}', 2),
+    (f'image_map {{ {COLOURS} offset <.3,.2> once }}', 1.2),
+    (f'image_map {{ {COLOURS} repeat <3,.5> offset <.1,.2> interpolate 2 map_type 1 }}', 2),
+    (f'image_map {{ {COLOURS} once map_type 2 offset <0,.4> }}', 2),
+    ('image_pattern { function 4,5 { x*y } interpolate 2 }', 2),
+    ('image_pattern { function 4,5 { pigment { gradient x color_map { [0 rgbt <1,0,0,.25>] [1 rgb y] } } } use_alpha }',
+     2),
 ]
 
 

@@ -226,6 +226,12 @@ static void projections(void **state)
     assert_uv(pigment_image_uv(&map, vec3(0, -1, 0)), 0, 0);
     map.map_type = MAP_CYLINDRICAL;
     assert_uv(pigment_image_uv(&map, vec3(0, 1.2, 5)), 0.25, 1.2);
+    /* A light probe has all directions within a circle of radius 1/2, by their angle from z. */
+    map.map_type = MAP_ANGULAR;
+    assert_uv(pigment_image_uv(&map, vec3(0, 0, 2)), 0.5, 0.5);
+    assert_uv(pigment_image_uv(&map, vec3(3, 0, 0)), 0.75, 0.5);
+    assert_uv(pigment_image_uv(&map, vec3(0, -1, 1)), 0.5, 0.375);
+    assert_uv(pigment_image_uv(&map, vec3(-3e-9, 4e-9, -1)), 0.2, 0.9);
     map.map_type = MAP_TORUS;
     assert_uv(pigment_image_uv(&map, vec3(-1.5, 0, 0)), 0.5, 0.5);
     assert_uv(pigment_image_uv(&map, vec3(0, 0.5, 1)), 0.25, 0.75);

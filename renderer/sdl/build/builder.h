@@ -19,8 +19,6 @@
 /* ---- what is not supported ---- */
 
 #define GAP_TABLE(X) \
-    X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
-    X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(IRID_TURBULENCE, "turbulence of irid", "the film is of one thickness") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
@@ -49,6 +47,7 @@ typedef struct ParsedImage {
     char colorspace[64]; /* of the file; "" = by its type */
     double gamma;        /* the file's numbers have this power of light; where it is not 1, colorspace is linear */
     float (*palette)[2]; /* filter and transmit of each entry; NAN: as of all; or NULL */
+    const float *drawn;  /* R, G, B and A of each texel, as written, where the scene draws it; then there is no path */
     int use_alpha;       /* of an image_pattern: its value is the transparency */
     int working;         /* 1: the numbers of an integer file are colours of the working space, taken as they are */
     const char *file;    /* where it is written, for messages */
@@ -323,6 +322,17 @@ const char *parse_image_path(Sdl *sdl);
 void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
 /* An image and its options, up to what is none. */
 ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment);
+/* drawn_image.c: `function WIDTH, HEIGHT { … }` in place of an image's file. */
+typedef struct DrawnImage {
+    int width, height;
+    const FunctionProgram *program; /* or NULL: then the pigment */
+    const Pigment *pigment;
+} DrawnImage;
+/* After `function`. of: what is to have it, for messages; least: texels along a side. */
+void parse_drawn_image(Sdl *sdl, DrawnImage *image, const char *of, int least, Gaps *gaps);
+/* Row 0 is the top. Both evaluate the function: each texel is to be asked for once. */
+double drawn_image_grey(const DrawnImage *image, int column, int row);
+void drawn_image_texel(const DrawnImage *image, int column, int row, float rgba[4]); /* as written, from 0 to 1 */
 /* image_file.c: the images of a pigment and of its map's pigments; is_light: their colours may be brighter than 1. */
 void load_pigment_images(Sdl *sdl, const Pigment *pigment, int is_light);
 

@@ -49,38 +49,19 @@ static float *heights_new(Sdl *sdl, BumpMap *map, double width, double height)
 
 /* ---- functions ---- */
 
-/* The function draws the picture from (0, 1) on top to (1, 0). */
 static void parse_function(Sdl *sdl, BumpMap *map)
 {
-    const double width = sdl_float(sdl);
-    sdl_optional_comma(sdl);
-    float *heights = heights_new(sdl, map, width, sdl_float(sdl));
-    const FunctionProgram *program = NULL;
-    const ParsedPigment *pigment = NULL;
-    sdl_expect(sdl, "{");
-    if (sdl_accept(sdl, "pigment")) {
-        pigment = parse_pigment(sdl, default_pigment(sdl));
-        if (pigment->pigment.kind == PIGMENT_IMAGE)
-            sdl_error(sdl, "a bump_map of a pigment with an image_map: write the image itself");
-    } else {
-        const Value function = sdl_function_body(sdl);
-        program = sdl_function_program(sdl, &function, 3);
+    DrawnImage image;
+    Gaps gaps = {0};
+    parse_drawn_image(sdl, &image, "a bump_map", 1, &gaps);
+    gaps_report(sdl, &gaps);
+    float *heights = heights_new(sdl, map, image.width, image.height);
+    for (int j = 0; j < image.height; j++) {
+        sdl_step(sdl, 1 + image.width);
+        for (int i = 0; i < image.width; i++)
+            heights[(size_t)j * (size_t)image.width + (size_t)i] =
+                (float)fmin(1, fmax(0, drawn_image_grey(&image, i, j)));
     }
-    const int w = map->image.width, h = map->image.height;
-    for (int j = 0; j < h; j++) {
-        sdl_step(sdl, 1 + w);
-        for (int i = 0; i < w; i++) {
-            const Vec3 p = vec3(w > 1 ? (double)i / (w - 1) : 0, h > 1 ? 1 - (double)j / (h - 1) : 0, 0);
-            double value;
-            if (pigment) {
-                const Rgbft c = pigment_eval(&pigment->pigment, p, (Vec2){p.x, p.y});
-                value = 0.297 * c.r + 0.589 * c.g + 0.114 * c.b;
-            } else
-                value = function_at(program, p);
-            heights[(size_t)j * (size_t)w + (size_t)i] = (float)fmin(1, fmax(0, value));
-        }
-    }
-    sdl_expect(sdl, "}");
 }
 
 /* ---- pictures ---- */

@@ -92,41 +92,18 @@ static void read_picture(Sdl *sdl, HeightField *field)
 
 /* ---- functions ---- */
 
-/* A point of the grid is a point of the picture that the function draws from (0, 1) on top to (1, 0). */
-static void fill(Sdl *sdl, HeightField *field, const FunctionProgram *program, const Pigment *pigment)
-{
-    for (int j = 0; j < field->height; j++) {
-        sdl_step(sdl, 1 + field->width);
-        for (int i = 0; i < field->width; i++) {
-            const Vec3 p = vec3((double)i / (field->width - 1), 1 - (double)j / (field->height - 1), 0);
-            double value;
-            if (pigment) {
-                const Rgbft c = pigment_eval(pigment, p, (Vec2){p.x, p.y});
-                value = 0.297 * c.r + 0.589 * c.g + 0.114 * c.b;
-            } else
-                value = function_at(program, p);
-            field->heights[(size_t)j * (size_t)field->width + (size_t)i] = units(value);
-        }
-    }
-}
-
 static void read_function(Sdl *sdl, HeightField *field)
 {
-    const double width = sdl_float(sdl);
-    sdl_optional_comma(sdl);
-    set_size(sdl, field, width, sdl_float(sdl));
-    sdl_expect(sdl, "{");
-    if (sdl_accept(sdl, "pigment")) {
-        const ParsedPigment *pigment = parse_pigment(sdl, default_pigment(sdl));
-        gaps_report(sdl, &pigment->gaps);
-        if (pigment->pigment.kind == PIGMENT_IMAGE)
-            sdl_error(sdl, "a height_field of a pigment with an image_map: write the image itself");
-        fill(sdl, field, NULL, &pigment->pigment);
-    } else {
-        const Value function = sdl_function_body(sdl);
-        fill(sdl, field, sdl_function_program(sdl, &function, 3), NULL);
+    DrawnImage image;
+    Gaps gaps = {0};
+    parse_drawn_image(sdl, &image, "a height_field", 2, &gaps);
+    gaps_report(sdl, &gaps);
+    set_size(sdl, field, image.width, image.height);
+    for (int j = 0; j < field->height; j++) {
+        sdl_step(sdl, 1 + field->width);
+        for (int i = 0; i < field->width; i++)
+            field->heights[point_at(field, i, j)] = units(drawn_image_grey(&image, i, j));
     }
-    sdl_expect(sdl, "}");
 }
 
 /* ---- the tree ---- */

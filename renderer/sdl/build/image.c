@@ -57,10 +57,13 @@ static void gamma_keyword(Sdl *sdl, ParsedImage *image)
     image->working = 0;
 }
 
-static void place_keyword(Sdl *sdl, ParsedPigment *pigment)
+/* `repeat` or `offset`. Maps of identifiers share a place: a change makes a new one. */
+static void place_keyword(Sdl *sdl, ImageMap *map, int is_offset)
 {
-    sdl_expression(sdl);
-    gaps_add(&pigment->gaps, GAP_IMAGE_PLACE);
+    ImagePlacement *place = sdl_alloc(sdl, sizeof *place);
+    *place = map->place ? *map->place : (ImagePlacement){{1, 1}, {0, 0}};
+    *(is_offset ? &place->offset : &place->repeat) = sdl_vector2(sdl);
+    map->place = place;
 }
 
 static int image_option(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
@@ -72,7 +75,8 @@ static int image_option(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
         map->interpolate = (int)sdl_float(sdl);
     else if (sdl_accept(sdl, "map_type")) {
         int type = (int)sdl_float(sdl);
-        if (type != MAP_PLANAR && type != MAP_SPHERICAL && type != MAP_CYLINDRICAL && type != MAP_TORUS) {
+        if (type != MAP_PLANAR && type != MAP_SPHERICAL && type != MAP_CYLINDRICAL && type != MAP_TORUS &&
+            type != MAP_ANGULAR) {
             gaps_add(&pigment->gaps, GAP_MAP_TYPE);
             type = MAP_PLANAR;
         }
@@ -89,28 +93,28 @@ static int image_option(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
         image->use_alpha = 0;
     else if (sdl_accept(sdl, "use_alpha"))
         image->use_alpha = 1;
-    else if (sdl_accept(sdl, "repeat") || sdl_accept(sdl, "offset"))
-        place_keyword(sdl, pigment);
+    else if (sdl_accept(sdl, "repeat"))
+        place_keyword(sdl, map, 0);
+    else if (sdl_accept(sdl, "offset"))
+        place_keyword(sdl, map, 1);
     else
         return 0;
     return 1;
 }
 
-/* image_map{ function W,H {…} }, or of a pattern: there is no file to load. */
-static void computed_image(Sdl *sdl, ParsedPigment *pigment)
+/* `function WIDTH, HEIGHT { … }` */
+static void draw_image(Sdl *sdl, ParsedPigment *pigment, ParsedImage *image)
 {
-    gaps_add(&pigment->gaps, GAP_IMAGE_FUNCTION);
-    pigment->pigment.kind = PIGMENT_COLOR;
-    pigment->pigment.color = (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
-    while (!sdl_accept(sdl, "}"))
-        if (sdl_is(sdl, "{"))
-            sdl_skip_block(sdl);
-        else if (sdl_is(sdl, ","))
-            sdl_optional_comma(sdl);
-        else if (sdl_peek(sdl)->kind == TOKEN_END)
-            sdl_expected(sdl, "} of the image_map");
-        else
-            sdl_next(sdl);
+    DrawnImage drawn;
+    parse_drawn_image(sdl, &drawn, "an image", 1, &pigment->gaps);
+    float *rgba = sdl_alloc(sdl, 4 * (size_t)drawn.width * (size_t)drawn.height * sizeof *rgba);
+    image->drawn = rgba;
+    image->map.width = drawn.width, image->map.height = drawn.height;
+    for (int j = 0; j < drawn.height; j++) {
+        sdl_step(sdl, 1 + drawn.width);
+        for (int i = 0; i < drawn.width; i++, rgba += 4)
+            drawn_image_texel(&drawn, i, j, rgba);
+    }
 }
 
 ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment)
@@ -121,7 +125,10 @@ ParsedImage *parse_image(Sdl *sdl, ParsedPigment *pigment)
     image->gamma = 1;
     image->file = sdl_peek(sdl)->file;
     image->line = sdl_peek(sdl)->line;
-    image->map.path = parse_image_path(sdl);
+    if (sdl_accept(sdl, "function"))
+        draw_image(sdl, pigment, image);
+    else
+        image->map.path = parse_image_path(sdl);
     while (image_option(sdl, pigment, image))
         sdl_optional_comma(sdl);
     image->next = builder->images;
@@ -137,10 +144,6 @@ void parse_image_map(Sdl *sdl, ParsedPigment *pigment)
     if (sdl_is(sdl, "<")) {
         sdl_vector(sdl); /* the projection of very old scenes */
         sdl_optional_comma(sdl);
-    }
-    if (sdl_is(sdl, "function") || sdl_is(sdl, "pigment")) {
-        computed_image(sdl, pigment);
-        return;
     }
     parse_image(sdl, pigment);
     if (!sdl_accept(sdl, "}"))

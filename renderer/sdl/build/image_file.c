@@ -18,7 +18,7 @@ static Numbers numbers_of(Sdl *sdl, const ParsedImage *image)
     const Builder *builder = builder_of(sdl);
     const double version = builder->has_assumed_gamma ? builder->gamma_version : sdl_version(sdl);
     const WorkingSpace space = working_space(sdl);
-    const char *dot = strrchr(image->map.path, '.');
+    const char *dot = image->drawn ? NULL : strrchr(image->map.path, '.');
     int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
                            strcmp(dot, ".HDR") == 0);
     if (image->working && !is_float && version < 3.7 && space.kind != WORKING_SRGB)
@@ -52,12 +52,12 @@ static void set_transparency(Sdl *sdl, ParsedImage *image)
     PaletteIndices indices;
     if (!image->palette)
         return;
-    if (!read_palette_indices(sdl, map->path, RETEX_MAX_SIZE, &indices) || indices.width != map->width ||
-        indices.height != map->height) {
+    if (image->drawn || !read_palette_indices(sdl, map->path, RETEX_MAX_SIZE, &indices) ||
+        indices.width != map->width || indices.height != map->height) {
         sdl_warn_at(sdl, image->file, image->line,
                     "image_map: `%s`: filter and transmit of a palette's entries need a PNG file with a palette; "
                     "they are left out",
-                    map->path);
+                    image->drawn ? "a function" : map->path);
         return;
     }
     const size_t n = (size_t)map->width * (size_t)map->height;
@@ -73,6 +73,8 @@ static void set_transparency(Sdl *sdl, ParsedImage *image)
 static int same_image(Sdl *sdl, const ParsedImage *a, const ParsedImage *b)
 {
     const Numbers x = numbers_of(sdl, a), y = numbers_of(sdl, b);
+    if (a->drawn || b->drawn)
+        return a->drawn == b->drawn && a->working == b->working;
     return strcmp(a->map.path, b->map.path) == 0 && x.gamma == y.gamma &&
            strcmp(x.colorspace ? x.colorspace : "", y.colorspace ? y.colorspace : "") == 0;
 }
@@ -100,6 +102,41 @@ static void warn_of_image(void *context, const char *text)
     sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
 }
 
+static int read_image(Sdl *sdl, const ParsedImage *image, ImageWarning *warning, RetexImage *pixels, RetexError *err)
+{
+    const SdlOptions *options = sdl_options(sdl);
+    const Numbers numbers = numbers_of(sdl, image);
+    const RetexReadParams params = {.size = sizeof params,
+                                    .colorspace = numbers.colorspace,
+                                    .access = sdl_access(sdl),
+                                    .budget = options->budget,
+                                    .pixel_bytes = IMAGE_PEAK_BYTES,
+                                    .warn = warn_of_image,
+                                    .warn_context = warning};
+    sdl_add_file(sdl, image->map.path);
+    sdl_step(sdl, 1);
+    const int code = retex_image_read(pixels, image->map.path, &params, options->nthreads, err);
+    if (code == 0 && numbers.gamma != 1)
+        apply_gamma(pixels, numbers.gamma);
+    return code;
+}
+
+/* What the scene draws has colours of the working space. */
+static int take_drawn(Sdl *sdl, const ParsedImage *image, RetexImage *pixels, RetexError *err)
+{
+    const ImageMap *map = &image->map;
+    const size_t n = (size_t)map->width * (size_t)map->height;
+    const int code = retex_image_alloc(pixels, map->width, map->height, 4, err);
+    for (size_t i = 0; code == 0 && i < n; i++) {
+        const float *from = image->drawn + 4 * i;
+        float *to = pixels->pixels + 4 * i;
+        const Rgb written = rgb(from[0], from[1], from[2]);
+        const Rgb c = image->working ? decode_color(sdl, written) : written;
+        to[0] = c.r, to[1] = c.g, to[2] = c.b, to[3] = from[3];
+    }
+    return code;
+}
+
 static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
 {
     Scene *scene = sdl_scene(sdl);
@@ -119,24 +156,12 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light)
     add_image(sdl, image); /* before there is anything to free */
     RetexImage pixels = {0};
     RetexError err = {0};
-    sdl_add_file(sdl, map->path);
     const SdlOptions *options = sdl_options(sdl);
-    const Numbers numbers = numbers_of(sdl, image);
     ImageWarning warning = {sdl, image};
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     spec.budget = options->budget;
-    snprintf(spec.image, sizeof spec.image, "%s", map->path);
-    const RetexReadParams params = {.size = sizeof params,
-                                    .colorspace = numbers.colorspace,
-                                    .access = sdl_access(sdl),
-                                    .budget = options->budget,
-                                    .pixel_bytes = IMAGE_PEAK_BYTES,
-                                    .warn = warn_of_image,
-                                    .warn_context = &warning};
-    sdl_step(sdl, 1);
-    if (retex_image_read(&pixels, map->path, &params, options->nthreads, &err) == 0) {
-        if (numbers.gamma != 1)
-            apply_gamma(&pixels, numbers.gamma);
+    snprintf(spec.image, sizeof spec.image, "%s", image->drawn ? "a function" : map->path);
+    if ((image->drawn ? take_drawn(sdl, image, &pixels, &err) : read_image(sdl, image, &warning, &pixels, &err)) == 0) {
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
         map->height = pixels.height;

@@ -68,16 +68,16 @@ static int larger(int a, int b)
 static void count(Sdl *sdl, ParsedTextureMap *map)
 {
     TextureCounts *all = &map->counts;
-    const int chooses = map->kind == TEXTURE_MATERIALS ||
-                        (map->kind == TEXTURE_MAP && map->selector->pigment.pattern.ops->colors > 0);
+    const int chooses =
+        map->kind == TEXTURE_MATERIALS || (map->kind == TEXTURE_MAP && map->selector->pigment.pattern.ops->colors > 0);
     int before = 0;
     *all = (TextureCounts){0};
     for (int i = 0; i < map->count; i++) {
         const TextureCounts of = texture_counts(sdl, map->entries[i].texture);
         all->leaves += of.leaves;
         all->depth = larger(all->depth, of.depth + 1);
-        all->seen = map->kind == TEXTURE_AVERAGE ? all->seen + of.seen
-                                                 : larger(all->seen, of.seen + (chooses ? 0 : before));
+        all->seen =
+            map->kind == TEXTURE_AVERAGE ? all->seen + of.seen : larger(all->seen, of.seen + (chooses ? 0 : before));
         before = of.seen;
         texture_check_counts(sdl, all);
     }
@@ -157,6 +157,12 @@ const ParsedTexture *parse_tiles(Sdl *sdl)
 
 enum { LARGEST_SIDE = 16384 };
 
+static unsigned char index_of_red(float red)
+{
+    red *= 255;
+    return (unsigned char)(red > 0 ? red < 255 ? red + 0.5f : 255 : 0);
+}
+
 /* Of a picture without a palette, red tells the texture. */
 static void take_red(Sdl *sdl, ImageMap *image)
 {
@@ -174,22 +180,32 @@ static void take_red(Sdl *sdl, ImageMap *image)
         sdl_error(sdl, "material_map: %s%s%s", err.file, err.file[0] ? ": " : "", err.message);
     unsigned char *indices = arena_alloc(sdl_arena(sdl), (size_t)pixels.width * (size_t)pixels.height);
     for (int y = 0; indices && y < pixels.height; y++)
-        for (int x = 0; x < pixels.width; x++) {
-            const float red = pixels.pixels[retex_image_index(&pixels, x, y)] * 255;
+        for (int x = 0; x < pixels.width; x++)
             *(indices + (size_t)y * (size_t)pixels.width + (size_t)x) =
-                (unsigned char)(red > 0 ? red < 255 ? red + 0.5f : 255 : 0);
-        }
+                index_of_red(pixels.pixels[retex_image_index(&pixels, x, y)]);
     image->width = pixels.width, image->height = pixels.height, image->indices = indices;
     retex_image_free(&pixels);
     if (!indices)
         sdl_error(sdl, "material_map: no memory for its picture");
 }
 
-static void read_indices(Sdl *sdl, ImageMap *image)
+static void take_drawn(Sdl *sdl, ParsedImage *from)
+{
+    const size_t n = (size_t)from->map.width * (size_t)from->map.height;
+    unsigned char *indices = sdl_alloc(sdl, n);
+    for (size_t i = 0; i < n; i++)
+        indices[i] = index_of_red(from->drawn[4 * i]);
+    from->map.indices = indices;
+}
+
+static void read_indices(Sdl *sdl, ParsedImage *from)
 {
     Scene *scene = sdl_scene(sdl);
+    ImageMap *image = &from->map;
     PaletteIndices palette;
-    if (read_palette_indices(sdl, image->path, LARGEST_SIDE, &palette))
+    if (from->drawn)
+        take_drawn(sdl, from);
+    else if (read_palette_indices(sdl, image->path, LARGEST_SIDE, &palette))
         image->width = palette.width, image->height = palette.height, image->indices = palette.indices;
     else
         take_red(sdl, image);
@@ -210,6 +226,6 @@ const ParsedTexture *parse_material_map(Sdl *sdl)
         sdl_error(sdl, "a material_map without textures");
     if (!sdl_accept(sdl, "}"))
         sdl_expected(sdl, "an option of the image, texture or } in material_map");
-    read_indices(sdl, &image->map);
+    read_indices(sdl, image);
     return texture_of_map(sdl, &map, selector, TEXTURE_MATERIALS);
 }
