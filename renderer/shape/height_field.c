@@ -178,20 +178,37 @@ static void solid_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
     *high = vec3(INFINITY, INFINITY, INFINITY);
 }
 
-/* Slopes of the surface at a point of the grid, of the heights beside it. */
-static Vec2 slope_at(const HeightField *f, int i, int j)
-{
-    const int left = i > 0 ? i - 1 : i, right = i < f->width - 1 ? i + 1 : i;
-    const int front = j > 0 ? j - 1 : j, back = j < f->height - 1 ? j + 1 : j;
-
-    return (Vec2){(height_at(f, right, j) - height_at(f, left, j)) / (right - left),
-                  (height_at(f, i, back) - height_at(f, i, front)) / (back - front)};
-}
-
 /* The normal of a surface with these slopes, in grid units. */
 static Vec3 normal_of(const HeightField *f, double du, double dv)
 {
     return vec3(-du * (f->width - 1) / HEIGHT_UNITS, 1, -dv * (f->height - 1) / HEIGHT_UNITS);
+}
+
+/* Of a smooth field at a point of the grid, of length 1 in grid units: the mean of the normals of the cells around it,
+ * as POV-Ray takes it. A height is thousands of units, so that flat cells count much more than steep ones. */
+static Vec3 smooth_normal_at(const HeightField *f, int i, int j)
+{
+    const double height = height_at(f, i, j);
+    Vec3 sum = {0, 0, 0};
+
+    for (int k = 0; k < 4; k++) {
+        const int x = k & 1 ? 1 : -1, z = k & 2 ? 1 : -1;
+        if (i + x < 0 || i + x >= f->width || j + z < 0 || j + z >= f->height)
+            continue;
+        const double du = x * (height_at(f, i + x, j) - height), dv = z * (height_at(f, i, j + z) - height);
+        sum = vec_add(sum, vec_normalize(vec3(-du, 1, -dv)));
+    }
+    return vec_normalize(sum);
+}
+
+static Vec3 smooth_normal(const HeightField *f, int i, int j, double u, double v)
+{
+    Vec3 n = vec_scale(smooth_normal_at(f, i, j), (1 - u) * (1 - v));
+
+    n = vec_mad(n, smooth_normal_at(f, i + 1, j), u * (1 - v));
+    n = vec_mad(n, smooth_normal_at(f, i, j + 1), (1 - u) * v);
+    n = vec_mad(n, smooth_normal_at(f, i + 1, j + 1), u * v);
+    return vec3(n.x * (f->width - 1), n.y * HEIGHT_UNITS, n.z * (f->height - 1));
 }
 
 static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
@@ -207,11 +224,8 @@ static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
     (void)face;
     out->p = vec3(p.x, plane_height(f, i, j, upper, x, z) / HEIGHT_UNITS, p.z);
     out->normal = upper ? normal_of(f, corner - back, corner - right) : normal_of(f, right - corner, back - corner);
-    if (!f->smooth)
-        return;
-    const Vec2 a = slope_at(f, i + upper, j + upper), b = slope_at(f, i + 1, j), c = slope_at(f, i, j + 1);
-    const double wb = upper ? 1 - v : u, wc = upper ? 1 - u : v, wa = 1 - wb - wc;
-    out->shading_normal = normal_of(f, wa * a.u + wb * b.u + wc * c.u, wa * a.v + wb * b.v + wc * c.v);
+    if (f->smooth)
+        out->shading_normal = smooth_normal(f, i, j, u, v);
 }
 
 static void uv(const Surface *surface, ShapeUv *out)

@@ -265,6 +265,37 @@ static void test_normals_of_fields(void **unused)
     scene_close(&scene);
 }
 
+/* Of trace(), by POV-Ray 3.7.0.10: heights of a few units, made as wide as they are high. */
+static void test_smooth_normals_against_povray(void **unused)
+{
+    static const struct {
+        double x, z, normal[3];
+    } cases[] = {{.0005, .0007, {-.667296, .333450, .665978}},   {.0005, 1.0007, {-.990623, .124535, -.056186}},
+                 {1.0005, 1.0007, {-.262682, .708483, .655020}}, {1.9995, 2.9993, {.218648, .308555, -.925736}},
+                 {2.9995, 1.9993, {-.938037, .234525, .255117}}, {1.5, 1.25, {-.217060, .942530, .254013}},
+                 {1.25, 1.5, {-.360144, .875551, .322037}},      {1.2, 1.1, {-.219392, .824783, .521153}},
+                 {1.8, 1.7, {-.625806, .711410, -.319785}},      {1.5, 1.75, {-.572048, .819397, -.036738}},
+                 {1.9, 1.2, {-.059279, .996829, -.053076}}};
+    (void)unused;
+    Scene *scene = parse(V37 "#declare H = array[4][4] {{3,1,4,1},{5,9,2,6},{5,3,5,8},{9,7,9,3}}"
+                             "#declare I = function(x,i) { select(abs(x-i)-.3, 1, 0) }"
+                             "#declare V = function(x,y) {"
+                             "#for(i,0,3) #for(j,0,3) H[i][j]*I(x*3,i)*I((1-y)*3,j) + #end #end 0 }"
+                             "height_field{function 4,4{(V(x,y)+.25)/65536} smooth scale <3,65536,3>}");
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const Ray ray = {vec3(cases[k].x, 50, cases[k].z), vec3(0, -1, 0), 0, 100};
+        const double *n = cases[k].normal;
+        Hit hit = {.primitive = 0};
+        Surface s;
+        assert_true(shape_intersect(only(scene), &ray, &hit.t, &hit.face));
+        surface_at(&s, scene, &ray, &hit);
+        if (vec_length(vec_sub(s.shading_normal, vec3(n[0], n[1], n[2]))) > 1e-3)
+            fail_msg("%g %g: %f %f %f", cases[k].x, cases[k].z, s.shading_normal.x, s.shading_normal.y,
+                     s.shading_normal.z);
+    }
+    scene_close(&scene);
+}
+
 static void test_errors(void **unused)
 {
     (void)unused;
@@ -335,6 +366,7 @@ int main(void)
         cmocka_unit_test(test_pictures),
         cmocka_unit_test(test_palette),
         cmocka_unit_test(test_normals_of_fields),
+        cmocka_unit_test(test_smooth_normals_against_povray),
         cmocka_unit_test(test_errors),
         cmocka_unit_test(test_patch),
     };
