@@ -53,8 +53,10 @@ enum {
 static const CliOption options[] = {
     [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]",
                     "make everything #declared as IDENT (or NAME) the target NAME; repeatable", 0},
-    [OPT_LIST] = {"list-targets", 0, NULL,
-                  "print the identifiers that can be targets, with their share of the picture, and stop", 0},
+    [OPT_LIST] = {"list-targets", 0, "=FILE",
+                  "print the identifiers that can be targets, with their share of the picture, and stop; with -v also "
+                  "objects, colours and images; FILE gets a picture with the numbers of objects",
+                  0},
     [OPT_REPLACE] =
         {"replace", 0, "NAME=IMAGE",
          "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
@@ -174,6 +176,7 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_LIST:
         a->list = 1;
+        a->sheet = cli->value;
         break;
     case OPT_REPLACE:
         parse_replace(a);

@@ -9,35 +9,6 @@
 #include "watchdog.h"
 #include "render/aov_files.h"
 
-typedef struct IdentShare {
-    const char *name;
-    double share;
-} IdentShare;
-
-static int compare_shares(const void *a, const void *b)
-{
-    const IdentShare *x = a, *y = b;
-    return x->share < y->share ? 1 : x->share > y->share ? -1 : strcmp(x->name, y->name);
-}
-
-static void list_targets(Arguments *a, const Scene *scene)
-{
-    RetexError err;
-    double *shares = calloc((size_t)scene->nidents + 1, sizeof *shares);
-    IdentShare *list = calloc((size_t)scene->nidents + 1, sizeof *list);
-    if (!shares || !list)
-        cli_die(a->cli, "out of memory");
-    if (render_ident_shares(scene, &a->render, shares, &err))
-        cli_fail(a->cli, &err);
-    for (int k = 0; k < scene->nidents; k++)
-        list[k] = (IdentShare){scene->idents[k], shares[k]};
-    qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
-    for (int k = 0; k < scene->nidents; k++)
-        printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
-    free(shares);
-    free(list);
-}
-
 /* Announce all files of the command line. Files that the scene names are not among them. */
 static void announce_files(Arguments *a, const char *output)
 {
@@ -52,6 +23,7 @@ static void announce_files(Arguments *a, const char *output)
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
     cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", a->list || a->tracing ? "-" : output);
     cli_writes(a->cli, "--stats", a->stats);
+    cli_writes(a->cli, "the file of --list-targets", a->sheet);
     for (int k = 0; a->aov_dir && aov_files_path(path, sizeof path, a->aov_dir, k); k++)
         cli_writes(a->cli, "the file of --aov-dir", path);
 }
@@ -235,6 +207,8 @@ int main(int argc, char **argv)
         check_table(&a);
     if (output)
         check_output(&a, output), check_stats(&a);
+    if (a.sheet)
+        check_sheet(&a);
     if (a.control)
         read_control(&a);
     const int keeps = keeps_data(&a, output);

@@ -15,7 +15,7 @@ typedef struct Arguments {
     Cli *cli;
     RenderParams render;
     SdlOptions sdl;
-    const char *scene, *stats, *variants, *control, *aov_dir;
+    const char *scene, *stats, *variants, *control, *aov_dir, *sheet;
     ControlMode control_mode;
     int seeded;
     Batch batch; /* the table of --variants */
@@ -50,6 +50,12 @@ void read_control(Arguments *arguments);
 void render_controlled(Arguments *arguments, const Scene *scene, const char *output);
 /* Load replacement textures onto their targets. */
 void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded);
+
+/* ---- list_targets.c ---- */
+
+/* Before the scene is read: check that the picture can be written. */
+void check_sheet(const Arguments *arguments);
+void list_targets(Arguments *arguments, const Scene *scene);
 
 /* ---- fingerprint.c ---- */
 

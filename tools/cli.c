@@ -84,13 +84,21 @@ static void print_wrapped(const char *text, int column, int indent)
     putchar('\n');
 }
 
+static int is_optional(const CliOption *option)
+{
+    return option->argument && *option->argument == '=';
+}
+
 static void print_options(const CliOption *options)
 {
     for (const CliOption *o = options; o && o->name; o++) {
         char form[256];
-        int n = snprintf(form, sizeof form, "  %c%c%c --%s%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
-                         o->letter ? ',' : ' ', o->name, o->modifiers ? "[:opts]" : "", o->argument ? " " : "",
-                         o->argument ? o->argument : "");
+        int n = snprintf(form, sizeof form, "  %c%c%c --%s%s%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
+                         o->letter ? ',' : ' ', o->name, o->modifiers ? "[:opts]" : "",
+                         is_optional(o) ? "["
+                         : o->argument  ? " "
+                                        : "",
+                         o->argument ? o->argument : "", is_optional(o) ? "]" : "");
         fputs(form, stdout);
         print_wrapped(o->help ? o->help : "", n, HELP_COLUMN);
     }
@@ -174,7 +182,7 @@ static void take_value(Cli *cli, const CliOption *option, const char *attached)
             cli_die(cli, "--%s takes no argument", option->name);
         return;
     }
-    if (attached)
+    if (attached || is_optional(option))
         cli->value = attached;
     else if (cli->next < cli->argc)
         cli->value = cli->argv[cli->next++], check_value(cli, option);

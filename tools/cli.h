@@ -14,7 +14,8 @@ enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'd
 typedef struct CliOption {
     const char *name;      /* long name without dashes */
     char letter;           /* one-letter form, or 0 */
-    const char *argument;  /* the argument's name in --help; NULL: takes no argument */
+    const char *argument;  /* the argument's name in --help; NULL: takes no argument; `=NAME`: may be left out, and is
+                              given as `--name=VALUE` only */
     const char *help;      /* text of --help */
     int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
 } CliOption;

@@ -90,7 +90,7 @@ typedef struct AovPixel {
     float most; /* share of the leaf seen most so far */
 } AovPixel;
 
-static int centre_hit(const FirstHitWindow *w, int x, int y, Ray *ray, Hit *hit)
+int first_hit_ray(const FirstHitWindow *w, int x, int y, Ray *ray, Hit *hit)
 {
     *ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5, NULL);
     return accel_intersect(w->accel, ray, RAY_CAMERA, hit);
@@ -123,7 +123,7 @@ static void aov_row(void *context, int y, int thread)
         AovPixel pixel = {.job = job};
         Ray ray;
         Hit hit;
-        const int is_hit = centre_hit(w, x, y, &ray, &hit);
+        const int is_hit = first_hit_ray(w, x, y, &ray, &hit);
         pixel.hit = &hit;
         if (is_hit)
             shading_each_leaf(w->scene, w->variants, &ray, &hit, add_leaf, &pixel);
@@ -211,7 +211,7 @@ static void count_row(void *context, int y, int thread)
     for (int x = 0; x < job->window->w; x++) {
         Ray ray;
         Hit hit;
-        if (centre_hit(job->window, x, y, &ray, &hit))
+        if (first_hit_ray(job->window, x, y, &ray, &hit))
             shading_each_leaf(job->window->scene, job->window->variants, &ray, &hit, count_leaf, &pixel);
     }
     free(pixel.marked);
@@ -290,7 +290,7 @@ int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *par
     Ray ray;
     Hit hit;
     Surface surface;
-    if (!centre_hit(window, x, y, &ray, &hit))
+    if (!first_hit_ray(window, x, y, &ray, &hit))
         return 0;
     surface_at(&surface, window->scene, &ray, &hit);
     *part = first_hit_part(window->scene, &surface);

@@ -23,6 +23,8 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);
 /* Whether a target is periodic in u and in v: it is if all of its primitives are. */
 void target_periodic(const Scene *scene, int target, int periodic[2]);
+/* The ray through a pixel's centre, and what it meets; 0: nothing. */
+int first_hit_ray(const FirstHitWindow *window, int x, int y, Ray *ray, Hit *hit);
 /* The object that a pixel of the picture shows, and which of its textures if not all are blended on it; 0: none. */
 int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *part);
 /* Which part of its object a surface is. */

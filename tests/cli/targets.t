@@ -85,3 +85,36 @@ $ printf '%s\n' 'camera { location <0,0,-5> look_at -9*z } light_source { <1,2,-
 $ retex-render -q --size 8x8 -t 'A=#1' -t 'B=#2' -t 'C=#3' -t 'D=#4' -t 'E=#1' -t 'F=#1' -t 'G=#1' -t 'H=#1' -t 'I=#1' room.pov -o b.exr
 ! retex-render: error: 9 targets, where there may be 8
 = 2
+# With -v the list has also what can be pointed at, and where it stands; without, only names.
+$ retex-render -q --list-targets --size 8x8 room.pov; retex-render -q -v --list-targets --size 8x8 room.pov 2>/dev/null
+>  37.50%  Pine
+>  25.00%  Post
+>  37.50%  Pine
+>  25.00%  Post
+>  37.50%  ~rgb(0.8,0.4,0.2)  colour     room.pov:5 in room.pov:6
+>  25.00%  #1                 box        room.pov:5 in room.pov:6
+>  25.00%  #2                 box        room.pov:7
+>  25.00%  #3                 box        room.pov:9 in room.pov:8
+>  25.00%  *grey.png          image      room.pov:9 in room.pov:8
+>  25.00%  ~rgb(0.1,0.2,0.7)  colour     room.pov:7
+>  12.50%  #4.1               mesh       room.pov:10 in room.pov:8
+>  12.50%  #4.2               mesh       room.pov:10 in room.pov:8
+>  12.50%  ~rgb(0.3,0.3,0.3)  colour     room.pov:10 in room.pov:8
+# The sheet has a colour for each object and each part with a texture of its own; labels where there is room.
+$ retex-render -q --list-targets=sheet.exr --size 8x8 room.pov; oiiotool --dumpdata sheet.exr | sed -n 's/.*): //p' | sort | uniq -c | awk '{ print $1 }'
+>  37.50%  Pine
+>  25.00%  Post
+> 8
+> 16
+> 8
+> 16
+> 16
+$ retex-render -q --list-targets=big.exr --size 400x400 room.pov >/dev/null; oiiotool big.exr --cut 100x400+0+0 --colorcount '1,1,1:0,0,0' | grep -o '^ *[0-9]*'
+>      128
+>       76
+$ retex-render -q --list-targets=- room.pov; retex-render -q --list-targets=room.pov room.pov; retex-render -q --list-targets=sheet.what room.pov; retex-render -q --list-targets= room.pov
+! retex-render: error: the answer and the file of --list-targets cannot both be standard output
+! retex-render: error: room.pov: the file of --list-targets would replace the scene
+! retex-render: error: sheet.what: no picture format has the ending .what; try .png, .jpg, .tif, .exr or .hdr
+! retex-render: error: --list-targets: the name is empty
+= 2

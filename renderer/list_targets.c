@@ -1,0 +1,93 @@
+/* --list-targets: what of a scene can be a target. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "retex-render.h"
+#include "render/candidates.h"
+
+typedef struct IdentShare {
+    const char *name;
+    double share;
+} IdentShare;
+
+static int compare_shares(const void *a, const void *b)
+{
+    const IdentShare *x = a, *y = b;
+    return x->share < y->share ? 1 : x->share > y->share ? -1 : strcmp(x->name, y->name);
+}
+
+static void list_idents(Arguments *a, const Scene *scene)
+{
+    RetexError err;
+    double *shares = calloc((size_t)scene->nidents + 1, sizeof *shares);
+    IdentShare *list = calloc((size_t)scene->nidents + 1, sizeof *list);
+    if (!shares || !list)
+        cli_die(a->cli, "out of memory");
+    if (render_ident_shares(scene, &a->render, shares, &err))
+        cli_fail(a->cli, &err);
+    for (int k = 0; k < scene->nidents; k++)
+        list[k] = (IdentShare){scene->idents[k], shares[k]};
+    qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
+    for (int k = 0; k < scene->nidents; k++)
+        printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
+    free(shares);
+    free(list);
+}
+
+/* The innermost and the outermost statement that it is from. */
+static void print_place(const PlaceList *place)
+{
+    char text[SELECTOR_MAX], outer[SELECTOR_MAX];
+    const PlaceList *last = place;
+    while (last && last->next)
+        last = last->next;
+    if (!selector_of_place(text, place) || !selector_of_place(outer, last))
+        return;
+    printf("  %s", cli_plain(text));
+    if (strcmp(text, outer) != 0)
+        printf(" in %s", cli_plain(outer));
+}
+
+static void print_candidates(const Candidates *all)
+{
+    int widest = 0;
+    for (int k = 0; k < all->count; k++) {
+        const int width = (int)strlen(cli_plain(all->list[k].text));
+        widest = width > widest && width <= 40 ? width : widest;
+    }
+    for (int k = 0; k < all->count; k++) {
+        const Candidate *one = &all->list[k];
+        printf("%6.2f%%  %-*s  %-9s", 100 * one->share, widest, one->text, one->kind);
+        print_place(one->place);
+        putchar('\n');
+    }
+}
+
+void check_sheet(const Arguments *a)
+{
+    RetexError err;
+    if (!*a->sheet)
+        cli_die(a->cli, "--list-targets: the name is empty");
+    if (!strcmp(a->sheet, "-"))
+        cli_die(a->cli, "--list-targets prints its list: its picture needs a file");
+    if (retex_image_write_check(a->sheet, NULL, &err))
+        cli_fail(a->cli, &err);
+}
+
+void list_targets(Arguments *a, const Scene *scene)
+{
+    Candidates all;
+    RetexImage sheet = {0};
+    RetexError err;
+    list_idents(a, scene);
+    if (!a->sheet && !a->cli->verbose)
+        return;
+    if (render_candidates(&all, a->sheet ? &sheet : NULL, scene, &a->render, &err))
+        cli_fail(a->cli, &err);
+    if (a->cli->verbose)
+        print_candidates(&all);
+    if (a->sheet && retex_image_write(&sheet, a->sheet, NULL, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+    retex_image_free(&sheet);
+    candidates_close(&all);
+}
