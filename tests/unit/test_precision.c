@@ -179,7 +179,7 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
                                  size / 32768 <= sd / 2 || (double)uv[2] * was->spp < 8 ? size / 32768 : 0);
         expect_near((double)got[k], (double)uv[k], step / 2, "mean");
         expect_near((double)at(is, f->spread, x, y)[k], sd,
-                    step_of(sd, broad ? 1 : .25, 1. / 1024, broad ? .5 : 1. / 16, noise, light) / 2, "deviation");
+                    step_of(sd, broad ? 1.5 : .25, 1. / 1024, broad ? 1 : 1. / 16, noise, light) / 2, "deviation");
     }
 }
 
@@ -296,7 +296,7 @@ static void a_set_without_noise_parts(void **state)
     retex_set_close(&was);
 }
 
-/* Numbers of three bits, multiples of 1/1024, and so on. */
+/* The picture in half precision, numbers of two bits, multiples of 1/256, and so on. */
 static void data_of_denoising_are_rounded(void **state)
 {
     (void)state;
@@ -305,7 +305,7 @@ static void data_of_denoising_are_rounded(void **state)
     test_must(retex_set_round(set, NULL, 2, &err), &err);
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
         expect_near((double)set->parts[0].image.pixels[i], (double)was->parts[0].image.pixels[i],
-                    fabs((double)was->parts[0].image.pixels[i]) / 16384, "picture");
+                    fabs((double)was->parts[0].image.pixels[i]) / 2048, "picture");
     for (int k = 1; k < set->nparts; k++) {
         const char *name = set->parts[k].name;
         const int noise = strncmp(name, "noise_", 6) == 0, guide = strncmp(name, "guide_", 6) == 0;
@@ -314,9 +314,9 @@ static void data_of_denoising_are_rounded(void **state)
         for (size_t i = 0; i < count && (noise || guide); i++) {
             const double a = (double)was->parts[k].image.pixels[i], b = (double)set->parts[k].image.pixels[i];
             int exponent;
-            const double bits = frexp(b, &exponent) * (noise ? 8 : 32768);
-            expect_near(b, a, noise ? fabs(a) / 8 : position ? fabs(a) / 32768 : 1. / 2048, name);
-            assert_true(noise || position ? bits == rint(bits) : b * 1024 == rint(b * 1024));
+            const double bits = frexp(b, &exponent) * (noise ? 4 : 4096);
+            expect_near(b, a, noise ? fabs(a) / 4 : position ? fabs(a) / 4096 : 1. / 512, name);
+            assert_true(noise || position ? bits == rint(bits) : b * 256 == rint(b * 256));
         }
     }
     retex_set_close(&set);

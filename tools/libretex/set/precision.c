@@ -21,19 +21,19 @@ enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
 const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
     [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
     [RETEX_PRECISION_CORRECTION] = {0.1, 1.0 / 8192, 1.0 / 256},
-    [RETEX_PRECISION_PICTURE] = {0, 1.0 / 8192, 1.0 / 8192},
+    [RETEX_PRECISION_PICTURE] = {0, 1.0 / 1024, 1.0 / 1024},
     [RETEX_PRECISION_MEAN] = {0.5, 1.0 / 1024, 1.0 / 2},
     [RETEX_PRECISION_BROAD_MEAN] = {1, 1.0 / 1024, 1},
     [RETEX_PRECISION_SPREAD] = {0.25, 1.0 / 1024, 1.0 / 16},
-    [RETEX_PRECISION_BROAD_SPREAD] = {1, 1.0 / 1024, 1.0 / 2},
+    [RETEX_PRECISION_BROAD_SPREAD] = {1.5, 1.0 / 1024, 1},
     [RETEX_PRECISION_CORRELATION] = {0.25, 1.0 / 512, 1.0 / 8},
-    [RETEX_PRECISION_BROAD_CORRELATION] = {0.5, 1.0 / 512, 1.0 / 2},
+    [RETEX_PRECISION_BROAD_CORRELATION] = {1, 1.0 / 512, 1},
     [RETEX_PRECISION_COVERAGE] = {0.5, 1.0 / 128, 1.0 / 8},
     [RETEX_PRECISION_ALBEDO] = {0.05, 1.0 / 4096, 1.0 / 16},
-    [RETEX_PRECISION_WEIGHT] = {0.5, 1.0 / 512, 1.0 / 16},
-    [RETEX_PRECISION_NOISE] = {0, 1.0 / 4, 1.0 / 4},
-    [RETEX_PRECISION_GUIDE] = {0, 1.0 / 1024, 1.0 / 1024},
-    [RETEX_PRECISION_POSITION] = {0, 1.0 / 16384, 1.0 / 16384},
+    [RETEX_PRECISION_WEIGHT] = {1, 1.0 / 512, 1.0 / 8},
+    [RETEX_PRECISION_NOISE] = {0, 1.0 / 2, 1.0 / 2},
+    [RETEX_PRECISION_GUIDE] = {0, 1.0 / 256, 1.0 / 256},
+    [RETEX_PRECISION_POSITION] = {0, 1.0 / 2048, 1.0 / 2048},
 };
 
 /* A footprint, where it has all its parts and they are not reduced. */
