@@ -20,7 +20,7 @@ static double field(const Pattern *pattern, const PatternPoint *point)
     if (nested.depth == DEPTH_MAX || nested.steps-- <= 0)
         return 0;
     nested.depth++;
-    value = f->value(f->data, point->p, &nested.steps);
+    value = f->value(f->data, point, &nested.steps);
     nested.depth--;
     return isfinite(value) ? value : 0;
 }

@@ -6,7 +6,7 @@
 
 typedef struct PatternField {
     /* Any thread may call it. steps: how many it may take, from which it subtracts those of functions. */
-    double (*value)(const void *data, Vec3 p, long *steps);
+    double (*value)(const void *data, const PatternPoint *point, long *steps);
     const void *data;
 } PatternField;
 

@@ -99,10 +99,10 @@ Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, V
     return pigment->color;
 }
 
-Rgbft pigment_as_written(const Pigment *pigment, Vec3 p)
+Rgbft pigment_as_written(const Pigment *pigment, const PatternPoint *at)
 {
-    const Vec2 uv = {p.x, p.y};
-    const PatternPoint point = inside(pigment, &(PatternPoint){.p = p}, uv);
+    const Vec2 uv = {at->p.x, at->p.y};
+    const PatternPoint point = inside(pigment, at, uv);
 
     return pigment_in_working_space(pigment, &point, uv);
 }

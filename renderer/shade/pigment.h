@@ -9,7 +9,7 @@ Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The same of a surface whose normal patterns may ask for; at->p is in the world. */
 Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* The same as numbers of the scene's working space; a plain colour as it is kept in the pigment. */
-Rgbft pigment_as_written(const Pigment *pigment, Vec3 p);
+Rgbft pigment_as_written(const Pigment *pigment, const PatternPoint *at);
 /* The colour at a point of pattern space, in the scene's working space. */
 Rgbft pigment_in_working_space(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* The same point in pattern space. */

@@ -91,6 +91,14 @@ hexagon normal { bumps .5 scale .1 } normal { bumps .1 } normal { dents 1 scale 
 function { sin(x*5)*.5+.5 } .5
 spiral1 3 .4 scale .5
 image_pattern { png "bumps.png" } .3 scale 2
+slope y normal_map { [.3 bumps .5 scale .2] [.7 dents .8 scale .1] }
+slope { <1,1,-1>, .3, .8 } sine_wave normal_map { [0 bumps .5 scale .3] [1 gradient x .5 scale .2] } rotate 30*x
+slope { y altitude y } normal_map { [0 bumps .5 scale .3] [1 gradient x .5 scale .2] } scale 2
+aoi normal_map { [.1 bumps .5 scale .2] [.6 gradient y .8 scale .1] }
+average normal_map { [1 slope y normal_map { [.3 bumps .5 scale .2] [.7 dents .8 scale .1] }] [1 bumps .3] }
+checker normal { aoi normal_map { [.1 bumps .5 scale .2] [.6 gradient y .8 scale .1] } } normal { bumps .2 } scale .7
+pigment_pattern { slope y color_map { [0 rgb 0] [1 rgb 1] } } normal_map { [.3 bumps .5 scale .2] [.7 dents .8 scale .1] }
+aoi .8 scallop_wave frequency 3 scale .2
 '''.strip().split('\n')
 RADIUS, STEP, CELL = 1.5, 4.07, 32   # of spheres; between them; pixels of each
 COLUMNS = 8

@@ -39,7 +39,7 @@ double drawn_image_grey(const DrawnImage *image, int column, int row)
     const Vec3 p = point_of(image, column, row);
     if (image->program)
         return function_at(image->program, p);
-    const Rgbft c = pigment_as_written(image->pigment, p);
+    const Rgbft c = pigment_as_written(image->pigment, &(PatternPoint){.p = p});
     return 0.297 * (double)c.r + 0.589 * (double)c.g + 0.114 * (double)c.b;
 }
 
@@ -56,7 +56,7 @@ void drawn_image_texel(const DrawnImage *image, int column, int row, float rgba[
         rgba[3] = 1;
         return;
     }
-    const Rgbft c = pigment_as_written(image->pigment, point_of(image, column, row));
+    const Rgbft c = pigment_as_written(image->pigment, &(PatternPoint){.p = point_of(image, column, row)});
     rgba[0] = level(c.r), rgba[1] = level(c.g), rgba[2] = level(c.b);
     rgba[3] = level(1 - c.transmit);
 }

@@ -13,7 +13,7 @@ static void call_pattern(const void *data, const double *args, double *results)
 
 static void call_pigment(const void *data, const double *args, double *results)
 {
-    const Rgbft c = pigment_as_written(data, vec3(args[0], args[1], args[2]));
+    const Rgbft c = pigment_as_written(data, &(PatternPoint){.p = vec3(args[0], args[1], args[2])});
     results[0] = c.r, results[1] = c.g, results[2] = c.b, results[3] = c.filter, results[4] = c.transmit;
 }
 

@@ -10,7 +10,8 @@
 #include "sdl/build/builder.h"
 #include "shade/pigment.h"
 
-static const PatternField *field_new(Sdl *sdl, double (*value)(const void *data, Vec3 p, long *steps), const void *data)
+static const PatternField *
+field_new(Sdl *sdl, double (*value)(const void *data, const PatternPoint *point, long *steps), const void *data)
 {
     PatternField *field = sdl_alloc(sdl, sizeof *field);
     *field = (PatternField){value, data};
@@ -19,9 +20,9 @@ static const PatternField *field_new(Sdl *sdl, double (*value)(const void *data,
 
 /* ---- functions, objects, pigments, images ---- */
 
-static double function_value(const void *data, Vec3 p, long *steps)
+static double function_value(const void *data, const PatternPoint *point, long *steps)
 {
-    const double args[3] = {p.x, p.y, p.z};
+    const double args[3] = {point->p.x, point->p.y, point->p.z};
     return function_evaluate(data, args, steps);
 }
 
@@ -33,10 +34,10 @@ static void parse_function(Sdl *sdl, Pattern *pattern)
     pattern->data = field_new(sdl, function_value, sdl_function_program(sdl, &function, 3));
 }
 
-static double object_value(const void *data, Vec3 p, long *steps)
+static double object_value(const void *data, const PatternPoint *point, long *steps)
 {
     (void)steps;
-    return csg_inside(((const Csg *)data)->root, p);
+    return csg_inside(((const Csg *)data)->root, point->p);
 }
 
 /* `{ OBJECT`; what the list after it is of, and the closing brace, are the caller's. */
@@ -55,16 +56,16 @@ static double grey(Rgbft c)
     return 0.297 * (double)c.r + 0.589 * (double)c.g + 0.114 * (double)c.b;
 }
 
-static double pigment_grey(const void *data, Vec3 p, long *steps)
+static double pigment_grey(const void *data, const PatternPoint *point, long *steps)
 {
     (void)steps;
-    return grey(pigment_as_written(data, p));
+    return grey(pigment_as_written(data, point));
 }
 
-static double pigment_transmit(const void *data, Vec3 p, long *steps)
+static double pigment_transmit(const void *data, const PatternPoint *point, long *steps)
 {
     (void)steps;
-    return (double)pigment_as_written(data, p).transmit;
+    return (double)pigment_as_written(data, point).transmit;
 }
 
 /* A copy whose colour is not decoded at the end of the scene. */
