@@ -181,6 +181,19 @@ static void expect_footprint(const RetexSet *is, const RetexSet *was, int number
         expect_near((double)at(is, f->spread, x, y)[k], sd,
                     step_of(sd, broad ? 1.5 : .25, 1. / 1024, broad ? 1 : 1. / 16, noise, light) / 2, "deviation");
     }
+    const double correlation = (double)at(was, f->spread, x, y)[2];
+    expect_near((double)at(is, f->spread, x, y)[2], correlation,
+                step_of(broad ? 1 : 1 - fabs(correlation), broad ? 1 : .25, 1. / 512, broad ? 1 : .125, noise, light) /
+                    2,
+                "correlation");
+}
+
+static void correlate_at_random(RetexSet *set)
+{
+    uint32_t seed = 7;
+    for (int k = 0; k < set->nfootprints; k++)
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            set->parts[set->footprints[k].spread].image.pixels[3 * i + 2] = (float)(2 * test_random(&seed) - 1);
 }
 
 static void footprints_are_rounded_by_what_they_multiply(void **state)
@@ -189,6 +202,8 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
     RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
     RetexSignals signals = denoise_signals(was);
     RetexError err = {0};
+    correlate_at_random(set);
+    correlate_at_random(was);
     test_must(retex_set_round(set, NULL, 2, &err), &err);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const int x = i % WIDTH, y = i / WIDTH;
@@ -216,6 +231,54 @@ static void footprints_are_rounded_by_what_they_multiply(void **state)
 }
 
 /* Where a signal has no noise its light stays as it is, whatever the noise around it. */
+/* The light that a mixture multiplies. */
+static double light_of_mixture(const RetexSet *set, int mixture, int x, int y)
+{
+    double light = 0;
+    for (int t = 0; t < set->nterms; t++) {
+        const RetexTerm *term = &set->terms[t];
+        const float *v = at(set, term->radiance, x, y);
+        for (int k = 0; k < term->nfactors; k++)
+            if (term->factors[k] < 0 && RETEX_MIXTURE(term->factors[k]) == mixture)
+                light += (double)(v[0] + v[1] + v[2]) / 3 * pow(0.5, term->nfactors - 1);
+    }
+    return light;
+}
+
+static void shares_are_rounded_by_what_their_mixture_multiplies(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 1), *was = noisy_set("footprints", 1);
+    RetexSet *both[2] = {set, was};
+    RetexSignals signals = denoise_signals(was);
+    RetexError err = {0};
+    int rounded = 0;
+    for (int b = 0; b < 2; b++) {
+        uint32_t seed = 5;
+        for (int m = 0; m < was->nmixtures; m++)
+            for (int i = 0; i < WIDTH * HEIGHT; i++) {
+                const float share = (float)test_random(&seed);
+                both[b]->parts[was->mixtures[m].shares[0].weight].image.pixels[i] = share;
+                both[b]->parts[was->mixtures[m].shares[1].weight].image.pixels[i] = 1 - share;
+            }
+    }
+    test_must(retex_set_round(set, NULL, 2, &err), &err);
+    for (int m = 0; m < was->nmixtures; m++)
+        for (int i = 0; i < 2 * WIDTH * HEIGHT; i++) {
+            const int x = i / 2 % WIDTH, y = i / 2 / WIDTH, part = was->mixtures[m].shares[i % 2].weight;
+            const double a = (double)*at(was, part, x, y), b = (double)*at(set, part, x, y);
+            const double step =
+                step_of(1, 1, 1. / 512, .125, noise_of_all(was, &signals, x, y), light_of_mixture(was, m, x, y));
+            expect_near(b, a, step / 2 + 1e-5, "share");
+            assert_true(b > 0);
+            rounded += fabs(b - a) > step / 8;
+        }
+    assert_true(rounded > WIDTH * HEIGHT);
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+    retex_set_close(&was);
+}
+
 /* Broad footprints of few paths: their spread becomes as large as their means are moved, within the target's range. */
 static void spread_gains_what_means_lose(void **state)
 {
@@ -358,6 +421,7 @@ int main(void)
         cmocka_unit_test(light_is_rounded_to_its_noise),
         cmocka_unit_test(denoised_light_is_rounded_to_less),
         cmocka_unit_test(footprints_are_rounded_by_what_they_multiply),
+        cmocka_unit_test(shares_are_rounded_by_what_their_mixture_multiplies),
         cmocka_unit_test(spread_gains_what_means_lose),
         cmocka_unit_test(light_without_noise_is_exact),
         cmocka_unit_test(a_set_without_noise_parts),
