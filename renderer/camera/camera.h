@@ -11,6 +11,7 @@ typedef struct CameraPoint {
     int width, height;
     double x, y;         /* in pixels: 0, 0 is the top left corner, pixel centres lie at + 0.5 */
     double u, v;         /* the same from -0.5 at the left and bottom to 0.5 */
+    Vec2 place;          /* where the camera's `normal` is looked up: u, v, or what the kind of camera writes */
     const float *sample; /* two numbers in [0,1), for what is not the same in all samples of a pixel; or NULL */
 } CameraPoint;
 
@@ -24,7 +25,7 @@ struct CameraOps {
     unsigned properties; /* bits of CameraProperty */
     /* The ray, which has the camera's location already; its direction may have any length. 0: none goes through this
      * point, which stays black. */
-    int (*ray)(const Camera *camera, const CameraPoint *at, Ray *ray);
+    int (*ray)(const Camera *camera, CameraPoint *at, Ray *ray);
 };
 
 /* The ray through (x, y) of a width by height picture. sample: as in CameraPoint; NULL: through the middle of the lens.

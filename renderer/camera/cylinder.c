@@ -8,34 +8,42 @@ static Vec3 turned(const Camera *camera, Vec3 side, double angle)
     return vec_add(vec_scale(vec_normalize(camera->direction), cos(angle)), vec_scale(vec_normalize(side), sin(angle)));
 }
 
-static double radians(const Camera *camera, double part)
+/* The angle about the axis, of a place in the picture. */
+static double angle_upright(const Camera *camera, CameraPoint *at)
 {
-    return part * camera->angle * PI / 180;
+    at->place = (Vec2){at->u * camera->angle * PI / 180, at->v * vec_length(camera->up)};
+    return at->place.u;
 }
 
-static int upright(const Camera *camera, const CameraPoint *at, Ray *ray)
+static double angle_lying(const Camera *camera, CameraPoint *at)
 {
-    ray->direction = vec_add(turned(camera, camera->right, radians(camera, at->u)), vec_scale(camera->up, at->v));
+    at->place = (Vec2){at->u * vec_length(camera->right), at->v * camera->angle * PI / 180};
+    return at->place.v;
+}
+
+static int upright(const Camera *camera, CameraPoint *at, Ray *ray)
+{
+    ray->direction = vec_add(turned(camera, camera->right, angle_upright(camera, at)), vec_scale(camera->up, at->v));
     return 1;
 }
 
-static int lying(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int lying(const Camera *camera, CameraPoint *at, Ray *ray)
 {
-    ray->direction = vec_add(turned(camera, camera->up, radians(camera, at->v)), vec_scale(camera->right, at->u));
+    ray->direction = vec_add(turned(camera, camera->up, angle_lying(camera, at)), vec_scale(camera->right, at->u));
     return 1;
 }
 
-static int upright_parallel(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int upright_parallel(const Camera *camera, CameraPoint *at, Ray *ray)
 {
     ray->origin = vec_add(camera->location, vec_scale(camera->up, at->v));
-    ray->direction = turned(camera, camera->right, radians(camera, at->u));
+    ray->direction = turned(camera, camera->right, angle_upright(camera, at));
     return 1;
 }
 
-static int lying_parallel(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int lying_parallel(const Camera *camera, CameraPoint *at, Ray *ray)
 {
     ray->origin = vec_add(camera->location, vec_scale(camera->right, at->u));
-    ray->direction = turned(camera, camera->up, radians(camera, at->v));
+    ray->direction = turned(camera, camera->up, angle_lying(camera, at));
     return 1;
 }
 

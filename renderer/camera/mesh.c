@@ -153,7 +153,7 @@ static int by_uv(const Camera *camera, double u, double v, Ray *ray)
     return 0;
 }
 
-static int mesh_ray(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int mesh_ray(const Camera *camera, CameraPoint *at, Ray *ray)
 {
     static const double middle[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
     const MeshCamera *mesh = camera->mesh;

@@ -6,13 +6,13 @@ static Vec3 offset(const Camera *camera, const CameraPoint *at)
     return vec_add(vec_scale(camera->right, at->u), vec_scale(camera->up, at->v));
 }
 
-static int perspective(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int perspective(const Camera *camera, CameraPoint *at, Ray *ray)
 {
     ray->direction = vec_add(camera->direction, offset(camera, at));
     return 1;
 }
 
-static int orthographic(const Camera *camera, const CameraPoint *at, Ray *ray)
+static int orthographic(const Camera *camera, CameraPoint *at, Ray *ray)
 {
     ray->origin = vec_add(camera->location, offset(camera, at));
     ray->direction = camera->direction;

@@ -435,6 +435,7 @@ typedef struct Camera {
     Vec3 location, direction, right, up;
     double angle, vertical_angle; /* degrees; of kinds that have them */
     CameraLens lens;
+    const struct Normal *normal;  /* tilts rays by their place in the picture, or NULL */
     const MeshCamera *mesh;       /* of a mesh_camera, and of nothing else */
 } Camera;
 

@@ -120,7 +120,7 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
     if (needs_value && (!bumps->pattern.ops || !bumps->pattern.ops->value))
         return n; /* no pattern, or one that is not supported */
     keeps_size |= bumps->keeps_size;
-    if (bumps->uv_mapping) {
+    if (bumps->uv_mapping && place->surface->primitive) {
         const Vec2 uv = surface_uv(place->surface).uv;
         p = vec3(uv.u, uv.v, 0);
     }
@@ -130,6 +130,12 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
     p = pattern_warp(&bumps->pattern, transform_inverse_point(&bumps->transform, p));
     const Vec3 outer = transform_normal(&bumps->transform, tilt(bumps, place, keeps_size, p, inner));
     return keeps_size && bumps->kind != NORMAL_MAP ? outer : unit(outer, n);
+}
+
+Vec3 normal_tilted_ray(const Normal *bumps, Vec3 point, Vec3 direction)
+{
+    const Surface nowhere = {.position = point, .shading_normal = direction, .direction = direction};
+    return unit(tilted(bumps, &(Place){&nowhere, direction}, 0, point, direction), direction);
 }
 
 Vec3 normal_tilted(const Normal *bumps, const Surface *surface, Vec3 normal, Vec3 view)

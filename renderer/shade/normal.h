@@ -8,6 +8,8 @@
 /* The normal of the surface, tilted. normal: that without bumps, of unit length, on the side that is seen; view: the
  * direction of the ray that sees it. The result has unit length and may face away from the viewer. */
 Vec3 normal_tilted(const Normal *bumps, const Surface *surface, Vec3 normal, Vec3 view);
+/* The direction of a ray, tilted like the normal of a surface at a point. */
+Vec3 normal_tilted_ray(const Normal *bumps, Vec3 point, Vec3 direction);
 
 /* ---- private to shade/normal*.c ---- */
 

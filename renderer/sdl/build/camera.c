@@ -208,10 +208,7 @@ static int accept_blur(Sdl *sdl, Reading *r)
         r->focal_point = sdl_vector(sdl), r->had_focal_point = 1;
     else if (sdl_accept(sdl, "bokeh"))
         parse_bokeh(sdl, r);
-    else if (sdl_accept(sdl, "normal")) {
-        sdl_unsupported(sdl, "normal of a camera", "the view is not disturbed");
-        sdl_skip_block(sdl);
-    } else
+    else
         return 0;
     if (r->as_written)
         apply_focal_point(r), r->had_focal_point = 0;
@@ -255,6 +252,7 @@ static void parse_angle(Sdl *sdl, Reading *r)
 
 static void item(Sdl *sdl, Reading *r)
 {
+    Camera *c = &r->camera.camera;
     Transform by;
     if (accept_transform(sdl, &by)) {
         if (r->as_written)
@@ -263,6 +261,8 @@ static void item(Sdl *sdl, Reading *r)
             r->transform = transform_then(r->transform, by);
     } else if (sdl_accept(sdl, "angle"))
         parse_angle(sdl, r);
+    else if (sdl_accept(sdl, "normal"))
+        c->normal = &parse_normal(sdl, (const ParsedNormal *)c->normal)->normal;
     else if (!accept_vector(sdl, r) && !accept_kind(sdl, r) && !accept_blur(sdl, r))
         sdl_expected(sdl, "a camera modifier or }");
 }
@@ -337,6 +337,9 @@ void camera_use(Sdl *sdl, const ParsedCamera *camera)
 void camera_finish(Sdl *sdl)
 {
     const ParsedPigment *pigment = builder_of(sdl)->bokeh;
+    const Normal *normal = sdl_scene(sdl)->camera.normal;
+    if (normal)
+        gaps_report(sdl, &((const ParsedNormal *)normal)->gaps);
     if (!pigment)
         return;
     gaps_report(sdl, &pigment->gaps);
