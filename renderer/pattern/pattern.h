@@ -19,6 +19,7 @@ typedef enum PatternArguments {
     ARGUMENTS_OBJECT, /* in braces, with the list of colours */
     ARGUMENTS_PIGMENT,
     ARGUMENTS_SLOPE,
+    ARGUMENTS_TILING, /* Pattern.number, from 1 to 27 */
     ARGUMENTS_BLOCK /* read over */
 } PatternArguments;
 

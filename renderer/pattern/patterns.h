@@ -44,6 +44,7 @@
     X(spiral2) \
     X(spotted) \
     X(square) \
+    X(tiling) \
     X(triangular) \
     X(waves) \
     X(wood) \
@@ -53,8 +54,7 @@
  * length of the list of colours, name in the warning. */
 #define UNSUPPORTED_PATTERNS(X) \
     X(pavement, NONE, 0, "pavement") \
-    X(projection, BLOCK, 0, "projection") \
-    X(tiling, FLOAT, 0, "tiling")
+    X(projection, BLOCK, 0, "projection")
 
 #define X(name) extern const PatternOps pattern_##name;
 PATTERN_TABLE(X)

@@ -110,6 +110,7 @@ radial
 crackle
 gradient x turbulence .5 pigment_map { [0 bozo] [1 rgb .5] }
 checker pigment { bozo } pigment { wood scale .3 } turbulence .3'''.split('\n')
+PIGMENTS += [f'tiling {n} scale .4 translate <.123,0,.077>' for n in range(1, 25)]
 
 
 def main():

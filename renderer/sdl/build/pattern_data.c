@@ -7,6 +7,7 @@
 #include "pattern/field.h"
 #include "pattern/fractal.h"
 #include "pattern/slope.h"
+#include "pattern/tiling.h"
 #include "sdl/build/builder.h"
 #include "shade/pigment.h"
 
@@ -221,6 +222,24 @@ static int accept_fractal_modifier(Sdl *sdl, Pattern *pattern)
     return 1;
 }
 
+/* ---- tiling ---- */
+
+enum { POVRAY_TILINGS = 27 };
+
+static void parse_tiling(Sdl *sdl, ParsedPigment *pigment)
+{
+    Pattern *pattern = &pigment->pigment.pattern;
+    const double number = floor(sdl_float(sdl));
+    if (!(number >= 1 && number <= POVRAY_TILINGS))
+        sdl_error(sdl, "tiling %g: there are 1 to %d", number, POVRAY_TILINGS);
+    pattern->number = number;
+    if (number > TILINGS) {
+        gaps_add_pattern(&pigment->gaps, pattern_find(pattern->ops->keyword));
+        pigment->averaged = 1;
+        pattern->number = 1;
+    }
+}
+
 /* ---- brick ---- */
 
 static int accept_brick_modifier(Sdl *sdl, Pattern *pattern)
@@ -263,6 +282,9 @@ void parse_pattern_data(Sdl *sdl, ParsedPigment *pigment)
         break;
     case ARGUMENTS_FRACTAL:
         parse_fractal(sdl, pattern);
+        break;
+    case ARGUMENTS_TILING:
+        parse_tiling(sdl, pigment);
         break;
     case ARGUMENTS_BRICK: /* POV-Ray's */
         pattern->vector = vec3(8, 3, 4.5);

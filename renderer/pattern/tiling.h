@@ -1,0 +1,22 @@
+/* Tilings of the plane y = 0 by polygons. */
+#ifndef RENDERER_PATTERN_TILING_H
+#define RENDERER_PATTERN_TILING_H
+
+#include "base/vec.h"
+
+enum { TILING_SIDES = 12 };
+
+/* POV-Ray numbers them from 1. Numbers in the table are halves of a + b times a root, in pairs. */
+typedef struct Tiling {
+    int types;                /* colours: tiles of type k have values from k / types to (k + 1) / types */
+    double root, slope;       /* slope: by how much the value falls from a tile's edge inwards, of 1 / types */
+    double upright;           /* 0, or a factor of the distance from edges along z */
+    signed char lattice[2][4]; /* after which all repeats: x, z */
+    int ntiles;
+    const signed char *tiles; /* of each: its type, how many corners it has, and these, x and z */
+} Tiling;
+
+enum { TILINGS = 24 };
+extern const Tiling tilings[TILINGS];
+
+#endif
