@@ -11,6 +11,7 @@
 #include "shape/shape.h"
 
 #define EXACT_MAX 4   /* up to so many lights are chosen by an estimate of each; more by the tree */
+#define EXACT_MOST 32 /* the same where there are light groups, of which the tree knows nothing */
 #define FACES_WHOLE 8 /* a mesh of up to so many emitting faces is one light; of a larger one each face is a light */
 #define CHOICE_FLOOR 0.02f /* least probability of every light, over that of a uniform choice: estimates may be wrong */
 #define INFINITE_MIN 0.05f /* the same for all of the tree, and for all infinite lights */
@@ -205,6 +206,17 @@ static void sum_infinite(Lights *lights)
     }
 }
 
+static int has_groups(const Scene *scene)
+{
+    for (int k = 0; k < scene->nprimitives; k++)
+        if (scene->primitives[k].light_group)
+            return 1;
+    for (int k = 0; k < scene->nlights; k++)
+        if (scene->lights[k].group)
+            return 1;
+    return 0;
+}
+
 /* A tree, where there are many finite lights. */
 static int grow_tree(Lights *lights, RetexError *err)
 {
@@ -215,7 +227,7 @@ static int grow_tree(Lights *lights, RetexError *err)
         lights->entries[k].leaf = -1;
         leaves += of_entry, finite += of_entry > 0;
     }
-    if (finite == leaves && finite <= EXACT_MAX && lights->count <= EXACT_MAX)
+    if (finite == leaves && lights->count <= (has_groups(lights->scene) ? EXACT_MOST : EXACT_MAX))
         return RETEX_OK;
     LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
     lights->leaves = malloc((size_t)leaves * sizeof *lights->leaves + 1);
@@ -320,16 +332,25 @@ static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
     return e->strength / (float)fmax(vec_dot(d, d), e->radius * e->radius / 4);
 }
 
-/* Probabilities of the entries at a point; their sum is 1. */
-static void local_shares(const Lights *lights, Vec3 position, float *shares)
+/* Whether an entry shines on what is in the point's light group. */
+static int entry_reaches(const Lights *lights, const Entry *e, const LightSampleContext *point)
 {
-    float total = 0;
+    return e->kind != ENTRY_SOURCE || light_reaches_group(&lights->scene->lights[e->index], point->group);
+}
+
+/* Probabilities of the entries at a point; their sum is 1, or 0 where none shines on the point's group. */
+static void local_shares(const Lights *lights, const LightSampleContext *point, float *shares)
+{
+    float total = 0, sum = 0;
+    for (int k = 0; k < lights->count; k++) {
+        shares[k] = -1;
+        if (entry_reaches(lights, &lights->entries[k], point))
+            total += shares[k] = entry_estimate(lights, &lights->entries[k], point->position);
+    }
+    const float least = total > 0 ? total * CHOICE_FLOOR / (float)lights->count : 1;
     for (int k = 0; k < lights->count; k++)
-        total += shares[k] = entry_estimate(lights, &lights->entries[k], position);
-    float least = total > 0 ? total * CHOICE_FLOOR / (float)lights->count : 1, sum = 0;
-    for (int k = 0; k < lights->count; k++)
-        sum += shares[k] += least;
-    for (int k = 0; k < lights->count; k++)
+        sum += shares[k] = shares[k] >= 0 ? shares[k] + least : 0;
+    for (int k = 0; k < lights->count && sum > 0; k++)
         shares[k] /= sum;
 }
 
@@ -355,12 +376,12 @@ static int is_exact(const Lights *lights)
     return !lights->tree && lights->ninfinite == 0;
 }
 
-static float exact_probability(const Lights *lights, Vec3 position, int entry)
+static float exact_probability(const Lights *lights, const LightSampleContext *point, int entry)
 {
     if (lights->count == 1)
         return 1;
-    float shares[EXACT_MAX];
-    local_shares(lights, position, shares);
+    float shares[EXACT_MOST];
+    local_shares(lights, point, shares);
     return shares[entry];
 }
 
@@ -368,7 +389,7 @@ static float exact_probability(const Lights *lights, Vec3 position, int entry)
 static float pick_probability(const Lights *lights, const LightSampleContext *point, int entry, int face)
 {
     if (is_exact(lights))
-        return exact_probability(lights, point->position, entry);
+        return exact_probability(lights, point, entry);
     const Entry *e = &lights->entries[entry];
     float share = tree_share(lights, point);
     if (e->leaf < 0)
@@ -376,15 +397,19 @@ static float pick_probability(const Lights *lights, const LightSampleContext *po
     return share * light_tree_probability(lights->tree, point, e->leaf + (is_by_face(e) ? face : 0));
 }
 
-static LightPick exact_pick(const Lights *lights, Vec3 position, float u, float u_part)
+static LightPick exact_pick(const Lights *lights, const LightSampleContext *point, float u, float u_part)
 {
     if (lights->count == 1)
         return (LightPick){0, -1, 1, u_part};
-    float shares[EXACT_MAX], sum = 0;
-    local_shares(lights, position, shares);
+    float shares[EXACT_MOST], sum = 0;
+    local_shares(lights, point, shares);
     int k = 0;
     while (k < lights->count - 1 && u >= sum + shares[k])
         sum += shares[k++];
+    while (k > 0 && shares[k] == 0)
+        k--; /* u is just below 1: the last one that shines on the point */
+    if (shares[k] == 0)
+        return (LightPick){-1, -1, 1, u_part};
     return (LightPick){k, -1, shares[k], u_part};
 }
 
@@ -407,7 +432,7 @@ LightPick lights_pick(const Lights *lights, const LightSampleContext *point, flo
     if (lights->count == 0)
         return (LightPick){-1, -1, 1, u_part};
     if (is_exact(lights))
-        return exact_pick(lights, point->position, u_pick, u_part);
+        return exact_pick(lights, point, u_pick, u_part);
     /* both numbers together: a path down a large tree takes more bits than a float has */
     double u = u_pick + u_part * 0x1p-24;
     float share = tree_share(lights, point), probability;

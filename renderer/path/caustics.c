@@ -274,7 +274,7 @@ static double caustic_share(const Builder *m, const Bounds *b, double power)
 {
     Vec3 d = vec_sub(b->high, b->low);
     double area = fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x)), caustic = power / fmax(area, 1e-12) / m->photons.tried;
-    LightSampleContext point = {vec_scale(vec_add(b->low, b->high), 0.5), {0, 0, 0}};
+    LightSampleContext point = {.position = vec_scale(vec_add(b->low, b->high), 0.5)};
     double other = lights_estimate(m->lights, &point);
     return caustic / (caustic + other);
 }

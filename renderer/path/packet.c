@@ -97,7 +97,7 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal)
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
-    LightSampleContext context = {s->surface.position, normal};
+    LightSampleContext context = {s->surface.position, normal, s->surface.primitive->light_group};
     v->pick = lights_pick(c->lights, &context, u->light_choice[lane], u->light_part[lane]);
     v->picked = 1;
     const MeshLightFace *face = lights_uniform_face(c->lights, &v->pick, &density);
@@ -167,7 +167,8 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!path_apply_weight(w, path, s, weight, 1))
         return 0;
     path->kind = RAY_BOUNCE;
-    path->prev_context = (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k)};
+    path->prev_context = (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k),
+                                              s->surface.primitive->light_group};
     ray->origin = matte_get(&bounces->origin, k);
     ray->direction = matte_get(&bounces->direction, k);
     ray->tmin = 0, ray->tmax = INFINITY;

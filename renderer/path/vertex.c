@@ -33,9 +33,10 @@ LightSampleContext light_sample_context(const Shading *s)
 {
     const Vec3 none = {0, 0, 0};
     const Bsdf *b = &s->bsdf;
+    const LightGroup *group = s->surface.primitive->light_group;
     if (!bsdf_only_reflects(b))
-        return (LightSampleContext){s->surface.position, none};
-    return (LightSampleContext){s->surface.position, b->bumped ? b->geometric : b->normal};
+        return (LightSampleContext){s->surface.position, none, group};
+    return (LightSampleContext){s->surface.position, b->bumped ? b->geometric : b->normal, group};
 }
 
 /* ---- directions by the guide to caustics ---- */

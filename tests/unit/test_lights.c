@@ -50,7 +50,7 @@ static LightBounds random_light(int kind)
 
 static LightSampleContext random_lit(int k)
 {
-    LightSampleContext p = {random_point(6), {0, 0, 0}};
+    LightSampleContext p = {.position = random_point(6)};
     if (k % 2)
         p.normal = random_direction();
     return p;
@@ -135,7 +135,7 @@ static void tree_of_one_place(void **state)
         lights[k] =
             (LightBounds){.axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2, .intensity = 1, .peak = INFINITY};
     assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
-    LightSampleContext there = {{0, 0, 0}, {0, 0, 0}}, away = {{1, 0, 0}, {0, 0, 0}};
+    LightSampleContext there = {{0, 0, 0}, {0, 0, 0}, NULL}, away = {{1, 0, 0}, {0, 0, 0}, NULL};
     for (int k = 0; k < N; k++) {
         assert_true(fabsf(light_tree_probability(tree, &there, k) - 1.0f / N) < 0.001f / N);
         assert_true(fabsf(light_tree_probability(tree, &away, k) - 1.0f / N) < 0.001f / N);
@@ -207,7 +207,7 @@ static void spheres_are_sampled_where_they_are_seen(void **state)
     (void)state;
     Scene *scene = test_scene(HEAD "sphere { 0, 1 texture { Shine } }");
     Lights *lights;
-    LightSampleContext from = {{0, 0, -4}, {0, 0, 0}};
+    LightSampleContext from = {{0, 0, -4}, {0, 0, 0}, NULL};
     Surface s = {.primitive = &scene->primitives[0]};
     const double whole = 2 * PI * (1 - sqrt(1 - 1.0 / 16)); /* the cone's solid angle */
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
@@ -358,7 +358,7 @@ static void faces_give_what_their_sheet_gives(void **state)
 {
     (void)state;
     LightSampleContext points[] = {
-        {{0, 0, 0}, {0, 1, 0}}, {{2, 2.5, 0.3}, {-0.6, 0.8, 0}}, {{0.3, 5, 0}, {0, -0.8, 0.6}}};
+        {{0, 0, 0}, {0, 1, 0}, NULL}, {{2, 2.5, 0.3}, {-0.6, 0.8, 0}, NULL}, {{0.3, 5, 0}, {0, -0.8, 0.6}, NULL}};
     for (int k = 0; k < 3; k++) {
         double whole = mean_irradiance(HEAD SHEET(1), points[k]), cut = mean_irradiance(HEAD SHEET(12), points[k]);
         if (fabs(whole - cut) > 0.004 * whole)
@@ -385,6 +385,43 @@ static void domes_are_left_to_paths(void **state)
         Lights *lights;
         assert_int_equal(lights_create(&lights, scene, NULL), 0);
         assert_int_equal(lights_count(lights), cases[k].lights);
+        lights_close(&lights);
+        scene_close(&scene);
+    }
+}
+
+/* Of light sources only those are chosen that shine on the surface's light group, whatever their number. */
+static void only_lights_of_the_group_are_chosen(void **state)
+{
+    (void)state;
+    static const char *const groups[] = {
+        "light_group { light_source { <5,9,5>, 1 } light_source { <1,2,-3>, 1 parallel } sphere { 0, 1 } }",
+        "light_group { light_source { <5,9,5>, 1 } sphere { 0, 1 } global_lights on }",
+        "light_group { sphere { 0, 1 } }"};
+    const int chosen[3][2] = {{2, 9}, {10, 9}, {0, 9}}; /* on the sphere, and on what is in no group */
+    char text[1000];
+    for (int k = 0; k < 3; k++) {
+        snprintf(text, sizeof text, "%s#for(I,1,9) light_source { <I,7,-3>, 1 } #end %s sphere { 5, 1 }", HEAD,
+                 groups[k]);
+        Scene *scene = test_scene(text);
+        Lights *lights;
+        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        for (int outside = 0; outside < 2; outside++) {
+            const LightSampleContext p = {.position = vec3(outside, 1, 0),
+                                          .group = scene->primitives[outside].light_group};
+            double inverses = 0;
+            enum { N = 4000 };
+            for (int i = 0; i < N; i++) {
+                LightSample s;
+                const LightPick pick = lights_pick(lights, &p, (float)(i + 0.5) / N, 0.5f);
+                if (!lights_sample(lights, &p, &pick, 0.5f, 0.5f, &s))
+                    continue;
+                assert_true(light_reaches_group(s.source, p.group));
+                inverses += 1 / (double)s.pick_probability / N;
+            }
+            if (fabs(inverses - chosen[k][outside]) > 0.05) /* each of them once */
+                fail_msg("group %d, outside %d: %.3f lights, not %d", k, outside, inverses, chosen[k][outside]);
+        }
         lights_close(&lights);
         scene_close(&scene);
     }
@@ -434,6 +471,7 @@ int main(void)
         cmocka_unit_test(tree_frequencies),
         cmocka_unit_test(tree_of_one_place),
         cmocka_unit_test(domes_are_left_to_paths),
+        cmocka_unit_test(only_lights_of_the_group_are_chosen),
         cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
