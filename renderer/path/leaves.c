@@ -5,6 +5,7 @@
 #include "pattern/pattern.h"
 #include "shade/material.h"
 #include "shade/pigment.h"
+#include "shape/csg.h"
 #include "shade/working_space.h"
 
 /* Where leaves are asked for. */
@@ -174,6 +175,43 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
         add_part(leaves, &within, tree, k - 1, 1 - share, from);
 }
 
+/* ---- operands ---- */
+
+static int is_within(const CsgNode *node, const CsgNode *group)
+{
+    while (node && node != group)
+        node = node->parent;
+    return node != NULL;
+}
+
+/* Whether the point is inside an operand as far as the groups around it let it be; those that contain the surface
+ * itself are not asked. */
+static int operand_contains(const CsgNode *node, const CsgNode *surface, Vec3 p)
+{
+    for (; node && !is_within(surface, node); node = node->parent)
+        if (!csg_inside(node, p))
+            return 0;
+    return 1;
+}
+
+static void add_operands(Leaves *leaves, const Point *at, const TextureTree *tree, Leaf from)
+{
+    const CsgNode *surface = at->surface->primitive->csg;
+    const Vec3 p = surface_texture_point(at->surface);
+    int counts[LEAVES_MAX], parts[LEAVES_MAX], nparts = 0, sum = 0;
+    for (int k = 0; k < tree->count && nparts < LEAVES_MAX; k++) {
+        int count = 0;
+        for (int j = 0; j < tree->operands[k].count; j++)
+            count += operand_contains(tree->operands[k].nodes[j], surface, p);
+        if (count > 0)
+            parts[nparts] = k, counts[nparts++] = count, sum += count;
+    }
+    for (int i = 0; i < nparts; i++)
+        add_part(leaves, at, tree, parts[i], (float)counts[i] / (float)sum, from);
+    if (!nparts)
+        add_part(leaves, at, tree, 0, 1, from);
+}
+
 /* By the index, round and round. */
 static int material_at(const Point *at, const TextureTree *tree)
 {
@@ -202,6 +240,9 @@ static void add_texture(Leaves *leaves, const Point *at, const Texture *texture,
     case TEXTURE_AVERAGE:
         for (int k = 0; k < tree->count; k++)
             add_part(leaves, at, tree, k, (float)tree->values[k], from);
+        break;
+    case TEXTURE_OPERANDS:
+        add_operands(leaves, at, tree, from);
         break;
     case TEXTURE_MATERIALS:
         add_part(leaves, at, tree, material_at(at, tree), 1, from);

@@ -248,8 +248,16 @@ typedef enum TextureTreeKind {
     TEXTURE_LAYERS,   /* parts: the topmost first */
     TEXTURE_MAP,      /* by the selector's value, or by which of its colours it would choose */
     TEXTURE_AVERAGE,  /* by values as weights */
-    TEXTURE_MATERIALS /* by the index of the selector's image */
+    TEXTURE_MATERIALS, /* by the index of the selector's image */
+    TEXTURE_OPERANDS  /* of CSG with cutaway_textures: each operand that contains the point counts alike; where none
+                         does, the first part */
 } TextureTreeKind;
+
+/* Operands that have one texture. */
+typedef struct TextureOperands {
+    int count;
+    const struct CsgNode **nodes; /* leaves */
+} TextureOperands;
 
 /* Textures that make one together: in layers, or side by side with smooth or hard edges. Parts may be trees; the plain
  * textures are its leaves. */
@@ -258,6 +266,7 @@ typedef struct TextureTree {
     const Pigment *selector; /* of maps and materials: its pattern, or its image; what else it has is not looked at */
     int count;
     const Texture **parts;
+    const TextureOperands *operands; /* of each part, of TEXTURE_OPERANDS */
     const double *values; /* of a map's parts, ascending; weights of an average, their sum 1 */
     int nleaves;
     Texture **leaves; /* of all its parts: no two trees share a leaf */

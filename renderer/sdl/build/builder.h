@@ -114,6 +114,7 @@ typedef struct ParsedTextureEntry {
 typedef struct ParsedTextureMap {
     TextureTreeKind kind;          /* not of layers */
     const ParsedPigment *selector; /* NULL of maps that no texture has yet */
+    const TextureOperands *operands;
     int count, capacity;
     ParsedTextureEntry *entries; /* in order of value */
     TextureCounts counts;
@@ -365,6 +366,9 @@ ParsedTextureMap *parse_texture_map(Sdl *sdl); /* after texture_map */
 void parse_texture_list(Sdl *sdl, ParsedTextureMap *map, int n);
 const ParsedTexture *parse_tiles(Sdl *sdl);        /* after tiles */
 const ParsedTexture *parse_material_map(Sdl *sdl); /* after material_map */
+/* Of a map without a selector. The textures are seen in the selector's pattern space. */
+const ParsedTexture *texture_of_map(Sdl *sdl, const ParsedTextureMap *map, ParsedPigment *selector,
+                                    TextureTreeKind kind);
 /* A pattern with its textures, up to the end of the texture. */
 const ParsedTexture *parse_texture_pattern(Sdl *sdl, char end, int uv_mapping);
 
@@ -475,8 +479,26 @@ typedef struct Inherited {
     const PlaceList *places;
     const LightGroup *light_group;
     CsgNode *csg; /* the node that it is an operand of, or NULL */
+    struct Cutaway *cutaway; /* of the tree of CSG that it is in, where that has cutaway_textures, or NULL */
+    int is_taken_off;        /* it is in an operand that a difference takes off */
     const Prototype *prototype; /* that it is part of, or NULL: then the world is its space */
 } Inherited;
+
+/* cutaway.c: a tree of CSG with cutaway_textures while it is placed. */
+typedef struct CutOperand {
+    const ParsedTexture *texture;
+    const IdentList *idents;
+    const CsgNode *node;
+} CutOperand;
+typedef struct Cutaway {
+    int nbare, bare_capacity, ncut, cut_capacity;
+    int *bare;       /* primitives that are to show textures of others */
+    CutOperand *cut; /* those with textures */
+} Cutaway;
+/* The last primitive, which was placed with this texture. */
+void cutaway_add(Sdl *sdl, const Inherited *in, const ParsedTexture *texture);
+void cutaway_complete(Sdl *sdl, const Cutaway *cutaway);
+
 /* photons{…} of an object or light: sets and clears OBJECT_PHOTON… in flags. */
 void parse_photons(Sdl *sdl, unsigned *flags);
 /* caustics.c, at the end of reading: which light sources throw caustics, by which primitives. */

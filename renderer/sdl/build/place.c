@@ -162,6 +162,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     p->places = in->places;
     p->line = object->line;
     p->target = -1;
+    cutaway_add(sdl, in, texture);
 }
 
 /* ---- lights ---- */
@@ -215,8 +216,8 @@ static void place_looks_like(Sdl *sdl, const Object *object, const Inherited *he
     place_children(sdl, object->children, &look);
 }
 
-/* What the other operands of an intersection or difference lack, cut faces most of all, is as with the first one: the
- * interior, for that is what lies behind them, and with cutaway_textures the texture. */
+/* Where the other operands of an intersection or difference have no interior, cut faces most of all, it is that of the
+ * first one, for that is what lies behind them. */
 static void place_operands(Sdl *sdl, const Object *object, const Inherited *around)
 {
     const Scene *scene = sdl_scene(sdl);
@@ -224,13 +225,12 @@ static void place_operands(Sdl *sdl, const Object *object, const Inherited *arou
     for (const ObjectList *list = object->children; list; list = list->next) {
         const int before = scene->nprimitives;
         place(sdl, list->object, &here);
+        here.is_taken_off |= object->difference && list->object->kind != OBJECT_LIGHT;
         if (scene->nprimitives == before)
             continue;
         const Primitive *first = &scene->primitives[before];
         if (object->csg == CSG_INTERSECTION && !here.interior)
             here.interior = (const ParsedInterior *)first->interior;
-        if ((here.flags & OBJECT_CUTAWAY_TEXTURES) && !here.texture)
-            here.texture = (const ParsedTexture *)first->texture;
     }
 }
 
@@ -314,7 +314,11 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
     }
     if (object->kind != OBJECT_LIGHT && (around->csg || begins_csg(object, here.flags)))
         here.csg = object_csg_node(sdl, object, &around->to_world, here.flags & OBJECT_INVERSE, around->csg);
+    Cutaway cutaway = {.nbare = 0};
+    if ((here.flags & OBJECT_CUTAWAY_TEXTURES) && here.csg && !here.cutaway)
+        here.cutaway = &cutaway, here.is_taken_off = 0;
     place_contents(sdl, object, &here);
+    cutaway_complete(sdl, &cutaway);
     if (here.csg && !around->csg)
         add_root(sdl, here.csg, here.prototype, object->line);
 }

@@ -64,7 +64,7 @@ static int larger(int a, int b)
     return a > b ? a : b;
 }
 
-/* Of a map two neighbours are seen at one point, of an average all, else one. */
+/* Of a map two neighbours are seen at one point, of an average all, else one; of operands a few. */
 static void count(Sdl *sdl, ParsedTextureMap *map)
 {
     TextureCounts *all = &map->counts;
@@ -84,8 +84,8 @@ static void count(Sdl *sdl, ParsedTextureMap *map)
 }
 
 /* A copy of the map for its selector, with the textures in the selector's pattern space. */
-static const ParsedTexture *texture_of_map(Sdl *sdl, const ParsedTextureMap *from, ParsedPigment *selector,
-                                           TextureTreeKind kind)
+const ParsedTexture *texture_of_map(Sdl *sdl, const ParsedTextureMap *from, ParsedPigment *selector,
+                                    TextureTreeKind kind)
 {
     ParsedTextureMap *map = sdl_alloc(sdl, sizeof *map);
     ParsedTexture *texture = sdl_alloc(sdl, sizeof *texture);

@@ -236,6 +236,7 @@ static const TextureTree *tree_of_map(Sdl *sdl, const ParsedTextureMap *map)
     TextureTree *tree = tree_new(sdl, map->kind, map->count, map->counts.leaves);
     double *values = sdl_alloc(sdl, (size_t)map->count * sizeof *values);
     tree->selector = &map->selector->pigment;
+    tree->operands = map->operands;
     tree->values = values;
     for (int k = 0; k < map->count; k++) {
         values[k] = map->entries[k].value;
