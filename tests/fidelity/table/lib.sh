@@ -70,8 +70,8 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
 }
 
 # Converged pictures: $work/truth/SCENE-TEXTURE.exr, links into $build/truth, where they outlive builds. A name there has
-# a digest of the view, the samples and a small picture of the same textures. Whatever changes pictures, in renderer,
-# scene or texture, changes the small picture too, and the truth is rendered again.
+# a digest of the view, the samples and the pixels of a small picture of the same textures. Whatever changes pictures,
+# in renderer, scene or texture, changes the small picture too, and the truth is rendered again.
 truth() { # SCENE SPP TEXTURE…
     scene=$1 spp=$2
     shift 2
@@ -83,7 +83,10 @@ truth() { # SCENE SPP TEXTURE…
     )
     for texture; do
         shift
-        key=$({ echo "$(view "$scene") $spp"; cat "$work/key/$scene-$texture.exr"; } | sha256sum | cut -c1-16)
+        key=$({
+            echo "$(view "$scene") $spp"
+            oiiotool --hash "$work/key/$scene-$texture.exr" | grep SHA-1
+        } | sha256sum | cut -c1-16)
         kept=$PWD/$build/truth/$scene-$texture-$key.exr
         case $build in /*) kept=$build/truth/$scene-$texture-$key.exr ;; esac
         ln -sfn "$kept" "$work/truth/$scene-$texture.exr"
