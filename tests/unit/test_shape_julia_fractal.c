@@ -148,6 +148,7 @@ static void test_errors(void **state)
     expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> sin}", "quaternions have sqr and cube only");
     expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> max_iteration 0}", "max_iteration 0");
     expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> precision 0}", "a precision of 0");
+    expect_error(V37 "julia_fractal{<.1,.2,-.3,-1e308> cube}", "its numbers must be below 1e+09");
     expect_error(V37 "julia_fractal{<.1,.2,-.3,.15> slice <1,0,0,0>,1}", "the fourth number of slice");
 }
 

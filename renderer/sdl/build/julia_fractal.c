@@ -4,6 +4,9 @@
 
 enum { MAX_ITERATIONS = 10000 };
 
+#define LARGEST 1e9      /* of the numbers: the iterates of smaller ones are finite until they escape */
+#define MOST_STEPS 500e3 /* from the ball's middle to its end */
+
 static void four(Sdl *sdl, double out[4])
 {
     const Value value = sdl_expression(sdl);
@@ -74,6 +77,9 @@ void parse_julia_fractal(Sdl *sdl, Object *object)
         if (f->function != JULIA_sqr && f->function != JULIA_cube)
             sdl_error(sdl, "julia_fractal: quaternions have sqr and cube only; the others are for hypercomplex");
         f->radius = 1 + sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2] + c[3] * c[3]);
+        if (!(f->radius <= LARGEST))
+            sdl_error(sdl, "julia_fractal: its numbers must be below %g", LARGEST);
+        f->step = fmax(f->step, f->radius / MOST_STEPS);
     }
     f->limit = f->radius * f->radius;
     object->shape.ops = &shape_julia_fractal;
