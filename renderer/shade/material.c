@@ -3,6 +3,7 @@
 #include "shade/fresnel.h"
 #include "shade/material.h"
 #include "shade/normal.h"
+#include "shade/pigment.h"
 
 #define LEAST_COSINE 1e-4  /* between a normal and where it is seen from */
 #define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
@@ -19,7 +20,8 @@ static int interior_bends(const Primitive *p)
 
 int finish_transmits(const Finish *finish)
 {
-    return finish->retex.present && finish->retex.transmission > 0 && finish->retex.metallic < 1;
+    return finish->retex.present && finish->retex.transmission > 0 &&
+           (finish->retex.metallic < 1 || finish->retex.metallic_map);
 }
 
 /* At most `left` of the light is reflected by them. Their amounts are the peaks in POV-Ray's
@@ -103,15 +105,24 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
         setup_film(b, f, mirror);
 }
 
-/* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
-static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
+/* A number of the extension block where it varies over the surface. */
+static float mapped(double value, const Pigment *map, const Surface *surface)
 {
-    float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic));
+    if (!map)
+        return clamp01(value);
+    const Rgbft c = pigment_eval(map, surface_texture_point(surface), surface_uv(surface).uv);
+    return clamp01(value * (double)rgb_luminance(rgb(c.r, c.g, c.b)));
+}
+
+/* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
+static void setup_disney(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit)
+{
+    b->metallic = mapped(f->retex.metallic, f->retex.metallic_map, surface);
+    float a = clamp01(f->retex.transmission) * (1 - b->metallic);
     float opacity = a > 0 ? 1 : clamp01(1 - filter - transmit); /* a finish that transmits ignores the pigment here */
     b->coverage = opacity;
     b->disney = 1;
-    b->metallic = clamp01(f->retex.metallic);
-    b->roughness = clamp01(f->retex.roughness);
+    b->roughness = mapped(f->retex.roughness, f->retex.roughness_map, surface);
     b->specular_tint = clamp01(f->retex.specular_tint);
     b->coat_eta = (float)f->retex.ior;
     b->transmission = a;
@@ -227,7 +238,7 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
         return;
     }
     if (finish->retex.present)
-        setup_disney(b, finish, filter, transmit);
+        setup_disney(b, finish, surface, filter, transmit);
     else
         setup_povray(b, finish, filter, transmit);
     setup_choice(b);

@@ -62,6 +62,11 @@ static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *conte
     (void)context;
     load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish));
     normal_load(sdl, texture->texture.normal);
+    const Finish *finish = texture->texture.finish;
+    if (finish && finish->retex.metallic_map)
+        load_pigment_images(sdl, finish->retex.metallic_map, 0);
+    if (finish && finish->retex.roughness_map)
+        load_pigment_images(sdl, finish->retex.roughness_map, 0);
 }
 
 /* ---- every texture in use ---- */

@@ -72,7 +72,16 @@ static void reflection(Sdl *sdl, Finish *f)
     }
 }
 
-/* Our extension: retex{ metallic M roughness R ior N specular_tint T transmission A }. */
+/* A pigment on the shape's UV. */
+static const Pigment *retex_map(Sdl *sdl)
+{
+    ParsedPigment *pigment = parse_pigment(sdl, NULL);
+    pigment->pigment.uv_mapping = 1;
+    return &pigment->pigment;
+}
+
+/* Our extension: retex{ metallic M roughness R ior N specular_tint T transmission A metallic_map{ PIGMENT }
+ * roughness_map{ PIGMENT } }. */
 static void retex_block(Sdl *sdl, Finish *f)
 {
     f->retex.present = 1;
@@ -88,8 +97,13 @@ static void retex_block(Sdl *sdl, Finish *f)
             f->retex.specular_tint = in_range(sdl, "specular_tint", 0, 1);
         else if (sdl_accept(sdl, "transmission"))
             f->retex.transmission = in_range(sdl, "transmission", 0, 1);
+        else if (sdl_accept(sdl, "metallic_map"))
+            f->retex.metallic_map = retex_map(sdl);
+        else if (sdl_accept(sdl, "roughness_map"))
+            f->retex.roughness_map = retex_map(sdl);
         else
-            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission or } in retex");
+            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, metallic_map, roughness_map or } "
+                              "in retex");
     }
 }
 
