@@ -65,10 +65,10 @@ $ cat own/own.pov
 > #include "own-meshes.inc"
 >
 > object { Mesh_card texture { Wood } } // front
-> object { Mesh_card texture { Wood } matrix <0, 0, 1, 0, 1, 0, -1, 0, 0, 1.25, 0, 0> } // side
+> object { Mesh_card texture { Wood } matrix <0, 0, 1, 0, 1, 0, -1, 0, 0, 1.25, 0, 0.25> } // side
 $ retex-render --list-targets own/own.pov
->  35.21%  Mesh_card
->  35.21%  Wood
+>  34.41%  Mesh_card
+>  34.41%  Wood
 $ ls own own/textures; cmp own/textures/Image.png F.png
 > own:
 > own-meshes.inc
@@ -81,6 +81,19 @@ $ ls own own/textures; cmp own/textures/Image.png F.png
 # The mask cuts: the picture's right half is a hole.
 $ sh look masked.gltf && retex-diff -q --part albedo --fail-psnr 25 masked.exr card.exr || echo a hole
 > a hole
+
+# Images of roughness and metallic vary over the surface.
+$ retex-import -q varying.gltf -o varying && grep -A8 declare.Steel varying/varying.pov
+> #declare Steel = texture {
+>   pigment { rgb 1 }
+>   finish {
+>     diffuse 0.6195 specular 0.25 roughness 0.007881 metallic reflection { 0.1884 metallic }
+>     #ifdef (Retex) retex { metallic 1 roughness 0.75 ior 1.5
+>       metallic_map { image_map { png "textures/Image_metallic.png" gamma 1 interpolate 2 } }
+>       roughness_map { image_map { png "textures/Image_2_roughness.png" gamma 1 interpolate 2 } } } #end
+>   }
+> }
+$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic varying/varying.pov -o varying.exr && /usr/bin/python3 $TESTS/import_finish.py varying.exr
 
 # A lamp shines with glTF's strength.
 $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.pov

@@ -52,7 +52,7 @@ def gltf(material, image=F, nodes=None, buffer_uri=None, second_uv=False, buffer
         'nodes': nodes or [
             {'mesh': 0, 'name': 'front'},
             # a quarter turn to the left about y: x becomes -z
-            {'mesh': 0, 'name': 'side', 'rotation': [0, .5**.5, 0, .5**.5], 'translation': [1.25, 0, 0]},
+            {'mesh': 0, 'name': 'side', 'rotation': [0, .5**.5, 0, .5**.5], 'translation': [1.25, 0, -.25]},
             {'camera': 0, 'translation': [.75, .5, 2.5]}],
         'cameras': [{'type': 'perspective', 'perspective': {'yfov': .6, 'aspectRatio': 4 / 3, 'znear': .1}}],
         'meshes': [{'name': 'card', 'primitives': [{'attributes': attributes, 'indices': 2, 'material': 0}]}],
@@ -117,7 +117,7 @@ write('glowing.gltf', json.dumps(dict(gltf({
     extensionsUsed=['KHR_materials_emissive_strength'])))
 
 # The same card in other formats; both are placed, for these have no instances.
-side = [(1.25, y, -x) for x, y, _ in positions]
+side = [(1.25, y, -.25 - x) for x, y, _ in positions]
 obj = 'mtllib card.mtl\n' + ''.join('v %g %g %g\n' % p for p in positions + side)
 obj += ''.join('vt %g %g\n' % (u, 1 - v) for u, v in uvs) + 'usemtl wood\n'
 obj += ''.join('f %s\n' % ' '.join('%d/%d' % (4 * k + i + 1, i + 1) for i in range(4)) for k in range(2))
@@ -164,7 +164,13 @@ write('card.dae', '''<?xml version="1.0"?>
        ''.join('<node id="%s"><matrix>%s</matrix><instance_geometry url="#g"><bind_material><technique_common>'
                '<instance_material symbol="w" target="#m"/></technique_common></bind_material></instance_geometry>'
                '</node>\n' % n for n in (('a', '1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1'),
-                                         ('b', '0 0 1 1.25 0 1 0 0 -1 0 0 0 0 0 0 1')))))
+                                         ('b', '0 0 1 1.25 0 1 0 0 -1 0 0 -0.25 0 0 0 1')))))
+
+# Roughness is .75 times green, which rises with u; metallic is blue, in the upper half.
+numbers = png(16, 16, lambda x, y: (0, 16 * x, 255 if y < 8 else 0), 3)
+varying = gltf({'name': 'steel', 'pbrMetallicRoughness': {
+    'metallicRoughnessTexture': {'index': 0}, 'roughnessFactor': .75}}, numbers)
+write('varying.gltf', json.dumps(varying))
 
 # Damage.
 write('short.glb', card[:len(card) // 2])

@@ -7,4 +7,4 @@ background { rgb 0.5 }
 #declare Letter = texture { pigment { image_map { png "F.png" interpolate 2 } } }
 #declare Card = polygon { 5, <0, 0>, <1, 0>, <1, 1>, <0, 1>, <0, 0> texture { Letter } }
 object { Card }
-object { Card rotate -90 * y translate 1.25 * x }
+object { Card rotate -90 * y translate <1.25, 0, 0.25> }

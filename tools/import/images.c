@@ -17,8 +17,8 @@
 typedef struct ImageFile {
     char *key; /* what was asked for */
     char file[NAME_SIZE + 32];
-    float mean[4];
-    int has_mean, missing;
+    ChannelStats stats;
+    int missing;
 } ImageFile;
 
 /* Formats that POV-Ray reads, by the first bytes of a file. */
@@ -312,7 +312,7 @@ static int name_file(Import *import, const char *source, const char *ending, cha
         *dot = '\0';
     if (!names_make(&import->files, *last == '*' ? "" : last, "Image", name))
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    snprintf(file, NAME_SIZE + 32, "textures/%s.%s", name, ending);
+    snprintf(file, NAME_SIZE + 32, "textures/%s%s%s", name, strchr(ending, '.') ? "_" : ".", ending);
     return RETEX_OK;
 }
 
@@ -393,38 +393,99 @@ int images_use(Import *import, const ImageUse *use, char file[NAME_SIZE + 32], R
     return code;
 }
 
-int images_mean(Import *import, const char *source, float mean[4], int *found, RetexError *err)
+static ChannelStats stats_of(const RetexImage *image)
+{
+    ChannelStats stats = {.low = {INFINITY, INFINITY, INFINITY, INFINITY}};
+    double sum[4] = {0};
+    const size_t n = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < 4 * n; i++) {
+        const float x = image->pixels[i];
+        sum[i % 4] += (double)x;
+        stats.low[i % 4] = fminf(stats.low[i % 4], x);
+        stats.high[i % 4] = fmaxf(stats.high[i % 4], x);
+    }
+    for (int k = 0; k < 4 && n; k++)
+        stats.mean[k] = (float)(sum[k] / (double)n);
+    return stats;
+}
+
+/* The image as numbers; missing = 1, which is told, where it cannot be read. */
+static int decode_data(Import *import, const char *source, RetexImage *pixels, ImageFile *image, RetexError *err)
+{
+    Bytes bytes;
+    RetexError why = {0};
+    int found, code = get_bytes(import, source, &bytes, &found, err);
+    if (code)
+        return code;
+    if (!found)
+        return is_missing(import, image, source, NULL);
+    code = decode(import, &bytes, 1, pixels, &why);
+    release(&bytes);
+    if (code && is_fatal(code)) {
+        *err = why;
+        return code;
+    }
+    return code ? is_missing(import, image, source, &why) : RETEX_OK;
+}
+
+int images_stats(Import *import, const char *source, ChannelStats *stats, int *found, RetexError *err)
 {
     char key[PATH_MAX + 8];
-    Bytes bytes;
     int is_new;
-    snprintf(key, sizeof key, "mean %s", source);
+    snprintf(key, sizeof key, "stats %s", source);
     ImageFile *image = look_up(import, key, &is_new, err);
     if (!image)
         return RETEX_ENOMEM;
     if (is_new) {
         RetexImage pixels = {0};
-        RetexError why = {0};
-        int code = get_bytes(import, source, &bytes, found, err);
+        const int code = decode_data(import, source, &pixels, image, err);
         if (code)
             return code;
-        image->missing = !*found || (code = decode(import, &bytes, 1, &pixels, &why)) != 0;
-        release(&bytes);
-        if (is_fatal(code)) {
-            *err = why;
-            return code;
-        }
-        double sum[4] = {0};
-        const size_t n = (size_t)pixels.width * (size_t)pixels.height;
-        for (size_t i = 0; i < 4 * n; i++)
-            sum[i % 4] += (double)pixels.pixels[i];
-        for (int k = 0; k < 4 && n; k++)
-            image->mean[k] = (float)(sum[k] / (double)n);
+        image->stats = stats_of(&pixels);
         retex_image_free(&pixels);
     }
-    memcpy(mean, image->mean, sizeof image->mean);
+    *stats = image->stats;
     *found = !image->missing;
     return RETEX_OK;
+}
+
+static int write_channel(Import *import, const char *source, int channel, const char *what, ImageFile *image,
+                         RetexError *err)
+{
+    RetexImage pixels = {0}, grey = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    char path[PATH_MAX], ending[32];
+    params.colorspace = "raw";
+    snprintf(ending, sizeof ending, "%s.png", what);
+    int code = name_file(import, source, ending, image->file, err);
+    if (!code)
+        code = decode_data(import, source, &pixels, image, err);
+    if (code || image->missing)
+        return code;
+    code = retex_image_alloc(&grey, pixels.width, pixels.height, 1, err);
+    for (size_t i = 0; !code && i < (size_t)pixels.width * (size_t)pixels.height; i++)
+        grey.pixels[i] = pixels.pixels[4 * i + (size_t)channel];
+    if (!code && snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
+        code = retex_fail(err, RETEX_EIO, "the folder's name is too long");
+    if (!code)
+        code = retex_image_write(&grey, path, &params, 1, err);
+    retex_image_free(&pixels);
+    retex_image_free(&grey);
+    return code;
+}
+
+int images_channel(Import *import, const char *source, int channel, const char *what, char file[NAME_SIZE + 32],
+                   RetexError *err)
+{
+    char key[PATH_MAX + 16];
+    int is_new;
+    snprintf(key, sizeof key, "channel %d %s", channel, source);
+    ImageFile *image = look_up(import, key, &is_new, err);
+    if (!image)
+        return RETEX_ENOMEM;
+    const int code = is_new ? write_channel(import, source, channel, what, image, err) : RETEX_OK;
+    snprintf(file, NAME_SIZE + 32, "%s", image->file);
+    return code;
 }
 
 int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err)

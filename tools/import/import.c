@@ -30,8 +30,7 @@ void import_leave_out(Import *import, LeftOut what)
 {
     static const char *const texts[] = {
         [LEFT_NORMAL_MAP] = "normal maps are left out",
-        [LEFT_ROUGHNESS_MAP] = "of roughness maps the mean is taken",
-        [LEFT_METALLIC_MAP] = "of metallic maps the mean is taken",
+        [LEFT_FINISH_MAP] = "of images of metallic and roughness with another UV than the colour's, the mean is taken",
         [LEFT_EMISSION_MAP] = "emission from images is left out where a surface has another colour too",
         [LEFT_TRANSMISSION_MAP] = "transmission maps are left out",
         [LEFT_SPECULAR_MAP] = "specular maps are left out",

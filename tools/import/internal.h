@@ -102,8 +102,7 @@ struct Import {
 /* Features that a scene cannot say yet: told once each. */
 typedef enum LeftOut {
     LEFT_NORMAL_MAP,
-    LEFT_ROUGHNESS_MAP,
-    LEFT_METALLIC_MAP,
+    LEFT_FINISH_MAP,
     LEFT_EMISSION_MAP,
     LEFT_TRANSMISSION_MAP,
     LEFT_SPECULAR_MAP,
@@ -134,8 +133,15 @@ void gltf_free(Gltf *gltf);
 /* images.c */
 /* Put the image into the scene's folder. file: its name there, or "" where it is missing, which is told. */
 int images_use(Import *import, const ImageUse *use, char file[NAME_SIZE + 32], RetexError *err);
-/* The mean of an image's channels as numbers; found = 0: it is missing. */
-int images_mean(Import *import, const char *source, float mean[4], int *found, RetexError *err);
+/* What an image's channels are as numbers. */
+typedef struct ChannelStats {
+    float mean[4], low[4], high[4];
+} ChannelStats;
+/* found = 0: the image is missing. */
+int images_stats(Import *import, const char *source, ChannelStats *stats, int *found, RetexError *err);
+/* Put one channel of an image, as numbers, into the scene's folder: a grey picture whose name ends in `what`. */
+int images_channel(Import *import, const char *source, int channel, const char *what, char file[NAME_SIZE + 32],
+                   RetexError *err);
 int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err);
 /* POV-Ray's keyword for a file's format. */
 const char *images_keyword(const char *file);

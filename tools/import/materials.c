@@ -24,7 +24,8 @@ typedef struct Surface {
     AlphaMode alpha;
     float cutoff;
     int unlit;
-    Map base_map, opacity_map, emission_map;
+    Map base_map, opacity_map, emission_map, metallic_map, roughness_map;
+    int metallic_channel, roughness_channel;
 } Surface;
 
 /* ---- what Assimp has ---- */
@@ -134,30 +135,37 @@ static int has_any(const Import *import, const struct aiMaterial *m, enum aiText
     return get_map(import, m, type, index, &map);
 }
 
-/* Metallic and roughness from images: the mean. */
-static int take_means(Import *import, const struct aiMaterial *m, Surface *s, RetexError *err)
+/* A number of the finish from an image: a map where it varies, else its mean. */
+static int take_finish_map(Import *import, Map *map, int channel, float *number, RetexError *err)
 {
-    Map map;
-    float mean[4];
+    enum { LEAST_STEPS = 4 }; /* of 255 */
+    ChannelStats stats;
     int found;
-    const enum aiTextureType types[2] = {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS};
-    for (int k = 0; k < 2; k++) {
-        if (!get_map(import, m, types[k], 0, &map) &&
-            !(import->is_gltf && get_map(import, m, aiTextureType_UNKNOWN, 0, &map)))
-            continue;
-        const int code = images_mean(import, map.source, mean, &found, err);
-        if (code)
-            return code;
-        if (!found)
-            continue;
-        /* in glTF: green is roughness, blue is metallic */
-        if (k == 0)
-            s->metallic *= mean[import->is_gltf ? 2 : 0];
-        else
-            s->roughness *= mean[import->is_gltf ? 1 : 0];
-        import_leave_out(import, k ? LEFT_ROUGHNESS_MAP : LEFT_METALLIC_MAP);
+    if (!map->source[0] || *number == 0) {
+        map->source[0] = '\0';
+        return RETEX_OK;
     }
+    const int code = images_stats(import, map->source, &stats, &found, err);
+    if (code)
+        return code;
+    if (found && stats.high[channel] - stats.low[channel] >= LEAST_STEPS / 255.0f)
+        return RETEX_OK;
+    map->source[0] = '\0';
+    *number *= found ? stats.mean[channel] : 1;
     return RETEX_OK;
+}
+
+/* In glTF, one image has roughness as green and metallic as blue. */
+static int take_finish_maps(Import *import, const struct aiMaterial *m, Surface *s, RetexError *err)
+{
+    if (!get_map(import, m, aiTextureType_METALNESS, 0, &s->metallic_map) && import->is_gltf)
+        get_map(import, m, aiTextureType_UNKNOWN, 0, &s->metallic_map);
+    if (!get_map(import, m, aiTextureType_DIFFUSE_ROUGHNESS, 0, &s->roughness_map) && import->is_gltf)
+        get_map(import, m, aiTextureType_UNKNOWN, 0, &s->roughness_map);
+    s->metallic_channel = import->is_gltf ? 2 : 0;
+    s->roughness_channel = import->is_gltf ? 1 : 0;
+    const int code = take_finish_map(import, &s->metallic_map, s->metallic_channel, &s->metallic, err);
+    return code ? code : take_finish_map(import, &s->roughness_map, s->roughness_channel, &s->roughness, err);
 }
 
 static void take_opacity(const Import *import, const struct aiMaterial *m, const float base[4], Surface *s)
@@ -270,7 +278,7 @@ static int read_surface(Import *import, int index, Surface *s, RetexError *err)
     /* In formats without PBR an image stands in place of the colour. */
     if (s->base_map.source[0] && !import->is_gltf)
         s->base[0] = s->base[1] = s->base[2] = 1;
-    return is_specular ? RETEX_OK : take_means(import, m, s, err);
+    return is_specular ? RETEX_OK : take_finish_maps(import, m, s, err);
 }
 
 /* ---- what is written ---- */
@@ -324,10 +332,25 @@ static void print_pigment(FILE *out, const Surface *s, const char *file)
     fprintf(out, " }\n");
 }
 
-/* For POV-Ray the nearest finish; for this renderer the surface itself. */
-static void print_finish(FILE *out, const Surface *s, const float emission[3], int has_diffuse)
+typedef struct FinishFiles {
+    char metallic[NAME_SIZE + 32], roughness[NAME_SIZE + 32]; /* "" = none */
+    float mean_metallic, mean_roughness;
+} FinishFiles;
+
+static void print_map(FILE *out, const char *what, const char *file, const Map *map)
 {
-    const double m = (double)s->metallic, rough = (double)s->roughness, ior = (double)s->ior;
+    if (!file[0])
+        return;
+    fprintf(out, "\n      %s { image_map { %s \"%s\" gamma 1 interpolate 2 }", what, images_keyword(file), file);
+    print_place(out, &map->place);
+    fprintf(out, " }");
+}
+
+/* For POV-Ray the nearest finish; for this renderer the surface itself. */
+static void print_finish(FILE *out, const Surface *s, const float emission[3], int has_diffuse,
+                         const FinishFiles *files)
+{
+    const double m = (double)files->mean_metallic, rough = (double)files->mean_roughness, ior = (double)s->ior;
     const double f0 = (double)s->tint * pow((ior - 1) / (ior + 1), 2), alpha = fmax(rough * rough, 0.01);
     const double mirror = pow(1 - rough, 2) * (m + (1 - m) * (rough < 0.5)), power = fmax(2 / (alpha * alpha) - 2, 1);
     fprintf(out, "  finish {\n   ");
@@ -349,11 +372,14 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
         fprintf(out, "\n    emission ");
         print_color(out, emission);
     }
-    fprintf(out, "\n    #ifdef (Retex) retex { metallic %.4g roughness %.4g ior %.4g", m, rough, ior);
+    fprintf(out, "\n    #ifdef (Retex) retex { metallic %.4g roughness %.4g ior %.4g", (double)s->metallic,
+            (double)s->roughness, ior);
     if (s->tint != 1)
         fprintf(out, " specular_tint %.4g", (double)s->tint);
     if (s->transmission > 0)
         fprintf(out, " transmission %.4g", (double)s->transmission);
+    print_map(out, "metallic_map", files->metallic, &s->metallic_map);
+    print_map(out, "roughness_map", files->roughness, &s->roughness_map);
     fprintf(out, " } #end\n  }\n");
 }
 
@@ -412,6 +438,38 @@ static int place_emission(Import *import, Surface *s, float emission[3])
     return has_diffuse;
 }
 
+/* The image of a finish's number, as a file of its own. A mesh has one set of UV: where the colour uses another one,
+ * the mean is taken. */
+static int write_finish_map(Import *import, const Map *map, int channel, const char *what, int uv_set, float *number,
+                            float *mean, char file[NAME_SIZE + 32], RetexError *err)
+{
+    ChannelStats stats;
+    int found;
+    *mean = *number;
+    file[0] = '\0';
+    if (!map->source[0])
+        return RETEX_OK;
+    int code = images_stats(import, map->source, &stats, &found, err);
+    if (code)
+        return code;
+    *mean = *number * stats.mean[channel];
+    if (map->uv_set != uv_set) {
+        import_leave_out(import, LEFT_FINISH_MAP);
+        *number = *mean;
+        return RETEX_OK;
+    }
+    return images_channel(import, map->source, channel, what, file, err);
+}
+
+static int write_finish_maps(Import *import, Surface *s, int uv_set, FinishFiles *files, RetexError *err)
+{
+    const int code = write_finish_map(import, &s->metallic_map, s->metallic_channel, "metallic", uv_set, &s->metallic,
+                                      &files->mean_metallic, files->metallic, err);
+    return code ? code
+                : write_finish_map(import, &s->roughness_map, s->roughness_channel, "roughness", uv_set, &s->roughness,
+                                   &files->mean_roughness, files->roughness, err);
+}
+
 static int write_material(Import *import, int index, ImportMaterial *to, FILE *out, RetexError *err)
 {
     Surface s;
@@ -421,7 +479,7 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     if (code)
         return code;
     const int has_diffuse = place_emission(import, &s, emission);
-    import->emits |= largest(emission) > 0;
+    import->emits |= !s.unlit && largest(emission) > 0;
     if (s.base_map.source[0]) {
         const ImageUse use = {.source = s.base_map.source,
                               .opacity = s.opacity_map.source[0] ? s.opacity_map.source : NULL,
@@ -433,12 +491,18 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
         if (code)
             return code;
     }
+    FinishFiles files = {0};
     to->has_image = file[0] != '\0';
-    to->uv_set = s.base_map.uv_set;
+    to->uv_set = to->has_image               ? s.base_map.uv_set
+                 : s.roughness_map.source[0] ? s.roughness_map.uv_set
+                                             : s.metallic_map.uv_set;
+    code = write_finish_maps(import, &s, to->uv_set, &files, err);
+    if (code)
+        return code;
     to->is_solid = s.transmission > 0;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
     print_pigment(out, &s, file);
-    print_finish(out, &s, emission, has_diffuse);
+    print_finish(out, &s, emission, has_diffuse, &files);
     if (to->is_solid) {
         fprintf(out, "  }\n");
         print_interior(out, &s);

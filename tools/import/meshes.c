@@ -180,7 +180,7 @@ static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const 
 
 static const struct aiVector3D *uvs_of(const struct aiMesh *mesh, const ImportMaterial *material)
 {
-    if (material->has_image && mesh->mTextureCoords[material->uv_set])
+    if (mesh->mTextureCoords[material->uv_set])
         return mesh->mTextureCoords[material->uv_set];
     return mesh->mTextureCoords[0];
 }
