@@ -3,9 +3,10 @@
  * Of a map, parts count by the blend of its entries; of operands, those that contain the point. Of layers, each hides
  * what is below by its opacity: a layer of colour c shows c (1 - filter - transmit), and multiplies what is below by
  * filter c + transmit. What a tree shows is the sum of what its leaves show, each multiplied by its weight and by the
- * colours of the layers above it. Weights depend on opacity and place alone, never on the colour of a target.  POV-Ray
- * adds and multiplies these colours in the scene's working space. Where that is not linear, the colours of leaves that
- * are no targets, and are not below one, are made darker so that their sum is POV-Ray's. */
+ * colours of the layers above it. Weights depend on opacity and place alone, never on the colour of a target.
+ *
+ * POV-Ray adds and multiplies these colours in the scene's working space. Where that is not linear, the colours of
+ * leaves that are no targets, and are not below one, are made darker so that their sum is POV-Ray's. */
 #ifndef RENDERER_PATH_LEAVES_H
 #define RENDERER_PATH_LEAVES_H
 
