@@ -5,7 +5,7 @@
 #include <retex/parallel.h>
 #include "path/sampler.h"
 #include "path/shading.h"
-#include "shade/material.h"
+#include "shade/casters.h"
 
 #define PATHS_PER_PHOTON 20 /* of the picture, for each photon that is tried */
 #define PHOTONS_MIN (1 << 14)
@@ -13,13 +13,15 @@
 #define PHOTONS_OF_SOURCES (1 << 17) /* at least; lamps that small need lobes that narrow */
 #define BATCH (1 << 12)              /* photons of one job */
 #define BOUNCES_MAX 12
+#define CASTERS_MAX (1 << 20) /* no photon is aimed at more of them */
 
-/* The bounding sphere of a primitive that may refract or mirror light. */
-typedef struct Caster {
+/* The bounding sphere of what may refract or mirror light. */
+typedef struct Aim {
     int primitive;
+    const Instance *instance; /* whose copy of it, or NULL */
     Vec3 center;
     double radius;
-} Caster;
+} Aim;
 
 /* State of tracing them. */
 typedef struct Tracing {
@@ -28,32 +30,50 @@ typedef struct Tracing {
     const Lights *lights;
     const RetexBudget *budget;
     int of_emitters, nsources; /* what photons start from: shapes that emit, light sources that have caustics */
-    Caster *casters;
+    Aim *casters;
     double *caster_sums;
-    int ncasters;
+    int ncasters, capacity;
     Landing *landings; /* BATCH for each batch */
     int *counts;       /* by batch: how many of them */
 } Tracing;
 
 /* ---- casters ---- */
 
+static int make_room(Tracing *m)
+{
+    const int capacity = m->capacity ? 2 * m->capacity : 64;
+    Aim *casters = realloc(m->casters, (size_t)capacity * sizeof *casters);
+    if (casters)
+        m->casters = casters;
+    double *sums = realloc(m->caster_sums, (size_t)capacity * sizeof *sums);
+    if (sums)
+        m->caster_sums = sums;
+    if (!casters || !sums)
+        return 0;
+    m->capacity = capacity;
+    return 1;
+}
+
+static int add_caster(void *context, const Caster *caster)
+{
+    Tracing *m = context;
+    if (!caster->is_bounded)
+        return 0;
+    if (m->ncasters == m->capacity && !make_room(m))
+        return RETEX_ENOMEM;
+    const double radius = vec_length(vec_sub(caster->high, caster->low)) / 2;
+    const double before = m->ncasters > 0 ? m->caster_sums[m->ncasters - 1] : 0;
+    m->casters[m->ncasters] =
+        (Aim){caster->primitive, caster->instance, vec_scale(vec_add(caster->low, caster->high), 0.5), radius};
+    m->caster_sums[m->ncasters++] = before + radius * radius;
+    return m->ncasters == CASTERS_MAX;
+}
+
 static int find_casters(Tracing *m, RetexError *err)
 {
-    double sum = 0;
-    m->casters = malloc(((size_t)m->scene->nprimitives + 1) * sizeof *m->casters);
-    m->caster_sums = malloc(((size_t)m->scene->nprimitives + 1) * sizeof *m->caster_sums);
-    if (!m->casters || !m->caster_sums)
+    const CasterKind kind = m->of_emitters ? CASTERS_OF_BOTH : CASTERS_OF_SOURCES;
+    if (casters_visit(m->scene, kind, add_caster, m) == RETEX_ENOMEM)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the guide to caustics");
-    for (int k = 0; k < m->scene->nprimitives; k++) {
-        const Primitive *p = &m->scene->primitives[k];
-        Vec3 low, high;
-        const int casts = m->of_emitters ? primitive_casts_caustics(p) || p->caustics : p->caustics != 0;
-        if (p->prototype || !casts || !shape_bounds(p, &low, &high))
-            continue;
-        double radius = vec_length(vec_sub(high, low)) / 2;
-        m->casters[m->ncasters] = (Caster){k, vec_scale(vec_add(low, high), 0.5), radius};
-        m->caster_sums[m->ncasters++] = sum += radius * radius;
-    }
     return RETEX_OK;
 }
 
@@ -79,7 +99,7 @@ static int pick_caster(const Tracing *m, double u)
 }
 
 /* Sample a direction in the cone of a caster. Returns the solid angle. */
-static double aim(const Caster *c, Vec3 from, float u1, float u2, Vec3 *direction)
+static double aim(const Aim *c, Vec3 from, float u1, float u2, Vec3 *direction)
 {
     Vec3 axis = vec_sub(c->center, from), s, t;
     double distance2 = vec_dot(axis, axis), sin2 = c->radius * c->radius / distance2, less = 2, sine, cosine;
@@ -104,7 +124,7 @@ typedef struct Start {
 
 static void start_from_emitter(const Tracing *m, uint32_t photon, Start *start)
 {
-    const Caster *c = &m->casters[start->caster];
+    const Aim *c = &m->casters[start->caster];
     EmissionPoint point;
     if (!lights_emission(m->lights, photon_number(photon, 0), photon_number(photon, 1), photon_number(photon, 2),
                          photon_number(photon, 3), &point))
@@ -115,7 +135,7 @@ static void start_from_emitter(const Tracing *m, uint32_t photon, Start *start)
 }
 
 /* Estimate of the light that a source sends to a caster. Spots may light a part of it only. */
-static double source_weight(const Light *light, const Caster *c)
+static double source_weight(const Light *light, const Aim *c)
 {
     Vec3 direction;
     double distance;
@@ -129,7 +149,7 @@ static double source_weight(const Light *light, const Caster *c)
 }
 
 /* A source by its light on a caster; *probability. */
-static const Light *pick_source(const Tracing *m, const Caster *c, double u, double *probability)
+static const Light *pick_source(const Tracing *m, const Aim *c, double u, double *probability)
 {
     const Scene *scene = m->scene;
     const Light *last = NULL;
@@ -157,19 +177,19 @@ static Vec3 disc_point(Vec3 center, Vec3 axis, double radius, float u1, float u2
 }
 
 /* The cone of a spot, where it is narrower than that of the caster. Returns its solid angle, 0: it is wider. */
-static double aim_spot(const Light *light, const Caster *c, Vec3 from, float u1, float u2, Vec3 *direction)
+static double aim_spot(const Light *light, const Aim *c, Vec3 from, float u1, float u2, Vec3 *direction)
 {
     const double half = light->falloff * PI / 180;
     if (light->kind != LIGHT_SPOT || !(half > 0 && half < 1.5))
         return 0;
     const Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
-    const Caster spot = {c->primitive, vec_add(from, axis), sin(half)};
+    const Aim spot = {c->primitive, c->instance, vec_add(from, axis), sin(half)};
     return vec_length(vec_sub(c->center, from)) * sin(half) < c->radius ? aim(&spot, from, u1, u2, direction) : 0;
 }
 
 static void start_from_source(const Tracing *m, uint32_t photon, Start *start)
 {
-    const Caster *c = &m->casters[start->caster];
+    const Aim *c = &m->casters[start->caster];
     const float u1 = photon_number(photon, 2), u2 = photon_number(photon, 3), u3 = photon_number(photon, 5),
                 u4 = photon_number(photon, 6);
     double probability;
@@ -237,7 +257,8 @@ static int trace_photon(const Tracing *m, uint32_t photon, Landing *landing)
         if (!accel_intersect(m->accel, &ray, k == 0 && start.source ? RAY_SHADOW : RAY_BOUNCE, &hit))
             return 0;
         /* a photon that meets another caster first is counted there */
-        if (k == 0 && (hit.instance || hit.primitive != m->casters[start.caster].primitive))
+        const Aim *aimed = &m->casters[start.caster];
+        if (k == 0 && (hit.instance != aimed->instance || hit.primitive != aimed->primitive))
             return 0;
         shading_at(&s, m->scene, NULL, 1, &ray, &hit);
         if (k == 0)
@@ -312,16 +333,14 @@ static int trace_all(Tracing *m, long paths, int nthreads, Photons *photons, Ret
     return retex_budget_check(m->budget, err);
 }
 
+static int is_by_small_emitter(void *context, const Caster *caster)
+{
+    return caster->is_bounded && lights_small_emitter(context, vec_scale(vec_add(caster->low, caster->high), 0.5));
+}
+
 int photons_small_emitters(const Scene *scene, const Lights *lights)
 {
-    for (int k = 0; k < scene->nprimitives; k++) {
-        const Primitive *p = &scene->primitives[k];
-        Vec3 low, high;
-        if (!p->prototype && primitive_casts_caustics(p) && shape_bounds(p, &low, &high) &&
-            lights_small_emitter(lights, vec_scale(vec_add(low, high), 0.5)))
-            return 1;
-    }
-    return 0;
+    return casters_visit(scene, CASTERS_OF_EMITTERS, is_by_small_emitter, (void *)lights);
 }
 
 int photons_trace(Photons *photons, const PhotonSources *sources, int nthreads, RetexError *err)

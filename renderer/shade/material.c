@@ -253,37 +253,3 @@ void bsdf_stop_passing(Bsdf *b)
     b->p_passing = 0;
     b->p_diffuse *= scale, b->p_back *= scale, b->p_glossy *= scale, b->p_mirror *= scale;
 }
-
-/* ---- caustics ---- */
-
-#define STRONG_MIRROR 0.25f /* reflectance from which on a mirror is worth photons */
-
-static int finish_casts(const Finish *f, const Primitive *p, const Texture *texture)
-{
-    int bends = p->interior && p->interior->ior != 1 && p->interior->ior > 0;
-    if (f->retex.present)
-        return f->retex.roughness < 0.02 && ((bends && finish_transmits(f)) || f->retex.metallic > 0.5);
-    if (rgb_luminance(f->reflection_max) >= STRONG_MIRROR && !f->reflection_fresnel)
-        return 1;
-    const Pigment *pigment = texture->pigment;
-    return bends && (pigment->kind != PIGMENT_COLOR || pigment->color.filter + pigment->color.transmit > 0.1f);
-}
-
-static int texture_casts(const Primitive *p, const Texture *texture)
-{
-    for (int k = 0; k < texture_leaf_count(texture); k++)
-        if (finish_casts(texture_leaf(texture, k)->finish, p, texture_leaf(texture, k)))
-            return 1;
-    return 0;
-}
-
-int primitive_casts_caustics(const Primitive *p)
-{
-    const FaceTextures *textures = p->shape.textures;
-    if (texture_casts(p, p->texture))
-        return 1;
-    for (int k = 0; textures && k < textures->count; k++)
-        if (texture_casts(p, textures->list[k]))
-            return 1;
-    return 0;
-}

@@ -13,7 +13,5 @@ void bsdf_stop_passing(Bsdf *bsdf);
 void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
 /* 1 where the extension lets light through, whatever the pigment says. */
 int finish_transmits(const Finish *finish);
-/* Whether it may refract light without blur, or mirror much of it. */
-int primitive_casts_caustics(const Primitive *primitive);
 
 #endif

@@ -138,6 +138,32 @@ static void same_for_any_threads(void **state)
     scene_close(&scene);
 }
 
+/* The ball is in an instance of a group of many parts, with a texture of its own or of the instance. */
+static void instances_are_casters(void **state)
+{
+    (void)state;
+    for (int inherits = 0; inherits < 2; inherits++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
+                 "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 texture { pigment { rgb .5 } } }"
+                 "#declare Clear = texture { pigment { rgbt 1 } finish { diffuse 0 } }"
+                 "#declare Many = union { sphere { 0, .5 %s interior { ior 1.5 } translate <0, .9, 0> }"
+                 "#for (I, 1, 8192) sphere { <I, -50, 0>, .1 pigment { rgb 1 } } #end }"
+                 "object { Many translate -500*y } object { Many rotate 30*y %s }"
+                 "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }",
+                 inherits ? "" : "texture { Clear }", inherits ? "texture { Clear }" : "");
+        Scene *scene = test_scene(text);
+        Vec3 points[400];
+        assert_int_equal(scene->ninstances, 1);
+        Caustics *caustics = make_guide(scene, 1);
+        assert_non_null(caustics);
+        assert_true(guided_points(caustics, points, 400) > 100);
+        caustics_close(&caustics);
+        scene_close(&scene);
+    }
+}
+
 static void nothing_without_glass(void **state)
 {
     (void)state;
@@ -337,6 +363,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(density_is_that_of_samples),
         cmocka_unit_test(same_for_any_threads),
+        cmocka_unit_test(instances_are_casters),
         cmocka_unit_test(nothing_without_glass),
         cmocka_unit_test(budget_ends_it),
         cmocka_unit_test(mean_stays),

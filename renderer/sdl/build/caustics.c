@@ -1,6 +1,6 @@
 /* Which light sources throw caustics, and by which primitives: photons blocks, and the options that override them. */
 #include "sdl/build/builder.h"
-#include "shade/material.h"
+#include "shade/casters.h"
 #include "shape/shape.h"
 
 #define SIZE_OF_DISTANCE (1.0 / 200) /* radius of a light source, of its distance from what it shines through */
@@ -26,24 +26,31 @@ void parse_photons(Sdl *sdl, unsigned *flags)
             sdl_expected(sdl, "target, refraction, reflection, collect, pass_through, area_light or } in photons");
 }
 
+/* Where what throws caustics is. */
+typedef struct Extent {
+    int found, bounded;
+    Vec3 low, high;
+} Extent;
+
+static int add_extent(void *context, const Caster *caster)
+{
+    Extent *all = context;
+    all->found = 1;
+    if (!caster->is_bounded)
+        return 0;
+    all->bounded = 1;
+    shape_bound_point(&all->low, &all->high, caster->low);
+    shape_bound_point(&all->low, &all->high, caster->high);
+    return 0;
+}
+
 /* The middle of all that throws caustics. Returns 0 where nothing does. */
 static int find_middle(const Scene *scene, Vec3 *middle)
 {
-    Vec3 all_low = {INFINITY, INFINITY, INFINITY}, all_high = {-INFINITY, -INFINITY, -INFINITY};
-    int found = 0, bounded = 0;
-    for (int k = 0; k < scene->nprimitives; k++) {
-        Vec3 low, high;
-        if (!scene->primitives[k].caustics)
-            continue;
-        found = 1;
-        if (scene->primitives[k].prototype || !shape_bounds(&scene->primitives[k], &low, &high))
-            continue;
-        bounded = 1;
-        all_low = vec3(fmin(all_low.x, low.x), fmin(all_low.y, low.y), fmin(all_low.z, low.z));
-        all_high = vec3(fmax(all_high.x, high.x), fmax(all_high.y, high.y), fmax(all_high.z, high.z));
-    }
-    *middle = bounded ? vec_scale(vec_add(all_low, all_high), 0.5) : vec3(0, 0, 0);
-    return found;
+    Extent all = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+    casters_visit(scene, CASTERS_OF_SOURCES, add_extent, &all);
+    *middle = all.bounded ? vec_scale(vec_add(all.low, all.high), 0.5) : vec3(0, 0, 0);
+    return all.found;
 }
 
 static double default_size(const Light *light, Vec3 middle)
@@ -52,18 +59,23 @@ static double default_size(const Light *light, Vec3 middle)
     return SIZE_OF_DISTANCE * vec_length(vec_sub(light->location, beam ? light->point_at : middle));
 }
 
+static int mark(void *context, const Caster *caster)
+{
+    Scene *scene = context;
+    scene->primitives[caster->primitive].caustics = CAUSTICS_REFRACT | CAUSTICS_REFLECT;
+    return 0;
+}
+
 void find_caustics(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
     const int flag = sdl_options(sdl)->caustics, wanted = flag ? flag > 0 : builder_of(sdl)->photons;
     Vec3 middle;
-    for (int k = 0; k < scene->nprimitives; k++) {
-        Primitive *p = &scene->primitives[k];
-        if (!wanted)
-            p->caustics = 0;
-        else if (flag > 0)
-            p->caustics = primitive_casts_caustics(p) ? CAUSTICS_REFRACT | CAUSTICS_REFLECT : 0;
-    }
+    if (!wanted || flag > 0)
+        for (int k = 0; k < scene->nprimitives; k++)
+            scene->primitives[k].caustics = 0;
+    if (flag > 0)
+        casters_visit(scene, CASTERS_OF_EMITTERS, mark, scene);
     const int found = wanted && find_middle(scene, &middle);
     for (int k = 0; k < scene->nlights; k++) {
         Light *light = &scene->lights[k];
