@@ -187,6 +187,12 @@ static void test_names(void **state)
     check(V "#declare A = array[2.7]{1,2} #debug concat(str(dimension_size(A,1),0,0),str(A[1.9],0,0))", "22");
     check(V "#macro A() #debug \"in\" #break #debug \"no\" #end A() #debug \"out\"", "inout");
     check(V "#macro A(X Y) X+Y #end #debug str(A(1,2)*3,0,0)", "7");
+    /* Without semicolons any directive ends a value. The results are those of POV-Ray 3.7. */
+    check("#version 3.1 #declare X = 0\n#while (X < 3)\n#declare X = X + 1\n#end #debug str(X,0,0)", "3");
+    check("#version 3.1 #declare X = 0\n#if (X < 3) #declare X = X+7 #end #debug str(X,0,0)", "7");
+    check("#version 3.1 #declare X = 1 #declare X = 0 #if (X < 1) #declare X=3 #end #debug str(X,0,0)", "3");
+    check("#version 3.1 #declare X = 1+ #if(1) 7 #end #debug str(X,0,0)", "8");
+    check("#version 3.1 #macro M() #if(1) 4 #end #end #declare X = 3*M() #debug str(X,0,0)", "12");
     check(V "#declare A = 1; #undef A #ifdef(A) #debug \"y\" #else #debug \"n\" #end", "n");
     check(V "#declare F = seed(5); #debug concat(str(rand(F),0,8),\" \",str(rand(F),0,8))", "0.10995288 0.56935125");
 }

@@ -160,7 +160,9 @@ void declare_run(Sdl *sdl, int local)
         sdl_expected(sdl, "`=`");
     int outer = place.word->declaring;
     place.word->declaring = place.line;
+    sdl->declarations++;
     Value value = right_side(sdl, &needs_semicolon);
+    sdl->declarations--;
     place.word->declaring = outer;
     sdl->builder->name(sdl, &value, place.word->text, place.line);
     /* Macros that gave the value end before the semicolon of the declaration. */
@@ -179,7 +181,7 @@ void declare_run(Sdl *sdl, int local)
         target = symbol->value;
     }
     *target = value;
-    if (needs_semicolon && !has_semicolon && sdl->version >= 3.5)
+    if (needs_semicolon && !has_semicolon && sdl->version >= SEMICOLON_VERSION)
         sdl_expected(sdl, "`;` after the value of a declaration");
 }
 

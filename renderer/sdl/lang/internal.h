@@ -30,6 +30,8 @@ typedef struct Symbol Symbol;
 typedef struct Builtin Builtin;
 typedef struct Source Source;
 
+#define SEMICOLON_VERSION 3.5 /* from here on a declared number ends with a semicolon */
+
 /* An interned word of the scene: one per spelling. */
 typedef struct Word {
     const char *text;
@@ -199,6 +201,7 @@ struct Sdl {
     int have;
     const Raw *cursor; /* position in the top frame */
     Frame frames[MAX_FRAMES];
+    int declarations;    /* whose values are being read */
     int nframes, nmacros; /* number of frames, and of those that are macros */
     Loop loops[MAX_LOOPS];
     int nloops;

@@ -113,6 +113,12 @@ static void end_of_file(Sdl *sdl, const Raw *raw)
     set_token(sdl, raw, TOKEN_END);
 }
 
+/* In old versions no semicolon tells where the value of a declaration ends: any directive after a number does. */
+static int needs_no_semicolon(const Sdl *sdl)
+{
+    return sdl->declarations > 0 && sdl->version < SEMICOLON_VERSION;
+}
+
 /* Produce the next token. Returns 0, and consumes nothing, if the next raw token in frame `stop` itself is a
  * declaration or a similar directive; an expression without `;` ends in this way. stop = -1: never. With `any` it
  * also returns 0 as soon as frame `stop` is on top again. */
@@ -145,7 +151,7 @@ static int fill(Sdl *sdl, int stop, int any)
             }
             break;
         case RAW_DIRECTIVE:
-            if (sdl->nframes == stop && raw->as.directive.id >= DIR_DECLARE) {
+            if (sdl->nframes == stop && (raw->as.directive.id >= DIR_DECLARE || needs_no_semicolon(sdl))) {
                 sdl->cursor--;
                 return 0;
             }
