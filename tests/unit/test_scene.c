@@ -283,6 +283,11 @@ static void test_emitters(void **state)
         /* the number is looked at as it is written, and then decoded */
         {"#version 3.5; sphere{0,1 finish{ambient .5}}", .214041140, .214041140},
         {"#version 3.7; global_settings{assumed_gamma .5} sphere{0,1 finish{ambient .36}}", 0, .6},
+        /* A bright background gives what ambient stands for. */
+        {V37 "background{rgb .5} sphere{0,1 finish{ambient .5 diffuse .45}}", 0, .5},
+        {V37 "background{rgb .49} sphere{0,1 finish{ambient .5 diffuse .45}}", .5, .5},
+        {V37 "background{rgb 1} sphere{0,1 finish{ambient .5 diffuse 0}}", .5, .5},
+        {V37 "background{rgb 2} sphere{0,1 finish{ambient 1 diffuse .5}}", 1, 1},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_float_equal(emission_by(cases[k].text, 0), cases[k].by_rule, 1e-6);

@@ -2,6 +2,7 @@
 #include "lib_scene_text.h"
 
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -224,16 +225,28 @@ static void test_target_errors(void **state)
     scene_close(&scene);
 }
 
+/* Lights above 1 are not decoded further: 4 of the display's space would be 24. */
+static void test_bright_lights_of_old_scenes(void **state)
+{
+    (void)state;
+    Scene *scene = parse("#version 3.5; light_source{0 rgb <4,1,.5>} sphere{0,1}");
+    assert_near(scene->lights[0].color.r, 4);
+    assert_near(scene->lights[0].color.g, 1);
+    assert_near(scene->lights[0].color.b, pow((.5 + .055) / 1.055, 2.4));
+    scene_close(&scene);
+    scene = parse("#version 3.5; global_settings{assumed_gamma 2} light_source{0 rgb <4,1,.5>} sphere{0,1}");
+    assert_near(scene->lights[0].color.r, 4);
+    assert_near(scene->lights[0].color.b, .25);
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_light_kinds_written_twice),
-        cmocka_unit_test(test_photons),
-        cmocka_unit_test(test_names_of_insides),
-        cmocka_unit_test(test_sky),
-        cmocka_unit_test(test_targets),
+        cmocka_unit_test(test_camera),        cmocka_unit_test(test_bright_lights_of_old_scenes),
+        cmocka_unit_test(test_lights),        cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_photons),       cmocka_unit_test(test_names_of_insides),
+        cmocka_unit_test(test_sky),           cmocka_unit_test(test_targets),
         cmocka_unit_test(test_target_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

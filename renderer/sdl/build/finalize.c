@@ -32,6 +32,15 @@ Rgb decode_color(Sdl *sdl, Rgb color)
     return working_decode(&space, color);
 }
 
+/* Lights brighter than 1 stand in products with factors below it, which are not decoded: what is above 1 stays as it is
+ * written, for 4 would become 24. */
+static Rgb decode_light(const WorkingSpace *space, Rgb color)
+{
+    const Rgb decoded = working_decode(space, color);
+    return rgb(fminf(decoded.r, fmaxf(color.r, 1)), fminf(decoded.g, fmaxf(color.g, 1)),
+               fminf(decoded.b, fmaxf(color.b, 1)));
+}
+
 /* Until here the scene's space is linear: what is evaluated while reading gives numbers as written. */
 static void decode_colors(Sdl *sdl)
 {
@@ -48,7 +57,7 @@ static void decode_colors(Sdl *sdl)
         f->finish.reflection_max = working_decode(space, f->finish.reflection_max);
     }
     for (int i = 0; i < scene->nlights; i++)
-        scene->lights[i].color = working_decode(space, scene->lights[i].color);
+        scene->lights[i].color = decode_light(space, scene->lights[i].color);
     scene->background = working_decode(space, scene->background);
     scene->ambient_light = working_decode(space, scene->ambient_light);
     if (scene->sky)
@@ -124,16 +133,19 @@ static void complete_finishes(Sdl *sdl)
 #define AMBIENT_SHINES_ALONE 0.1f /* above this it was, where nothing diffuse is beside it: POV-Ray's default */
 
 /* Small `ambient` stands for the indirect light that paths find; strong one was made to be seen, as that of skies,
- * lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions. Looks at the numbers as they
- * are written. */
+ * lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions. Beside a bright background it
+ * stands for the light that comes from there, as molecules before white have it. Looks at the numbers as they are
+ * written. */
 static void find_shining(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
     const int flag = sdl_options(sdl)->ambient, may = !builder->radiosity || sdl_version(sdl) < 3.7;
+    const float background = rgb_max(sdl_scene(sdl)->background);
     for (ParsedFinish *f = builder->finishes; f; f = f->next) {
         const float ambient = rgb_max(f->finish.ambient);
         const int strong = ambient >= AMBIENT_SHINES || (f->finish.diffuse == 0 && ambient > AMBIENT_SHINES_ALONE);
-        f->shines = flag ? flag > 0 : may && strong;
+        const int of_background = f->finish.diffuse > 0 && ambient < 1 && background >= ambient;
+        f->shines = flag ? flag > 0 : may && strong && !of_background;
     }
 }
 
