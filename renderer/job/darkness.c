@@ -43,15 +43,6 @@ static int any_light_source(const Scene *scene)
     return 0;
 }
 
-/* Check the sky's sampling table, because a pigment may be black in places. */
-static int any_sky(const Scene *scene)
-{
-    Environment *environment = NULL;
-    int found = environment_create(&environment, scene, NULL) != RETEX_OK || environment;
-    environment_close(&environment);
-    return found;
-}
-
 void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
 {
     char text[sizeof scene->path + 256];
@@ -62,7 +53,7 @@ void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
     else if (!source && !any_surface(scene, emits))
         why = scene->nlights ? "its light sources are black, nothing shines and there is no sky"
                              : "no light source, nothing that shines and no sky";
-    if (!why || !sdl->message || any_sky(scene))
+    if (!why || !sdl->message || sky_shines(scene))
         return;
     if (scene->nprimitives && sdl->ambient <= 0 && !rgb_is_black(scene->ambient_light) &&
         any_surface(scene, is_ambient))

@@ -110,6 +110,27 @@ static int sky_is_level(const Scene *scene)
     return 1;
 }
 
+/* Columns of a row that differ. */
+static int columns_looked_at(const Scene *scene)
+{
+    return sky_is_level(scene) ? 1 : TABLE_WIDTH;
+}
+
+int sky_shines(const Scene *scene)
+{
+    const int count = columns_looked_at(scene);
+    float luminances[TABLE_WIDTH];
+    Longitudes longitudes;
+    find_longitudes(&longitudes);
+    for (int y = 0; y < TABLE_HEIGHT; y++) {
+        row_luminances(scene, &longitudes, y, count, luminances);
+        for (int x = 0; x < count; x++)
+            if (luminances[x] > 0)
+                return 1;
+    }
+    return 0;
+}
+
 static void normalize_sums(float *sums, int count)
 {
     float total = sums[count];
@@ -126,7 +147,7 @@ int environment_create(Environment **environment, const Scene *scene, RetexError
     Environment *e = malloc(sizeof *e);
     if (!e)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
-    const int looked_at = sky_is_level(scene) ? 1 : TABLE_WIDTH;
+    const int looked_at = columns_looked_at(scene);
     Longitudes longitudes;
     double total = 0;
     find_longitudes(&longitudes);

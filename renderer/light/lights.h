@@ -71,6 +71,8 @@ float lights_estimate(const Lights *lights, const LightSampleContext *point);
 
 /* Radiance of sky and background in a direction. */
 Rgb sky_radiance(const Scene *scene, Vec3 direction);
+/* 0: it is black in all directions, as far as the table of the sky tells. Quick where it is not. */
+int sky_shines(const Scene *scene);
 
 /* environment.c: importance table of the sky */
 typedef struct Environment Environment;
