@@ -43,7 +43,7 @@ static ParsedTextureMap *map_of_operands(Sdl *sdl, const Cutaway *cutaway)
             k--;
         sdl_step(sdl, map->count);
         if (k < 0) {
-            k = map->count++;
+            texture_check_counts(sdl, &(TextureCounts){.leaves = k = map->count++});
             first[k] = operand;
             map->entries[k].texture = texture_named(sdl, operand->texture, operand->idents);
         }
