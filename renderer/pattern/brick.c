@@ -21,4 +21,9 @@ static double value(const Pattern *pattern, const PatternPoint *point)
            fraction(second ? z : z + 0.5) > mortar / size.z;
 }
 
-const PatternOps pattern_brick = {.keyword = "brick", .arguments = ARGUMENTS_BRICK, .colors = 2, .value = value};
+static const ColorMap colors = {.entries = (ColorMapEntry[]){{.value = 0, .color = {0.5f, 0.5f, 0.5f, 0, 0}},
+                                                             {.value = 1, .color = {0.6f, 0.15f, 0.15f, 0, 0}}},
+                                .count = 2};
+
+const PatternOps pattern_brick = {
+    .keyword = "brick", .arguments = ARGUMENTS_BRICK, .colors = 2, .map = &colors, .value = value};

@@ -13,4 +13,4 @@ static double value(const Pattern *pattern, const PatternPoint *point)
     return fmod(cell, 2) != 0;
 }
 
-const PatternOps pattern_checker = {.keyword = "checker", .colors = 2, .value = value};
+const PatternOps pattern_checker = {.keyword = "checker", .colors = 2, .map = &pattern_blue_green_red, .value = value};

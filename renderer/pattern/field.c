@@ -33,7 +33,8 @@ static double function(const Pattern *pattern, const PatternPoint *point)
 }
 
 const PatternOps pattern_function = {.keyword = "function", .arguments = ARGUMENTS_FUNCTION, .value = function};
-const PatternOps pattern_object = {.keyword = "object", .arguments = ARGUMENTS_OBJECT, .colors = 2, .value = field};
+const PatternOps pattern_object = {
+    .keyword = "object", .arguments = ARGUMENTS_OBJECT, .colors = 2, .map = &pattern_blue_green_red, .value = field};
 const PatternOps pattern_pigment_pattern = {
     .keyword = "pigment_pattern", .arguments = ARGUMENTS_PIGMENT, .value = field};
 const PatternOps pattern_image_pattern = {.keyword = "image_pattern", .arguments = ARGUMENTS_IMAGE, .value = field};

@@ -108,6 +108,14 @@ static double value(const Pattern *pattern, const PatternPoint *point)
     return interior(f, z, nearest);
 }
 
-const PatternOps pattern_mandel = {.keyword = "mandel", .arguments = ARGUMENTS_FRACTAL, .value = value};
+static const ColorMap mandel_colors = {.entries = (ColorMapEntry[]){{.value = 0.001, .color = {0, 0, 0, 0, 0}},
+                                                                    {.value = 0.001, .color = {0, 1, 1, 0, 0}},
+                                                                    {.value = 0.012, .color = {1, 1, 0, 0, 0}},
+                                                                    {.value = 0.015, .color = {1, 0, 1, 0, 0}},
+                                                                    {.value = 0.1, .color = {0, 1, 1, 0, 0}}},
+                                       .count = 5};
+
+const PatternOps pattern_mandel = {
+    .keyword = "mandel", .arguments = ARGUMENTS_FRACTAL, .map = &mandel_colors, .value = value};
 const PatternOps pattern_julia = {.keyword = "julia", .arguments = ARGUMENTS_FRACTAL, .value = value};
 const PatternOps pattern_magnet = {.keyword = "magnet", .arguments = ARGUMENTS_FRACTAL, .value = value};

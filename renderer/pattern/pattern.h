@@ -34,13 +34,17 @@ struct PatternOps {
     const char *keyword;
     PatternArguments arguments;
     int colors; /* it chooses among so many colours; 0: it makes a value, which a wave and a color_map turn into one */
-    const ColorMap *map; /* its colours where none are written, or NULL: black to white */
+    const ColorMap *map; /* its colours where none are written; or NULL: black to white, or of six red, green and blue,
+                            yellow, cyan and magenta */
     WaveKind wave;       /* where none is written */
     int has_turbulence;  /* value() uses Pattern.turbulence in its own way, so that the point is not moved by it */
     /* At a point that is warped already: which colour, from 0; or the value, before the wave. NULL: not supported. */
     double (*value)(const Pattern *pattern, const PatternPoint *point);
     const char *name; /* in the warning that it is not supported */
 };
+
+/* The colours of several patterns where none are written. */
+extern const ColorMap pattern_blue_green_red;
 
 /* All patterns, also those that are not supported. */
 int pattern_count(void);

@@ -46,5 +46,6 @@ static double triangular(const Pattern *pattern, const PatternPoint *point)
 }
 
 const PatternOps pattern_square = {.keyword = "square", .colors = 4, .value = square};
-const PatternOps pattern_hexagon = {.keyword = "hexagon", .colors = 3, .value = hexagon};
+const PatternOps pattern_hexagon = {
+    .keyword = "hexagon", .colors = 3, .map = &pattern_blue_green_red, .value = hexagon};
 const PatternOps pattern_triangular = {.keyword = "triangular", .colors = 6, .value = triangular};

@@ -110,6 +110,39 @@ radial
 crackle
 gradient x turbulence .5 pigment_map { [0 bozo] [1 rgb .5] }
 checker pigment { bozo } pigment { wood scale .3 } turbulence .3'''.split('\n')
+# Every pattern alone: its colours, and its wave, are POV-Ray's defaults. The files are in tests/data.
+PIGMENTS += [p + ' translate <.017,.031,.013>' for p in '''boxed
+brick
+bumps
+cells
+checker
+cubic
+cylindrical
+density_file df3 "tests/data/density.df3"
+dents
+function { x*y }
+gradient y
+hexagon
+image_pattern { png "tests/data/colours.png" }
+julia <.3,.5>, 20
+leopard
+magnet 1 mandel 20
+mandel 20
+object { sphere { 0, 2 } }
+onion
+pigment_pattern { wood }
+planar
+quilted
+ripples
+spherical
+spiral1 3
+spiral2 3
+spotted
+square
+tiling 9
+triangular
+waves
+wrinkles'''.split('\n')]
 PIGMENTS += [f'tiling {n} scale .4 translate <.123,0,.077>' for n in range(1, 25)]
 
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 #include <cmocka.h>
+#include "pattern/pattern.h"
 #include "sdl/sdl.h"
 
 enum { MOST_POINTS = 64, LINE = 512 };
@@ -68,6 +69,28 @@ static void check_case(const Case *c)
         }
 }
 
+/* Whether a pattern stands alone in the file: then its colours are its own. */
+static int stands_alone[64];
+
+static void find_alone(const char *name)
+{
+    char word[64];
+    const char *after = strstr(name, " translate <");
+    if (sscanf(name, "%63s", word) == 1 && pattern_find(word) >= 0 && !strstr(name, "_map") &&
+        (!after || !strpbrk(after + 12, "{ ")))
+        stands_alone[pattern_find(word)] = 1;
+}
+
+/* All but those that ask for a surface. */
+static void check_alone(void)
+{
+    for (int i = 0; i < pattern_count(); i++) {
+        const PatternOps *ops = pattern_at(i);
+        if (ops->value && !stands_alone[i] && strcmp(ops->keyword, "slope") != 0 && strcmp(ops->keyword, "aoi") != 0)
+            fail_msg("no colours of %s alone", ops->keyword);
+    }
+}
+
 static void povray_values(void **state)
 {
     static Case c;
@@ -83,6 +106,8 @@ static void povray_values(void **state)
                 check_case(&c), count++;
             c.npoints = 0, c.is_pigment = *line == '~';
             strcpy(c.name, line + 2);
+            if (c.is_pigment)
+                find_alone(c.name);
             continue;
         }
         double *p = c.point[c.npoints], *v = c.value[c.npoints];
@@ -93,6 +118,7 @@ static void povray_values(void **state)
     }
     check_case(&c);
     fclose(file);
+    check_alone();
     assert_true(count > 120);
 }
 

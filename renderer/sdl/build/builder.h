@@ -314,7 +314,8 @@ int accept_pattern_data_modifier(Sdl *sdl, Pattern *pattern);
 /* textures: gets a list of textures in place of colours; NULL: there are colours. */
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures);
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
-ParsedColorMap *color_list_new(Sdl *sdl, int n); /* of the colours that POV-Ray takes where none are given */
+/* Of the colours that POV-Ray takes where none are given. */
+ParsedColorMap *color_list_new(Sdl *sdl, const PatternOps *ops);
 void color_map_set(Sdl *sdl, ParsedColorMap *map, int entry, const ParsedPigment *pigment);
 void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map);
 /* The name of an image and before it `png` and the like, which are not looked at: its file, also by a name without its

@@ -18,9 +18,11 @@ static int list_item(Sdl *sdl, ParsedColorMap *map, int entry)
 }
 
 /* Or of textures. */
-static void parse_list(Sdl *sdl, ParsedPigment *pigment, int n, ParsedTextureMap *textures)
+static void parse_list(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
 {
-    ParsedColorMap *map = color_list_new(sdl, n);
+    const PatternOps *ops = pigment->pigment.pattern.ops;
+    const int n = ops->colors;
+    ParsedColorMap *map = color_list_new(sdl, ops);
     if (textures)
         parse_texture_list(sdl, textures, n);
     for (int i = 0; !textures && i < n && list_item(sdl, map, i); i++)
@@ -82,7 +84,7 @@ int accept_pattern(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures)
     if (accept_pattern_word(sdl, pigment)) {
         const PatternOps *ops = pigment->pigment.pattern.ops;
         if (ops->colors)
-            parse_list(sdl, pigment, ops->colors, textures);
+            parse_list(sdl, pigment, textures);
         if (ops->arguments == ARGUMENTS_OBJECT)
             sdl_expect(sdl, "}");
         return 1;

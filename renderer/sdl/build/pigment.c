@@ -2,6 +2,7 @@
  * supported. */
 #include <stdlib.h>
 #include <string.h>
+#include "pattern/fractal.h"
 #include "pattern/pattern.h"
 #include "sdl/build/builder.h"
 
@@ -130,15 +131,15 @@ void pigment_set_map(ParsedPigment *pigment, const ParsedColorMap *map)
     gaps_join(&pigment->gaps, &map->gaps);
 }
 
-ParsedColorMap *color_list_new(Sdl *sdl, int n)
+ParsedColorMap *color_list_new(Sdl *sdl, const PatternOps *ops)
 {
-    static const Rgbft colors[PATTERN_COLORS] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
-                                                 {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
+    static const Rgbft colors[PATTERN_COLORS] = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, 0, 1, 0, 0},
+                                                 {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}, {1, 0, 1, 0, 0}};
     ParsedColorMap *map = map_new(sdl);
-    map->map.count = n;
-    map->map.entries = sdl_alloc(sdl, (size_t)n * sizeof *map->map.entries);
-    for (int i = 0; i < n; i++)
-        map->map.entries[i] = (ColorMapEntry){i, colors[i], NULL};
+    map->map.count = ops->colors;
+    map->map.entries = sdl_alloc(sdl, (size_t)ops->colors * sizeof *map->map.entries);
+    for (int i = 0; i < ops->colors; i++)
+        map->map.entries[i] = (ColorMapEntry){i, ops->map ? ops->map->entries[i].color : colors[i], NULL};
     return map;
 }
 
@@ -302,6 +303,14 @@ static void pigment_item(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *tex
         sdl_expected(sdl, "a colour, a pattern, a transform or the end of the pigment");
 }
 
+/* As in POV-Ray, fractals of other exponents than 2 go from black to white. */
+static const ColorMap *default_map(const Pattern *pattern)
+{
+    if (pattern->ops->arguments == ARGUMENTS_FRACTAL && ((const Fractal *)pattern->data)->exponent != 2)
+        return NULL;
+    return pattern->ops->map;
+}
+
 static void pigment_items(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textures, char end)
 {
     const char closing[2] = {end, 0};
@@ -309,9 +318,9 @@ static void pigment_items(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *te
     while (!sdl_accept(sdl, closing))
         pigment_item(sdl, pigment, textures), sdl_optional_comma(sdl);
     statement_end(sdl);
-    const PatternOps *ops = pigment->pigment.pattern.ops;
-    if (pigment->pigment.kind == PIGMENT_PATTERN && pigment->pigment.map.count == 0 && ops->map)
-        pigment->pigment.map = *ops->map;
+    const ColorMap *map = pigment->pigment.kind == PIGMENT_PATTERN ? default_map(&pigment->pigment.pattern) : NULL;
+    if (map && pigment->pigment.map.count == 0)
+        pigment->pigment.map = *map;
     if (pigment->averaged) {
         pigment->pigment.kind = PIGMENT_PATTERN;
         pigment->pigment.color = pigment_mean(&pigment->pigment);
