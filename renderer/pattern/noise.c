@@ -28,10 +28,10 @@ static const ColorMapEntry wood_colors[] = {{.value = 0, .color = {0.666f, 0.312
     }
 
 /* Sums of octaves take the noise of generators 2 and 3 twice as steep about a half. */
-static double octave(const Pattern *pattern, Vec3 p)
+static double octave(int generator, Vec3 p)
 {
-    const double value = pattern_noise(pattern, p);
-    return pattern_noise_generator(pattern) == NOISE_ORIGINAL ? value : 2 * value - 0.5;
+    const double value = noise_value(p, generator);
+    return generator == NOISE_ORIGINAL ? value : 2 * value - 0.5;
 }
 
 static double clamp(double x)
@@ -39,18 +39,21 @@ static double clamp(double x)
     return fmin(fmax(x, 0), 1);
 }
 
-/* The sum of octaves of turbulence, of values. */
-static double turbulence(const Pattern *pattern, Vec3 p)
+double turbulence_value(const Turbulence *t, int generator, Vec3 p)
 {
-    const Turbulence *t = &pattern->turbulence;
     const int count = noise_octaves(t->octaves);
-    double sum = clamp(octave(pattern, p)), frequency = (float)t->lambda, share = (float)t->omega;
+    double sum = clamp(octave(generator, p)), frequency = (float)t->lambda, share = (float)t->omega;
     for (int i = 1; i < count; i++) {
-        sum += share * octave(pattern, vec_scale(p, frequency));
+        sum += share * octave(generator, vec_scale(p, frequency));
         frequency *= (float)t->lambda;
         share *= (float)t->omega;
     }
     return sum;
+}
+
+static double turbulence(const Pattern *pattern, Vec3 p)
+{
+    return turbulence_value(&pattern->turbulence, pattern_noise_generator(pattern), p);
 }
 
 static double noise(const Pattern *pattern, const PatternPoint *point)
@@ -77,9 +80,10 @@ static double granite(const Pattern *pattern, const PatternPoint *point)
 
 static double wrinkles(const Pattern *pattern, const PatternPoint *point)
 {
-    double sum = clamp(octave(pattern, point->p)), frequency = 2;
+    const int generator = pattern_noise_generator(pattern);
+    double sum = clamp(octave(generator, point->p)), frequency = 2;
     for (int i = 1; i < 10; i++, frequency *= 2)
-        sum += clamp(octave(pattern, vec_scale(point->p, frequency))) / frequency;
+        sum += clamp(octave(generator, vec_scale(point->p, frequency))) / frequency;
     return sum / 2;
 }
 

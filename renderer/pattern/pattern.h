@@ -85,6 +85,8 @@ static inline int pattern_noise_generator(const Pattern *pattern)
 {
     return pattern->noise_generator ? *pattern->noise_generator : NOISE_RANGE_CORRECTED;
 }
+/* The sum of octaves of turbulence, of values and not of vectors; its amount does not count. */
+double turbulence_value(const Turbulence *turbulence, int generator, Vec3 p);
 static inline double pattern_noise(const Pattern *pattern, Vec3 p)
 {
     return noise_value(p, pattern_noise_generator(pattern));

@@ -191,7 +191,9 @@ typedef struct Finish {
     double reflection_falloff, reflection_exponent, reflection_metallic;
     int conserve_energy;
     double irid, irid_thickness; /* thin film: its amount, and its thickness in units of irid_wavelength */
-    Rgb irid_phase;          /* 2 pi thickness / wavelength; set at the end of reading */
+    double irid_turbulence;  /* by which share the thickness varies */
+    Rgb irid_phase;          /* 2 pi thickness / wavelength; set at the end of reading, as the next one */
+    int irid_noise;          /* noise generator of its turbulence */
     /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it
      * is present it replaces all of the above but ambient and emission. */
     struct {

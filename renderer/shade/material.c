@@ -1,5 +1,6 @@
 /* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5),
  * section FINISH AND PHYSICS; keep the two in step. */
+#include "pattern/pattern.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
 #include "shade/normal.h"
@@ -60,11 +61,20 @@ static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
     b->mirror = metallic_tint((Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)}, (float)b->cos_o);
 }
 
+/* How thick the film is at a point, over its thickness without turbulence, by POV-Ray's formula. */
+static float film_thickness(const Finish *f, Vec3 p)
+{
+    static const Turbulence octaves = {.lambda = 2, .omega = 0.5, .octaves = 5};
+    if (f->irid_turbulence == 0)
+        return 1;
+    return (float)(1 + f->irid_turbulence * (2 * turbulence_value(&octaves, f->irid_noise, p) - 1));
+}
+
 /* mirror: what it may reflect without the film. */
-static void setup_film(Bsdf *b, const Finish *f, float mirror)
+static void setup_film(Bsdf *b, const Finish *f, Vec3 p, float mirror)
 {
     b->irid = at_most((float)f->irid, 1);
-    b->irid_phase = f->irid_phase;
+    b->irid_phase = rgb_scale(f->irid_phase, film_thickness(f, p));
     float most = rgb_max(split_apply(b->mirror, rgb_grey(1)));
     Rgb factor = rgb_scale(bsdf_irid(b, (float)b->cos_o), most > mirror ? mirror / most : 1);
     b->mirror = (Split){rgb_mul(b->mirror.d, factor), rgb_mul(b->mirror.i, factor)};
@@ -85,7 +95,7 @@ static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain)
     b->passing = (Split){rgb_scale(b->passing.d, scale), rgb_scale(b->passing.i, scale)};
 }
 
-static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
+static void setup_povray(Bsdf *b, const Finish *f, Vec3 position, float filter, float transmit)
 {
     float opacity = clamp01(1 - filter - transmit), gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
     b->brilliance = not_negative((float)f->brilliance);
@@ -102,7 +112,7 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
     b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
     limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain);
     if (gain > 1)
-        setup_film(b, f, mirror);
+        setup_film(b, f, position, mirror);
 }
 
 /* A number of the extension block where it varies over the surface. */
@@ -240,7 +250,7 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
     if (finish->retex.present)
         setup_disney(b, finish, surface, filter, transmit);
     else
-        setup_povray(b, finish, filter, transmit);
+        setup_povray(b, finish, surface->position, filter, transmit);
     setup_choice(b);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);

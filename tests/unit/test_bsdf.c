@@ -396,6 +396,27 @@ static void films_are_povrays(void **state)
     close_to(f.b / plain, 1.2333, 2e-4, "blue");
 }
 
+/* POV-Ray's picture of a plane with irid{.5 thickness 1 turbulence .7}, seen and lit head-on, irid_wavelength 8, over
+ * that without irid. */
+static void thickness_of_films_is_turbulent(void **state)
+{
+    (void)state;
+    static const struct {
+        double x, y, factor;
+    } points[] = {{-1.45, 1.65, .503723}, {1.05, -.05, .920959}, {-.85, -1.55, .529480}, {.25, .85, .588562}};
+    for (size_t k = 0; k < sizeof points / sizeof *points; k++) {
+        Case c;
+        float pdf;
+        case_begin(&c, 0);
+        c.surface.position = vec3(points[k].x, points[k].y, 0);
+        c.finish.diffuse = 0.6, c.finish.irid = 0.5, c.finish.irid_turbulence = 0.7, c.finish.irid_noise = 2;
+        c.finish.irid_phase = rgb_grey((float)(2 * PI / 8));
+        const Bsdf b = make(&c, 0, 0, 0);
+        const Rgb f = bsdf_eval(&b, vec3(0, 0, 1), 1, &pdf).d;
+        close_to(f.r / (0.6 / PI), points[k].factor, 1e-4, "factor");
+    }
+}
+
 /* Of both highlights the sharper one counts; that of phong is a quarter as wide as it would be of half vectors. */
 static void highlights_have_widths(void **state)
 {
@@ -571,6 +592,7 @@ int main(void)
                                        cmocka_unit_test(highlights_are_symmetric),
                                        cmocka_unit_test(albedos_are_povrays),
                                        cmocka_unit_test(films_are_povrays),
+        cmocka_unit_test(thickness_of_films_is_turbulent),
                                        cmocka_unit_test(grain_darkens),
                                        cmocka_unit_test(highlights_have_widths),
                                        cmocka_unit_test(furnaces_stay_white),

@@ -20,7 +20,6 @@
 
 #define GAP_TABLE(X) \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
-    X(IRID_TURBULENCE, "turbulence of irid", "the film is of one thickness") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
     X(MEDIA, "media", "it is ignored") \
     X(DISPERSION, "dispersion", "one ior is used for all colours")

@@ -123,6 +123,7 @@ static void complete_finishes(Sdl *sdl)
     for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
         const float path = (float)(2 * PI * f->finish.irid_thickness);
         f->finish.matte = finish_is_matte(&f->finish);
+        f->finish.irid_noise = sdl_scene(sdl)->noise_generator;
         f->finish.irid_phase = rgb(w.r > 0 ? path / w.r : 0, w.g > 0 ? path / w.g : 0, w.b > 0 ? path / w.b : 0);
     }
 }

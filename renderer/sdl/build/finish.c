@@ -108,18 +108,16 @@ static void retex_block(Sdl *sdl, Finish *f)
 }
 
 /* irid{ AMOUNT [thickness T] [turbulence T] }: a thin film. */
-static void irid(Sdl *sdl, ParsedFinish *finish)
+static void irid(Sdl *sdl, Finish *f)
 {
-    Finish *f = &finish->finish;
     sdl_expect(sdl, "{");
     f->irid = sdl_float(sdl);
     while (!sdl_accept(sdl, "}"))
         if (sdl_accept(sdl, "thickness"))
             f->irid_thickness = sdl_float(sdl);
-        else if (sdl_accept(sdl, "turbulence")) {
-            if (sdl_float(sdl) != 0)
-                gaps_add(&finish->gaps, GAP_IRID_TURBULENCE);
-        } else
+        else if (sdl_accept(sdl, "turbulence"))
+            f->irid_turbulence = sdl_float(sdl);
+        else
             sdl_expected(sdl, "thickness, turbulence or } in irid");
 }
 
@@ -190,7 +188,7 @@ static void item(Sdl *sdl, ParsedFinish *finish)
     else if (sdl_accept(sdl, "retex"))
         retex_block(sdl, f);
     else if (sdl_accept(sdl, "irid"))
-        irid(sdl, finish);
+        irid(sdl, f);
     else if (sdl_accept(sdl, "subsurface")) {
         gaps_add(&finish->gaps, GAP_SUBSURFACE);
         sdl_skip_block(sdl);
