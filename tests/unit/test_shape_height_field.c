@@ -244,6 +244,77 @@ static void test_palette(void **unused)
     rmdir(folder);
 }
 
+/* 6 x 5 pixels, which Pillow reads so: codes of 3 to 5 bits that stand for several pixels, some of them before they are
+ * known. */
+static const unsigned char gif[] = {0x47, 0x49, 0x46, 0x38, 0x37, 0x61, 0x06, 0x00, 0x05, 0x00, 0x81, 0x00, 0x00,
+                                    0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x09, 0x2c,
+                                    0x00, 0x00, 0x00, 0x00, 0x06, 0x00, 0x05, 0x00, 0x00, 0x02, 0x0a, 0x84, 0x1f,
+                                    0x92, 0x39, 0xed, 0xc0, 0xa0, 0x98, 0xb4, 0x00, 0x00, 0x3b};
+static const char gif_indices[] = "000000121212333333012301222222";
+enum { GIF_SIZE = sizeof gif, GIF_FLAGS = 34, GIF_DATA_END = GIF_SIZE - 4 };
+
+static int gif_scene(Scene **scene, const char *folder, const unsigned char *bytes, size_t size, const char *kind,
+                     RetexError *err)
+{
+    char path[200], text[200];
+    const char *folders[] = {folder};
+    SdlOptions options = SDL_OPTIONS_INIT;
+    options.include_paths = folders;
+    options.ninclude_paths = 1;
+    snprintf(path, sizeof path, "%s/heights.gif", folder);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+    snprintf(text, sizeof text, V37 "height_field{%s \"heights.gif\"}", kind);
+    const int status = parse_with(scene, text, &options, err);
+    unlink(path);
+    return status;
+}
+
+/* The rows of an interlaced picture are stored every eighth first, then those in the middle, and so on. */
+static void test_gif(void **unused)
+{
+    static const int stored[5] = {0, 3, 2, 4, 1};
+    char folder[] = "/tmp/test_heights_XXXXXX";
+    RetexError err = {0};
+    Scene *scene;
+    (void)unused;
+    assert_non_null(mkdtemp(folder));
+    for (int interlaced = 0; interlaced < 2; interlaced++)
+        for (int pot = 0; pot < 2; pot++) {
+            unsigned char bytes[GIF_SIZE];
+            memcpy(bytes, gif, sizeof gif);
+            bytes[GIF_FLAGS] = interlaced ? 0x40 : 0;
+            assert_int_equal(gif_scene(&scene, folder, bytes, GIF_SIZE, pot ? "pot" : "gif", &err), 0);
+            const HeightField *f = only(scene)->shape.data;
+            const int width = pot ? 3 : 6;
+            assert_int_equal(f->width, width);
+            assert_int_equal(f->height, 5);
+            for (int j = 0; j < 5; j++)
+                for (int i = 0; i < width; i++) {
+                    const char *row = gif_indices + 6 * (interlaced ? stored[j] : j);
+                    assert_int_equal(f->heights[(4 - j) * width + i],
+                                     256 * (row[i] - '0') + (pot ? row[i + 3] - '0' : 0));
+                }
+            scene_close(&scene);
+        }
+    for (size_t size = 6; size < GIF_DATA_END; size++) { /* cut off */
+        assert_int_not_equal(gif_scene(&scene, folder, gif, size, "gif", &err), 0);
+        assert_non_null(strstr(err.message, "heights.gif`: "));
+    }
+    for (int at = 0; at < GIF_SIZE; at++) { /* damaged: heights or a message */
+        unsigned char bytes[GIF_SIZE];
+        memcpy(bytes, gif, sizeof gif);
+        bytes[at] ^= 0xff;
+        if (gif_scene(&scene, folder, bytes, GIF_SIZE, "gif", &err) == 0)
+            scene_close(&scene);
+        else
+            assert_non_null(strstr(err.message, "height"));
+    }
+    rmdir(folder);
+}
+
 static void test_normals_of_fields(void **unused)
 {
     (void)unused;
@@ -365,6 +436,7 @@ int main(void)
         cmocka_unit_test(test_functions),
         cmocka_unit_test(test_pictures),
         cmocka_unit_test(test_palette),
+        cmocka_unit_test(test_gif),
         cmocka_unit_test(test_normals_of_fields),
         cmocka_unit_test(test_smooth_normals_against_povray),
         cmocka_unit_test(test_errors),

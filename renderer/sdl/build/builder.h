@@ -422,12 +422,14 @@ double positive_or(Sdl *sdl, const char *what, double value, double instead); /*
 const Object *parse_light_source(Sdl *sdl); /* after light_source */
 int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
 
-/* palette.c: 1 and the indices, row by row from the top, if the file is a PNG picture that has a palette; else 0. */
+/* palette.c, gif.c: 1 and the indices, row by row from the top, if the file is a GIF picture, or a PNG picture that has
+ * a palette; else 0. */
 typedef struct PaletteIndices {
     int width, height;
     const unsigned char *indices; /* in the arena */
 } PaletteIndices;
 int read_palette_indices(Sdl *sdl, const char *path, int side_max, PaletteIndices *out);
+void read_gif_indices(Sdl *sdl, const char *path, int side_max, PaletteIndices *out);
 
 /* font.c: a font's letters, in units of its size. Each file is read and each letter is made once. */
 typedef struct Font Font;

@@ -50,6 +50,17 @@ static void take_indices(Sdl *sdl, HeightField *field, const PaletteIndices *pal
                 (uint16_t)(256 * palette->indices[(size_t)j * (size_t)field->width + (size_t)i]);
 }
 
+/* `pot`: the left half of the picture has the coarse parts of heights, the right half their fine parts. */
+static void take_halves(Sdl *sdl, HeightField *field, const PaletteIndices *palette)
+{
+    set_size(sdl, field, palette->width / 2, palette->height);
+    for (int j = 0; j < field->height; j++)
+        for (int i = 0; i < field->width; i++) {
+            const unsigned char *coarse = palette->indices + (size_t)j * (size_t)palette->width + i;
+            field->heights[point_at(field, i, j)] = (uint16_t)(256 * coarse[0] + coarse[field->width]);
+        }
+}
+
 static void take_colors(Sdl *sdl, HeightField *field, const char *path)
 {
     const SdlOptions *options = sdl_options(sdl);
@@ -79,9 +90,12 @@ static void take_colors(Sdl *sdl, HeightField *field, const char *path)
 
 static void read_picture(Sdl *sdl, HeightField *field)
 {
+    const int halves = sdl_is(sdl, "pot");
     const char *path = parse_image_path(sdl);
     PaletteIndices palette;
-    if (read_palette_indices(sdl, path, LARGEST, &palette))
+    if (halves && read_palette_indices(sdl, path, LARGEST, &palette))
+        take_halves(sdl, field, &palette);
+    else if (read_palette_indices(sdl, path, LARGEST, &palette))
         take_indices(sdl, field, &palette);
     else
         take_colors(sdl, field, path);

@@ -55,7 +55,7 @@ static void set_transparency(Sdl *sdl, ParsedImage *image)
     if (image->drawn || !read_palette_indices(sdl, map->path, RETEX_MAX_SIZE, &indices) ||
         indices.width != map->width || indices.height != map->height) {
         sdl_warn_at(sdl, image->file, image->line,
-                    "image_map: `%s`: filter and transmit of a palette's entries need a PNG file with a palette; "
+                    "image_map: `%s`: filter and transmit of a palette's entries need a GIF or PNG file with one; "
                     "they are left out",
                     image->drawn ? "a function" : map->path);
         return;

@@ -51,6 +51,16 @@ static void read_rows(png_structp png, png_infop info, Arena *arena, PaletteIndi
     out->indices = indices;
 }
 
+static int is_gif(const char *path)
+{
+    char head[6];
+    FILE *file = fopen(path, "rb");
+    const int whole = file && fread(head, 1, sizeof head, file) == sizeof head;
+    if (file)
+        fclose(file);
+    return whole && (memcmp(head, "GIF87a", sizeof head) == 0 || memcmp(head, "GIF89a", sizeof head) == 0);
+}
+
 static int has_palette(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -65,6 +75,10 @@ static int has_palette(const char *path)
 int read_palette_indices(Sdl *sdl, const char *path, int side_max, PaletteIndices *out)
 {
     *out = (PaletteIndices){0};
+    if (is_gif(path)) {
+        read_gif_indices(sdl, path, side_max, out);
+        return 1;
+    }
     if (!has_palette(path))
         return 0;
     size_t size;
