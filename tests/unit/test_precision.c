@@ -268,7 +268,7 @@ static void shares_are_rounded_by_what_their_mixture_multiplies(void **state)
             const int x = i / 2 % WIDTH, y = i / 2 / WIDTH, part = was->mixtures[m].shares[i % 2].weight;
             const double a = (double)*at(was, part, x, y), b = (double)*at(set, part, x, y);
             const double step =
-                step_of(1, 1, 1. / 512, .125, noise_of_all(was, &signals, x, y), light_of_mixture(was, m, x, y));
+                step_of(1, .5, 1. / 512, .0625, noise_of_all(was, &signals, x, y), light_of_mixture(was, m, x, y));
             expect_near(b, a, step / 2 + 1e-5, "share");
             assert_true(b > 0);
             rounded += fabs(b - a) > step / 8;
