@@ -137,7 +137,8 @@ $ retex-import below/buffer.gltf -o buffer
 = 2
 
 # Damaged models: one line, and nothing is left.
-$ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj; do retex-import $m -o damaged; echo $?; done; ls -d damaged*
+$ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj; do retex-import $m -o damaged; echo $?; done; ls -d damaged*
+> 2
 > 2
 > 2
 > 2
@@ -150,6 +151,7 @@ $ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj; do rete
 ! retex-import: error: huge.gltf: GLTF: Accessor with offset/length (0/4000000000) is out of range.
 ! retex-import: error: cycle.gltf: GLTF: Object at index 0 in array "nodes" has recursive reference to itself
 ! retex-import: error: faces.obj: OBJ: vertex index out of range
+! retex-import: error: far.obj: its surfaces reach farther than 1e+15
 ! ls: cannot access 'damaged*': No such file or directory
 = 2
 $ retex-import nothing.glb -o damaged

@@ -180,6 +180,7 @@ huge = gltf(MATERIAL)
 huge['accessors'][0]['count'] = 1000000000
 write('huge.gltf', json.dumps(huge))
 write('cycle.gltf', json.dumps(gltf(MATERIAL, nodes=[{'mesh': 0, 'children': [1]}, {'children': [0]}])))
+write('far.obj', 'v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n')
 write('faces.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9999999\n')
 os.makedirs('below', exist_ok=True)
 write('secret.png', F)

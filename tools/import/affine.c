@@ -10,6 +10,14 @@ Affine affine_from(const struct aiMatrix4x4 *m)
     return (Affine){{{m->a1, m->a2, m->a3, m->a4}, {m->b1, m->b2, m->b3, m->b4}, {m->c1, m->c2, m->c3, m->c4}}};
 }
 
+int affine_is_finite(const Affine *a)
+{
+    double sum = 0;
+    for (int i = 0; i < 12; i++)
+        sum += 0 * a->m[i / 4][i % 4];
+    return sum == 0;
+}
+
 Affine affine_multiply(const Affine *a, const Affine *b)
 {
     Affine c;

@@ -12,8 +12,8 @@ static void print_vector(FILE *out, const char *what, const double v[3])
     fprintf(out, "  %s <%.7g, %.7g, %.7g>\n", what, v[0], v[1], v[2]);
 }
 
-/* Position, direction and up of a camera in the scene. */
-static void place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
+/* Position, direction and up of a camera in the scene. Returns 0 where they are no numbers. */
+static int place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
 {
     const Affine node = import_node_transform(import, camera->mName.data);
     const struct aiVector3D zero = {0, 0, 0}, ahead = {0, 0, -1}, above = {0, 1, 0};
@@ -30,6 +30,7 @@ static void place(const Import *import, const struct aiCamera *camera, double at
         to[k] = at[k] + (length > 0 ? to[k] / length : k == 2);
         up[k] = tall > 0 ? up[k] / tall : k == 1;
     }
+    return isfinite(at[0] + at[1] + at[2] + to[0] + to[1] + to[2] + up[0] + up[1] + up[2]);
 }
 
 /* The picture's width by its height, and either the angle from left to right or the width of a parallel projection. */
@@ -54,11 +55,12 @@ static View view_of(const Import *import, int index)
     return view;
 }
 
-static void write_camera(const Import *import, int index, const char *name, FILE *out)
+static int write_camera(const Import *import, int index, const char *name, FILE *out)
 {
     const View view = view_of(import, index);
     double at[3], to[3], up[3];
-    place(import, import->scene->mCameras[index], at, to, up);
+    if (!place(import, import->scene->mCameras[index], at, to, up))
+        return 0;
     fprintf(out, "#declare %s = camera {\n", name);
     if (view.width > 0)
         fprintf(out, "  orthographic\n");
@@ -71,6 +73,7 @@ static void write_camera(const Import *import, int index, const char *name, FILE
         fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", view.aspect, view.angle * 180 / PI);
     print_vector(out, "look_at", to);
     fprintf(out, "}\n");
+    return 1;
 }
 
 /* From the right in front and above, so that a sphere about the scene fits. */
@@ -94,48 +97,62 @@ static void write_framing(const Import *import, FILE *out)
     import_tell(import, IMPORT_INFO, "no camera in the model: the scene is framed");
 }
 
-/* The number of the camera that --camera asks for. */
-static int choose(const Import *import, char (*names)[NAME_SIZE], int *chosen, RetexError *err)
+typedef struct Cameras {
+    char (*names)[NAME_SIZE]; /* "" = its place is no number */
+    unsigned count;
+} Cameras;
+
+/* The camera that --camera asks for; else the first. Returns -1 where there is none. */
+static int choose(const Import *import, const Cameras *cameras, int *chosen, RetexError *err)
 {
     const char *asked = import->options->camera;
-    const unsigned count = import->scene->mNumCameras;
     char *end;
-    *chosen = 0;
-    if (!asked)
-        return RETEX_OK;
-    const long number = strtol(asked, &end, 10);
-    for (unsigned i = 0; i < count; i++)
-        if ((!*end && number == (long)i + 1) || strcmp(asked, import->scene->mCameras[i]->mName.data) == 0 ||
-            strcmp(asked, names[i]) == 0) {
+    const long number = asked ? strtol(asked, &end, 10) : 0;
+    *chosen = -1;
+    for (unsigned i = cameras->count; i-- > 0;)
+        if (cameras->names[i][0] &&
+            (!asked || (!*end && number == (long)i + 1) || strcmp(asked, import->scene->mCameras[i]->mName.data) == 0 ||
+             strcmp(asked, cameras->names[i]) == 0))
             *chosen = (int)i;
-            return RETEX_OK;
-        }
-    return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %u camera%s%s%.100s", asked, count,
-                      count == 1 ? "" : "s", count ? ", the first is " : "", count ? names[0] : "");
+    if (*chosen >= 0 || !asked)
+        return RETEX_OK;
+    return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %u camera%s%s%.100s", asked, cameras->count,
+                      cameras->count == 1 ? "" : "s", cameras->count ? ", the first is " : "",
+                      cameras->count ? cameras->names[0] : "");
+}
+
+static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError *err)
+{
+    char name[TEXT_SIZE + 8];
+    int chosen;
+    for (unsigned i = 0; i < cameras->count; i++) {
+        snprintf(name, sizeof name, "Camera_%s", import->scene->mCameras[i]->mName.data);
+        if (!names_make(&import->names, name, "Camera", cameras->names[i]))
+            return retex_fail(err, RETEX_ENOMEM, "out of memory");
+        if (!write_camera(import, (int)i, cameras->names[i], out))
+            cameras->names[i][0] = '\0';
+    }
+    const int code = choose(import, cameras, &chosen, err);
+    if (code)
+        return code;
+    if (chosen < 0) {
+        write_framing(import, out);
+        return RETEX_OK;
+    }
+    fprintf(out, "camera { %s }\n\n", cameras->names[chosen]);
+    if (cameras->count > 1)
+        import_tell(import, IMPORT_INFO, "camera %d of %u is used, %s; --camera takes another one", chosen + 1,
+                    cameras->count, cameras->names[chosen]);
+    return RETEX_OK;
 }
 
 int cameras_write(Import *import, FILE *out, RetexError *err)
 {
-    const struct aiScene *scene = import->scene;
-    char(*names)[NAME_SIZE] = calloc(scene->mNumCameras + 1, sizeof *names), name[TEXT_SIZE + 8];
-    int chosen, code = names ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    Cameras cameras = {calloc(import->scene->mNumCameras + 1, sizeof *cameras.names), import->scene->mNumCameras};
+    if (!cameras.names)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
     fprintf(out, "// ---- camera ----\n\n");
-    for (unsigned i = 0; !code && i < scene->mNumCameras; i++) {
-        snprintf(name, sizeof name, "Camera_%s", scene->mCameras[i]->mName.data);
-        if (!names_make(&import->names, name, "Camera", names[i]))
-            code = retex_fail(err, RETEX_ENOMEM, "out of memory");
-        else
-            write_camera(import, (int)i, names[i], out);
-    }
-    if (!code)
-        code = choose(import, names, &chosen, err);
-    if (!code && scene->mNumCameras) {
-        fprintf(out, "camera { %s }\n\n", names[chosen]);
-        if (scene->mNumCameras > 1)
-            import_tell(import, IMPORT_INFO, "camera %d of %u is used, %s; --camera takes another one", chosen + 1,
-                        scene->mNumCameras, names[chosen]);
-    } else if (!code)
-        write_framing(import, out);
-    free(names);
+    const int code = write_cameras(import, &cameras, out, err);
+    free(cameras.names);
     return code;
 }

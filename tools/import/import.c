@@ -14,6 +14,8 @@
 
 #include "import/internal.h"
 
+#define FARTHEST 1e15 /* from the origin */
+
 /* ---- messages ---- */
 
 void import_tell(const Import *import, char kind, const char *fmt, ...)
@@ -40,6 +42,7 @@ void import_leave_out(Import *import, LeftOut what)
         [LEFT_ANIMATION] = "animations are left out",
         [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
         [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
+        [LEFT_NOWHERE] = "objects whose place is no number are left out",
         [LEFT_LINES] = "points and lines are left out",
     };
     if (import->left_out >> what & 1)
@@ -194,6 +197,10 @@ static void add_bounds(Import *import, const struct aiNode *node, const Affine *
 {
     const Affine placed = affine_mirror_z(world);
     const Bounds *bounds = context;
+    if (!affine_is_finite(&placed)) {
+        import_leave_out(import, LEFT_NOWHERE);
+        return;
+    }
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const Bounds *b = node->mMeshes[i] < import->scene->mNumMeshes ? &bounds[node->mMeshes[i]] : NULL;
         if (!b || !b->any)
@@ -225,9 +232,13 @@ static int find_bounds(Import *import, RetexError *err)
     free(bounds);
     if (!done)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    for (int k = 0; k < 3; k++)
-        if (!isfinite(import->low[k]) || !isfinite(import->high[k]))
+    for (int k = 0; k < 3; k++) {
+        if (import->low[k] > import->high[k])
             return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", import->options->model);
+        if (!(fmax(-import->low[k], import->high[k]) < FARTHEST))
+            return retex_fail(err, RETEX_EFORMAT, "%s: its surfaces reach farther than %g", import->options->model,
+                              FARTHEST);
+    }
     return RETEX_OK;
 }
 
@@ -236,6 +247,8 @@ static void write_object(Import *import, const struct aiNode *node, const Affine
     FILE *out = context;
     const Affine placed = affine_mirror_z(world);
     char plain[NAME_SIZE];
+    if (!affine_is_finite(&placed))
+        return;
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const unsigned index = node->mMeshes[i];
         if (index >= import->scene->mNumMeshes || !import->meshes[index][0])

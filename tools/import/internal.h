@@ -34,6 +34,7 @@ typedef struct Affine {
 
 extern const Affine affine_identity;
 Affine affine_from(const struct aiMatrix4x4 *m);
+int affine_is_finite(const Affine *a);
 Affine affine_multiply(const Affine *a, const Affine *b); /* b first */
 void affine_point(const Affine *a, const double p[3], double out[3]);
 void affine_vector(const Affine *a, const double v[3], double out[3]);
@@ -112,6 +113,7 @@ typedef enum LeftOut {
     LEFT_ANIMATION,
     LEFT_SKIN,
     LEFT_AMBIENT_LIGHT,
+    LEFT_NOWHERE,
     LEFT_LINES
 } LeftOut;
 

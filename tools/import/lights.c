@@ -102,7 +102,7 @@ static double exposure(const Import *import)
     return sum > 0 && (sum > 4 || sum < 0.1) ? 1 / sum : 1;
 }
 
-static void write_light(const Import *import, const struct aiLight *light, double user, FILE *out)
+static void write_light(Import *import, const struct aiLight *light, double user, FILE *out)
 {
     const Affine node = import_node_transform(import, light->mName.data);
     const double p[3] = {(double)light->mPosition.x, (double)light->mPosition.y, (double)light->mPosition.z};
@@ -119,6 +119,10 @@ static void write_light(const Import *import, const struct aiLight *light, doubl
         to[k] /= length;
         middle[k] = (import->low[k] + import->high[k]) / 2;
         radius += pow((import->high[k] - import->low[k]) / 2, 2);
+    }
+    if (!isfinite(at[0] + at[1] + at[2] + to[0] + to[1] + to[2])) {
+        import_leave_out(import, LEFT_NOWHERE);
+        return;
     }
     fprintf(out, "// %s\nlight_source {", import_plain(light->mName.data, plain));
     if (light->mType == aiLightSource_DIRECTIONAL) {

@@ -51,25 +51,45 @@ static int get_color(const struct aiMaterial *m, const char *key, unsigned type,
     return 1;
 }
 
-/* uv' of uv, v up, for a transform as Assimp has it. From glTF, Assimp computes a translation that suits a rotation
- * about the image's middle; glTF's own offset is got back from it. */
-static Affine uv_place(const struct aiUVTransform *t, int is_gltf)
+/* Scaled, turned counter-clockwise, moved. */
+static Affine uv_placed(double sx, double sy, double angle, double x, double y)
 {
-    const double sx = (double)t->mScaling.x, sy = (double)t->mScaling.y;
-    Affine place = affine_identity;
-    if (is_gltf) {
-        const double angle = -(double)t->mRotation, c = cos(angle), s = sin(angle);
-        const double x = (double)t->mTranslation.x - 0.5 * sx * (-c + s + 1);
-        const double y = 0.5 * sy * (s + c - 1) + 1 - sy - (double)t->mTranslation.y;
-        /* with v down: u' = x + c sx u + s sy v, v' = y - s sx u + c sy v */
-        const double m[2][4] = {{c * sx, -s * sy, 0, x + s * sy}, {s * sx, c * sy, 0, 1 - y - c * sy}};
-        memcpy(place.m, m, sizeof m);
-    } else {
-        const double c = cos((double)t->mRotation), s = sin((double)t->mRotation);
-        const double x = (double)t->mTranslation.x, y = (double)t->mTranslation.y;
-        const double m[2][4] = {{sx * c, -sx * s, 0, sx * (c * x - s * y)}, {sy * s, sy * c, 0, sy * (s * x + c * y)}};
-        memcpy(place.m, m, sizeof m);
+    const double c = cos(angle), s = sin(angle);
+    return (Affine){{{c * sx, -s * sy, 0, x}, {s * sx, c * sy, 0, y}, {0, 0, 1, 0}}};
+}
+
+/* The other way; itself where there is none. */
+static Affine uv_inverse(const Affine *a)
+{
+    const double(*m)[4] = a->m;
+    const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    Affine back = affine_identity;
+    if (!isfinite(det) || fabs(det) < 1e-12)
+        return back;
+    back.m[0][0] = m[1][1] / det, back.m[0][1] = -m[0][1] / det;
+    back.m[1][0] = -m[1][0] / det, back.m[1][1] = m[0][0] / det;
+    for (int i = 0; i < 2; i++)
+        back.m[i][3] = -(back.m[i][0] * m[0][3] + back.m[i][1] * m[1][3]);
+    return back;
+}
+
+/* uv' of uv, v up, for a transform as Assimp has it. FBX transforms the image, not the UV. From glTF, Assimp
+ * computes a translation that suits a rotation about the image's middle; glTF's own offset is got back from it. */
+static Affine uv_place(const Import *import, const struct aiUVTransform *t)
+{
+    const double sx = (double)t->mScaling.x, sy = (double)t->mScaling.y, angle = (double)t->mRotation;
+    const double c = cos(angle), s = sin(angle), x = (double)t->mTranslation.x, y = (double)t->mTranslation.y;
+    if (import->is_fbx) {
+        const Affine image = uv_placed(sx, sy, angle, x, y);
+        return uv_inverse(&image);
     }
+    if (import->is_gltf) { /* which turns the other way, for its v is down; about the corner at the top */
+        const double u = x - 0.5 * sx * (-c - s + 1), down = 0.5 * sy * (c - s - 1) + 1 - sy - y;
+        return uv_placed(sx, sy, -angle, u - s * sy, 1 - down - c * sy);
+    }
+    /* moved, turned, then scaled */
+    const Affine place = {
+        {{sx * c, -sx * s, 0, sx * (c * x - s * y)}, {sy * s, sy * c, 0, sy * (s * x + c * y)}, {0, 0, 1, 0}}};
     return place;
 }
 
@@ -88,7 +108,7 @@ static int get_map(const Import *import, const struct aiMaterial *m, enum aiText
     map->source[path.length] = '\0';
     map->uv_set = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS ? (int)uv : 0;
     if (aiGetMaterialUVTransform(m, AI_MATKEY_UVTRANSFORM(type, index), &transform) == aiReturn_SUCCESS)
-        map->place = uv_place(&transform, import->is_gltf);
+        map->place = uv_place(import, &transform);
     return 1;
 }
 
@@ -294,15 +314,7 @@ static void print_color(FILE *out, const float c[3])
 /* The pigment's transform undoes the map's, for POV-Ray moves the image, not the UV. */
 static void print_place(FILE *out, const Affine *place)
 {
-    const double(*m)[4] = place->m;
-    const double det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    Affine back = affine_identity;
-    if (!isfinite(det) || fabs(det) < 1e-12)
-        return;
-    back.m[0][0] = m[1][1] / det, back.m[0][1] = -m[0][1] / det;
-    back.m[1][0] = -m[1][0] / det, back.m[1][1] = m[0][0] / det;
-    for (int i = 0; i < 2; i++)
-        back.m[i][3] = -(back.m[i][0] * m[0][3] + back.m[i][1] * m[1][3]);
+    const Affine back = uv_inverse(place);
     affine_print(out, &back);
 }
 
@@ -400,10 +412,10 @@ static void print_interior(FILE *out, const Surface *s)
     fprintf(out, " }\n");
 }
 
-/* Emission is a factor of the pigment. Give the pigment a colour where it has none, and find the factor. */
+/* Emission is a factor of the pigment. Give the pigment a colour where it has none, and find the factor. Returns 0
+ * where the surface only shines. */
 static int place_emission(Import *import, Surface *s, float emission[3])
 {
-    int has_diffuse = 1;
     memcpy(emission, s->emission, sizeof s->emission);
     if (s->unlit) {
         emission[0] = emission[1] = emission[2] = 1;
@@ -435,7 +447,7 @@ static int place_emission(Import *import, Surface *s, float emission[3])
         s->base[k] = fmaxf(s->base[k], 0.004f);
         emission[k] /= s->base[k];
     }
-    return has_diffuse;
+    return 1;
 }
 
 /* The image of a finish's number, as a file of its own. A mesh has one set of UV: where the colour uses another one,
