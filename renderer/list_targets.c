@@ -80,7 +80,7 @@ void list_targets(Arguments *a, const Scene *scene)
     RetexImage sheet = {0};
     RetexError err;
     list_idents(a, scene);
-    if (!a->sheet && !a->cli->verbose)
+    if (!lists_pixels(a))
         return;
     if (render_candidates(&all, a->sheet ? &sheet : NULL, scene, &a->render, &err))
         cli_fail(a->cli, &err);

@@ -223,7 +223,7 @@ int main(int argc, char **argv)
     if (!a.list)
         job_warn_dark(scene, &a.sdl);
     check_targets(&a, scene);
-    if (!a.list && job_check_size(scene, &a.render, &err))
+    if ((!a.list || lists_pixels(&a)) && job_check_size(scene, &a.render, &err))
         fail(&a, &err);
     replace_textures(&a, scene, loaded);
     double parse_seconds = retex_clock_seconds() - started;

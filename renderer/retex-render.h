@@ -55,6 +55,8 @@ void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **l
 
 /* Before the scene is read: check that the picture can be written. */
 void check_sheet(const Arguments *arguments);
+/* Whether it takes memory for each pixel. */
+static inline int lists_pixels(const Arguments *a) { return a->sheet || a->cli->verbose; }
 void list_targets(Arguments *arguments, const Scene *scene);
 
 /* ---- fingerprint.c ---- */

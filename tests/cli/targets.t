@@ -118,3 +118,6 @@ $ retex-render -q --list-targets=- room.pov; retex-render -q --list-targets=room
 ! retex-render: error: sheet.what: no picture format has the ending .what; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: --list-targets: the name is empty
 = 2
+# Its memory is limited.
+$ retex-render -q -v --list-targets --max-memory 200 --size 16000x16000 room.pov 2>&1 | grep -c 'pixels need .* of memory'
+> 1
