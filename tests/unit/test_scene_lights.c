@@ -154,6 +154,17 @@ static void test_sky(void **state)
     scene_close(&scene);
 }
 
+static void test_negative_light(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "light_source{0, rgb <1,-.1,0>} light_source{0, 1}");
+    assert_null(strstr(messages, "negative"));
+    scene_close(&scene);
+    scene = parse(V37 "light_source{0, 1} light_source{y, rgb -.9 spotlight}");
+    assert_non_null(strstr(messages, "`light_source of negative colour` is not supported yet: it takes no light away"));
+    scene_close(&scene);
+}
+
 /* ---- targets ---- */
 
 static const char target_text[] =
@@ -243,11 +254,11 @@ static void test_bright_lights_of_old_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_camera),        cmocka_unit_test(test_bright_lights_of_old_scenes),
-        cmocka_unit_test(test_lights),        cmocka_unit_test(test_light_kinds_written_twice),
-        cmocka_unit_test(test_photons),       cmocka_unit_test(test_names_of_insides),
-        cmocka_unit_test(test_sky),           cmocka_unit_test(test_targets),
-        cmocka_unit_test(test_target_errors),
+        cmocka_unit_test(test_camera),  cmocka_unit_test(test_bright_lights_of_old_scenes),
+        cmocka_unit_test(test_lights),  cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_photons), cmocka_unit_test(test_names_of_insides),
+        cmocka_unit_test(test_sky),     cmocka_unit_test(test_negative_light),
+        cmocka_unit_test(test_targets), cmocka_unit_test(test_target_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

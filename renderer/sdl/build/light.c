@@ -218,5 +218,7 @@ const Object *parse_light_source(Sdl *sdl)
     object->light = light;
     while (!sdl_accept(sdl, "}"))
         modifier(sdl, object, light), sdl_optional_comma(sdl);
+    if (rgb_luminance(light->color) < 0)
+        sdl_unsupported(sdl, "light_source of negative colour", "it takes no light away");
     return object;
 }
