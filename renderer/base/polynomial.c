@@ -47,6 +47,9 @@ static inline double bracketed(RootFunction *f, const void *data, double low, do
         else
             low = s;
         next = s - v / d;
+        /* The value is rounding alone: the bracket's other end may be far, and halving would take long. */
+        if (fabs(v) <= share * fabs(s * d) && isfinite(d))
+            return fmin(fmax(next, low), high);
         if (!(next > low && next < high && fabs(next - s) <= 0.5 * step))
             next = 0.5 * (low + high);
         step = fabs(next - s);

@@ -190,6 +190,31 @@ static void products_with_linear_terms(void **unused)
     assert_true(polynomial_value(c, 2, 2) == -4 - 20 + 24);
 }
 
+/* A difference of squares: near its root the value is rounding alone. */
+static int evaluations;
+
+static double difference_of_squares(const void *data, double x, double *slope)
+{
+    const double root = *(const double *)data, a = 1 + x, b = 1 + root;
+    evaluations++;
+    *slope = 2 * a;
+    return a * a - b * b;
+}
+
+static void few_steps_end_at_rounding(void **unused)
+{
+    enum { ROOTS = 1000 };
+
+    (void)unused;
+    evaluations = 0;
+    for (int i = 0; i < ROOTS; i++) {
+        const double root = between(0.3, 0.9);
+        const double found = root_between(difference_of_squares, &root, 0, 1, 1);
+        assert_true(fabs(found - root) <= 8 * DBL_EPSILON);
+    }
+    assert_true(evaluations < 8 * ROOTS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +224,7 @@ int main(void)
         cmocka_unit_test(joined_intervals_share_no_root),
         cmocka_unit_test(unit_pieces_have_all_roots),
         cmocka_unit_test(products_with_linear_terms),
+        cmocka_unit_test(few_steps_end_at_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
