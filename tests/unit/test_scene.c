@@ -272,7 +272,11 @@ static void test_emitters(void **state)
         {V37 "sphere{0,1 finish{emission 3}}", 3, 3.1},
         {V37 "sphere{0,1}", 0, .1},
         {V37 "sphere{0,1 finish{diffuse 0}}", 0, .1},
-        {V37 "sphere{0,1 finish{ambient .39}}", 0, .39},
+        {V37 "sphere{0,1 finish{ambient .1}}", 0, .1},
+        {V37 "sphere{0,1 finish{ambient .39}}", .29, .39},
+        {V37 "#default{finish{ambient .3}} sphere{0,1}", 0, .3},
+        {V37 "#default{finish{ambient .3}} sphere{0,1 finish{ambient .35}}", .05, .35},
+        {V37 "#default{finish{ambient 0}} sphere{0,1 finish{ambient .15}}", .05, .15},
         {V37 "sphere{0,1 finish{ambient .4}}", .4, .4},
         {V37 "sphere{0,1 finish{ambient rgb <.5,.1,.1>}}", .1, .1},
         {V37 "sphere{0,1 finish{ambient .11 diffuse 0}}", .11, .11},
@@ -282,9 +286,11 @@ static void test_emitters(void **state)
         {"#version 3.5; global_settings{assumed_gamma 1 radiosity{}} sphere{0,1 finish{ambient 1}}", 1, 1},
         /* the number is looked at as it is written, and then decoded */
         {"#version 3.5; sphere{0,1 finish{ambient .5}}", .214041140, .214041140},
-        {"#version 3.7; global_settings{assumed_gamma .5} sphere{0,1 finish{ambient .36}}", 0, .6},
+        {"#version 3.7; global_settings{assumed_gamma .5} sphere{0,1 finish{ambient .36}}", .509901951, .6},
         /* A bright background gives what ambient stands for. */
         {V37 "background{rgb .5} sphere{0,1 finish{ambient .5 diffuse .45}}", 0, .5},
+        {V37 "background{rgb .2} sphere{0,1 finish{ambient .2}}", 0, .2},
+        {V37 "background{rgb .19} sphere{0,1 finish{ambient .2}}", .1, .2},
         {V37 "background{rgb .49} sphere{0,1 finish{ambient .5 diffuse .45}}", .5, .5},
         {V37 "background{rgb 1} sphere{0,1 finish{ambient .5 diffuse 0}}", .5, .5},
         {V37 "background{rgb 2} sphere{0,1 finish{ambient 1 diffuse .5}}", 1, 1},
@@ -292,7 +298,7 @@ static void test_emitters(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_float_equal(emission_by(cases[k].text, 0), cases[k].by_rule, 1e-6);
         assert_float_equal(emission_by(cases[k].text, 1), cases[k].all, 1e-6);
-        assert_float_equal(emission_by(cases[k].text, -1), k == 2 ? 3 : k == 10 ? .1 : 0, 1e-6);
+        assert_float_equal(emission_by(cases[k].text, -1), k == 2 ? 3 : k == 14 ? .1 : 0, 1e-6);
     }
 }
 

@@ -73,7 +73,7 @@ typedef struct ParsedColorMap {
 typedef struct ParsedFinish {
     Finish finish; /* first */
     double ior;    /* written in the finish, as old scenes do; 0 = not */
-    int shines;    /* its ambient is emission */
+    int shines;    /* its ambient is emission, or what is left of it */
     Gaps gaps;
     struct ParsedFinish *next;
 } ParsedFinish;

@@ -130,23 +130,41 @@ static void complete_finishes(Sdl *sdl)
 
 /* ---- emitters ---- */
 
-#define AMBIENT_SHINES 0.4f       /* from here on an ambient was made to shine */
-#define AMBIENT_SHINES_ALONE 0.1f /* above this it was, where nothing diffuse is beside it: POV-Ray's default */
+#define AMBIENT_SHINES 0.4f   /* from here on an ambient was made to shine */
+#define AMBIENT_ORDINARY 0.1f /* POV-Ray's default: it stands for indirect light */
 
-/* Small `ambient` stands for the indirect light that paths find; strong one was made to be seen, as that of skies,
- * lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions. Beside a bright background it
- * stands for the light that comes from there, as molecules before white have it. Looks at the numbers as they are
- * written. */
+/* That of the scene's default, which was chosen for all surfaces. */
+static float ordinary_ambient(const Builder *builder)
+{
+    const ParsedTexture *of = builder->default_texture;
+    return of ? fmaxf(AMBIENT_ORDINARY, rgb_max(of->texture.finish->ambient)) : AMBIENT_ORDINARY;
+}
+
+/* The share of its ambient that shines. */
+static float shining_share(const Finish *finish, float ordinary, float background)
+{
+    const float ambient = rgb_max(finish->ambient);
+    if (finish->diffuse > 0 && ambient < 1 && background >= ambient)
+        return 0;
+    if (ambient >= AMBIENT_SHINES || (finish->diffuse == 0 && ambient > AMBIENT_ORDINARY))
+        return 1;
+    return ambient > ordinary ? (ambient - ordinary) / ambient : 0;
+}
+
+/* Small `ambient` stands for the indirect light that paths find; what is above it was made to be seen, and strong one
+ * wholly, as that of skies, lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions.
+ * Beside a bright background it stands for the light that comes from there, as molecules before white have it. Looks
+ * at the numbers as they are written. */
 static void find_shining(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
     const int flag = sdl_options(sdl)->ambient, may = !builder->radiosity || sdl_version(sdl) < 3.7;
-    const float background = rgb_max(sdl_scene(sdl)->background);
+    const float ordinary = ordinary_ambient(builder), background = rgb_max(sdl_scene(sdl)->background);
     for (ParsedFinish *f = builder->finishes; f; f = f->next) {
-        const float ambient = rgb_max(f->finish.ambient);
-        const int strong = ambient >= AMBIENT_SHINES || (f->finish.diffuse == 0 && ambient > AMBIENT_SHINES_ALONE);
-        const int of_background = f->finish.diffuse > 0 && ambient < 1 && background >= ambient;
-        f->shines = flag ? flag > 0 : may && strong && !of_background;
+        const float share = flag ? flag > 0 : may ? shining_share(&f->finish, ordinary, background) : 0;
+        f->shines = share > 0;
+        if (f->shines)
+            f->finish.ambient = rgb_scale(f->finish.ambient, share);
     }
 }
 
