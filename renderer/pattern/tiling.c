@@ -14,7 +14,9 @@ static double inset(const Tiling *tiling, const Vec2 *corners, int n, Vec2 p)
     for (int i = 0; i < n; i++) {
         const Vec2 a = corners[i], b = corners[i + 1 < n ? i + 1 : 0];
         const double x = b.u - a.u, z = b.v - a.v;
-        const double factor = tiling->upright > 0 && fabs(x) < 1e-9 ? tiling->upright : 1;
+        /* Those along z, and the lowest one. */
+        const int is_straight = n == 12 && (fabs(x) < 1e-9 || (fabs(z) < 1e-9 && x > 0));
+        const double factor = is_straight && tiling->straight > 0 ? tiling->straight : 1;
         least = fmin(least, factor * (x * (p.v - a.v) - z * (p.u - a.u)) / hypot(x, z));
     }
     return least;

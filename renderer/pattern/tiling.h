@@ -10,7 +10,7 @@ enum { TILING_SIDES = 12 };
 typedef struct Tiling {
     int types;                /* colours: tiles of type k have values from k / types to (k + 1) / types */
     double root, slope;       /* slope: by how much the value falls from a tile's edge inwards, of 1 / types */
-    double upright;           /* 0, or a factor of the distance from edges along z */
+    double straight;          /* POV-Ray's factor of the distance from some edges of its dodecagons; or 0 */
     signed char lattice[2][4]; /* after which all repeats: x, z */
     int ntiles;
     const signed char *tiles; /* of each: its type, how many corners it has, and these, x and z */

@@ -158,7 +158,7 @@ const Tiling tilings[TILINGS] = {
         4, 4, 0,0,-1,0, 0,-1,0,0, -1,-1,0,-1, -1,0,-1,-1,
         5, 4, 1,1,0,-1, 0,1,0,0, 0,0,-1,0, 1,0,-1,-1,}},
     /* 22: dodecagons, triangles */
-    {.types = 3, .root = SQRT3, .slope = 2 * SQRT3, .upright = SQRT3 / 2, .lattice = {{2, 1, 3, 2}, {-2, -1, 3, 2}},
+    {.types = 3, .root = SQRT3, .slope = 2 * SQRT3, .straight = SQRT3 / 2, .lattice = {{2, 1, 3, 2}, {-2, -1, 3, 2}},
      .ntiles = 3, .tiles = (const signed char[]){
         0, 3, 1,0,1,0, 0,0,1,1, -1,0,1,0,
         1, 3, 3,1,0,0, 1,1,0,0, 2,1,0,-1,

@@ -144,6 +144,7 @@ triangular
 waves
 wrinkles'''.split('\n')]
 PIGMENTS += [f'tiling {n} scale .4 translate <.123,0,.077>' for n in range(1, 25)]
+PIGMENTS += [f'tiling 22 scale {s} translate <.123,0,.077>' for s in (.07, .13, .17, .23, .31)]
 
 
 def main():

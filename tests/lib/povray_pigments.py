@@ -72,6 +72,7 @@ PIGMENTS = [
     ('image_map { function 5,4 { pigment { checker rgb <1,.2,.3>, rgb <.2,.3,.4> scale .3 } } filter all .3 once }', 1),
     (f'image_map {{ {COLOURS} repeat <2,3> }}', 2),
     (f'image_map {{ {COLOURS} offset <.3,.2> once }}', 1.2),
+    (f'image_map {{ {COLOURS} offset <.5,0> once }} translate -.75', .8),
     (f'image_map {{ {COLOURS} repeat <3,.5> offset <.1,.2> interpolate 2 map_type 1 }}', 2),
     (f'image_map {{ {COLOURS} once map_type 2 offset <0,.4> }}', 2),
     ('image_pattern { function 4,5 { x*y } interpolate 2 }', 2),
