@@ -264,7 +264,7 @@ static void test_exr_of_any_light(void **state)
         const double raw = 600e3 + 1000;
         printf("# light %d: %.4f, in a set %.4f\n", kind, (double)light.count / raw, (double)set.count / raw);
         assert_true((double)light.count < most[kind] * raw);
-        assert_true((double)light.count < 1.05 * (double)set.count);
+        assert_true((double)light.count < 1.05 * (double)set.count + 100); /* for its head, which names its colours */
         free(set.data);
         free(light.data);
         retex_image_free(&im);
