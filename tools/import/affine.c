@@ -82,3 +82,8 @@ void affine_print(FILE *out, const Affine *a)
     if (moved)
         fprintf(out, " translate <%.8g, %.8g, %.8g>", m[0][3], m[1][3], m[2][3]);
 }
+
+void vector_print(FILE *out, const char *before, const double v[3], const char *after)
+{
+    fprintf(out, "%s<%.7g, %.7g, %.7g>%s", before, v[0], v[1], v[2], after);
+}

@@ -5,13 +5,6 @@
 
 #include "import/internal.h"
 
-#define PI 3.14159265358979323846
-
-static void print_vector(FILE *out, const char *what, const double v[3])
-{
-    fprintf(out, "  %s <%.7g, %.7g, %.7g>\n", what, v[0], v[1], v[2]);
-}
-
 /* Position, direction and up of a camera in the scene. Returns 0 where they are no numbers. */
 static int place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
 {
@@ -64,14 +57,14 @@ static int write_camera(const Import *import, int index, const char *name, FILE 
     fprintf(out, "#declare %s = camera {\n", name);
     if (view.width > 0)
         fprintf(out, "  orthographic\n");
-    print_vector(out, "location", at);
-    print_vector(out, "sky", up);
+    vector_print(out, "  location ", at, "\n");
+    vector_print(out, "  sky ", up, "\n");
     if (view.width > 0) {
         const double width = view.width * import->options->scale;
         fprintf(out, "  right x * %.7g\n  up y * %.7g\n", width, width / view.aspect);
     } else
         fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", view.aspect, view.angle * 180 / PI);
-    print_vector(out, "look_at", to);
+    vector_print(out, "  look_at ", to, "\n");
     fprintf(out, "}\n");
     return 1;
 }
@@ -90,9 +83,9 @@ static void write_framing(const Import *import, FILE *out)
     for (int k = 0; k < 3; k++)
         at[k] = middle[k] + from[k] * radius / tan(angle / 2 * 0.75 * PI / 180);
     fprintf(out, "camera {\n");
-    print_vector(out, "location", at);
+    vector_print(out, "  location ", at, "\n");
     fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", angle);
-    print_vector(out, "look_at", middle);
+    vector_print(out, "  look_at ", middle, "\n");
     fprintf(out, "}\n\n");
     import_tell(import, IMPORT_INFO, "no camera in the model: the scene is framed");
 }

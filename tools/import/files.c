@@ -135,7 +135,7 @@ static RetexAccessResult try_file(Import *import, const char *folder, const char
     return result;
 }
 
-/* Names come from other machines: "C:\work\wood.png", "file:///work/my%20wood.png". */
+/* Names come from other machines: "C:\wood.png", "file:///textures/my%20wood.png". */
 static void clean_name(const char *name, char clean[PATH_MAX])
 {
     size_t n = 0;

@@ -13,6 +13,8 @@
 
 #include "import/import.h"
 
+#define PI 3.14159265358979323846
+
 enum { NAME_MAX_LENGTH = 48, NAME_SIZE = 64, TEXT_SIZE = sizeof((struct aiString *)NULL)->data }; /* of Assimp */
 
 /* ---- names.c: identifiers that are legal, unique whatever the case, and no keywords ---- */
@@ -42,6 +44,7 @@ void affine_vector(const Affine *a, const double v[3], double out[3]);
 Affine affine_mirror_z(const Affine *a);
 /* Write as transforms of POV-Ray with a space before each; nothing for the identity. */
 void affine_print(FILE *out, const Affine *a);
+void vector_print(FILE *out, const char *before, const double v[3], const char *after);
 
 /* ---- the import ---- */
 

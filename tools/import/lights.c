@@ -4,8 +4,6 @@
 
 #include "import/internal.h"
 
-#define PI 3.14159265358979323846
-
 /* glTF counts in candela and lux. Blender writes 683 lumens for a watt; of other programs the numbers are taken as
  * they are. */
 static double photometric(const Import *import)
@@ -39,11 +37,6 @@ static Falloff falloff_of(const Import *import, const struct aiLight *light)
     if (l > 1e-12 && c > 1e-6)
         return (Falloff){0.5 / c, c / l * scale, 1};
     return (Falloff){c > 1e-6 ? 1 / c : 1, 0, 0};
-}
-
-static void print_vector(FILE *out, const char *what, const double v[3])
-{
-    fprintf(out, "%s<%.7g, %.7g, %.7g>", what, v[0], v[1], v[2]);
 }
 
 static void print_color(FILE *out, const struct aiLight *light, double factor)
@@ -128,12 +121,12 @@ static void write_light(Import *import, const struct aiLight *light, double user
     if (light->mType == aiLightSource_DIRECTIONAL) {
         for (int k = 0; k < 3; k++)
             at[k] = middle[k] - to[k] * 2 * (sqrt(radius) + 1);
-        print_vector(out, " ", at);
+        vector_print(out, " ", at, "");
         print_color(out, light, user * (import->is_gltf ? photometric(import) / PI : 1));
-        print_vector(out, " parallel point_at ", middle);
+        vector_print(out, " parallel point_at ", middle, "");
     } else {
         const Falloff falloff = falloff_of(import, light);
-        print_vector(out, " ", at);
+        vector_print(out, " ", at, "");
         print_color(out, light, user * falloff.factor);
         if (light->mType == aiLightSource_SPOT)
             print_spot(import, light, out);
@@ -143,7 +136,7 @@ static void write_light(Import *import, const struct aiLight *light, double user
         if (light->mType == aiLightSource_SPOT) {
             for (int k = 0; k < 3; k++)
                 to[k] += at[k];
-            print_vector(out, " point_at ", to);
+            vector_print(out, " point_at ", to, "");
         }
         if (falloff.power > 0)
             fprintf(out, " fade_distance %.6g fade_power %g", falloff.distance, falloff.power);
