@@ -151,6 +151,7 @@ typedef enum NormalKind {
     NORMAL_SLOPE,            /* by the slope of the pattern's value */
     NORMAL_VECTORS,          /* by a field of vectors: the pattern has one, see shade/normal_vectors.c */
     NORMAL_IMAGE,
+    NORMAL_TANGENT,          /* by a normal map in tangent space */
     NORMAL_MAP,              /* normals by the pattern's value, or which of a list's */
     NORMAL_AVERAGE
 } NormalKind;
@@ -167,6 +168,7 @@ typedef struct Normal {
     const SlopeMapEntry *slopes; /* NORMAL_SLOPE: a curve over the value; sorted by value */
     const NormalMapEntry *entries; /* NORMAL_MAP: sorted by value, or the list; NORMAL_AVERAGE */
     const BumpMap *bump_map;
+    const Pigment *vectors;  /* NORMAL_TANGENT: colours that stand for vectors, at the shape's UV */
     struct Facets {
         double size, coords, metric; /* coords 0: a facet is where normals are alike, else where points are */
     } facets;
@@ -288,6 +290,12 @@ typedef struct MeshFace {
     int vertex[3], normal[3], uv[3];
     int texture;             /* index into the shape's textures; -1 = the primitive's own texture */
 } MeshFace;
+/* Of corners, for normal maps; see mesh_add_tangents. */
+typedef struct MeshTangents {
+    int count;
+    Vec3 *vectors;           /* of unit length */
+    int (*corners)[3];       /* of each face: indices, or -1 in all three */
+} MeshTangents;
 typedef struct Mesh {
     int nvertices, nnormals, nuvs, nfaces;
     Vec3 *vertices, *normals;
@@ -298,6 +306,7 @@ typedef struct Mesh {
     int closed_inside;       /* inside_vector was given: has an inside */
     int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
     const struct Bvh *tree;  /* over the faces, or NULL: see mesh_index */
+    const MeshTangents *tangents; /* or NULL: each face has its own */
 } Mesh;
 
 static inline int mesh_face_has_normals(const MeshFace *f)

@@ -103,6 +103,8 @@ static Vec3 tilt(const Normal *bumps, const Place *place, int keeps_size, Vec3 p
         return map_tilt(bumps, place, keeps_size, p, n);
     case NORMAL_AVERAGE:
         return average_tilt(bumps, place, keeps_size, p, n);
+    case NORMAL_TANGENT: /* has no pattern space */
+        break;
     }
     return n;
 }
@@ -119,6 +121,8 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
     const int needs_value = bumps->kind == NORMAL_SLOPE || bumps->kind == NORMAL_MAP;
     if (needs_value && (!bumps->pattern.ops || !bumps->pattern.ops->value))
         return n; /* no pattern, or one that is not supported */
+    if (bumps->kind == NORMAL_TANGENT)
+        return unit(tangent_normal(bumps, place->surface, n), n);
     keeps_size |= bumps->keeps_size;
     if (bumps->uv_mapping && place->surface->primitive) {
         const Vec2 uv = surface_uv(place->surface).uv;

@@ -19,5 +19,7 @@ typedef Vec3 NormalVectors(const Normal *bumps, Vec3 p, Vec3 normal);
 NormalVectors *normal_vectors(const PatternOps *pattern);
 /* The normal tilted by a picture at a point of pattern space. */
 Vec3 bump_map_tilt(const Normal *bumps, Vec3 p, Vec3 normal);
+/* The normal that a normal map says, of any length; normal: that of the surface, in the space of its texture. */
+Vec3 tangent_normal(const Normal *bumps, const Surface *surface, Vec3 normal);
 
 #endif

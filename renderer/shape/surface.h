@@ -72,6 +72,9 @@ static inline Vec3 surface_texture_normal(const Surface *surface)
     return vec_normalize(transform_inverse_normal(&surface->instance->transform, surface->geometric_normal));
 }
 SurfaceUv surface_uv(const Surface *surface); /* not part of surface_at, for most surfaces have one colour */
+/* Unit vectors perpendicular to a unit normal, in the space of the surface's texture: where u grows, and where v does.
+ * 0 where UV do not span the surface. normal: on the outward side, in that space. */
+int surface_tangents(const Surface *surface, Vec3 normal, Vec3 *tangent, Vec3 *bitangent);
 /* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */
 void surface_turn(Surface *surface, int backside);
 
@@ -103,6 +106,8 @@ Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2);
 /* Makes the tree that goes with intersecting it in double, if it is not there: without it each face is tested. 0
  * without memory. */
 int mesh_index(Arena *arena, Mesh *mesh);
+/* Gives corners smooth tangents, if they have none yet. 0 without memory. */
+int mesh_add_tangents(Arena *arena, Mesh *mesh);
 /* Of a point on the face, in object space. */
 void mesh_barycentrics(const Mesh *mesh, int face, Vec3 p, double *b1, double *b2);
 /* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */

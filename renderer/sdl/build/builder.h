@@ -301,6 +301,7 @@ int transform_is_identity(const Transform *t);
 ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
 ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
+const Pigment *parse_uv_pigment(Sdl *sdl); /* of the block `retex` and the like: on the shape's UV, with its braces */
 Rgbft pigment_mean(const Pigment *pigment);
 /* A pattern of textures, up to the end: the pattern as a pigment without colours, and its textures in map. */
 ParsedPigment *parse_selector(Sdl *sdl, char end, ParsedTextureMap *map);
@@ -348,6 +349,8 @@ const ParsedNormal *normal_changed(Sdl *sdl, const ParsedNormal *normal, int uv_
 void normal_load(Sdl *sdl, const Normal *normal);          /* the pictures of it, once it is known to be used */
 const BumpMap *parse_bump_map(Sdl *sdl, double *size);     /* after bump_map; *size: where it says bump_size */
 void load_bump_map(Sdl *sdl, const BumpMap *map);
+/* mesh_tangents.c: once textures are complete */
+void add_tangents(Sdl *sdl);
 
 /* warp.c */
 int accept_turbulence(Sdl *sdl, Turbulence *turbulence); /* turbulence, octaves, lambda or omega */

@@ -299,6 +299,7 @@ void finalize_scene(Sdl *sdl)
     load_images(sdl);
     each_texture(sdl, visit_complete, NULL);
     each_texture(sdl, visit_albedo, NULL);
+    add_tangents(sdl);
     find_shining(sdl);
     decode_colors(sdl);
     camera_finish(sdl);

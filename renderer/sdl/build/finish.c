@@ -72,8 +72,7 @@ static void reflection(Sdl *sdl, Finish *f)
     }
 }
 
-/* A pigment on the shape's UV. */
-static const Pigment *retex_map(Sdl *sdl)
+const Pigment *parse_uv_pigment(Sdl *sdl)
 {
     ParsedPigment *pigment = parse_pigment(sdl, NULL);
     pigment->pigment.uv_mapping = 1;
@@ -98,9 +97,9 @@ static void retex_block(Sdl *sdl, Finish *f)
         else if (sdl_accept(sdl, "transmission"))
             f->retex.transmission = in_range(sdl, "transmission", 0, 1);
         else if (sdl_accept(sdl, "metallic_map"))
-            f->retex.metallic_map = retex_map(sdl);
+            f->retex.metallic_map = parse_uv_pigment(sdl);
         else if (sdl_accept(sdl, "roughness_map"))
-            f->retex.roughness_map = retex_map(sdl);
+            f->retex.roughness_map = parse_uv_pigment(sdl);
         else
             sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, metallic_map, roughness_map or } "
                               "in retex");

@@ -129,6 +129,12 @@ static int accept_normal_pattern(Sdl *sdl, Reader *r)
         n->bump_map = parse_bump_map(sdl, &n->size);
         return 1;
     }
+    if (sdl_accept(sdl, "retex_normal_map")) {
+        n->kind = NORMAL_TANGENT;
+        n->vectors = parse_uv_pigment(sdl);
+        n->size = 1;
+        return 1;
+    }
     if (sdl_accept(sdl, "average")) {
         n->kind = NORMAL_AVERAGE;
         return 1;
@@ -267,6 +273,8 @@ void normal_load(Sdl *sdl, const Normal *normal)
         return;
     if (normal->kind == NORMAL_IMAGE)
         load_bump_map(sdl, normal->bump_map);
+    if (normal->kind == NORMAL_TANGENT)
+        load_pigment_images(sdl, normal->vectors, 0);
     for (int i = 0; i < normal->nentries; i++)
         normal_load(sdl, normal->entries[i].normal);
 }
