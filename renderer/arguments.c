@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include "base/digest.h"
 #include "retex-render.h"
 
 enum {
@@ -47,6 +48,7 @@ enum {
     OPT_STATS,
     OPT_TRACE,
     OPT_STEPS,
+    OPT_FRAMES,
     OPT_PROGRESS
 };
 
@@ -114,6 +116,7 @@ static const CliOption options[] = {
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of the pixel, step by step, and stop", 0},
     [OPT_STEPS] = {"max-steps", 0, "N", "limit reading the scene to N steps; default 200000000; also RETEX_MAX_STEPS",
                    0},
+    [OPT_FRAMES] = FRAMES_OPTION,
     [OPT_PROGRESS] = CLI_PROGRESS_OPTION,
     BATCH_OPTIONS,
     {0},
@@ -231,6 +234,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_STEPS:
         cli_limit(cli, o);
         break;
+    case OPT_FRAMES:
+        frames_take(cli, o, &a->frames);
+        break;
     case OPT_TRACE:
         numbers(cli, o, ',', 3, a->trace);
         a->tracing = 1;
@@ -246,9 +252,26 @@ static void parse_option(Arguments *a, const CliOption *o)
     }
 }
 
+/* Whether a warning was printed for an earlier frame; the frames of an animation have the same ones. Only so many are
+ * kept. */
+static int was_told(const char *text)
+{
+    static uint64_t told[1024];
+    static size_t count;
+    const uint64_t digest = digest_text(DIGEST_BEGIN, text);
+    for (size_t k = 0; k < count; k++)
+        if (told[k] == digest)
+            return 1;
+    if (count < sizeof told / sizeof *told)
+        told[count++] = digest;
+    return 0;
+}
+
 static void scene_message(void *context, int level, const char *text)
 {
     const Cli *cli = context;
+    if (level > 0 && cli->frame[0] && was_told(text))
+        return;
     if (level > 0) /* a warning, printed also with -q */
         cli_message(cli, text);
     else
@@ -327,6 +350,7 @@ void parse_arguments(Arguments *a)
     a->render = defaults;
     a->render.sharp = 0; /* 0 until --clusters is given */
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
+    a->animation = (Animation)ANIMATION_INIT;
     while ((o = cli_next(cli))) {
         if (o != &cli_positional)
             parse_option(a, o);

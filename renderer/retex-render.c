@@ -10,8 +10,9 @@
 #include "render/aov_files.h"
 
 /* Announce all files of the command line. Files that the scene names are not among them. */
-static void announce_files(Arguments *a, const char *output)
+static void announce_files(Arguments *a)
 {
+    const char *output = a->list || a->tracing ? "-" : a->output;
     char path[4096];
     cli_reads(a->cli, "the scene", a->scene);
     cli_reads(a->cli, "the table", a->variants);
@@ -21,7 +22,7 @@ static void announce_files(Arguments *a, const char *output)
         cli_reads(a->cli, "the file of --merge", a->merged[k]);
     }
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
-    cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", a->list || a->tracing ? "-" : output);
+    cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", output);
     cli_writes(a->cli, "--stats", a->stats);
     cli_writes(a->cli, "the file of --list-targets", a->sheet);
     for (int k = 0; a->aov_dir && aov_files_path(path, sizeof path, a->aov_dir, k); k++)
@@ -47,10 +48,11 @@ static OutputKind output_kind(const Arguments *a, const char *output)
 }
 
 /* Finished rows are kept in a file beside the output. */
-static void name_checkpoint(Arguments *a, const char *output)
+static void name_checkpoint(Arguments *a)
 {
     struct stat old;
     RenderParams *r = &a->render;
+    const char *output = a->output;
     if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
         (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->control_data)
         return;
@@ -58,10 +60,16 @@ static void name_checkpoint(Arguments *a, const char *output)
         cli_die(a->cli, "the output's name is too long");
     r->checkpoint = a->checkpoint, r->output = output;
     r->merged = a->merged, r->nmerged = a->nmerged;
+}
+
+static void announce_checkpoint(const Arguments *a)
+{
     int there = access(a->checkpoint, F_OK) == 0;
-    if (r->resume || !there)
+    if (!a->render.checkpoint)
+        return;
+    if (a->render.resume || !there)
         cli_writes(a->cli, "the file of finished rows", a->checkpoint);
-    if (!r->resume && there)
+    if (!a->render.resume && there)
         cli_warn(a->cli, "%s is unchanged: --resume continues from it", a->checkpoint);
 }
 
@@ -184,6 +192,101 @@ static _Noreturn void fail(Arguments *a, const RetexError *err)
     exit(cli_close(a->cli, batch_finish(&a->batch, err)));
 }
 
+/* Before anything is rendered: check a frame's files. */
+static int check_files(Arguments *a)
+{
+    announce_files(a);
+    name_checkpoint(a);
+    announce_checkpoint(a);
+    if (a->variants)
+        check_table(a);
+    if (a->output)
+        check_output(a, a->output), check_stats(a);
+    if (a->sheet)
+        check_sheet(a);
+    return CLI_OK;
+}
+
+/* What rendering leaves: a set, or a picture as one. */
+static void finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, double parse_seconds)
+{
+    RetexError err;
+    round_set(a, set, a->output);
+    if (a->denoise)
+        denoise(a, set);
+    else if (a->no_denoise_data)
+        retex_denoise_drop_data(set);
+    if (a->aov_dir && aov_files_write(set, a->aov_dir, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+    if (a->output)
+        write_result(a, set, a->output);
+    if (a->render.resume)
+        unlink(a->checkpoint);
+    report(a, set, stats);
+    if (a->stats)
+        write_stats(a, stats, set, parse_seconds);
+}
+
+static Scene *open_scene(Arguments *a)
+{
+    RetexError err = {0};
+    Scene *scene = NULL;
+    if (job_open_scene(&scene, a->scene, &a->sdl, &a->render, a->targets, a->ntargets, &err))
+        fail(a, &err);
+    announce_files_of_scene(a, scene);
+    if (a->aov_dir && aov_files_check(a->aov_dir, &err))
+        cli_die(a->cli, "--aov-dir: %s", err.message);
+    if (!a->list)
+        job_warn_dark(scene, &a->sdl);
+    check_targets(a, scene);
+    if ((!a->list || lists_pixels(a)) && job_check_size(scene, &a->render, &err))
+        fail(a, &err);
+    return scene;
+}
+
+/* Render a frame, or the only picture. Return the exit status; most errors end the tool. */
+static int make_frame(Arguments *a)
+{
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
+    RenderStats stats;
+    name_checkpoint(a);
+    if (frame_is_there(a)) {
+        cli_info(a->cli, "%s is there", a->output);
+        return CLI_OK;
+    }
+    if (a->control)
+        read_control(a);
+    const int keeps = keeps_data(a, a->output);
+    a->render.denoise_data = a->denoise || keeps;
+    a->render.stored = keeps && !a->denoise;
+    double started = retex_clock_seconds();
+    Scene *scene = open_scene(a);
+    replace_textures(a, scene, loaded);
+    double parse_seconds = retex_clock_seconds() - started;
+    int failed = 0, status = CLI_OK;
+    if (a->list)
+        list_targets(a, scene);
+    else if (a->variants)
+        status = make_variants(a, scene);
+    else if (a->control)
+        render_controlled(a, scene, a->output);
+    else if (a->tracing)
+        failed = render_trace(scene, &a->render, a->trace[0], a->trace[1], a->trace[2], stdout, &err);
+    else
+        failed = render(a, scene, &set, &stats, &err);
+    if (failed)
+        cli_fail(a->cli, &err);
+    if (set)
+        finish_set(a, set, &stats, parse_seconds);
+    retex_set_close(&set);
+    scene_close(&scene);
+    for (int k = 0; k < a->nreplacements; k++)
+        retex_texture_close(&loaded[k]);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-render",
@@ -193,72 +296,12 @@ int main(int argc, char **argv)
                .next = 1,
                .about = "Render a scene in POV-Ray's language into a set for retexturing."};
     Arguments a = {.cli = &cli};
-    RetexError err = {0};
-    Scene *scene = NULL;
-    RetexSet *set = NULL;
-    RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
-    RenderStats stats;
     parse_arguments(&a);
     int needless = a.list || a.tracing || a.variants || (a.aov_dir && !cli.output && isatty(STDOUT_FILENO));
-    const char *output = needless ? NULL : cli_output(&cli);
-    announce_files(&a, output);
-    name_checkpoint(&a, output);
-    if (a.variants)
-        check_table(&a);
-    if (output)
-        check_output(&a, output), check_stats(&a);
-    if (a.sheet)
-        check_sheet(&a);
-    if (a.control)
-        read_control(&a);
-    const int keeps = keeps_data(&a, output);
-    a.render.denoise_data = a.denoise || keeps;
-    a.render.stored = keeps && !a.denoise;
-    double started = retex_clock_seconds();
-    if (job_open_scene(&scene, a.scene, &a.sdl, &a.render, a.targets, a.ntargets, &err))
-        fail(&a, &err);
-    announce_files_of_scene(&a, scene);
-    if (a.aov_dir && aov_files_check(a.aov_dir, &err))
-        cli_die(&cli, "--aov-dir: %s", err.message);
-    if (!a.list)
-        job_warn_dark(scene, &a.sdl);
-    check_targets(&a, scene);
-    if ((!a.list || lists_pixels(&a)) && job_check_size(scene, &a.render, &err))
-        fail(&a, &err);
-    replace_textures(&a, scene, loaded);
-    double parse_seconds = retex_clock_seconds() - started;
-    int failed = 0, status = CLI_OK;
-    if (a.list)
-        list_targets(&a, scene);
-    else if (a.variants)
-        status = make_variants(&a, scene);
-    else if (a.control)
-        render_controlled(&a, scene, output);
-    else if (a.tracing)
-        failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
-    else
-        failed = render(&a, scene, &set, &stats, &err);
-    if (failed)
-        cli_fail(&cli, &err);
-    if (set) {
-        round_set(&a, set, output);
-        if (a.denoise)
-            denoise(&a, set);
-        else if (a.no_denoise_data)
-            retex_denoise_drop_data(set);
-        if (a.aov_dir && aov_files_write(set, a.aov_dir, cli.threads, &err))
-            cli_fail(&cli, &err);
-        if (output)
-            write_result(&a, set, output);
-        if (a.render.resume)
-            unlink(a.checkpoint);
-        report(&a, set, &stats);
-        if (a.stats)
-            write_stats(&a, &stats, set, parse_seconds);
-    }
-    retex_set_close(&set);
-    scene_close(&scene);
-    for (int k = 0; k < a.nreplacements; k++)
-        retex_texture_close(&loaded[k]);
+    a.output = needless ? NULL : cli_output(&cli);
+    plan_frames(&a);
+    int status = for_each_frame(&a, check_files);
+    if (status == CLI_OK)
+        status = for_each_frame(&a, make_frame);
     return cli_close(&cli, status);
 }

@@ -7,6 +7,8 @@
 #include "cli.h"
 #include "texture_args.h"
 #include "batch.h"
+#include "frames.h"
+#include "job/animation.h"
 #include "job/job.h"
 
 #define LIST_MAX 64
@@ -15,6 +17,7 @@ typedef struct Arguments {
     Cli *cli;
     RenderParams render;
     SdlOptions sdl;
+    const char *output; /* NULL = none, or the table's */
     const char *scene, *stats, *variants, *control, *aov_dir, *sheet;
     ControlMode control_mode;
     int seeded;
@@ -31,12 +34,24 @@ typedef struct Arguments {
     int denoise, no_denoise_data, full_precision;
     const char *merged[LIST_MAX];
     int nmerged;
+    Animation animation;
+    FrameRange frames;     /* the frames of it that are rendered; step 0: one picture without a number */
     char checkpoint[4096]; /* OUTPUT.partial, or "" if the output is not a file */
 } Arguments;
 
 /* ---- arguments.c ---- */
 
 void parse_arguments(Arguments *arguments);
+
+/* ---- frames.c ---- */
+
+/* After parse_arguments: find the frames, and check that each has files of its own. */
+void plan_frames(Arguments *arguments);
+/* Call action for each frame, with names and numbers of that frame, or once if there are no frames. Ends at the first
+ * status that is not CLI_OK, and returns it. */
+int for_each_frame(Arguments *arguments, int (*action)(Arguments *frame));
+/* Whether --resume finds this frame finished: its file is there, and no finished rows beside it. */
+int frame_is_there(const Arguments *frame);
 
 /* ---- replaced.c: --replace, --variants and --control ---- */
 

@@ -378,12 +378,17 @@ char *cli_plain(char *text)
     return text;
 }
 
+void cli_set_frame(Cli *cli, int frame)
+{
+    snprintf(cli->frame, sizeof cli->frame, frame < 0 ? "" : "frame %d: ", frame);
+}
+
 /* Print one line to stderr. Messages contain names and text from users' files, so control characters are replaced: a
  * terminal would obey them. */
 static void message(const Cli *cli, const char *kind, const char *text)
 {
     watchdog_go_on();
-    fprintf(stderr, "%s: %s", cli->tool, kind);
+    fprintf(stderr, "%s: %s%s", cli->tool, kind, cli->frame);
     for (const char *c = text; *c; c++)
         fputc((unsigned char)*c < 32 || *c == 127 ? '?' : *c, stderr);
     fputc('\n', stderr);

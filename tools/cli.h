@@ -42,6 +42,7 @@ typedef struct Cli {
     int json_progress;       /* --progress json: replaces the progress bar and informational messages */
     const char *value;       /* argument of the option last returned */
     const char *modifiers;   /* the text after `--name:`, or "" */
+    char frame[24];          /* "frame 3: " in all messages while that frame is made, or "" */
     const char *group;       /* the letters of a group such as -qv that are not parsed yet */
     FILE *answer;            /* what a tool whose output is text prints to; see cli_answer */
     char *answer_text;       /* its text, where -o names a file */
@@ -60,6 +61,9 @@ long cli_integer(const Cli *cli, const CliOption *option, long low, long high);
 double cli_number(const Cli *cli, const CliOption *option, double low, double high);
 /* Store cli->value in cli->limits. */
 void cli_limit(Cli *cli, const CliOption *option);
+
+/* Name a frame of an animation in all further messages; -1 = none. */
+void cli_set_frame(Cli *cli, int frame);
 
 /* Print `retex-NAME: error: …`, with file, line and column if the error has them. */
 void cli_error(const Cli *cli, const RetexError *err);

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <retex/nearest.h>
 #include "film/params.h"
+#include "job/animation.h"
 #include "job/job.h"
 
 typedef struct Option {
@@ -176,13 +177,9 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
 
 int job_check_declare(const char *declare, RetexError *err)
 {
-    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
     const char *value = strchr(declare, '=');
-    int number = value && value[1] && strchr("0123456789.+-", value[1]);
     char *end;
-    for (int k = 0; k < 4; k++)
-        number |= !strncmp(declare, built_in[k], strlen(built_in[k]));
-    if (!number)
+    if (!value || !((value[1] && strchr("0123456789.+-", value[1])) || animation_is_declare(declare)))
         return RETEX_OK;
     strtod(value + 1, &end);
     if (*end || end == value + 1)

@@ -223,6 +223,10 @@ Num builtin_constant(Sdl *sdl, int id)
     case ID_CLOCK:
         sdl->frame_reads |= READ_CLOCK;
         return num_float(sdl->clock);
+    case ID_CLOCK_DELTA:
+        return num_float(sdl->clock_delta);
+    case ID_CLOCK_ON:
+        return num_float(sdl->clock_on);
     case ID_IMAGE_WIDTH:
         return num_float(sdl->options.width ? sdl->options.width : 640);
     case ID_IMAGE_HEIGHT:
@@ -243,7 +247,7 @@ Num builtin_constant(Sdl *sdl, int id)
     case ID_VERSION:
         return num_float(sdl->version);
     default:
-        return num_float(0); /* false, clock_delta, clock_on: a still image has no animation clock */
+        return num_float(0); /* false */
     }
 }
 

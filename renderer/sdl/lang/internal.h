@@ -225,7 +225,7 @@ struct Sdl {
     const char **folders; /* search path of sdl_find_file */
     int nfolders;
     RetexAccess access; /* the resolved search path: only files under it may be read */
-    double clock, frame_number, initial_frame, final_frame, initial_clock, final_clock;
+    double clock, clock_delta, clock_on, frame_number, initial_frame, final_frame, initial_clock, final_clock;
 };
 
 /* language.c */

@@ -289,6 +289,8 @@ static void predeclare(Sdl *sdl, const char *text)
         const char *name;
         double *value;
     } settings[] = {{"clock", &sdl->clock},
+                    {"clock_delta", &sdl->clock_delta},
+                    {"clock_on", &sdl->clock_on},
                     {"frame_number", &sdl->frame_number},
                     {"initial_frame", &sdl->initial_frame},
                     {"final_frame", &sdl->final_frame},
@@ -296,6 +298,7 @@ static void predeclare(Sdl *sdl, const char *text)
                     {"final_clock", &sdl->final_clock}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (strcmp(word->text, settings[i].name) == 0 && value.kind == VALUE_FLOAT) {
+            sdl->clock_on = 1;
             *settings[i].value = value.number[0];
             return;
         }

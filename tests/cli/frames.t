@@ -1,0 +1,157 @@
+# Animations: what a scene knows of a frame, --frames, and file names that hold its number.
+
+# The values are those that POV-Ray 3.7.0.10 prints for the same scene with `-D -F +W4 +H4` and the switches
+# `+KFF3`; `+KFI2 +KFF6`; `+KFF4`: clock is rounded to single precision. Of clock_delta, POV-Ray
+# keeps six decimals, and in an animation of one frame it has no clock: here it is that of the first frame.
+$ printf '%s\n' '#macro P(N, V) #debug concat(" ", N, " ", str(V, 0, 9)) #end #debug concat("frame ", str(frame_number, 0, 0))' 'P("of", initial_frame) P("to", final_frame)' 'P("clock", clock) P("delta", clock_delta) P("on", clock_on) P("from", initial_clock) P("until", final_clock)' '#debug "\n"' 'sphere { clock * x, 1 pigment { rgb 1 } } light_source { -9 * z rgb 1 } camera { location -4 * z look_at 0 }' >s.pov; printf '%s\n' 'retex-render --size 8x6 --spp 2 s.pov "$@" 2>&1 | sed "/samples:/d; s/retex-render: //; s/\.000000000//g"' >clock
+$ sh clock -v --frames 1-3 -o a-%d.exr; sh clock -v --frames 2-6 -o b-%d.exr; sh clock -v --frames 7 -o c-%03d.exr; sh clock -v --frames 1-4x2 -o d-%d.png; sh clock -v --frames 2-5x3 -o d-%d.png; ls
+> frame 1: frame 1 of 1 to 3 clock 0 delta 0.500000000 on 1 from 0 until 1
+> frame 2: frame 2 of 1 to 3 clock 0.500000000 delta 0.500000000 on 1 from 0 until 1
+> frame 3: frame 3 of 1 to 3 clock 1 delta 0.500000000 on 1 from 0 until 1
+> frame 2: frame 2 of 2 to 6 clock 0 delta 0.250000000 on 1 from 0 until 1
+> frame 3: frame 3 of 2 to 6 clock 0.250000000 delta 0.250000000 on 1 from 0 until 1
+> frame 4: frame 4 of 2 to 6 clock 0.500000000 delta 0.250000000 on 1 from 0 until 1
+> frame 5: frame 5 of 2 to 6 clock 0.750000000 delta 0.250000000 on 1 from 0 until 1
+> frame 6: frame 6 of 2 to 6 clock 1 delta 0.250000000 on 1 from 0 until 1
+> frame 7: frame 7 of 7 to 7 clock 0 delta 0 on 1 from 0 until 1
+> frame 1: frame 1 of 1 to 4 clock 0 delta 0.333333333 on 1 from 0 until 1
+> frame 3: frame 3 of 1 to 4 clock 0.666666687 delta 0.333333333 on 1 from 0 until 1
+> frame 2: frame 2 of 2 to 5 clock 0 delta 0.333333333 on 1 from 0 until 1
+> frame 5: frame 5 of 2 to 5 clock 1 delta 0.333333333 on 1 from 0 until 1
+> a-1.exr
+> a-2.exr
+> a-3.exr
+> b-2.exr
+> b-3.exr
+> b-4.exr
+> b-5.exr
+> b-6.exr
+> c-007.exr
+> clock
+> d-1.png
+> d-2.png
+> d-3.png
+> d-5.png
+> s.pov
+
+# A still picture has no animation; -D sets its variables.
+$ sh clock -v -o s.exr; sh clock -v -D clock=.3 -o s.exr; sh clock -v -D frame_number=4 -D final_frame=9 -D clock_delta=.5 -o s.exr
+> frame 0 of 0 to 0 clock 0 delta 0 on 0 from 0 until 0
+> frame 0 of 0 to 0 clock 0.300000000 delta 0 on 1 from 0 until 0
+> frame 4 of 0 to 9 clock 0 delta 0.500000000 on 1 from 0 until 0
+
+# A frame is the same alone and among others; its seed is that of --seed plus its number.
+$ retex-render -q --size 8x6 --spp 2 --seed 5 -D clock=.5 -D frame_number=2 s.pov -t x=#1 -o still.exr; retex-render -q --size 8x6 --spp 2 --seed 3 s.pov -t x=#1 --frames 1-3 -o m-%d.exr; retex-diff m-2.exr still.exr --fail-abs 0 >/dev/null && echo same; cp m-2.exr kept.exr; rm m-*; retex-render -q --size 8x6 --spp 2 --seed 3 s.pov -t x=#1 --frames 1-3x2 -o m-%d.exr; retex-diff m-1.exr m-3.exr --fail-abs 0 >/dev/null || echo differ; ls m-*
+> same
+> differ
+> m-1.exr
+> m-3.exr
+
+# Every file of a frame may have its number.
+$ make_picture t-1.png; make_picture t-2.png noise=.2; retex-render -q --size 8x6 --spp 2 s.pov -t x=#1 --replace x=t-%d.png --frames 1-2 -o r-%d.exr --stats r-%d.json; retex-diff r-1.exr r-2.exr --fail-abs 0 >/dev/null || echo differ; retex-render -q --size 8x6 --spp 2 s.pov --frames 1-2 -o v-%d.exr --aov-dir v-%d --aov depth; for k in 1 2; do retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 -o p$k-%d --shard $k/2; done; retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 --merge p1-%d --merge p2-%d -o p-%d.exr; retex-render -q --size 8x6 --spp 2 s.pov --frames 3-4 -o q-%d.exr; cmp p-3.exr q-3.exr && cmp p-4.exr q-4.exr; ls; ls v-2; retex-render -q --size 8x6 --spp 2 s.pov --frames 4 -o 100%%-%%d-%d.exr; ls 1*
+> differ
+> a-1.exr
+> a-2.exr
+> a-3.exr
+> b-2.exr
+> b-3.exr
+> b-4.exr
+> b-5.exr
+> b-6.exr
+> c-007.exr
+> clock
+> d-1.png
+> d-2.png
+> d-3.png
+> d-5.png
+> kept.exr
+> m-1.exr
+> m-3.exr
+> p-3.exr
+> p-4.exr
+> p1-3
+> p1-4
+> p2-3
+> p2-4
+> q-3.exr
+> q-4.exr
+> r-1.exr
+> r-1.json
+> r-2.exr
+> r-2.json
+> s.exr
+> s.pov
+> still.exr
+> t-1.png
+> t-2.png
+> v-1
+> v-1.exr
+> v-2
+> v-2.exr
+> beauty.exr
+> beauty.png
+> depth.exr
+> depth.png
+> 100%-%d-4.exr
+
+# Mistakes are found before the first frame.
+$ rm -f *.exr; for n in '' 3-1 1-2x0 -1-2 1-2y 1-2-3 9999999999 1.5; do retex-render -q --frames "$n" s.pov -o x-%d.exr; done; for n in x.exr x%s.exr x%4d.exr x%.exr x%0999d.exr x%; do retex-render -q --frames 1-2 s.pov -o $n; done; retex-render -q --frames 0-100000 s.pov -o x-%d.exr; retex-render -q --frames 1-2 s.pov -o x-%d.exr --stats x.json; retex-render -q --frames 1-2 s.pov; retex-render -q --frames 1-2 s.pov -D clock=1 -o x-%d.exr; retex-render -q --frames 1-2 s.pov -o no/x-%d.exr; retex-render -q --frames 1-2 s.pov -t x=#1 --replace x=t-%d.png -o t-%d.png; retex-render -q --frames 1-3 s.pov -t x=#1 --replace x=t-%d.png -o u-%d.png; printf 'output,x\n' >t.csv; retex-render -q --frames 1-2 s.pov -t x=#1 --variants t.csv; ls
+> clock
+> d-1.png
+> d-2.png
+> d-3.png
+> d-5.png
+> p1-3
+> p1-4
+> p2-3
+> p2-4
+> r-1.json
+> r-2.json
+> s.pov
+> t-1.png
+> t-2.png
+> t.csv
+> u-1.png
+> u-2.png
+> v-1
+> v-2
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not ``
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `3-1`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `1-2x0`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `-1-2`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `1-2y`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `1-2-3`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `9999999999`
+! retex-render: error: --frames: expected the first frame and the last, as 1-12, or 1-12x2, not `1.5`
+! retex-render: error: the output: 2 frames need a number in the name, as name-%04d.exr, not `x.exr`
+! retex-render: error: the output: expected %d or %04d, the frame's number, or %% for a percent sign, in `x%s.exr`
+! retex-render: error: the output: expected %d or %04d, the frame's number, or %% for a percent sign, in `x%4d.exr`
+! retex-render: error: the output: expected %d or %04d, the frame's number, or %% for a percent sign, in `x%.exr`
+! retex-render: error: the output: expected %d or %04d, the frame's number, or %% for a percent sign, in `x%0999d.exr`
+! retex-render: error: the output: expected %d or %04d, the frame's number, or %% for a percent sign, in `x%`
+! retex-render: error: 100001 frames are more than the 100000 that one command makes: give a part of them with --frames
+! retex-render: error: --stats: 2 frames need a number in the name, as name-%04d.exr, not `x.json`
+! retex-render: error: the output: 2 frames need a number in the name, as name-%04d.exr, not `-`
+! retex-render: error: -D clock=1: an animation sets this for each frame
+! retex-render: error: frame 1: cannot write no/x-1.exr: No such file or directory
+! retex-render: error: frame 1: t-1.png: the output would replace the texture
+! retex-render: error: frame 3: cannot read t-3.png: No such file or directory
+! retex-render: error: --variants makes one table of pictures: no frames
+
+# The tool stops at a frame that fails, and --resume goes on.
+$ cp s.pov bad.pov; echo '#warning "odd" #if (frame_number = 3 & !defined(Mended)) #error "no frame 3" #end' >>bad.pov; retex-render --size 8x6 --spp 2 bad.pov --frames 1-4 -o x-%d.exr 2>&1 | sed 's/samples: .*/samples/'; ls x-*; retex-render --size 8x6 --spp 2 bad.pov -D Mended=1 --resume --frames 1-4 -o x-%d.exr 2>&1 | sed 's/samples: .*/samples/'; ls x-*
+> retex-render: frame 1: bad.pov:6: warning: odd
+> retex-render: frame 1: 8x6, 2 samples
+> retex-render: frame 2: 8x6, 2 samples
+> retex-render: error: frame 3: bad.pov:6:65: no frame 3
+> x-1.exr
+> x-2.exr
+> retex-render: frame 1: x-1.exr is there
+> retex-render: frame 2: x-2.exr is there
+> retex-render: frame 3: bad.pov:6: warning: odd
+> retex-render: frame 3: 8x6, 2 samples
+> retex-render: frame 4: 8x6, 2 samples
+> x-1.exr
+> x-2.exr
+> x-3.exr
+> x-4.exr
