@@ -11,7 +11,7 @@
 #include "path/internal.h"
 
 /* Contributions at a vertex: of an emitter that the path meets, and of direct light. */
-#define VERTEX_LIGHTS_MAX 2 /* and light sources that throw caustics */
+#define VERTEX_LIGHTS_MAX 3 /* of fog too; and light sources that throw caustics */
 
 /* Memory for the most contributions that there may be, of which little is ever touched. */
 int path_worker_open(PathWorker *w, RetexError *err)
@@ -175,7 +175,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->beta = path->beta_rest = colour4(rgb_grey(1));
     path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){.position = ray->origin};
     path->segments = 1, path->straight = 0, path->sharp = 1;
-    path->media.count = 0, path->kind = RAY_CAMERA;
+    path->media = c->camera, path->kind = RAY_CAMERA;
     path->specular = 0, path->lit_group = NULL;
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;

@@ -13,12 +13,6 @@
  * left a surface which scatters widely and met only what throws caustics since. */
 enum { SPECULAR_BEGINS = 4 };
 
-/* The fading interiors a ray is in. */
-typedef struct Media {
-    const Interior *interiors[MEDIA_MAX];
-    int count;
-} Media;
-
 /* One factor of a contribution: a surface that light scatters at or passes, or that emits it. */
 typedef struct Factor {
     int target;          /* -1: none */
@@ -129,6 +123,14 @@ static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
 {
     return !c->split || s->surface.target < 0;
 }
+
+/* ---- air.c: fog ---- */
+
+/* Fog over a distance along the ray: its own light, and what it does to throughput. Returns path_is_alive. */
+int path_pass_fog(PathWorker *worker, Path *path, const Ray *ray, double distance);
+/* What a shadow ray's light is multiplied by over a distance; source: NULL for other lights. */
+Rgb air_transmittance(const PathContext *context, const Media *media, const Ray *ray, double distance,
+                      const Light *source);
 
 /* ---- shadow_ray.c: visibility ---- */
 

@@ -14,6 +14,13 @@
 #define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
 #define PATHS_MAX 128         /* that are traced side by side */
 
+/* What a ray is in. */
+typedef struct Media {
+    const Interior *interiors[MEDIA_MAX]; /* those that fade light */
+    int count;
+    int solids; /* how many things that are not hollow: fog is not in them */
+} Media;
+
 typedef struct PathContext {
     const Scene *scene;
     const Accel *accel;
@@ -28,6 +35,7 @@ typedef struct PathContext {
     int caustic_sources; /* light sources that paths may meet, for they have caustics */
     int white;         /* first hits are white diffuse surfaces that do not emit */
     int has_no_shadow; /* some primitive throws no shadow: shadow rays and paths see different primitives */
+    Media camera;      /* what the camera is in */
     FILE *trace;       /* print every step, or NULL */
 } PathContext;
 
@@ -66,6 +74,7 @@ typedef struct PathWorker {
     Rgb betas[PATHS_MAX][VARIANTS_MAX];
 } PathWorker;
 
+Media media_at(const Scene *scene, Vec3 point);
 int path_worker_open(PathWorker *worker, RetexError *err); /* the rest is filled in */
 void path_worker_close(PathWorker *worker);
 /* Trace up to PATHS_MAX paths of one pixel, side by side; the result is the same as of one after the other. The

@@ -46,6 +46,8 @@ Rgb media_fade(const Media *media, double distance, const Surface *met)
 void media_cross(Media *media, const Surface *surface)
 {
     const Interior *in = fading_interior(surface);
+    if (surface->primitive->is_solid)
+        media->solids += surface->backside ? -1 : 1;
     if (!in)
         return;
     int k = media_find(media, in);
@@ -126,6 +128,16 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
     return 1;
 }
 
+/* What is between surfaces, over a distance up to one of them or NULL. */
+static void dim(const PathContext *c, const Media *media, const Ray *ray, double distance, const Surface *met,
+                const Light *source, Rgb *light)
+{
+    if ((media->count > 0 || met) && isfinite(distance))
+        *light = rgb_mul(*light, media_fade(media, distance, met));
+    if (c->scene->fogs)
+        *light = rgb_mul(*light, air_transmittance(c, media, ray, distance, source));
+}
+
 /* Follow a shadow ray through transparent surfaces, one after the other. */
 static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, const Light *source, Media *media,
                                   ShadowFactors *to)
@@ -134,8 +146,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
     Hit hit;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
         if (!accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) {
-            if (media->count > 0 && isfinite(ray.tmax))
-                *to->light = rgb_mul(*to->light, media_fade(media, ray.tmax - ray.tmin, NULL));
+            dim(c, media, &ray, ray.tmax - ray.tmin, NULL, source, to->light);
             return to->count;
         }
         Surface surface;
@@ -144,7 +155,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
         surface_at(&surface, c->scene, &ray, &hit);
         if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), source, to))
             return -1;
-        *to->light = rgb_mul(*to->light, media_fade(media, hit.t - ray.tmin, &surface));
+        dim(c, media, &ray, hit.t - ray.tmin, &surface, source, to->light);
         media_cross(media, &surface);
         ray.tmin = hit.t; /* not a new ray from there: points on large triangles are good to float only */
     }
@@ -170,8 +181,7 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     if (t->visibility == VISIBILITY_TRANSPARENT)
         return trace_through_surfaces(w, path, t->ray, source, &media,
                                       &(ShadowFactors){factors, 0, most_factors, light});
-    if (media.count > 0 && isfinite(t->ray.tmax))
-        *light = rgb_mul(*light, media_fade(&media, t->ray.tmax - t->ray.tmin, NULL));
+    dim(w->context, &media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
     return 0;
 }
 

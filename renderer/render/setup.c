@@ -127,6 +127,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .most_hits = render_layout(&r->params)->most_hits(scene->ntargets),
                                .split = split,
                                .nvariants = 1,
+                               .camera = media_at(scene, scene->camera.location),
                                .halves = 1};
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)

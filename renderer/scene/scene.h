@@ -371,6 +371,7 @@ typedef struct Primitive {
     const struct LightGroup *light_group; /* that it is in, or NULL */
     const Prototype *prototype; /* that it is part of: its world is the prototype's space; or NULL */
     int inherits;            /* 1: its texture is the instance's */
+    int is_solid;            /* 1: neither fog nor media are in it; 0 where the scene has none */
     int caustics;            /* CAUSTICS_…: of light sources that have caustics */
     const IdentList *idents; /* names of the objects it is part of */
     const PlaceList *places; /* their statements; NULL where the scene is made without a file */
@@ -402,6 +403,7 @@ typedef struct Light {
     Vec3 axis1, axis2;
     int size1, size2;        /* lights along each axis */
     int circular, orient, jitter;
+    int dimmed_by_air;       /* by fog and media of the scene, as media_attenuation says */
     int area_illumination;   /* 1: each light of the grid shines from its own place; 0: all from the middle, and only
                                 shadows are those of the grid */
     int shadowless;
@@ -467,6 +469,22 @@ typedef struct SkySphere {
     int filters;             /* filter tints what lies below; in scenes before version 3.7 it is the same as transmit */
 } SkySphere;
 
+/* ---- air ---- */
+
+typedef enum FogKind { FOG_CONSTANT, FOG_GROUND } FogKind;
+typedef struct Fog {
+    FogKind kind;
+    double distance;         /* over which light falls to 1/e; above 0 */
+    Rgb color;
+    float filter, transmit;  /* its colour filters light; the least that passes */
+    double offset, altitude; /* of ground fog: up to where it is full, and how far above that it is half */
+    Vec3 up;                 /* unit length */
+    int has_turbulence;
+    Turbulence turbulence;
+    double turbulence_depth;
+    struct Fog *next;
+} Fog;
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
@@ -486,6 +504,7 @@ typedef struct Scene {
     Camera camera;
     Rgb background;
     SkySphere *sky;          /* or NULL */
+    Fog *fogs;               /* a list, or NULL */
     int nprimitives, ncsgs, nprototypes, ninstances, nlights, nimages;
     Primitive *primitives;
     struct Csg **csgs;       /* trees over primitives, but for those of prototypes; shape/csg.h */

@@ -164,7 +164,7 @@ static void set(Value *value, ValueKind kind, const void *data)
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
-    static const char *const words[] = {"density", "density_map", "media", "fog", "rainbow", "radiosity", NULL};
+    static const char *const words[] = {"density", "density_map", "media", "rainbow", "radiosity", NULL};
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             skip_statement(sdl);
@@ -260,6 +260,11 @@ static int declare(Sdl *sdl, Value *value)
         set(value, VALUE_TRANSFORM, transform);
         return 1;
     }
+    if (sdl_accept(sdl, "fog")) {
+        set(value, VALUE_OTHER, parse_fog(sdl));
+        value->word = "fog";
+        return 1;
+    }
     if (sdl_accept(sdl, "camera")) {
         set(value, VALUE_CAMERA, parse_camera(sdl));
         return 1;
@@ -325,8 +330,9 @@ static void statement_sky_sphere(Sdl *sdl)
 
 static void statement_fog(Sdl *sdl)
 {
-    sdl_unsupported(sdl, "fog", "the air is clear");
-    sdl_skip_block(sdl);
+    Fog *fog = parse_fog(sdl);
+    fog->next = sdl_scene(sdl)->fogs;
+    sdl_scene(sdl)->fogs = fog;
 }
 
 static void statement_rainbow(Sdl *sdl)

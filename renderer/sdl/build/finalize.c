@@ -60,6 +60,8 @@ static void decode_colors(Sdl *sdl)
         scene->lights[i].color = decode_light(space, scene->lights[i].color);
     scene->background = working_decode(space, scene->background);
     scene->ambient_light = working_decode(space, scene->ambient_light);
+    for (Fog *fog = scene->fogs; fog; fog = fog->next)
+        fog->color = working_decode(space, fog->color);
     if (scene->sky)
         scene->sky->emission = working_decode(space, scene->sky->emission);
 }
@@ -306,5 +308,6 @@ void finalize_scene(Sdl *sdl)
     complete_finishes(sdl);
     set_emission(sdl);
     find_caustics(sdl);
+    complete_air(sdl);
     list_all_names(sdl);
 }

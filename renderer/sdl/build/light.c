@@ -118,7 +118,9 @@ static int accept_switch(Sdl *sdl, Light *light)
         light->jitter = sdl_optional_bool(sdl, 1);
     else if (sdl_accept(sdl, "area_illumination"))
         light->area_illumination = sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "media_interaction") || sdl_accept(sdl, "media_attenuation"))
+    else if (sdl_accept(sdl, "media_attenuation"))
+        light->dimmed_by_air = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "media_interaction"))
         sdl_optional_bool(sdl, 1);
     else
         return 0;
