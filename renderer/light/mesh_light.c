@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "light/mesh_light.h"
+#include "shade/pigment.h"
 #include "shade/texture.h"
 
 #define CLOSED 1e-3 /* a mesh is closed if the sum of its faces' area vectors is below this share of its area */
@@ -24,8 +25,7 @@ static int find_emission(const Texture *texture, int target, Rgb *emission)
     const Rgbft *c = &texture->pigment->color;
     if (target >= 0 || texture->tree || texture->pigment->kind != PIGMENT_COLOR)
         return 0;
-    float opacity = at_most(not_negative(1 - not_negative(c->filter) - not_negative(c->transmit)), 1);
-    *emission = rgb_mul(rgb_scale(texture->finish->emission, opacity),
+    *emission = rgb_mul(rgb_scale(texture->finish->emission, pigment_opacity(texture->pigment, *c)),
                         rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b)));
     return 1;
 }

@@ -51,6 +51,7 @@ static void set_color(Leaf *leaf, const Point *at, const Texture *texture)
     const Rgbft c = surface_color(&surface, NULL, &ignored);
     leaf->color = (Rgbft){not_negative(c.r), not_negative(c.g), not_negative(c.b), not_negative(c.filter),
                           not_negative(c.transmit)};
+    leaf->opacity = pigment_opacity(texture->pigment, leaf->color);
 }
 
 /* ---- layers ---- */
@@ -65,7 +66,7 @@ static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i
         return;
     const Surface surface = leaf_surface(at->surface, layer->texture, layer->target);
     Bsdf b;
-    bsdf_setup(&b, &surface, at->wo, *d, *i);
+    bsdf_setup(&b, &surface, at->wo, *d, *i, layer->opacity);
     *coat = 1 - rgb_luminance(split_apply(b.passing, rgb_grey(1))) / (*d + *i);
     *coat = at_most(not_negative(*coat), 1) + at_most(b.highlights, 1);
     *d = rgb_luminance(b.passing.d), *i = rgb_luminance(b.passing.i);
@@ -89,6 +90,12 @@ static void add_above(Leaves *leaves, const Point *at, Leaf *from, float d, floa
     }
 }
 
+static void set_untinted(Leaf *layer)
+{
+    layer->color.transmit += layer->color.filter, layer->color.filter = 0;
+    layer->opacity = pigment_opacity(layer->texture->pigment, layer->color);
+}
+
 /* The layer itself. Returns 0 where nothing below it is seen; else from is what is below. */
 static int add_layer(Leaves *leaves, const Point *at, Leaf *from)
 {
@@ -100,12 +107,12 @@ static int add_layer(Leaves *leaves, const Point *at, Leaf *from)
         return 0;
     }
     layer_passage(from, at, &d, &i, &coat);
-    const float opacity = not_negative(1 - from->color.filter - from->color.transmit);
     Leaf self = *from;
     if (finish_is_lambert(finish)) /* as an opaque one that counts less */
-        self.weight *= opacity, self.color.filter = self.color.transmit = 0, self.chance = self.weight;
+        self.weight *= self.opacity, self.color.filter = self.color.transmit = 0, self.opacity = 1,
+                                     self.chance = self.weight;
     else
-        self.is_layer = 1, self.chance = self.weight * (opacity + coat);
+        self.is_layer = 1, self.chance = self.weight * (self.opacity + coat);
     if (self.chance > 0)
         add_leaf(leaves, &self);
     if (!(d + i > 0))
@@ -122,6 +129,8 @@ static void add_layers(Leaves *leaves, const Point *at, const TextureTree *tree,
             return;
         }
         set_color(&from, at, tree->parts[k]);
+        if (tree->is_untinted)
+            set_untinted(&from);
         if (!add_layer(leaves, at, &from))
             return;
     }
@@ -254,7 +263,7 @@ static void add_texture(Leaves *leaves, const Point *at, const Texture *texture,
 
 static float seen(const Leaf *leaf)
 {
-    return leaf->weight * (leaf->is_layer ? not_negative(1 - leaf->color.filter - leaf->color.transmit) : 1);
+    return leaf->weight * (leaf->is_layer ? leaf->opacity : 1);
 }
 
 static Rgb tinted(const Leaf *leaf, float weight)
@@ -289,6 +298,7 @@ static void blend_in_working_space(Leaves *leaves, const WorkingSpace *space)
     }
     if (!(weights > 0))
         return;
+    weights = at_most(weights, 1);
     const Rgb sum = rgb_scale(working_decode(space, rgb_scale(written, 1 / weights)), weights);
     const Rgb by = rgb(ratio(sum.r, linear.r), ratio(sum.g, linear.g), ratio(sum.b, linear.b));
     for (int k = 0; k < leaves->count; k++) {
@@ -318,6 +328,7 @@ static int merge_leaf(Leaves *leaves, const Leaf *leaf)
             continue;
         const Rgb sum = rgb_add(tinted(to, to->weight / weight), tinted(leaf, leaf->weight / weight));
         to->color = (Rgbft){sum.r, sum.g, sum.b, 0, 0};
+        to->opacity = 1;
         to->tint = rgb_grey(1);
         to->neutral = (to->neutral * to->weight + leaf->neutral * leaf->weight) / weight;
         to->weight = weight, to->chance += leaf->chance;
@@ -349,11 +360,17 @@ void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
 
 /* ---- choosing ---- */
 
-float leaves_share(const Leaves *leaves, int k)
+float leaves_opacity(const Leaves *leaves)
 {
     float sum = 0;
-    for (int j = 0; j < leaves->count; j++)
-        sum += seen(&leaves->leaf[j]);
+    for (int k = 0; k < leaves->count; k++)
+        sum += seen(&leaves->leaf[k]);
+    return sum;
+}
+
+float leaves_share(const Leaves *leaves, int k)
+{
+    const float sum = leaves_opacity(leaves);
     return sum > 0 ? seen(&leaves->leaf[k]) / sum : k == leaves->count - 1;
 }
 

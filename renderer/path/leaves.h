@@ -28,6 +28,7 @@ typedef struct Leaf {
     const Texture *texture;
     int target;
     Rgbft color;
+    float opacity;    /* see pigment_opacity */
     float weight;     /* that its light is multiplied by */
     float chance;     /* of being chosen, in proportion to the other leaves' */
     Rgb tint;         /* by the layers above that are no targets */
@@ -46,6 +47,8 @@ typedef struct Leaves {
 /* The leaves at a surface with a tree, seen along wo. merge: leaves that scatter alike become one, with the mean of
  * their colours, which is exact and leaves less to chance. There is at least one leaf. */
 void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge);
+/* How opaque all are together. In scenes before version 3.7 it may be more than 1, see pigment_opacity. */
+float leaves_opacity(const Leaves *leaves);
 /* The share of a leaf in what is seen, opaque or not; over all leaves the sum is 1. */
 float leaves_share(const Leaves *leaves, int k);
 /* A leaf by its chance, from u in [0, 1); *weight gets what its light is to be multiplied by. */

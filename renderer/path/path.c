@@ -41,7 +41,7 @@ static void whiten(Vertex *v, const Ray *ray)
     s->albedo = rgb_grey(1);
     s->replaced = 0;
     s->filter = s->transmit = 0;
-    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), 0, 0);
+    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), 0, 0, 1);
 }
 
 static void print_hit(const PathContext *c, const Hit *hit, const Shading *s)

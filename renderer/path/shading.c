@@ -2,6 +2,7 @@
 #include "path/leaves.h"
 #include "path/shading.h"
 #include "shade/material.h"
+#include "shade/pigment.h"
 
 /* A replacement takes the pigment's colour, not its opacity; where it is transparent the original shows through. */
 static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
@@ -12,11 +13,11 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
 }
 
 /* The colours of a surface whose pigment's is known, and, of a target, its UV. */
-static void set_colors(Shading *s, Rgbft c, const RenderVariant *variants, int nvariants)
+static void set_colors(Shading *s, Rgbft c, float opacity, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
-    s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
+    s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit), s->opacity = opacity;
     s->replaced = s->is_leaf = s->is_layer = 0;
     if (surface->target < 0)
         return;
@@ -33,12 +34,12 @@ static void set_colors(Shading *s, Rgbft c, const RenderVariant *variants, int n
 void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
 {
     const Rgbft c = surface_color(&s->surface, place, &s->uv);
-    set_colors(s, c, variants, nvariants);
+    set_colors(s, c, pigment_opacity(s->surface.texture->pigment, c), variants, nvariants);
 }
 
 void shading_bsdf(Shading *s, Vec3 wo)
 {
-    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit);
+    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit, s->opacity);
     if (s->is_layer)
         bsdf_stop_passing(&s->bsdf);
 }
@@ -50,7 +51,7 @@ void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const Rend
     s->surface = leaf_surface(whole, leaf->texture, leaf->target);
     if (leaf->target >= 0)
         s->uv = surface_target_uv(&s->surface);
-    set_colors(s, leaf->color, variants, nvariants);
+    set_colors(s, leaf->color, leaf->opacity, variants, nvariants);
     s->is_leaf = 1;
     s->is_layer = leaf->is_layer;
 }
@@ -58,7 +59,7 @@ void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const Rend
 void shading_above(Shading *s, const Surface *whole, const LayerAbove *above, const RenderVariant *variants,
                    int nvariants)
 {
-    const Leaf leaf = {.texture = above->texture, .target = above->target, .color = above->color};
+    const Leaf leaf = {.texture = above->texture, .target = above->target, .color = above->color, .opacity = 1};
     shading_leaf(s, whole, &leaf, variants, nvariants);
 }
 
@@ -100,12 +101,13 @@ void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const 
         return;
     }
     leaves_at(&leaves, &whole, wo, 0);
+    const float surplus = fmaxf(1, leaves_opacity(&leaves));
     for (int k = 0; k < leaves.count; k++) {
         const Leaf *leaf = &leaves.leaf[k];
         SeenLeaf seen = {.share = leaves_share(&leaves, k), .targets = leaf_targets(&leaves, leaf)};
         shading_leaf(&seen.s, &whole, leaf, variants, 1);
         shading_bsdf(&seen.s, wo);
-        seen.albedo = seen_albedo(&seen.s, &whole, &leaves, leaf, variants);
+        seen.albedo = rgb_scale(seen_albedo(&seen.s, &whole, &leaves, leaf, variants), surplus);
         visit(context, &seen);
     }
 }

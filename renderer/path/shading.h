@@ -18,7 +18,7 @@ typedef struct Shading {
     int is_layer; /* of that leaf, see leaves.h: nothing passes it by itself */
     int replaced; /* some variant has another one: by variant */
     Rgb albedos[VARIANTS_MAX];
-    float filter, transmit;
+    float filter, transmit, opacity; /* see pigment_opacity */
     Vec2 uv; /* of a target: where a replacement is looked up */
     Bsdf bsdf;
 } Shading;

@@ -116,7 +116,7 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
         shading_color(&s, NULL, w->variants, w->context->nvariants);
         s.surface = seen_from_outside(*surface);
     }
-    bsdf_setup(&s.bsdf, &s.surface, wo, s.filter, s.transmit);
+    bsdf_setup(&s.bsdf, &s.surface, wo, s.filter, s.transmit, s.opacity);
     if (!shadow_factor(&s, source, &factor))
         return 0;
     if (factor.target < 0 || is_black4(factor.d))

@@ -3,8 +3,7 @@
 
 Split surface_emission(const Shading *s)
 {
-    float opacity = at_most(not_negative(1 - s->filter - s->transmit), 1);
-    return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
+    return (Split){rgb_scale(s->surface.texture->finish->emission, s->opacity), {0, 0, 0}};
 }
 
 /* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */

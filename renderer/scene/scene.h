@@ -55,6 +55,7 @@ typedef enum WorkingSpaceKind { WORKING_LINEAR, WORKING_SRGB, WORKING_POWER } Wo
 typedef struct WorkingSpace {
     WorkingSpaceKind kind;
     double gamma; /* of WORKING_POWER */
+    int dark_filters_hide; /* before version 3.7: the darker a colour, the less its filter lets what is below be seen */
 } WorkingSpace;
 
 struct Pigment;
@@ -273,6 +274,7 @@ typedef struct TextureTree {
     const Texture **parts;
     const TextureOperands *operands; /* of each part, of TEXTURE_OPERANDS */
     const double *values; /* of a map's parts, ascending; weights of an average, their sum 1 */
+    int is_untinted; /* of layers before version 3.5: filter tints nothing but what lies behind the lowest one */
     int nleaves;
     Texture **leaves; /* of all its parts: no two trees share a leaf */
 } TextureTree;

@@ -80,13 +80,19 @@ static void setup_film(Bsdf *b, const Finish *f, Vec3 p, float mirror)
     b->mirror = (Split){rgb_mul(b->mirror.d, factor), rgb_mul(b->mirror.i, factor)};
 }
 
-/* No surface gives back more light than it gets: what mirror and highlights reflect is taken first, and what is below
- * has the rest. Its share for a white pigment is at most 1, or `diffuse` where that is more: then the pigment is dark.
- * gain: the most by which a film brightens reflected light. */
-static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain)
+/* The brightest component of the pigment, as far as opacity tells it (see pigment_opacity); 1 is the most. */
+static float brightness(float filter, float transmit, float opacity)
 {
-    float grow = 2 / (b->brilliance + 1), passing = rgb_max(split_apply(b->passing, rgb_grey(1)));
-    float reflected = (b->diffuse + b->diffuse_back) * grow * gain, sum = reflected + passing;
+    return opacity == clamp01(1 - filter - transmit) ? 1 : clamp01((1 - transmit - opacity) / filter);
+}
+
+/* No surface gives back more light than it gets: what mirror and highlights reflect is taken first, and what is below
+ * has the rest. Its share for a pigment of that brightness is at most 1, or `diffuse` where that is more: then the
+ * pigment is dark. gain: the most by which a film brightens reflected light. */
+static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain, float bright)
+{
+    float grow = 2 / (b->brilliance + 1), passing = rgb_max(split_apply(b->passing, rgb_grey(bright)));
+    float reflected = (b->diffuse + b->diffuse_back) * bright * grow * gain, sum = reflected + passing;
     float left = not_negative(1 - specular * gain) * fmaxf(1, (float)fmax(f->diffuse, f->diffuse_back));
     if (sum <= left)
         return;
@@ -95,9 +101,9 @@ static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain)
     b->passing = (Split){rgb_scale(b->passing.d, scale), rgb_scale(b->passing.i, scale)};
 }
 
-static void setup_povray(Bsdf *b, const Finish *f, Vec3 position, float filter, float transmit)
+static void setup_povray(Bsdf *b, const Finish *f, Vec3 position, float filter, float transmit, float opacity)
 {
-    float opacity = clamp01(1 - filter - transmit), gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
+    float gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
     b->brilliance = not_negative((float)f->brilliance);
     float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
     b->diffuse = (float)fmax(0, f->diffuse) * opacity * norm;
@@ -110,7 +116,8 @@ static void setup_povray(Bsdf *b, const Finish *f, Vec3 position, float filter, 
     /* Mirrored light does not pass: POV-Ray does so with conserve_energy only. */
     float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
     b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
-    limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain);
+    limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain,
+                 brightness(filter, transmit, opacity));
     if (gain > 1)
         setup_film(b, f, position, mirror);
 }
@@ -125,11 +132,11 @@ static float mapped(double value, const Pigment *map, const Surface *surface)
 }
 
 /* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
-static void setup_disney(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit)
+static void setup_disney(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit, float opacity)
 {
     b->metallic = mapped(f->retex.metallic, f->retex.metallic_map, surface);
     float a = clamp01(f->retex.transmission) * (1 - b->metallic);
-    float opacity = a > 0 ? 1 : clamp01(1 - filter - transmit); /* a finish that transmits ignores the pigment here */
+    opacity = a > 0 ? 1 : opacity; /* a finish that transmits ignores the pigment here */
     b->coverage = opacity;
     b->disney = 1;
     b->roughness = mapped(f->retex.roughness, f->retex.roughness_map, surface);
@@ -229,7 +236,7 @@ static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
     b->cos_o = b->cos_o < 1 ? b->cos_o : 1;
 }
 
-void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit)
+void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity)
 {
     const Finish *finish = surface->texture->finish;
     const Primitive *primitive = surface->primitive;
@@ -248,9 +255,9 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
         return;
     }
     if (finish->retex.present)
-        setup_disney(b, finish, surface, filter, transmit);
+        setup_disney(b, finish, surface, filter, transmit, opacity);
     else
-        setup_povray(b, finish, surface->position, filter, transmit);
+        setup_povray(b, finish, surface->position, filter, transmit, opacity);
     setup_choice(b);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);

@@ -5,8 +5,8 @@
 #include "shade/bsdf.h"
 #include "shape/surface.h"
 
-/* The BSDF of a surface seen along wo. Opacity comes from the pigment: filter and transmit. */
-void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit);
+/* The BSDF of a surface seen along wo. The rest comes from the pigment: filter, transmit and pigment_opacity. */
+void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity);
 /* Without the lobe of light that passes straight or refracted. */
 void bsdf_stop_passing(Bsdf *bsdf);
 /* The normals on wo's side: for shading, and the shape's own. */

@@ -167,6 +167,15 @@ int pigment_is_constant(const Pigment *pigment)
     return pigment->map.count > 0;
 }
 
+float pigment_opacity(const Pigment *pigment, Rgbft c)
+{
+    const float transmit = not_negative(c.transmit);
+    float filter = not_negative(c.filter);
+    if (filter > 0 && pigment->space && pigment->space->dark_filters_hide)
+        filter *= rgb_max(working_encode(pigment->space, rgb(c.r, c.g, c.b)));
+    return at_most(not_negative(1 - filter - transmit), 1);
+}
+
 static int is_opaque(const Rgbft *c)
 {
     return c->filter == 0 && c->transmit == 0;

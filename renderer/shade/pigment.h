@@ -25,6 +25,9 @@ int pigment_index(const Pigment *pigment, Vec3 p, Vec2 uv);
 int pigment_warp(const Pigment *pigment, Vec3 *p);
 /* Prefetch the texels of a planar image at that point. */
 void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
+/* How much the pigment hides where it has that colour, from 0 to 1: 1 - filter - transmit. In scenes before version 3.7
+ * the brightest component of the colour, as written, multiplies filter: then it may be more than what does not pass. */
+float pigment_opacity(const Pigment *pigment, Rgbft color);
 /* 1 where the pigment has the same colour and opacity everywhere. */
 int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment is opaque everywhere: no filter, no transmit, no alpha of an image, no image with `once`. This is

@@ -5,8 +5,7 @@
 
 A line `scene HEAD`, with the working space, is followed by lines `texture STATEMENTS`, and these by lines `at X Y R G B`:
 the colour, scene-linear, at a point of the plane z = 0, which faces -z. The colours are those of a picture in which
-surfaces shine by `ambient` alone. Of scenes before 3.7, filters are left out: POV-Ray then takes a dark filter as more
-opaque."""
+surfaces shine by `ambient` alone. Before version 3.7, a dark filter is more opaque; before 3.5, layers do not tint."""
 import os
 import subprocess
 import tempfile
@@ -14,7 +13,8 @@ from povray_normals import read_png16
 
 HEADS = ['#version 3.7; global_settings { assumed_gamma 1 }', '#version 3.7; global_settings { assumed_gamma 2.2 }',
          '#version 3.7; global_settings { assumed_gamma srgb }', '#version 3.7;', '#version 3.5;',
-         '#version 3.6; global_settings { assumed_gamma 1.5 }', '#version 3.6; global_settings { assumed_gamma 1 }']
+         '#version 3.6; global_settings { assumed_gamma 1.5 }', '#version 3.6; global_settings { assumed_gamma 1 }',
+         '#version 3.1; global_settings { assumed_gamma 1 }']
 TEXTURES = '''
 texture { pigment { rgb <.9,.4,.1> } } texture { pigment { rgbt <.1,.3,.8,.6> } }
 texture { pigment { rgb <.9,.4,.1> } } texture { pigment { rgbf <.1,.3,.8,.6> } }
@@ -27,6 +27,8 @@ texture { pigment { average pigment_map { [1 rgb <.9,.4,.1>] [3 gradient y] } } 
 texture { pigment { image_map { png "colours.png" interpolate 2 } } }
 texture { pigment { image_map { png "colours.png" interpolate 3 } } }
 texture { pigment { image_map { png "colours.png" interpolate 4 } } }
+texture { pigment { rgb .4 } } texture { pigment { rgbf <.1,.3,.2,.9> } } texture { pigment { rgbft <.3,.5,.2,.4,.2> } }
+texture { pigment { rgb .4 } } texture { pigment { rgbf <.1,.3,.2,.9> } finish { phong .1 } } texture { pigment { rgbf <.3,.5,.2,.4> } }
 '''.strip().split('\n')
 CELL = 5   # pixels of a texture
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../data')
@@ -60,8 +62,6 @@ def main():
         rows = picture(head)
         print('scene', head)
         for k, texture in enumerate(TEXTURES):
-            if 'rgbf' in texture and '3.7' not in head:
-                continue
             print('texture', texture.strip())
             for j in range(CELL):
                 i = 2 * j % CELL

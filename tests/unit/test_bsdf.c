@@ -49,7 +49,7 @@ static Bsdf make(Case *c, double theta, float filter, float transmit)
     Vec3 wo = direction(theta, 0.3);
     if (c->surface.backside)
         wo = vec_neg(wo);
-    bsdf_setup(&b, &c->surface, wo, filter, transmit);
+    bsdf_setup(&b, &c->surface, wo, filter, transmit, fmaxf(0, 1 - filter - transmit));
     return b;
 }
 
@@ -290,7 +290,7 @@ static void edges_of_smooth_meshes_are_not_black(void **state)
             else
                 c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0.9f);
             Vec3 wo = glass ? vec_neg(direction(theta, 0.3)) : direction(theta, 0.3);
-            bsdf_setup(&b, &c.surface, wo, 0, glass ? 1 : 0);
+            bsdf_setup(&b, &c.surface, wo, 0, glass ? 1 : 0, glass ? 0 : 1);
             assert_int_equal(bsdf_sample(&b, 0.5f, 0.5f, 0.5f, &s), 1);
             assert_int_equal(s.transmitted, 0);
             close_to(s.wi.z, wo.z, 1e-9, "mirrored");

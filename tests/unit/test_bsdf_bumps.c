@@ -50,7 +50,8 @@ static Bsdf make(const Case *c, double theta, float filter, float transmit)
 {
     Bsdf b;
     const Vec3 wo = vec3(sin(theta) * cos(0.3), sin(theta) * sin(0.3), cos(theta));
-    bsdf_setup(&b, &c->surface, c->surface.backside ? vec_neg(wo) : wo, filter, transmit);
+    bsdf_setup(&b, &c->surface, c->surface.backside ? vec_neg(wo) : wo, filter, transmit,
+               fmaxf(0, 1 - filter - transmit));
     assert_int_equal(b.bumped, 1);
     assert_true(vec_dot(b.normal, b.wo) > 0);
     return b;

@@ -148,7 +148,7 @@ static void povray_finish(Subject *s)
 
 static void look(Subject *s, Direction o)
 {
-    bsdf_setup(&s->bsdf, &s->surface, vec3(o.x, o.y, o.z), 0, 0);
+    bsdf_setup(&s->bsdf, &s->surface, vec3(o.x, o.y, o.z), 0, 0, 1);
 }
 
 static void disney_finish(Subject *s, const Material *m)
@@ -248,7 +248,7 @@ static void compare_inside(Subject *s, const Material *m)
     for (int k = 0; k < 20; k++) {
         const Direction o = random_side(1), i = random_side(k % 2 ? 1 : -1);
         s->surface.backside = 1;
-        bsdf_setup(&s->bsdf, &s->surface, vec3(o.x, o.y, -o.z), 0, 0);
+        bsdf_setup(&s->bsdf, &s->surface, vec3(o.x, o.y, -o.z), 0, 0, 1);
         float pdf;
         const Split f = bsdf_eval(&s->bsdf, vec3(i.x, i.y, -i.z), 0, &pdf);
         const double outer = m->transmission > 0 && m->m < 1 ? 1 / m->eta : m->eta;

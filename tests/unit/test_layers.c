@@ -115,11 +115,36 @@ static void targets_count_by_geometry(void **state)
                   .405 + .125, .08 + .125, .005 + .125);
 }
 
+/* A surface that filters, lit from both sides by light of 1: what POV-Ray shows of rgbf <.8,.4,.1,.5> with ambient 1
+ * before white is .8798 .4399 .1100 in version 3.6, and .7998 .3999 .1000 in version 3.7. */
+static void filters_hide_by_version(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *version;
+        double red, green, blue;
+    } cases[] = {{"3.1", .88, .44, .11}, {"3.6", .88, .44, .11}, {"3.7", .8, .4, .1}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const Ray ray = {vec3(0, 0, -5), {0, 0, 1}, 0, INFINITY};
+        const Hit hit = {.t = 5, .primitive = 0};
+        char head[128];
+        Shading s;
+        snprintf(head, sizeof head, "#version %s; global_settings { assumed_gamma 1 }", cases[k].version);
+        Scene *scene = plane(head, "pigment { rgbf <.8,.4,.1,.5> } finish { diffuse 1 }");
+        shading_at(&s, scene, NULL, 1, &ray, &hit);
+        assert_near(s.albedo.r * s.bsdf.diffuse + split_apply(s.bsdf.passing, s.albedo).r, cases[k].red);
+        assert_near(s.albedo.g * s.bsdf.diffuse + split_apply(s.bsdf.passing, s.albedo).g, cases[k].green);
+        assert_near(s.albedo.b * s.bsdf.diffuse + split_apply(s.bsdf.passing, s.albedo).b, cases[k].blue);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layers_are_povray),
         cmocka_unit_test(targets_count_by_geometry),
+        cmocka_unit_test(filters_hide_by_version),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,12 +18,13 @@
 WorkingSpace working_space(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
+    WorkingSpace space = {.kind = WORKING_SRGB, .gamma = 1, .dark_filters_hide = sdl_version(sdl) < 3.7};
     if (!builder->has_assumed_gamma)
-        return (WorkingSpace){sdl_version(sdl) >= 3.7 ? WORKING_LINEAR : WORKING_SRGB, 1};
-    if (builder->gamma_srgb)
-        return (WorkingSpace){WORKING_SRGB, 1};
-    return (WorkingSpace){fabs(builder->assumed_gamma - 1) < 1e-6 ? WORKING_LINEAR : WORKING_POWER,
-                          builder->assumed_gamma};
+        space.kind = sdl_version(sdl) >= 3.7 ? WORKING_LINEAR : WORKING_SRGB;
+    else if (!builder->gamma_srgb)
+        space.kind = fabs(builder->assumed_gamma - 1) < 1e-6 ? WORKING_LINEAR : WORKING_POWER,
+        space.gamma = builder->assumed_gamma;
+    return space;
 }
 
 Rgb decode_color(Sdl *sdl, Rgb color)

@@ -207,6 +207,7 @@ static TextureTree *tree_new(Sdl *sdl, TextureTreeKind kind, int count, int leav
 static const TextureTree *tree_of_layers(Sdl *sdl, const ParsedTexture *texture, int count)
 {
     TextureTree *tree = tree_new(sdl, TEXTURE_LAYERS, count, count);
+    tree->is_untinted = sdl_version(sdl) < 3.5;
     for (int k = 0; k < count; k++, texture = texture->below)
         tree->parts[k] = leaf_of(sdl, texture);
     collect_leaves(tree);
