@@ -9,8 +9,8 @@ set -eu
 
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
-# reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libfreetype-dev reads the fonts of text in
-# scenes, libpng-dev and libgif-dev palettes of pictures, libassimp-dev models for retex-import.
+# reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
+# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -124,10 +124,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh. Delete this file after other versions of the libraries have been installed."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg blosc zlib libisal libdeflate)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal libdeflate)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg libpng blosc zlib libisal libdeflate)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg libpng blosc zlib libisal libdeflate)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal libdeflate) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libjpeg libpng blosc zlib libisal libdeflate) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"

@@ -1,6 +1,6 @@
 /* Reads pictures, by the decoder that the file's content asks for; picture.c writes them. EXR is read by OpenEXRCore,
- * which starts in 2 ms, every other format, and EXR files that Core cannot decode, by the bridge, which loads
- * OpenImageIO. */
+ * which starts in 2 ms, common JPEG and PNG files by their own libraries, every other format, and files that these
+ * cannot decode, by the bridge, which loads OpenImageIO. */
 #include <errno.h>
 #include <limits.h>
 #include <stdint.h>
@@ -19,6 +19,7 @@
 #include "picture/bridge_load.h"
 #include "picture/image_format.h"
 #include "picture/jpeg_read.h"
+#include "picture/png_read.h"
 
 /* Chooses the channels of an EXR's first part that are its colours: R, G, B, or the grey Y, and A. 0 where there are
  * none. */
@@ -247,6 +248,46 @@ static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, 
     return status;
 }
 
+/* Read a common JPEG or PNG file without the bridge, into one of the levels' images, which has no pixels where the
+ * file is left to the bridge. */
+static int decode_levels(RetexLevels *levels, RetexInput *input, RetexError *err)
+{
+    static const struct {
+        const char *mark;
+        size_t length;
+        int (*read)(RetexLevels *levels, const void *data, size_t bytes);
+    } decoders[] = {{"\xff\xd8\xff", 3, retex_jpeg_read}, {"\x89PNG\r\n\x1a\n", 8, retex_png_read}};
+    unsigned char begin[8] = {0};
+    const void *data;
+    size_t bytes;
+
+    retex_input_read(input, begin, sizeof begin, 0);
+    for (size_t i = 0; i < sizeof decoders / sizeof *decoders; i++) {
+        if (memcmp(begin, decoders[i].mark, decoders[i].length) != 0)
+            continue;
+        const int code = retex_input_load(input, &data, &bytes, err);
+        const int done = code ? RETEX_LEVELS_LEFT : decoders[i].read(levels, data, bytes);
+        if (!code)
+            retex_levels_end(levels, done == RETEX_LEVELS_READ);
+        return done == RETEX_LEVELS_NO_MEMORY
+                   ? retex_fail(err, RETEX_ENOMEM, "not enough memory to read %s", retex_input_name(input))
+                   : code;
+    }
+    return retex_input_check(input, RETEX_OK, err);
+}
+
+/* The same of colour spaces that OpenColorIO need not find, and that no configuration may change. */
+static int read_levels(RetexLevels *levels, RetexInput *input, const RetexBridgeFile *file, RetexError *err)
+{
+    const char *name = file->colorspace, *ocio = getenv("OCIO");
+    const int named = name && name[0], by_default = !ocio || !ocio[0]; /* the bridge decides whether it is usable */
+    const int is_srgb = named ? strcasecmp(name, "sRGB") == 0 : by_default;
+
+    levels->is_linear = named && by_default && retex_names_linear(name);
+    levels->max_pixels = file->max_pixels;
+    return is_srgb || levels->is_linear ? decode_levels(levels, input, err) : 0;
+}
+
 static int read_open(RetexImage *dst, RetexInput *input, const char *path, const RetexReadParams *params, int nthreads,
                      RetexError *err)
 {
@@ -258,8 +299,10 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
     if (status)
         return status;
     file.nthreads = nthreads;
-    if (!standard_input && (!retex_exr_probe(input) || !linear))
-        return retex_bridge_read(dst, &file, err);
+    if (!standard_input && (!retex_exr_probe(input) || !linear)) {
+        status = read_levels(&(RetexLevels){.image = dst}, input, &file, err);
+        return status || dst->pixels ? status : retex_bridge_read(dst, &file, err);
+    }
     status = retex_exr_open(&exr, input, err);
     if (!status)
         status = params->colorspace && params->colorspace[0] ? read_in_space(dst, exr, input, &file, err)
@@ -309,19 +352,31 @@ static int check_exr(RetexInput *input, const RetexBridgeFile *file, RetexError 
     return own || status ? status : bridge_check(*file, err);
 }
 
+/* JPEG by its beginning, PNG by its checksums. */
+static int is_sound(RetexInput *input)
+{
+    unsigned char begin[3];
+    const void *data;
+    size_t bytes;
+
+    if (retex_input_read(input, begin, sizeof begin, 0) != sizeof begin)
+        return 0;
+    if (memcmp(begin, "\xff\xd8\xff", 3) == 0)
+        return 1;
+    return memcmp(begin, "\x89PN", 3) == 0 && !retex_input_load(input, &data, &bytes, NULL) &&
+           retex_png_is_whole(data, bytes);
+}
+
 static int check_open(RetexInput *input, const char *path, const RetexReadParams *params, RetexError *err)
 {
     RetexBridgeFile file;
-    unsigned char begin[3];
     const int status = choose_decoder(&file, input, path, params, err);
 
     if (status)
         return status;
     if (retex_exr_probe(input))
         return check_exr(input, &file, err);
-    const int jpeg =
-        retex_input_read(input, begin, sizeof begin, 0) == sizeof begin && memcmp(begin, "\xff\xd8\xff", 3) == 0;
-    return jpeg ? 0 : bridge_check(file, err);
+    return is_sound(input) ? 0 : bridge_check(file, err);
 }
 
 int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
@@ -354,11 +409,11 @@ int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const Retex
     int status = retex_input_open_allowed(&input, path, params.access, err);
     if (!status)
         status = choose_decoder(&file, input, path, &params, err);
-    if (!status && !retex_exr_probe(input)) {
-        const char *ocio = getenv("OCIO"); /* the bridge decides whether it is usable */
-        const int named = params.colorspace && params.colorspace[0];
-        if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
-            status = retex_jpeg_read_narrow(dst, input, file.max_pixels, err);
+    /* Spaces that have to be looked up may not be decoded by channel. */
+    const char *name = params.colorspace;
+    const int by_channel = !name || !name[0] || strcasecmp(name, "sRGB") == 0;
+    if (!status && by_channel && !retex_exr_probe(input)) {
+        status = read_levels(&(RetexLevels){.narrow = dst}, input, &file, err);
         if (!status && !dst->pixels)
             file.nthreads = nthreads, status = retex_bridge_read_narrow(dst, &file, err);
     }
