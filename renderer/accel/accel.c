@@ -106,13 +106,12 @@ static int may_transmit(const Texture *texture)
 static int always_refracts(const Primitive *primitive)
 {
     const Finish *finish = primitive->texture->finish;
-    double ior = finish && finish_transmits(finish) ? finish->retex.ior
-                 : finish && finish->retex.present  ? 1
-                 : primitive->interior              ? primitive->interior->ior
-                                                    : 1;
+    const int bends = finish && finish_transmits(finish)
+                          ? finish->retex.ior != 1 || interior_disperses(primitive->interior)
+                          : !(finish && finish->retex.present) && interior_bends(primitive->interior);
     int several = primitive->interior_texture || primitive->shape.textures || primitive->texture->tree;
 
-    return !several && ior != 1 && ior > 0;
+    return !several && bends;
 }
 
 static unsigned char primitive_flags(const Primitive *primitive)

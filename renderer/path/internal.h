@@ -33,6 +33,7 @@ typedef struct Path {
     Rgb *betas;         /* by variant, from the second on: the first one's is beta */
     Float4 beta_rest;   /* throughput without the factors that hits keep, see contributions.c */
     float beta_neutral; /* throughput with NEUTRAL_ALBEDO everywhere and without the eta scale: for Russian roulette */
+    float wavelength;   /* since light was dispersed, see shade/dispersion.h; -1: not yet */
     float pdf;          /* with which the ray's direction was sampled, per steradian; 0 after a delta lobe */
     LightSampleContext prev_context; /* of the vertex where it was sampled: for MIS */
     int segments, straight;          /* so far; straight: surfaces that did not bend the path, which end no segment */
@@ -79,6 +80,7 @@ typedef struct Vertex {
     LightPick pick;
     DirectLightSample light;
     Texture white;            /* in place of the surface's own, where PathContext.white */
+    float wavelength;         /* that light has on the far side of a surface that disperses it; -1: none of its own */
     const CausticsCell *cell; /* of the guide to caustics; NULL: none here, or nothing scatters widely */
 } Vertex;
 
@@ -171,12 +173,19 @@ void choose_leaf(PathWorker *worker, Path *path, Shading *s, Vec3 wo);
 int choose_leaf_of_light(PathWorker *worker, const Path *path, Shading *s, Vec3 wo, int passing, unsigned texture,
                          Rgb *tint, Factor *factors, int *nfactors, int most_factors, Rgb (*storage)[VARIANTS_MAX]);
 
+/* ---- dispersion.c ---- */
+
+/* At a vertex whose BSDF is that of all wavelengths, where shading_disperses. */
+void disperse(PathWorker *worker, Path *path, Vertex *vertex, Vec3 wo);
+/* From here on the path has one wavelength, by which its throughput is coloured. */
+void path_take_wavelength(PathWorker *worker, Path *path, float wavelength);
+
 /* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
 
 /* Colours at a vertex whose surface is known. */
 void find_colors(PathWorker *worker, Path *path, Vertex *vertex, const Ray *ray, const Hit *hit,
                  const VertexSamples *numbers, int lane);
-void find_bsdf(PathWorker *worker, const Path *path, Vertex *vertex, const Ray *ray, const Hit *hit);
+void find_bsdf(PathWorker *worker, Path *path, Vertex *vertex, const Ray *ray, const Hit *hit);
 void observe_first_hit(PathWorker *worker, const Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
 /* Emission that the ray meets: of a surface, or of the sky. Returns 0 where the path ends. */
 int add_emission(PathWorker *worker, Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include "camera/camera.h"
 #include "path/internal.h"
+#include "shade/dispersion.h"
 #include "shade/material.h"
 
 #define ROULETTE_START 2 /* segments before Russian roulette begins */
@@ -57,12 +58,15 @@ static void print_hit(const PathContext *c, const Hit *hit, const Shading *s)
     fputc('\n', c->trace);
 }
 
-void find_bsdf(PathWorker *w, const Path *path, Vertex *v, const Ray *ray, const Hit *hit)
+void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *hit)
 {
     const PathContext *c = w->context;
     shading_bsdf(&v->s, vec_neg(ray->direction));
     if (c->white && is_first_hit(path))
         whiten(v, ray);
+    v->wavelength = -1;
+    if (shading_disperses(&v->s))
+        disperse(w, path, v, vec_neg(ray->direction));
     if (c->trace)
         print_hit(c, hit, &v->s);
     v->cell = guide_cell(c, &v->s);
@@ -145,7 +149,10 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
         return;
     float light_pdf = light->pdf * light->pick_probability;
     float weight = is_source ? 1 / light->pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
-    path_add_light(w, path, rgb_scale(light->radiance, weight), factors, n);
+    Rgb radiance = rgb_scale(light->radiance, weight);
+    if (sample->transmitted && v->wavelength >= 0)
+        radiance = rgb_mul(radiance, dispersion_color(v->wavelength));
+    path_add_light(w, path, radiance, factors, n);
 }
 
 /* ---- the next direction ---- */
@@ -154,7 +161,7 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
  * it, so the neutral throughput leaves this scale out (etaScale of pbrt). */
 static float eta_scale(const Bsdf *bsdf, const BsdfSample *next)
 {
-    return next->transmitted && bsdf->refracts ? bsdf->eta * bsdf->eta : 1;
+    return next->transmitted && bsdf->refracts ? bsdf->bend * bsdf->bend : 1;
 }
 
 /* Light sources that the next ray meets. No path could hit a point; but where they throw caustics they are small
@@ -203,6 +210,8 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,
                 next->wi.z, pdf, rgb_luminance(next->weight.d), rgb_luminance(next->weight.i));
+    if (next->transmitted && v->wavelength >= 0)
+        path_take_wavelength(w, path, v->wavelength);
     if (next->transmitted)
         media_cross(&path->media, &s->surface);
     if (next->straight) { /* the same segment goes on behind the surface */

@@ -13,6 +13,7 @@
 #define PHOTONS_OF_SOURCES (1 << 17) /* at least; lamps that small need lobes that narrow */
 #define BATCH (1 << 12)              /* photons of one job */
 #define BOUNCES_MAX 12
+#define WAVELENGTH_NUMBER 64  /* of a photon's numbers; bounces have those before */
 #define CASTERS_MAX (1 << 20) /* no photon is aimed at more of them */
 
 /* The bounding sphere of what may refract or mirror light. */
@@ -261,6 +262,8 @@ static int trace_photon(const Tracing *m, uint32_t photon, Landing *landing)
         if (k == 0 && (hit.instance != aimed->instance || hit.primitive != aimed->primitive))
             return 0;
         shading_at(&s, m->scene, NULL, 1, &ray, &hit);
+        if (shading_disperses(&s)) /* each photon has one wavelength */
+            shading_bsdf_wavelength(&s, vec_neg(ray.direction), photon_number(photon, WAVELENGTH_NUMBER));
         if (k == 0)
             power *= first_irradiance(&start, s.surface.position);
         float straight = s.bsdf.lambert ? 0 : s.bsdf.p_mirror + s.bsdf.p_passing;

@@ -44,6 +44,17 @@ void shading_bsdf(Shading *s, Vec3 wo)
         bsdf_stop_passing(&s->bsdf);
 }
 
+int shading_disperses(const Shading *s)
+{
+    const int passes = s->filter + s->transmit > 0 || finish_transmits(s->surface.texture->finish);
+    return interior_disperses(s->surface.primitive->interior) && passes && !s->is_layer;
+}
+
+void shading_bsdf_wavelength(Shading *s, Vec3 wo, double wavelength)
+{
+    bsdf_setup_wavelength(&s->bsdf, &s->surface, wo, s->filter, s->transmit, s->opacity, wavelength);
+}
+
 /* ---- trees of textures ---- */
 
 void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const RenderVariant *variants, int nvariants)

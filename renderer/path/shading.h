@@ -36,6 +36,9 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
 
 /* The BSDF, once the rest is known. */
 void shading_bsdf(Shading *shading, Vec3 wo);
+/* Whether it lets light through, which it refracts by wavelength; the BSDF for light of one wavelength. */
+int shading_disperses(const Shading *shading);
+void shading_bsdf_wavelength(Shading *shading, Vec3 wo, double wavelength);
 
 /* ---- trees of textures, see leaves.h ---- */
 

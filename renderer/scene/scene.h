@@ -235,10 +235,18 @@ static inline int finish_is_sampled(const Finish *f)
 
 typedef struct Interior {
     double ior;              /* default 1 */
+    double dispersion;       /* ior of violet over that of red; 0 or 1: one ior for all colours */
     double fade_distance, fade_power;
     Rgb fade_color;
     const IdentList *idents;
 } Interior;
+
+static inline int interior_disperses(const Interior *in) { return in && in->dispersion > 0 && in->dispersion != 1; }
+/* Whether what passes a surface of the object is refracted. */
+static inline int interior_bends(const Interior *in)
+{
+    return in && in->ior > 0 && (in->ior != 1 || interior_disperses(in));
+}
 
 typedef struct Texture {
     const Pigment *pigment;

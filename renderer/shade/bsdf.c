@@ -73,7 +73,7 @@ static Split glossy_reflection(const Bsdf *b, Vec3 wi, float *pdf)
 /* Rough refraction (Walter et al. 2007, Eq. 21, for radiance), tinted by the albedo. */
 static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
 {
-    Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_mad(o, i, b->eta));
+    Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_mad(o, i, b->bend));
     Split none = {{0, 0, 0}, {0, 0, 0}};
     *pdf = 0;
     if (h.z < 0)
@@ -81,10 +81,11 @@ static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
     double oh = vec_dot(o, h), ih = vec_dot(i, h);
     if (oh <= 0 || ih >= 0)
         return none;
-    double sum = b->eta * ih + oh, transmitted = b->transmission * (1 - fresnel_dielectric((float)fmin(1, oh), b->eta));
+    double sum = b->bend * ih + oh;
+    double transmitted = b->transmission * (1 - fresnel_dielectric((float)fmin(1, oh), b->eta));
     double value = ggx_d(h, b->alpha) * ggx_g2(o, vec3(i.x, i.y, -i.z), b->alpha) * transmitted * fabs(ih * oh) /
                    (o.z * sum * sum);
-    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) * fabs(ih) * b->eta * b->eta / (sum * sum)) *
+    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) * fabs(ih) * b->bend * b->bend / (sum * sum)) *
            through_share(b, (float)fmin(1, oh));
     return (Split){rgb_grey((float)value), {0, 0, 0}};
 }
@@ -293,7 +294,7 @@ static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *
 {
     Vec3 h = to_world(b, ggx_sample_visible(to_local(b, b->wo), b->alpha, u1, u2));
     if (choice < through_share(b, (float)fmin(1, vec_dot(b->wo, h))))
-        return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
+        return refract(b->wo, h, b->bend, wi) && vec_dot(*wi, b->normal) < 0;
     *wi = reflect(b->wo, h);
     return vec_dot(*wi, b->normal) > 0; /* below the horizon: a second bounce, which the lobe leaves out */
 }
@@ -335,12 +336,12 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
         sample->straight = 1;
         return 1;
     }
-    int refracted = refract(b->wo, b->normal, b->eta, &sample->wi);
+    int refracted = refract(b->wo, b->normal, b->bend, &sample->wi);
     if (refracted && b->bumped && vec_dot(sample->wi, b->geometric) > 0)
         sample->wi = mirrored(sample->wi, b->geometric);
     if (refracted && vec_dot(sample->wi, b->geometric) < 0) {
         /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
-        sample->weight = split_scale(sample->weight, 1 / (b->eta * b->eta));
+        sample->weight = split_scale(sample->weight, 1 / (b->bend * b->bend));
         return 1;
     }
     sample->transmitted = 0;

@@ -33,7 +33,8 @@ typedef struct Bsdf {
     Vec3 wo;
     double cos_o;            /* dot(wo, normal), > 0 */
     float eta;               /* index of refraction on the far side over that on wo's side */
-    int refracts;            /* transmission bends, by eta */
+    float bend;              /* what directions are refracted by: eta, but for dispersion */
+    int refracts;            /* transmission bends */
     int lambert;             /* only diffuse lobes, of brilliance 1: fields after alpha are not set */
     int bumped;              /* normal is that of bumps; then lambert is 0 */
     int hidden;              /* bumps face away from wo: normal is that of the opposite slope, which wo sees */

@@ -9,7 +9,7 @@
 
 static int finish_casts(const Finish *f, const Primitive *p, const Texture *texture)
 {
-    int bends = p->interior && p->interior->ior != 1 && p->interior->ior > 0;
+    int bends = interior_bends(p->interior);
     if (f->retex.present)
         return f->retex.roughness < 0.02 && ((bends && finish_transmits(f)) || f->retex.metallic > 0.5);
     if (rgb_luminance(f->reflection_max) >= STRONG_MIRROR && !f->reflection_fresnel)

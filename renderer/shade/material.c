@@ -1,6 +1,7 @@
 /* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5),
  * section FINISH AND PHYSICS; keep the two in step. */
 #include "pattern/pattern.h"
+#include "shade/dispersion.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
 #include "shade/normal.h"
@@ -12,11 +13,6 @@
 static float clamp01(double x)
 {
     return (float)(x < 0 ? 0 : x > 1 ? 1 : x);
-}
-
-static int interior_bends(const Primitive *p)
-{
-    return p->interior && p->interior->ior != 1 && p->interior->ior > 0;
 }
 
 int finish_transmits(const Finish *finish)
@@ -236,20 +232,23 @@ static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
     b->cos_o = b->cos_o < 1 ? b->cos_o : 1;
 }
 
-void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity)
+static void setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity,
+                  double ior_scale)
 {
     const Finish *finish = surface->texture->finish;
-    const Primitive *primitive = surface->primitive;
-    double ior = finish_transmits(finish)    ? finish->retex.ior
-                 : interior_bends(primitive) ? primitive->interior->ior
-                                             : 1;
+    const Interior *interior = surface->primitive->interior;
+    const double ior = (finish_transmits(finish)   ? finish->retex.ior
+                        : interior_bends(interior) ? interior->ior
+                                                   : 1) *
+                       ior_scale;
     int transparent = filter + transmit > 0 || finish_transmits(finish);
     int lambert = !transparent && finish_is_lambert(finish) && !surface->texture->normal;
     if (!lambert)
         *b = (Bsdf){.brilliance = 1};
     set_side(b, surface, wo);
-    b->refracts = ior != 1;
-    b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
+    b->refracts = ior != 1 || interior_disperses(interior);
+    /* an opaque sheet has a coat on both sides */
+    b->eta = b->bend = (float)(surface->backside && transparent ? 1 / ior : ior);
     if (lambert) {
         setup_lambert(b, finish);
         return;
@@ -261,6 +260,18 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
     setup_choice(b);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);
+}
+
+void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity)
+{
+    setup(b, surface, wo, filter, transmit, opacity, 1);
+}
+
+void bsdf_setup_wavelength(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit, float opacity,
+                           double wavelength)
+{
+    const double scale = dispersion_scale(surface->primitive->interior->dispersion, wavelength);
+    setup(b, surface, wo, filter, transmit, opacity, scale);
 }
 
 void bsdf_stop_passing(Bsdf *b)

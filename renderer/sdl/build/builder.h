@@ -21,8 +21,7 @@
 #define GAP_TABLE(X) \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
-    X(MEDIA, "media", "it is ignored") \
-    X(DISPERSION, "dispersion", "one ior is used for all colours")
+    X(MEDIA, "media", "it is ignored")
 
 typedef enum Gap {
 #define X(id, name, instead) GAP_##id,
@@ -137,6 +136,7 @@ typedef struct MovedTexture {
 
 typedef struct ParsedInterior {
     Interior interior; /* first */
+    int has_ior;       /* it is written */
     Gaps gaps;
 } ParsedInterior;
 

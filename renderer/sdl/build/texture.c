@@ -131,7 +131,7 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
     if (known)
         *interior = *known;
     else if (sdl_accept(sdl, "ior"))
-        i->ior = sdl_float(sdl);
+        i->ior = sdl_float(sdl), interior->has_ior = 1;
     else if (sdl_accept(sdl, "fade_distance"))
         i->fade_distance = sdl_float(sdl);
     else if (sdl_accept(sdl, "fade_power"))
@@ -141,10 +141,9 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
         i->fade_color = rgb(c.r, c.g, c.b);
     } else if (sdl_accept(sdl, "caustics") || sdl_accept(sdl, "refraction") || sdl_accept(sdl, "dispersion_samples"))
         sdl_float(sdl);
-    else if (sdl_accept(sdl, "dispersion")) {
-        if (sdl_float(sdl) != 1)
-            gaps_add(&interior->gaps, GAP_DISPERSION);
-    } else if (sdl_accept(sdl, "media")) {
+    else if (sdl_accept(sdl, "dispersion"))
+        i->dispersion = sdl_float(sdl);
+    else if (sdl_accept(sdl, "media")) {
         gaps_add(&interior->gaps, GAP_MEDIA);
         sdl_skip_block(sdl);
     } else if (peek_ident(sdl, VALUE_OTHER)) {
@@ -164,6 +163,8 @@ const ParsedInterior *parse_interior(Sdl *sdl, const ParsedInterior *from)
     sdl_expect(sdl, "{");
     while (!sdl_accept(sdl, "}"))
         interior_item(sdl, interior);
+    if (!interior->has_ior)
+        interior->interior.dispersion = 1; /* as in POV-Ray */
     return interior;
 }
 

@@ -5,7 +5,7 @@ light_source { <3, 5, -4>, rgb 1 }
 #declare Glass = material {
   texture { pigment { rgbf <1, 1, 1, 0.9> } 
     finish { specular albedo 0.5 roughness 0.01 reflection { 0.1, 1 fresnel on } conserve_energy } }
-  interior { ior 1.5 }
+  interior { ior 1.5 dispersion 1.05 dispersion_samples 9 }
 }
 #declare Metal = texture { pigment { rgb <1, 0.8, 0.2> }
   finish { phong 0.7 phong_size 40 metallic reflection { 0.3 falloff 2 exponent 0.5 metallic 1 } brilliance 2 }
