@@ -350,15 +350,17 @@ void parse_arguments(Arguments *a)
     a->render = defaults;
     a->render.sharp = 0; /* 0 until --clusters is given */
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
-    a->animation = (Animation)ANIMATION_INIT;
     while ((o = cli_next(cli))) {
         if (o != &cli_positional)
             parse_option(a, o);
+        else if (take_ini_word(a, cli->value))
+            continue;
         else if (a->scene)
             surplus_scene(a);
         else
             a->scene = cli->value;
     }
+    take_ini_options(a);
     if (!a->scene)
         cli_die(cli, "no scene given; try --help");
     if (a->render.paper && a->render.sharp)

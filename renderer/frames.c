@@ -31,7 +31,7 @@ void plan_frames(Arguments *a)
         cli_die(a->cli, "the last frame, %d, is before the first, %d", animation->last_frame, animation->first_frame);
     if (!range->step)
         *range = (FrameRange){animation->first_frame, animation->last_frame, 1};
-    if (range->first < animation->first_frame || range->last > animation->last_frame)
+    if (range->last < range->first || range->first < animation->first_frame || range->last > animation->last_frame)
         cli_die(a->cli, "there are no frames %d to %d: the animation has frames %d to %d", range->first, range->last,
                 animation->first_frame, animation->last_frame);
     frames_check_count(a->cli, range);

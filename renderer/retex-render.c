@@ -15,6 +15,8 @@ static void announce_files(Arguments *a)
     const char *output = a->list || a->tracing ? "-" : a->output;
     char path[4096];
     cli_reads(a->cli, "the scene", a->scene);
+    for (int k = 0; k < a->ini.files.count; k++)
+        cli_reads(a->cli, "the .ini file", a->ini.files.items[k]);
     cli_reads(a->cli, "the table", a->variants);
     cli_reads(a->cli, "the set of --control", a->control);
     for (int k = 0; k < a->nmerged; k++) {
@@ -290,7 +292,7 @@ static int make_frame(Arguments *a)
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-render",
-               .usage = "[options] SCENE.pov",
+               .usage = "[options] SCENE.pov|FILE.ini",
                .argc = argc,
                .argv = argv,
                .next = 1,
@@ -303,5 +305,6 @@ int main(int argc, char **argv)
     int status = for_each_frame(&a, check_files);
     if (status == CLI_OK)
         status = for_each_frame(&a, make_frame);
+    ini_close(&a.ini);
     return cli_close(&cli, status);
 }

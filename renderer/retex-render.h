@@ -8,7 +8,7 @@
 #include "texture_args.h"
 #include "batch.h"
 #include "frames.h"
-#include "job/animation.h"
+#include "job/ini.h"
 #include "job/job.h"
 
 #define LIST_MAX 64
@@ -34,6 +34,10 @@ typedef struct Arguments {
     int denoise, no_denoise_data, full_precision;
     const char *merged[LIST_MAX];
     int nmerged;
+    const char *ini_words[LIST_MAX]; /* .ini files and switches of POV-Ray, in their order */
+    int nini_words;
+    IniOptions ini; /* what they say */
+    char clock[48]; /* a declaration */
     Animation animation;
     FrameRange frames;     /* the frames of it that are rendered; step 0: one picture without a number */
     char checkpoint[4096]; /* OUTPUT.partial, or "" if the output is not a file */
@@ -42,6 +46,13 @@ typedef struct Arguments {
 /* ---- arguments.c ---- */
 
 void parse_arguments(Arguments *arguments);
+
+/* ---- ini_arguments.c ---- */
+
+/* Keep a word of the command line if it is an .ini file or a switch of POV-Ray, such as `+KFF12`. Return 0 if not. */
+int take_ini_word(Arguments *arguments, const char *word);
+/* Read those words, after all options of the command line. */
+void take_ini_options(Arguments *arguments);
 
 /* ---- frames.c ---- */
 
