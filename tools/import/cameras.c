@@ -48,23 +48,92 @@ static View view_of(const Import *import, int index)
     return view;
 }
 
+/* To the right and up, of length 1. */
+static void frame(const double ahead[3], const double up[3], double side[3], double above[3])
+{
+    double length = 0;
+    for (int k = 0; k < 3; k++)
+        side[k] = up[(k + 1) % 3] * ahead[(k + 2) % 3] - up[(k + 2) % 3] * ahead[(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        length += side[k] * side[k];
+    for (int k = 0; k < 3; k++)
+        side[k] /= length > 0 ? sqrt(length) : 1;
+    for (int k = 0; k < 3; k++)
+        above[k] = ahead[(k + 1) % 3] * side[(k + 2) % 3] - ahead[(k + 2) % 3] * side[(k + 1) % 3];
+}
+
+/* A shifted lens: direction, right and up as vectors, for look_at would turn the direction back. */
+static void print_shifted(FILE *out, const View *view, const double at[3], const double to[3], const double up[3],
+                          const double shift[2])
+{
+    const double distance = view->aspect / (2 * tan(view->angle / 2));
+    double ahead[3], side[3], above[3];
+    for (int k = 0; k < 3; k++)
+        ahead[k] = to[k] - at[k];
+    frame(ahead, up, side, above);
+    for (int k = 0; k < 3; k++) {
+        side[k] *= view->aspect;
+        ahead[k] = ahead[k] * distance + shift[0] * side[k] + shift[1] * above[k];
+    }
+    vector_print(out, "  direction ", ahead, "\n");
+    vector_print(out, "  right ", side, "\n");
+    vector_print(out, "  up ", above, "\n");
+}
+
+/* A shifted parallel projection is one that is moved. */
+static void move_orthographic(const View *view, double at[3], double to[3], const double up[3], const double shift[2],
+                              double scale)
+{
+    double ahead[3], side[3], above[3];
+    for (int k = 0; k < 3; k++)
+        ahead[k] = to[k] - at[k];
+    frame(ahead, up, side, above);
+    for (int k = 0; k < 3; k++) {
+        const double by = view->width * scale * (shift[0] * side[k] + shift[1] * above[k] / view->aspect);
+        at[k] += by, to[k] += by;
+    }
+}
+
+/* A thin lens: POV-Ray's aperture is four times its radius. */
+static void print_lens(const Import *import, FILE *out, const GltfCamera *camera, const double at[3],
+                       const double to[3])
+{
+    const double scale = import->options->scale;
+    double focus[3];
+    for (int k = 0; k < 3; k++)
+        focus[k] = at[k] + (to[k] - at[k]) * camera->focus_distance * scale;
+    fprintf(out, "  aperture %.6g\n", 4 * camera->lens_radius * scale);
+    vector_print(out, "  focal_point ", focus, "\n  blur_samples 64\n");
+}
+
 static int write_camera(const Import *import, int index, const char *name, FILE *out)
 {
+    static const GltfCamera plain;
+    const GltfCamera *gltf = index < import->gltf.ncameras ? &import->gltf.cameras[index] : &plain;
     const View view = view_of(import, index);
+    const int is_shifted = view.width == 0 && (gltf->shift[0] != 0 || gltf->shift[1] != 0);
     double at[3], to[3], up[3];
     if (!place(import, import->scene->mCameras[index], at, to, up))
         return 0;
+    if (view.width > 0)
+        move_orthographic(&view, at, to, up, gltf->shift, import->options->scale);
     fprintf(out, "#declare %s = camera {\n", name);
     if (view.width > 0)
         fprintf(out, "  orthographic\n");
     vector_print(out, "  location ", at, "\n");
-    vector_print(out, "  sky ", up, "\n");
+    if (is_shifted)
+        print_shifted(out, &view, at, to, up, gltf->shift);
+    else
+        vector_print(out, "  sky ", up, "\n");
     if (view.width > 0) {
         const double width = view.width * import->options->scale;
         fprintf(out, "  right x * %.7g\n  up y * %.7g\n", width, width / view.aspect);
-    } else
+    } else if (!is_shifted)
         fprintf(out, "  right x * %.9g\n  up y\n  angle %.9g\n", view.aspect, view.angle * 180 / PI);
-    vector_print(out, "  look_at ", to, "\n");
+    if (!is_shifted)
+        vector_print(out, "  look_at ", to, "\n");
+    if (gltf->lens_radius > 0 && gltf->focus_distance > 0)
+        print_lens(import, out, gltf, at, to);
     fprintf(out, "}\n");
     return 1;
 }

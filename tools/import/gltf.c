@@ -1,9 +1,8 @@
-/* What Assimp leaves out of glTF files: strengths of emission, and angles of view as they are written. */
+/* What Assimp leaves out of glTF files: strengths of emission, angles of view as they are written, all lights, and
+ * extras for this tool. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <jansson.h>
 
 #include "import/internal.h"
 
@@ -31,16 +30,34 @@ static json_t *read_json(FILE *in)
     return json;
 }
 
-static double number_of(const json_t *object, const char *key, double otherwise)
+double gltf_number(const json_t *object, const char *key, double otherwise)
 {
     const json_t *value = json_object_get(object, key);
     const double x = json_is_number(value) ? json_number_value(value) : otherwise;
     return isfinite(x) ? x : otherwise;
 }
 
-static const json_t *extension(const json_t *material, const char *name)
+const json_t *gltf_extension(const json_t *of, const char *name)
 {
-    return json_object_get(json_object_get(material, "extensions"), name);
+    return json_object_get(json_object_get(of, "extensions"), name);
+}
+
+const json_t *gltf_extras(const json_t *node)
+{
+    return json_object_get(json_object_get(node, "extras"), "retex");
+}
+
+/* Factor of the reflectance; the mean of a colour. */
+static double specular_of(const json_t *specular)
+{
+    const json_t *color = json_object_get(specular, "specularColorFactor");
+    double mean = 1;
+    if (json_array_size(color) == 3)
+        mean = (json_number_value(json_array_get(color, 0)) + json_number_value(json_array_get(color, 1)) +
+                json_number_value(json_array_get(color, 2))) /
+               3;
+    mean *= gltf_number(specular, "specularFactor", 1);
+    return isfinite(mean) ? fmin(fmax(mean, 0), 20) : 1;
 }
 
 static void take_materials(const json_t *json, Gltf *gltf)
@@ -48,9 +65,12 @@ static void take_materials(const json_t *json, Gltf *gltf)
     const json_t *materials = json_object_get(json, "materials");
     const size_t count = json_array_size(materials);
     gltf->strengths = calloc(count + 1, sizeof *gltf->strengths);
-    for (size_t i = 0; gltf->strengths && i < count; i++) {
-        const json_t *one = extension(json_array_get(materials, i), "KHR_materials_emissive_strength");
-        gltf->strengths[i] = (float)number_of(one, "emissiveStrength", 1);
+    gltf->speculars = calloc(count + 1, sizeof *gltf->speculars);
+    for (size_t i = 0; gltf->strengths && gltf->speculars && i < count; i++) {
+        const json_t *material = json_array_get(materials, i);
+        const json_t *emissive = gltf_extension(material, "KHR_materials_emissive_strength");
+        gltf->strengths[i] = (float)gltf_number(emissive, "emissiveStrength", 1);
+        gltf->speculars[i] = (float)specular_of(gltf_extension(material, "KHR_materials_specular"));
         gltf->nmaterials = (int)i + 1;
     }
 }
@@ -64,11 +84,29 @@ static void take_cameras(const json_t *json, Gltf *gltf)
         const json_t *camera = json_array_get(cameras, i), *perspective = json_object_get(camera, "perspective");
         const json_t *orthographic = json_object_get(camera, "orthographic");
         GltfCamera *to = &gltf->cameras[i];
-        to->angle = number_of(perspective, "yfov", 0);
-        to->aspect = number_of(perspective, "aspectRatio", 0);
-        to->width = 2 * number_of(orthographic, "xmag", 0);
-        to->height = 2 * number_of(orthographic, "ymag", 0);
+        to->angle = gltf_number(perspective, "yfov", 0);
+        to->aspect = gltf_number(perspective, "aspectRatio", 0);
+        to->width = 2 * gltf_number(orthographic, "xmag", 0);
+        to->height = 2 * gltf_number(orthographic, "ymag", 0);
         gltf->ncameras = (int)i + 1;
+    }
+}
+
+/* The lens, of the nodes of cameras. */
+static void take_lenses(const json_t *json, Gltf *gltf)
+{
+    const json_t *nodes = json_object_get(json, "nodes");
+    for (size_t i = 0; i < json_array_size(nodes); i++) {
+        const json_t *node = json_array_get(nodes, i), *camera = json_object_get(node, "camera");
+        const json_t *extras = gltf_extras(node), *shift = json_object_get(extras, "shift");
+        const json_int_t index = json_is_integer(camera) ? json_integer_value(camera) : -1;
+        if (!extras || index < 0 || index >= gltf->ncameras)
+            continue;
+        GltfCamera *to = &gltf->cameras[index];
+        for (size_t k = 0; k < 2; k++)
+            to->shift[k] = fmin(fmax(json_number_value(json_array_get(shift, k)), -100), 100);
+        to->lens_radius = fmax(gltf_number(extras, "lens_radius", 0), 0);
+        to->focus_distance = fmax(gltf_number(extras, "focus_distance", 0), 0);
     }
 }
 
@@ -85,11 +123,15 @@ void gltf_read(Import *import)
         fclose(in);
     take_materials(json, &import->gltf);
     take_cameras(json, &import->gltf);
+    take_lenses(json, &import->gltf);
+    gltf_take_lights(json, &import->gltf);
     json_decref(json);
 }
 
 void gltf_free(Gltf *gltf)
 {
     free(gltf->strengths);
+    free(gltf->speculars);
     free(gltf->cameras);
+    free(gltf->lights);
 }

@@ -10,6 +10,7 @@
 #include <assimp/cimport.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <jansson.h>
 
 #include "import/import.h"
 
@@ -72,14 +73,30 @@ typedef struct ImportMaterial {
 
 /* Of a glTF file: what Assimp leaves out. */
 typedef struct GltfCamera {
-    double angle, aspect; /* from top to bottom, in radians; width by height. 0 = not there */
-    double width, height; /* of an orthographic one, or 0 */
+    double angle, aspect;               /* from top to bottom, in radians; width by height. 0 = not there */
+    double width, height;               /* of an orthographic one, or 0 */
+    double shift[2];                    /* of the lens, in widths and heights of the picture */
+    double lens_radius, focus_distance; /* 0 = sharp everywhere */
 } GltfCamera;
 
+/* A node's light: Assimp keeps one node of each. Lengths are in the node's space, angles in radians. */
+typedef struct GltfLight {
+    char node[TEXT_SIZE];
+    enum aiLightSourceType type;
+    double color[3];         /* W/sr or W/m2 where the file has watts; of an area, radiance */
+    double inner, outer;     /* of a spot: half angles */
+    double tightness;        /* of a spot: the power of the cosine that dims it */
+    double radius;           /* of a point or spot */
+    double angle;            /* of the sun: its diameter in the sky */
+    double width, height;    /* of an area, which shines towards -z */
+    int is_ellipse, is_seen; /* an area; by the camera */
+} GltfLight;
+
 typedef struct Gltf {
-    float *strengths; /* of emission, by material */
+    float *strengths, *speculars; /* by material: of emission, of the reflectance at normal incidence */
     GltfCamera *cameras;
-    int nmaterials, ncameras;
+    GltfLight *lights;
+    int nmaterials, ncameras, nlights;
 } Gltf;
 
 struct Import {
@@ -134,6 +151,14 @@ int files_find(Import *import, const char *name, char path[PATH_MAX], int *found
 /* gltf.c */
 void gltf_read(Import *import);
 void gltf_free(Gltf *gltf);
+double gltf_number(const json_t *object, const char *key, double otherwise);
+const json_t *gltf_extension(const json_t *of, const char *name);
+/* What extras of a node say for this tool, or NULL. */
+const json_t *gltf_extras(const json_t *node);
+/* gltf_lights.c */
+void gltf_take_lights(const json_t *json, Gltf *gltf);
+/* Returns 1 if there are any. */
+int gltf_lights_write(Import *import, double user, FILE *out);
 
 /* images.c */
 /* Put the image into the scene's folder. file: its name there, or "" where it is missing, which is told. */

@@ -4,20 +4,6 @@
 
 #include "import/internal.h"
 
-/* glTF counts in candela and lux. Blender writes 683 lumens for a watt; of other programs the numbers are taken as
- * they are. */
-static double photometric(const Import *import)
-{
-    struct aiMetadata *meta = import->scene->mMetaData;
-    for (unsigned i = 0; meta && i < meta->mNumProperties; i++) {
-        const struct aiMetadataEntry *entry = &meta->mValues[i];
-        if (entry->mType == AI_AISTRING && entry->mData &&
-            strstr(((const struct aiString *)entry->mData)->data, "Blender I/O"))
-            return 1 / 683.0;
-    }
-    return 1;
-}
-
 typedef struct Falloff {
     double factor, distance, power; /* of the colour; power 0 = none */
 } Falloff;
@@ -28,8 +14,6 @@ static Falloff falloff_of(const Import *import, const struct aiLight *light)
     const double scale = import->options->scale;
     const double c = fmax((double)light->mAttenuationConstant, 0), l = fmax((double)light->mAttenuationLinear, 0);
     const double q = fmax((double)light->mAttenuationQuadratic, 0), near = 0.02;
-    if (import->is_gltf) /* intensity / d^2 is the irradiance */
-        return (Falloff){photometric(import) * scale * scale / (2 * PI * near * near), near, 2};
     if (q > 1e-12 && c > 1e-6)
         return (Falloff){0.5 / c, sqrt(c / q) * scale, 2};
     if (q > 1e-12)
@@ -49,17 +33,17 @@ static void print_color(FILE *out, const struct aiLight *light, double factor)
     fprintf(out, ">");
 }
 
-/* Degrees from the axis; Assimp keeps what each format has. */
-static double half_angle(const Import *import, float angle)
+/* Degrees from the axis; formats have the whole cone. */
+static double half_angle(float angle)
 {
-    const double degrees = (double)angle * 180 / PI * (import->is_gltf ? 1 : 0.5);
+    const double degrees = (double)angle * 90 / PI;
     return isfinite(degrees) ? fmin(fmax(degrees, 0), 90) : 45;
 }
 
-static void print_spot(const Import *import, const struct aiLight *light, FILE *out)
+static void print_spot(const struct aiLight *light, FILE *out)
 {
-    const double outer = half_angle(import, light->mAngleOuterCone);
-    const double inner = fmin(half_angle(import, light->mAngleInnerCone), outer);
+    const double outer = half_angle(light->mAngleOuterCone);
+    const double inner = fmin(half_angle(light->mAngleInnerCone), outer);
     fprintf(out, " spotlight radius %.5g falloff %.5g", fmin(inner, outer - 0.01), outer);
 }
 
@@ -68,13 +52,11 @@ static int is_left_out(const struct aiLight *light)
     return light->mType == aiLightSource_AMBIENT || light->mType == aiLightSource_UNDEFINED;
 }
 
-/* Other formats than glTF have no unit of light, and programs write watts, per cents or factors. Where the lights would
+/* Formats but glTF have no unit of light, and programs write watts, per cents or factors. Where the lights would
  * leave the middle of the scene black or white, they are scaled together. */
 static double exposure(const Import *import)
 {
     double sum = 0;
-    if (import->is_gltf)
-        return 1;
     for (unsigned i = 0; i < import->scene->mNumLights; i++) {
         const struct aiLight *light = import->scene->mLights[i];
         const struct aiVector3D *p = &light->mPosition;
@@ -122,14 +104,14 @@ static void write_light(Import *import, const struct aiLight *light, double user
         for (int k = 0; k < 3; k++)
             at[k] = middle[k] - to[k] * 2 * (sqrt(radius) + 1);
         vector_print(out, " ", at, "");
-        print_color(out, light, user * (import->is_gltf ? photometric(import) / PI : 1));
+        print_color(out, light, user);
         vector_print(out, " parallel point_at ", middle, "");
     } else {
         const Falloff falloff = falloff_of(import, light);
         vector_print(out, " ", at, "");
         print_color(out, light, user * falloff.factor);
         if (light->mType == aiLightSource_SPOT)
-            print_spot(import, light, out);
+            print_spot(light, out);
         if (light->mType == aiLightSource_AREA && light->mSize.x > 0 && light->mSize.y > 0)
             fprintf(out, " area_light x*%.6g, z*%.6g, 5, 5 area_illumination jitter",
                     (double)light->mSize.x * import->options->scale, (double)light->mSize.y * import->options->scale);
@@ -165,14 +147,13 @@ static int write_sky(Import *import, FILE *out, int has_light, RetexError *err)
     return RETEX_OK;
 }
 
-int lights_write(Import *import, FILE *out, RetexError *err)
+static int write_lights(Import *import, FILE *out)
 {
     const struct aiScene *scene = import->scene;
     const double scaled = exposure(import);
-    int any = import->emits;
+    int any = 0;
     if (scaled != 1)
         import_tell(import, IMPORT_INFO, "the lights of this format have no unit: they are scaled by %.3g", scaled);
-    fprintf(out, "// ---- light ----\n\n");
     for (unsigned i = 0; i < scene->mNumLights; i++) {
         const struct aiLight *light = scene->mLights[i];
         if (is_left_out(light)) {
@@ -182,5 +163,13 @@ int lights_write(Import *import, FILE *out, RetexError *err)
         write_light(import, light, scaled * import->options->lights, out);
         any = 1;
     }
-    return write_sky(import, out, any, err);
+    return any;
+}
+
+int lights_write(Import *import, FILE *out, RetexError *err)
+{
+    fprintf(out, "// ---- light ----\n\n");
+    const int any =
+        import->is_gltf ? gltf_lights_write(import, import->options->lights, out) : write_lights(import, out);
+    return write_sky(import, out, any || import->emits, err);
 }

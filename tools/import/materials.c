@@ -263,6 +263,19 @@ static void note_left_out(Import *import, const struct aiMaterial *m)
         import_leave_out(import, LEFT_SHEEN);
 }
 
+/* Where nothing is refracted, the index stands for the reflectance alone: then it says all of it. */
+static void fold_tint(Surface *s)
+{
+    const float head_on = (s->ior - 1) * (s->ior - 1) / ((s->ior + 1) * (s->ior + 1));
+    const float root = sqrtf(fminf(s->tint * head_on, 0.6f));
+    if (s->transmission > 0)
+        s->tint = unit(s->tint);
+    else if (s->tint != 1) {
+        s->ior = (1 + root) / (1 - root);
+        s->tint = 1;
+    }
+}
+
 static int read_surface(Import *import, int index, Surface *s, RetexError *err)
 {
     const struct aiMaterial *m = import->scene->mMaterials[index];
@@ -284,13 +297,14 @@ static int read_surface(Import *import, int index, Surface *s, RetexError *err)
         roughness_of_phong(m, s);
     if (get_float(m, AI_MATKEY_REFRACTI, &factor) && factor >= 1 && factor <= 10 && (is_pbr || factor > 1))
         s->ior = factor;
-    if (is_pbr && import->is_gltf && get_float(m, AI_MATKEY_SPECULAR_FACTOR, &factor))
-        s->tint = unit(factor);
     get_float(m, AI_MATKEY_TRANSMISSION_FACTOR, &s->transmission);
     s->transmission = unit(s->transmission);
+    if (is_pbr && index < import->gltf.nmaterials)
+        s->tint = import->gltf.speculars[index];
     take_opacity(import, m, base, s);
     take_emission(import, m, index, s);
     take_volume(m, s);
+    fold_tint(s);
     note_left_out(import, m);
     /* The white that Assimp gives what has no material would lose no light. */
     if (!is_pbr && s->base[0] == 1 && s->base[1] == 1 && s->base[2] == 1)

@@ -1,0 +1,101 @@
+"""For import_lights.t. Without arguments: writes models of a white matte plane under a camera that looks down from a height
+of 4, each with lights of one kind, and expected.txt: the radiance of the plane's middle, by closed forms. With a name and a
+picture: compares the middle of the picture with it."""
+import json
+import math
+import struct
+import sys
+
+HEIGHT = 2  # of the lights above the plane
+DOWN = [-.5**.5, 0, 0, .5**.5]  # -z becomes -y
+UP = [.5**.5, 0, 0, .5**.5]
+
+
+def model(nodes, lights=(), camera=None, yfov=.1):
+    positions = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
+    buffer = b''.join(struct.pack('<3f', *p) for p in positions) + struct.pack('<6H', 0, 1, 2, 0, 2, 3)
+    eye = {'camera': 0, 'name': 'eye', 'translation': [0, 4, 0], 'rotation': DOWN, **(camera or {})}
+    nodes = [{'mesh': 0, 'name': 'plane'}, eye] + nodes
+    return {
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(nodes)))}], 'nodes': nodes,
+        'cameras': [{'type': 'perspective', 'perspective': {'yfov': yfov, 'aspectRatio': 1, 'znear': .1}}],
+        'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1, 'material': 0}]}],
+        'materials': [{'name': 'white', 'pbrMetallicRoughness': {'metallicFactor': 0},
+                       'extensions': {'KHR_materials_specular': {'specularColorFactor': [0, 0, 0]}}}],
+        'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3', 'min': [-9, 0, -9],
+                       'max': [9, 0, 9]},
+                      {'bufferView': 1, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}],
+        'bufferViews': [{'buffer': 0, 'byteLength': 48}, {'buffer': 0, 'byteOffset': 48, 'byteLength': 12}],
+        'buffers': [{'uri': 'plane.bin', 'byteLength': len(buffer)}],
+        'extensionsUsed': ['KHR_lights_punctual', 'KHR_materials_specular'],
+        'extensions': {'KHR_lights_punctual': {'lights': list(lights)}}}, buffer
+
+
+def lamp(name, x=0, light=0, extras=None, rotation=DOWN):
+    node = {'name': name, 'translation': [x, HEIGHT, 0], 'rotation': rotation}
+    if light is not None:
+        node['extensions'] = {'KHR_lights_punctual': {'light': light}}
+    if extras:
+        node['extras'] = {'retex': extras}
+    return node
+
+
+def of_intensity(i, x=0):
+    """Radiance of a white surface below a small light."""
+    squared = HEIGHT**2 + x**2
+    return i / squared * HEIGHT / math.sqrt(squared) / math.pi
+
+
+def write_all():
+    point, sun = {'type': 'point', 'intensity': 20}, {'type': 'directional', 'intensity': 3}
+    spot = {'type': 'spot', 'intensity': 20, 'spot': {'innerConeAngle': 0, 'outerConeAngle': .8}}
+    slant = math.cos(math.atan(1 / HEIGHT))
+    inner, outer = math.cos(.2), math.cos(.8)
+    t = (slant - outer) / (inner - outer)
+    square = {'size': [.02, .04], 'radiance': [1000, 1000, 1000]}
+    models = {
+        'shared': ([lamp('a', 1), lamp('b', -1)], [point], 2 * of_intensity(20, 1)),
+        'ball': ([lamp('a', extras={'radius': .1})], [point], of_intensity(20)),
+        'watts': ([lamp('a', extras={'intensity': [7, 7, 7]})], [point], of_intensity(7)),
+        'spot': ([lamp('a', 1, extras={'inner': .2, 'tightness': 1})], [spot],
+                 of_intensity(20, 1) * slant * t * t * (3 - 2 * t)),
+        'sun': ([lamp('a', extras={'angle': .05})], [sun], 3 / math.pi),
+        'area': ([lamp('a', light=None, extras=square)], [], of_intensity(1000 * .02 * .04)),
+        'ellipse': ([lamp('a', light=None, extras={**square, 'shape': 'ellipse'})], [],
+                    of_intensity(1000 * .02 * .04 * math.pi / 4)),
+        'away': ([lamp('a', light=None, extras=square, rotation=UP)], [], 0),
+    }
+    with open('expected.txt', 'w') as out:
+        for name, (nodes, lights, radiance) in models.items():
+            text, buffer = model(nodes, lights)
+            json.dump(text, open(name + '.gltf', 'w'))
+            open('plane.bin', 'wb').write(buffer)
+            print(name, radiance, file=out)
+    lens = {'extras': {'retex': {'shift': [.25, -.5], 'lens_radius': .05, 'focus_distance': 3}}}
+    json.dump(model([lamp('a')], [point], lens, .6)[0], open('lens.gltf', 'w'))
+
+
+def middle(file, part):
+    import OpenImageIO as oiio
+    source = oiio.ImageInput.open(file)
+    index = 0
+    while source.seek_subimage(index, 0):
+        spec = source.spec()
+        if spec.getattribute('name') == part or part is None:
+            pixels = source.read_image(index, 0, 0, 3, 'float')
+            return pixels[8:24, 8:24].mean((0, 1))
+        index += 1
+
+
+def compare(name, file):
+    expected = {line.split()[0]: float(line.split()[1]) for line in open('expected.txt')}[name]
+    found = float(middle(file, None)[1])
+    print(name, 'as expected' if abs(found - expected) <= .005 * expected + 1e-6 else f'{found} instead of {expected}')
+
+
+if len(sys.argv) == 1:
+    write_all()
+elif sys.argv[1] == 'position':
+    print(*(f'{x:.2f}' for x in middle(sys.argv[2], 'position')))
+else:
+    compare(sys.argv[1], sys.argv[2])
