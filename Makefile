@@ -84,6 +84,8 @@ install: all
 	$(INSTALL) -m 755 $(PLUGINS) $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
 	for page in man/*.[1-9]; do [ ! -e $$page ] || $(INSTALL) -D -m 644 -t \
 	    $(DESTDIR)$(PREFIX)/share/man/man$${page##*.} $$page || exit 1; done
+	$(INSTALL) -d $(DESTDIR)$(PREFIX)/share/retex/blender
+	$(INSTALL) -m 644 tools/blender/retex_export.py $(DESTDIR)$(PREFIX)/share/retex/blender
 
 lint:
 	@tests/lib/lint.sh

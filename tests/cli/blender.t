@@ -1,0 +1,3 @@
+# The add-on for Blender, without Blender: it is Python that compiles, and nothing in it is undefined or unused.
+$ /usr/bin/python3 -c "import sys; compile(open(sys.argv[1]).read(), sys.argv[1], 'exec')" $TESTS/../../tools/blender/retex_export.py
+$ if command -v pyflakes3 >/dev/null; then pyflakes3 $TESTS/../../tools/blender/retex_export.py; fi

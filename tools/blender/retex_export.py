@@ -1,0 +1,575 @@
+"""Blender to retex: File > Export > retex.
+
+The scene goes to retex-import as a glTF file, by Blender's own exporter. What glTF cannot say goes along: the size and
+shape of lights and the camera's lens as custom properties, which become `extras` of glTF nodes (retex-import(1) lists
+them), and the world as a picture, which Cycles renders. README.md says how to use it.
+
+Without a window:  blender -b FILE.blend --python retex_export.py -- -o FOLDER [options]
+"""
+import argparse
+import contextlib
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import bpy
+from bpy.props import BoolProperty, IntProperty, StringProperty
+
+bl_info = {
+    "name": "retex",
+    "author": "the retex project",
+    "version": (1, 0, 0),
+    "blender": (3, 4, 0),
+    "location": "File > Export > retex; Material properties > retex",
+    "description": "Export the scene for retexturing in image space",
+    "category": "Import-Export",
+}
+
+EXTRAS = "retex"  # the custom property, and the key of glTF extras
+WORLD_WIDTH = 2048  # of the sky's picture where the world has no image
+MOST_WORLD_WIDTH = 4096
+
+
+class Failure(Exception):
+    """What went wrong, in words for the user."""
+
+
+def set_for_now(stack, owner, name, value):
+    """Set an attribute until the stack ends."""
+    before = getattr(owner, name)
+    if before != value:
+        setattr(owner, name, value)
+        stack.callback(setattr, owner, name, before)
+
+
+# ---- objects ----
+
+
+def rendered_objects(view_layer):
+    """The objects that a render shows: not hidden, and in a collection that is not."""
+    found = set()
+
+    def walk(layer):
+        if layer.exclude or layer.collection.hide_render:
+            return
+        found.update(o for o in layer.collection.objects if not o.hide_render)
+        for child in layer.children:
+            walk(child)
+
+    walk(view_layer.layer_collection)
+    return found
+
+
+def show_as_rendered(stack, objects):
+    """The exporter applies modifiers as the viewport shows them: let it show them as a render does."""
+    for obj in objects:
+        for modifier in obj.modifiers:
+            set_for_now(stack, modifier, "show_viewport", modifier.show_render)
+            if modifier.type in {"SUBSURF", "MULTIRES"}:
+                set_for_now(stack, modifier, "levels", modifier.render_levels)
+
+
+# ---- lights and cameras ----
+
+
+def emission_factor(light):
+    """What the light's nodes multiply its colour by."""
+    if not light.use_nodes or not light.node_tree:
+        return (1, 1, 1)
+    for node in light.node_tree.nodes:
+        if node.type == "EMISSION" and not node.inputs["Color"].is_linked and not node.inputs["Strength"].is_linked:
+            strength = node.inputs["Strength"].default_value
+            return tuple(strength * c for c in node.inputs["Color"].default_value[:3])
+    return (1, 1, 1)
+
+
+def area_of(obj):
+    """Width and height of an area light, without the object's scale."""
+    light = obj.data
+    return (light.size, light.size_y if light.shape in {"RECTANGLE", "ELLIPSE"} else light.size)
+
+
+def light_extras(obj):
+    """A light as Cycles sees it: intensity in W/sr, irradiance of the sun in W/m2, radiance of an area."""
+    light = obj.data
+    color = [a * b * light.energy for a, b in zip(light.color, emission_factor(light))]
+    extras = {}
+    if light.type == "AREA":
+        width, height = area_of(obj)
+        scale = obj.matrix_world.to_scale()
+        area = abs(width * scale.x * height * scale.y)
+        is_ellipse = light.shape in {"DISK", "ELLIPSE"}
+        area *= math.pi / 4 if is_ellipse else 1
+        extras["shape"] = "ellipse" if is_ellipse else "rectangle"
+        extras["size"] = [width, height]
+        extras["radiance"] = [c / (4 * area) if area > 0 else 0 for c in color]
+    elif light.type == "SUN":
+        extras["intensity"] = color
+        extras["angle"] = light.angle
+    else:
+        extras["intensity"] = [c / (4 * math.pi) for c in color]
+        extras["radius"] = light.shadow_soft_size
+    if light.type == "SPOT":
+        outer = math.cos(light.spot_size / 2)
+        extras["inner"] = math.acos(outer + (1 - outer) * light.spot_blend)
+        if bpy.app.version < (4, 0, 0):
+            extras["tightness"] = 1  # Cycles dims by the cosine
+    return extras
+
+
+def camera_extras(obj, scene):
+    """What moves and opens the lens."""
+    camera, extras = obj.data, {}
+    frame = camera.view_frame(scene=scene)
+    low = [min(corner[k] for corner in frame) for k in range(2)]
+    high = [max(corner[k] for corner in frame) for k in range(2)]
+    shift = [(low[k] + high[k]) / 2 / (high[k] - low[k]) for k in range(2)]
+    if max(abs(s) for s in shift) > 1e-6:
+        extras["shift"] = shift
+    if camera.dof.use_dof and camera.type == "PERSP":
+        focus = camera.dof.focus_distance
+        if camera.dof.focus_object:
+            focus = -(obj.matrix_world.normalized().inverted() @ camera.dof.focus_object.matrix_world.translation).z
+        extras["lens_radius"] = camera.lens / 1000 / (2 * camera.dof.aperture_fstop)
+        extras["focus_distance"] = focus
+    return extras
+
+
+def tell_extras(stack, scene, objects, warn):
+    """Give lights and cameras the custom property that the exporter writes as extras."""
+    for obj in objects:
+        if obj.type == "LIGHT":
+            extras = light_extras(obj)
+            if obj.data.type == "AREA" and obj.data.spread < math.pi - 1e-3:
+                warn(f"light '{obj.name}': its spread is left out")
+        elif obj.type == "CAMERA":
+            extras = camera_extras(obj, scene)
+        else:
+            continue
+        if extras:
+            obj[EXTRAS] = extras
+            stack.callback(obj.pop, EXTRAS, None)
+
+
+# ---- materials ----
+
+
+def used_materials(objects):
+    found = {}
+    for obj in objects:
+        for slot in getattr(obj, "material_slots", ()):
+            if slot.material:
+                found[slot.material.name] = slot.material
+        if obj.instance_type == "COLLECTION" and obj.instance_collection:
+            found.update(used_materials(obj.instance_collection.all_objects))
+    return found
+
+
+def surface_link(material):
+    """The link into the active output's surface, or None."""
+    output = material.node_tree.get_output_node("CYCLES") if material.use_nodes and material.node_tree else None
+    links = output.inputs["Surface"].links if output else ()
+    return links[0] if links else None
+
+
+# Shaders that a Principled one can say: what its sockets get. A name takes the socket of that name, with its link.
+SAME_AS_PRINCIPLED = {
+    "BSDF_DIFFUSE": {"Base Color": "Color", "Roughness": 0.5, "Specular": 0.0},  # 0.5 is next to Lambert
+    "BSDF_GLOSSY": {"Base Color": "Color", "Roughness": "Roughness", "Metallic": 1.0},
+    "BSDF_ANISOTROPIC": {"Base Color": "Color", "Roughness": "Roughness", "Metallic": 1.0},
+    "BSDF_GLASS": {"Base Color": "Color", "Roughness": "Roughness", "IOR": "IOR", "Transmission": 1.0},
+    "EMISSION": {"Base Color": (0, 0, 0, 1), "Specular": 0.0, "Emission": "Color", "Emission Strength": "Strength"},
+}
+NEW_NAMES = {"Specular": "Specular IOR Level", "Transmission": "Transmission Weight", "Emission": "Emission Color"}
+
+
+def socket_of(node, name):
+    """Blender 4 has renamed some."""
+    return node.inputs.get(name) or node.inputs.get(NEW_NAMES.get(name, ""))
+
+
+def copy_socket(tree, source, to):
+    if source.is_linked:
+        tree.links.new(source.links[0].from_socket, to)
+    else:
+        to.default_value = source.default_value
+
+
+def make_principled(stack, material, link):
+    """Put a Principled shader in the place of a simple one."""
+    tree, node, to = material.node_tree, link.from_node, link.to_socket
+    shader, before = tree.nodes.new("ShaderNodeBsdfPrincipled"), link.from_socket
+    for name, value in SAME_AS_PRINCIPLED[node.type].items():
+        socket = socket_of(shader, name)
+        if isinstance(value, str):
+            copy_socket(tree, node.inputs[value], socket)
+        else:
+            socket.default_value = value
+    if "Normal" in node.inputs and node.inputs["Normal"].is_linked:
+        copy_socket(tree, node.inputs["Normal"], shader.inputs["Normal"])
+    tree.links.new(shader.outputs[0], to)
+
+    def undo():
+        tree.links.new(before, to)
+        tree.nodes.remove(shader)
+
+    stack.callback(undo)
+
+
+def prepare_material(stack, material, warn):
+    link = surface_link(material)
+    if not material.use_nodes:
+        return
+    if link and link.from_node.type in SAME_AS_PRINCIPLED:
+        make_principled(stack, material, link)
+    elif not link or link.from_node.type != "BSDF_PRINCIPLED":
+        shader = link.from_node.bl_label if link else "nothing"
+        warn(f"material '{material.name}': its surface is {shader}, not a Principled BSDF: it may look different")
+        return
+    shader = surface_link(material).from_node
+    alpha = shader.inputs["Alpha"]
+    if (alpha.is_linked or alpha.default_value < 1) and getattr(material, "blend_method", "") == "OPAQUE":
+        set_for_now(stack, material, "blend_method", "BLEND")  # Cycles knows no blend modes
+    for name in ("Base Color", "Roughness", "Metallic"):
+        socket = shader.inputs[name]
+        if socket.is_linked and not reaches_image(socket):
+            warn(f"material '{material.name}': {name} comes from nodes without an image; glTF takes none of it")
+
+
+def reaches_image(socket, depth=0):
+    node = socket.links[0].from_node
+    if node.type in {"TEX_IMAGE", "VERTEX_COLOR", "RGB", "VALUE"}:
+        return True
+    return depth < 16 and any(reaches_image(s, depth + 1) for s in node.inputs if s.is_linked)
+
+
+def uses_vertex_colors(materials):
+    return any(node.type in {"VERTEX_COLOR", "ATTRIBUTE"}
+               for m in materials if m.use_nodes and m.node_tree for node in m.node_tree.nodes)
+
+
+def identifier(name):
+    """The name that retex-import gives a material."""
+    words = "_".join(re.findall(r"[A-Za-z0-9]+", name))[:48].rstrip("_") or "Material"
+    if words[0].isdigit():
+        words = "Material_" + words
+    return words[0].upper() + words[1:]
+
+
+# ---- the world ----
+
+
+def world_images(tree):
+    for node in tree.nodes:
+        if node.type == "TEX_ENVIRONMENT" and node.image:
+            yield node.image
+        elif node.type == "GROUP" and node.node_tree:
+            yield from world_images(node.node_tree)
+
+
+def world_is_black(world):
+    if not world:
+        return True
+    if not world.use_nodes or not world.node_tree:
+        return max(world.color) <= 0
+    for node in world.node_tree.nodes:
+        if node.type == "BACKGROUND" and node.outputs[0].is_linked:
+            strength, color = node.inputs["Strength"], node.inputs["Color"]
+            if (strength.is_linked or strength.default_value > 0) and (
+                    color.is_linked or max(color.default_value[:3]) > 0):
+                return False
+        elif node.type == "GROUP":
+            return False
+    return True
+
+
+def world_width(world):
+    if not world.use_nodes or not world.node_tree:
+        return 16
+    tree = world.node_tree
+    widths = [image.size[0] for image in world_images(tree)]
+    if widths:
+        return min(max(max(widths), 16), MOST_WORLD_WIDTH)
+    return WORLD_WIDTH if any(n.type.startswith("TEX_") or n.type == "GROUP" for n in tree.nodes) else 16
+
+
+def render_world(world, path):
+    """A picture of the world, twice as wide as high, as --sky of retex-import takes it: Cycles renders it."""
+    scene = bpy.data.scenes.new("retex world")
+    camera = bpy.data.cameras.new("retex world")
+    eye = bpy.data.objects.new("retex world", camera)
+    try:
+        scene.world = world
+        scene.collection.objects.link(eye)
+        scene.camera = eye
+        eye.rotation_euler = (math.pi / 2, 0, -math.pi / 2)
+        scene.render.engine = "CYCLES"
+        camera.type = "PANO"
+        panorama = camera if hasattr(camera, "panorama_type") else camera.cycles
+        panorama.panorama_type = "EQUIRECTANGULAR"
+        scene.cycles.samples = 16
+        scene.cycles.use_denoising = False
+        scene.cycles.use_adaptive_sampling = False
+        scene.cycles.film_exposure = 1
+        scene.render.film_transparent = False
+        scene.render.resolution_x = world_width(world)
+        scene.render.resolution_y = scene.render.resolution_x // 2
+        scene.render.resolution_percentage = 100
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.image_settings.color_mode = "RGB"
+        scene.render.use_file_extension = False
+        scene.render.filepath = path
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+    finally:
+        bpy.data.scenes.remove(scene)
+        bpy.data.cameras.remove(camera)
+
+
+# ---- the export ----
+
+
+def export_gltf(path, **more):
+    wanted = {
+        "filepath": path, "export_format": "GLB", "use_active_scene": True, "use_renderable": True,
+        "use_selection": False, "use_visible": False, "export_apply": True, "export_cameras": True,
+        "export_lights": True, "export_extras": True, "export_yup": True, "export_animations": False,
+        "export_skins": False, "export_morph": False, "export_import_convert_lighting_mode": "SPEC",
+        "export_vertex_color": "MATERIAL", **more,
+    }
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    bpy.ops.export_scene.gltf(**{key: value for key, value in wanted.items() if key in known})
+
+
+def tool(name):
+    addon = bpy.context.preferences.addons.get(__name__)
+    folder = addon.preferences.folder if addon and addon.preferences else ""
+    found = shutil.which(name, path=bpy.path.abspath(folder)) if folder else shutil.which(name)
+    if not found:
+        raise Failure(f"{name} is not found: set the folder of retex's programs in the add-on's preferences, or PATH")
+    return found
+
+
+def run(command, tell):
+    done = subprocess.run(command, capture_output=True, text=True)
+    for line in done.stderr.splitlines():
+        tell(line)
+    if done.returncode:
+        raise Failure(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{command[0]} failed")
+
+
+def picture_size(scene):
+    render = scene.render
+    return [max(1, int(n * render.resolution_percentage / 100)) for n in (render.resolution_x, render.resolution_y)]
+
+
+class Export:
+    """One export of the active scene into a folder."""
+
+    def __init__(self, context, folder, tell, keep_glb=False):
+        self.context, self.scene, self.tell, self.keep_glb = context, context.scene, tell, keep_glb
+        self.folder = os.path.abspath(folder)
+        self.name = os.path.basename(self.folder)
+        self.targets = []  # (name, identifier)
+
+    def warn(self, text):
+        self.tell("warning: " + text)
+
+    def write_gltf(self, path):
+        """Export what is rendered; all that is changed for it is changed back."""
+        objects = rendered_objects(self.context.view_layer)
+        materials = used_materials(objects)
+        with contextlib.ExitStack() as stack:
+            for obj in self.scene.objects:
+                if obj not in objects and not obj.hide_render:
+                    set_for_now(stack, obj, "hide_render", True)
+            show_as_rendered(stack, objects)
+            tell_extras(stack, self.scene, objects, self.warn)
+            for material in materials.values():
+                prepare_material(stack, material, self.warn)
+            export_gltf(path, export_colors=uses_vertex_colors(materials.values()))
+        self.targets = [(identifier(m.retex_target_name or m.name), identifier(m.name))
+                        for m in materials.values() if m.retex_target]
+
+    def write(self):
+        """Make FOLDER/NAME.pov. Returns its path."""
+        importer = tool("retex-import")
+        if not self.name:
+            raise Failure("no folder to export to")
+        with tempfile.TemporaryDirectory(prefix="retex-") as work:
+            glb, sky = os.path.join(work, self.name + ".glb"), os.path.join(work, self.name + "-world.exr")
+            self.write_gltf(glb)
+            command = [importer, "--force", "-o", self.folder, glb]
+            if self.scene.camera:
+                command += ["--camera", self.scene.camera.name]
+            if not world_is_black(self.scene.world):
+                render_world(self.scene.world, sky)
+                command += ["--sky", sky]
+            run(command, self.tell)
+            if self.keep_glb:
+                shutil.copy(glb, self.folder)
+        scene = os.path.join(self.folder, self.name + ".pov")
+        self.check_targets(scene)
+        return scene
+
+    def check_targets(self, scene):
+        with open(scene, encoding="utf-8", errors="replace") as text:
+            declared = set(re.findall(r"^#declare (\w+) = (?:texture|material)", text.read(), re.M))
+        for name, ident in self.targets:
+            if ident not in declared:
+                self.warn(f"target {name}: the scene has no material {ident}")
+        self.targets = [t for t in self.targets if t[1] in declared]
+
+    def render_command(self, scene, samples):
+        width, height = picture_size(self.scene)
+        command = [tool("retex-render"), "--size", f"{width}x{height}", "--spp", str(samples), scene]
+        for name, ident in self.targets:
+            command += ["-t", name if name == ident else f"{name}={ident}"]
+        return command + ["-o", os.path.join(self.folder, self.name + ".exr")]
+
+    def render(self, scene, samples):
+        """Make the set, for retex-combine."""
+        if not self.targets:
+            self.warn("no material is ticked as a target: the picture can have no other textures")
+        run(self.render_command(scene, samples), self.tell)
+
+
+# ---- in Blender's window ----
+
+
+TOOLS_FOLDER = StringProperty(name="Folder of retex-import and retex-render", subtype="DIR_PATH",
+                              description="Empty: they are found by PATH")
+OUTPUT_FOLDER = StringProperty(name="Folder", subtype="FILE_PATH")
+RENDER = BoolProperty(name="Render", description="Also render the set, by retex-render", default=False)
+SAMPLES = IntProperty(name="Samples", description="Paths a pixel", default=64, min=1, max=1 << 20)
+KEEP_GLB = BoolProperty(name="Keep the glTF file", default=False)
+
+
+class RetexPreferences(bpy.types.AddonPreferences):
+    bl_idname = __name__
+    folder: TOOLS_FOLDER
+
+    def draw(self, _context):
+        self.layout.prop(self, "folder")
+
+
+class EXPORT_SCENE_OT_retex(bpy.types.Operator):
+    """Export the scene as a folder for retex"""
+    bl_idname = "export_scene.retex"
+    bl_label = "Export retex"
+
+    filepath: OUTPUT_FOLDER
+    render: RENDER
+    samples: SAMPLES
+    keep_glb: KEEP_GLB
+
+    def invoke(self, context, _event):
+        if not self.filepath:
+            self.filepath = os.path.splitext(context.blend_data.filepath or "untitled")[0] + "-retex"
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        def tell(line):
+            self.report({"WARNING" if "warning:" in line else "INFO"}, line)
+
+        try:
+            export = Export(context, bpy.path.abspath(self.filepath), tell, self.keep_glb)
+            scene = export.write()
+            if self.render:
+                export.render(scene, self.samples)
+        except (Failure, OSError) as failure:
+            self.report({"ERROR"}, str(failure))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class MATERIAL_PT_retex(bpy.types.Panel):
+    """Whether the material is a target of retexturing"""
+    bl_label = "retex"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+
+    @classmethod
+    def poll(cls, context):
+        return context.material is not None
+
+    def draw(self, context):
+        material = context.material
+        self.layout.prop(material, "retex_target")
+        row = self.layout.row()
+        row.enabled = material.retex_target
+        row.prop(material, "retex_target_name")
+
+
+CLASSES = (RetexPreferences, EXPORT_SCENE_OT_retex, MATERIAL_PT_retex)
+
+
+def menu_entry(self, _context):
+    self.layout.operator(EXPORT_SCENE_OT_retex.bl_idname, text="retex (folder)")
+
+
+def register_properties():
+    bpy.types.Material.retex_target = BoolProperty(
+        name="Target", description="Its texture can be replaced in the rendered picture", default=False)
+    bpy.types.Material.retex_target_name = StringProperty(
+        name="Name", description="Name of the target; empty: the material's. Materials of the same name are one target")
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    register_properties()
+    bpy.types.TOPBAR_MT_file_export.append(menu_entry)
+
+
+def unregister():
+    bpy.types.TOPBAR_MT_file_export.remove(menu_entry)
+    del bpy.types.Material.retex_target, bpy.types.Material.retex_target_name
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)
+
+
+# ---- without a window ----
+
+
+def parse(args):
+    parser = argparse.ArgumentParser(prog="retex_export.py", description="Export the opened scene for retex.")
+    parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="the folder to make")
+    parser.add_argument("-t", "--target", metavar="MATERIAL", action="append", default=[],
+                        help="tick this material as a target; repeatable")
+    parser.add_argument("--render", action="store_true", help="also render the set, FOLDER/NAME.exr")
+    parser.add_argument("--spp", metavar="N", type=int, default=64, help="paths a pixel; default 64")
+    parser.add_argument("--keep-glb", action="store_true", help="leave the glTF file in the folder")
+    return parser.parse_args(args)
+
+
+def main(args):
+    options = parse(args)
+    if not hasattr(bpy.types.Material, "retex_target"):
+        register_properties()
+    try:
+        for name in options.target:
+            if name not in bpy.data.materials:
+                raise Failure(f"-t {name}: there is no material of that name")
+            bpy.data.materials[name].retex_target = True
+        export = Export(bpy.context, options.output, lambda line: print(line, file=sys.stderr), options.keep_glb)
+        scene = export.write()
+        if options.render:
+            export.render(scene, options.spp)
+    except (Failure, OSError) as failure:
+        print(f"retex_export: error: {failure}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    code = main(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else ["--help"])
+    sys.stdout.flush()
+    if code:
+        sys.exit(code)
