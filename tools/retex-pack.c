@@ -1,12 +1,16 @@
 /* retex-pack: compress a set to a pack, or decompress a pack. See retex-pack(1). */
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <retex/output_file.h>
 #include <retex/pack.h>
 #include <retex/set_file.h>
+#include <retex/web.h>
 
 #include "cli.h"
+#include "output_folder.h"
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90", 0},
@@ -15,6 +19,7 @@ static const CliOption options[] = {
     {"stats", 0, "FILE.json", "write sizes by group and the loss in pictures; - is standard output", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
+    {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
     {0},
 };
 
@@ -23,7 +28,7 @@ typedef struct Job {
     int unpack, quality_given;
     long memory; /* megabytes */
     int threads;
-    const char *input, *stats;
+    const char *input, *stats, *web;
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -44,6 +49,8 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
         } else if (strcmp(option->name, "stats") == 0) {
             job->stats = cli->value;
+        } else if (strcmp(option->name, "web") == 0) {
+            job->web = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_megabytes(cli, option);
         } else {
@@ -58,6 +65,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
+    if (job->web && (job->unpack || job->params.lossless || job->stats || cli->output))
+        cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless nor --stats");
     job->threads = cli->threads;
 }
 
@@ -125,6 +134,59 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
         cli_die(cli, "--stats: %s", err.message);
 }
 
+/* The player's files, embedded by the build. */
+typedef struct PlayerFile {
+    const char *name;
+    const unsigned char *data;
+    size_t bytes;
+} PlayerFile;
+extern const PlayerFile retex_player_files[]; /* ends with {0} */
+
+static int write_player(const char *folder, RetexError *err)
+{
+    int code = 0;
+    for (const PlayerFile *file = retex_player_files; file->name && !code; file++) {
+        char path[PATH_MAX];
+        snprintf(path, sizeof path, "%s/%s", folder, file->name);
+        code = retex_file_write(path, file->data, file->bytes, err);
+    }
+    return code;
+}
+
+/* A folder for browsers: the player, and the set as it reads it. */
+static int run_web(Cli *cli, const Job *job)
+{
+    const RetexWebParams params = {sizeof params, job->params.quality};
+    RetexWebBytes bytes = {0};
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    char manifest[PATH_MAX];
+    if (snprintf(manifest, sizeof manifest, "%s/room.json", job->web) >= (int)sizeof manifest - RETEX_NAME_MAX)
+        cli_die(cli, "--web: the name of the folder is too long");
+    cli_input(cli, job->input, "a set, as from retex-render");
+    cli_reads(cli, "the set", job->input);
+    cli_writes(cli, "--web", manifest);
+    const int existed = access(job->web, F_OK) == 0;
+    int code = cli_open_set(cli, &set, job->input, job->memory, &err);
+    if (!code) {
+        cli_check_pixels(cli, set, job->input);
+        code = output_make_folders(manifest, &err);
+    }
+    if (!code)
+        code = retex_web_write(set, job->web, &params, &bytes, cli->threads, &err);
+    if (!code)
+        code = write_player(job->web, &err);
+    retex_set_close(&set);
+    if (code && !existed)
+        rmdir(job->web);
+    if (code)
+        cli_fail(cli, &err);
+    cli_info(cli, "set %s: %.0f bytes", job->input, cli_file_size(job->input));
+    cli_info(cli, "folder %s: %zu bytes, %zu until the picture, %zu until the first target", job->web, bytes.all,
+             bytes.still, bytes.first);
+    return cli_close(cli, CLI_OK);
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {
@@ -133,6 +195,7 @@ int main(int argc, char **argv)
         .argc = argc,
         .argv = argv,
         .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
+                 "       retex-pack SET [--quality 1..100] --web DIR\n"
                  "       retex-pack --unpack FILE.retex -o SET.exr",
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "
@@ -143,6 +206,8 @@ int main(int argc, char **argv)
     size_t bytes = 0;
 
     parse(&cli, &job);
+    if (job.web)
+        return run_web(&cli, &job);
     const char *output = cli_output(&cli);
     cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
     if (cli_ends_with(output, job.unpack ? ".retex" : ".exr"))

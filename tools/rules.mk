@@ -41,6 +41,22 @@ $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) |
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
+# The player of --web is embedded in retex-pack as bytes, scripts without indentation, which is a tenth of them.
+PLAYER := $(addprefix tools/web/,index.html retex-room.js package.json README.md)
+$(BUILD)/gen/player.c: $(PLAYER) tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY){ echo '#include <stddef.h>'; number=0; for file in $(PLAYER); do number=$$((number + 1)); \
+	    echo "static const unsigned char file$$number[] = {"; case $$file in *.js) sed 's/^ *//' $$file ;; *) cat $$file ;; esac | od -An -v -tx1 | sed 's/ \(..\)/0x\1,/g'; \
+	    echo '};'; done; \
+	    echo 'typedef struct PlayerFile { const char *name; const unsigned char *data; size_t bytes; } PlayerFile;'; \
+	    echo 'extern const PlayerFile retex_player_files[]; const PlayerFile retex_player_files[] = {'; number=0; \
+	    for file in $(PLAYER); do number=$$((number + 1)); \
+	    echo "{\"$${file##*/}\", file$$number, sizeof file$$number},"; done; echo '{NULL, NULL, 0}};'; } >$@
+$(BUILD)/obj/gen/player.o: $(BUILD)/gen/player.c
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CFLAGS_ALL) -c $< -o $@
+$(BUILD)/bin/retex-pack: $(BUILD)/obj/gen/player.o
+
 # retex-import alone uses Assimp.
 IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c))
 $(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)

@@ -20,6 +20,10 @@ void retex_zlib_close(RetexZlib *zlib);
 size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capacity, const unsigned char *bytes,
                            size_t count);
 
+/* The same as small as possible, at ten times the time. A stream that the caller frees, or NULL where memory is
+ * short. */
+unsigned char *retex_zlib_compress_most(const unsigned char *bytes, size_t count, size_t *packed_bytes);
+
 /* Decompress a zlib stream into exactly count bytes. Returns 1, or 0 where the stream is damaged, or has fewer or more
  * bytes. */
 int retex_zlib_decompress(RetexZlib *zlib, unsigned char *bytes, size_t count, const unsigned char *packed,

@@ -29,9 +29,7 @@ static int is_black(const float *pixel, size_t channels)
     return black;
 }
 
-/* Fill black pixels with the mean of the other pixels of their 8 x 8 block. The mask restores them, so their levels are
- * free; the mean costs few bytes and avoids ringing at edges of black areas. */
-static void fill_black(float *levels, const RetexImage *im)
+void retex_pack_fill_black(float *levels, const RetexImage *im)
 {
     const size_t channels = (size_t)im->channels;
     for (int by = 0; by < im->height; by += 8)
@@ -109,7 +107,7 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
     if (!code && (!item->chunks || !levels))
         code = no_memory(err);
     if (!code && p->masked)
-        fill_black(levels, im);
+        retex_pack_fill_black(levels, im);
     if (!code)
         code = retex_pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
     free(levels);

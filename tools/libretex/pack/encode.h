@@ -32,4 +32,8 @@ int retex_pack_encode(RetexPackEncoded *encoded, const RetexSet *set, const Rete
                       RetexError *err);
 void retex_pack_encoded_free(RetexPackEncoded *encoded); /* accepts one that is all zeros */
 
+/* Fill black pixels of an image with the mean of the other pixels of their 8 x 8 block. A mask restores them, so their
+ * levels are free; the mean costs few bytes and avoids ringing at edges of black areas. */
+void retex_pack_fill_black(float *levels, const RetexImage *im);
+
 #endif

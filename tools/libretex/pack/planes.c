@@ -89,11 +89,16 @@ static size_t store_residuals(unsigned char *to, const RetexPackPlane *plane, Re
     return (size_t)(to - begin);
 }
 
+static int residual_bytes(uint32_t largest)
+{
+    return largest < 256 ? 1 : largest < 65536 ? 2 : 4;
+}
+
 /* Write a chunk: header byte and compressed residuals. Returns its bytes, or -1. */
 static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor,
                                uint32_t largest, unsigned char *scratch, int effort)
 {
-    const int bytes = largest < 256 ? 1 : largest < 65536 ? 2 : 4;
+    const int bytes = residual_bytes(largest);
     const size_t size = store_residuals(scratch, plane, predictor, bytes);
     to[0] = (unsigned char)(bytes << 4 | predictor);
     const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1,
@@ -101,13 +106,11 @@ static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, R
     return got > 0 ? got + 1 : -1;
 }
 
-long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort)
+/* The predictor whose residuals take the fewest bits. largest: by predictor. */
+static RetexPackPredictor choose_predictor(const RetexPackPlane *plane, uint32_t largest[PREDICTORS])
 {
-    if (!quantize(plane))
-        return 0;
     double least = 0;
     RetexPackPredictor chosen = BY_NOTHING;
-    uint32_t largest[PREDICTORS];
     for (int p = 0; p < PREDICTORS; p++) {
         const double bits = cost(plane, (RetexPackPredictor)p, &largest[p]);
         if (p == 0 || bits < least) {
@@ -115,6 +118,27 @@ long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, u
             chosen = (RetexPackPredictor)p;
         }
     }
+    return chosen;
+}
+
+size_t retex_pack_plane_residuals(unsigned char *to, const RetexPackPlane *plane, int *predictor, int *bytes)
+{
+    uint32_t largest[PREDICTORS];
+    *predictor = *bytes = 0;
+    if (!quantize(plane))
+        return 0;
+    const RetexPackPredictor chosen = choose_predictor(plane, largest);
+    *predictor = chosen;
+    *bytes = residual_bytes(largest[chosen]);
+    return store_residuals(to, plane, chosen, *bytes);
+}
+
+long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort)
+{
+    if (!quantize(plane))
+        return 0;
+    uint32_t largest[PREDICTORS];
+    RetexPackPredictor chosen = choose_predictor(plane, largest);
     /* prediction destroys repeated sequences, so planes with repetitions may compress better without it */
     if (chosen != BY_NOTHING) {
         const long with = compress_residuals(data, plane, chosen, largest[chosen], scratch, TRIAL_EFFORT);

@@ -78,6 +78,10 @@ size_t retex_pack_plane_bound(const RetexPackPlane *plane);
  * bytes, 0 if every present number is 0, or -1 if compression fails. */
 long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort);
 
+/* The residuals alone, *bytes bytes each, little-endian, by the predictor that makes them smallest. `to` has 4 bytes a
+ * pixel. Returns their size in bytes, 0 if every present number is 0. */
+size_t retex_pack_plane_residuals(unsigned char *to, const RetexPackPlane *plane, int *predictor, int *bytes);
+
 /* Decode into plane->numbers, or into plane->codes if bits is 8. Absent pixels are not written. Returns 1, or 0 if the
  * data is damaged. */
 int retex_pack_plane_decode(const RetexPackPlane *plane, const unsigned char *data, size_t bytes,

@@ -1,0 +1,56 @@
+# retex-pack --web: the folder for browsers, its picture as a reference of the player's arithmetic makes it, and what is refused.
+$ ln -s "$SCENES" scenes; retex-render -q --size 96x54 --spp 64 --denoise -t Floor -t Wall scenes/living-room/living-room.pov -o s.exr; rm scenes
+$ retex-pack s.exr --web out/room 2>&1 | sed 's/[0-9]\{3,\}/N/g'
+> retex-pack: set s.exr: N bytes
+> retex-pack: folder out/room: N bytes, N until the picture, N until the first target
+$ (cd out/room; ls | grep -v '_'; ls | grep -c '_')
+> README.md
+> indep.jpg
+> index.html
+> package.json
+> picture.jpg
+> reduced.jpg
+> retex-room.js
+> room.json
+> 12
+$ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 60000 && echo small
+> small
+
+# The manifest names all files with their sizes and checksums, and the sizes that were printed are theirs.
+$ retex-pack s.exr --web out/room 2>&1 | /usr/bin/python3 "$TESTS/../web/files.py" out/room
+> README.md index.html package.json retex-room.js room.json
+
+# The same bytes for any number of threads; from a pack too it can be made.
+$ retex-pack -q s.exr --web one --threads 1; diff -r one out/room && echo same
+> same
+$ retex-pack -q s.exr -o s.retex; retex-pack -q s.retex --web packed; ls packed | wc -l
+> 20
+
+# Recombined, it is the picture of retex-combine: originals, one texture, two, colours, placed ones.
+$ ln -s "$SCENES/textures" T; cp "$TESTS"/../web/*.py .
+$ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 42; near one 40 Floor=T/walnut-herringbone.jpg; near one 40 Wall=T/brick.jpg; near packed 40 Floor=T/fans.jpg Wall=T/travertine.jpg
+$ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 40 Floor=T/terrazzo.jpg Wall=T/damask.jpg; near one 42 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7; near one 38 Floor=T/walnut-herringbone.jpg:scale=3,2:rotate=30:offset=0.2,0.5
+
+# A damaged file is noticed.
+$ python3 -c 'd = bytearray(open("one/indep.jpg", "rb").read()); d[700] ^= 1; open("one/indep.jpg", "wb").write(d)'; /usr/bin/python3 reference.py one b.exr
+! indep.jpg is damaged
+= 1
+
+# What is refused, without leaving anything.
+$ make_set other.exr 64 48; retex-pack other.exr --web other
+! retex-pack: error: this set cannot be written for browsers: its layout is not footprints
+= 2
+$ test -e other || echo nothing
+> nothing
+$ retex-pack s.exr --web w -o x.retex
+! retex-pack: error: --web writes a folder: it takes neither -o, --unpack, --lossless nor --stats
+= 2
+$ retex-pack s.exr --web s.exr
+! retex-pack: error: cannot write s.exr/picture.jpg: Not a directory
+= 2
+$ retex-pack nothing.exr --web w; test -e w || echo nothing
+> nothing
+! retex-pack: error: cannot read nothing.exr: No such file or directory
+$ mkdir full; ln -s /dev/full full/picture.jpg; retex-pack s.exr --web full 2>&1 | sed 's/:[^:]*$//'; ls full
+> retex-pack: error: cannot write full/picture.jpg
+> picture.jpg

@@ -1,0 +1,21 @@
+"""Checks a folder that retex-pack --web wrote, whose messages are standard input: files.py FOLDER. Sizes and checksums
+are those of the manifest, the sizes that were printed are the files', and there are no other files than the player's."""
+import json
+import os
+import re
+import sys
+import zlib
+
+folder = sys.argv[1]
+with open(f"{folder}/room.json", encoding="utf-8") as file:
+    room = json.load(file)
+entries = [room["picture"], room["reduced"], *room["lights"], *room["classes"]]
+for entry in entries:
+    with open(f"{folder}/{entry['file']}", "rb") as file:
+        data = file.read()
+    assert (len(data), zlib.crc32(data)) == (entry["bytes"], entry["crc32"]), entry["file"]
+total, still, first = map(int, re.findall(r" (\d+) ", sys.stdin.read().splitlines()[1]))
+own = os.path.getsize(f"{folder}/room.json")
+assert total == own + sum(e["bytes"] for e in entries)
+assert still == own + room["picture"]["bytes"] and still < first < total
+print(*sorted(set(os.listdir(folder)) - {e["file"] for e in entries}))

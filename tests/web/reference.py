@@ -1,0 +1,310 @@
+"""Makes the picture of a folder that retex-pack --web wrote, as the player's shaders do, but on the CPU with numpy.
+
+    reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]...
+"""
+import json
+import sys
+import zlib
+
+import numpy as np
+import OpenImageIO as oiio
+
+LEVELS_PER_E = 48
+
+
+def pixels(path, kind):
+    source = oiio.ImageInput.open(path)
+    if not source:
+        raise SystemExit(f"cannot read {path}")
+    data = source.read_image(kind)
+    source.close()
+    return data
+
+
+def srgb_decode(y):
+    return np.where(y <= 0.04045, y / 12.92, ((np.maximum(y, 0.04045) + 0.055) / 1.055) ** 2.4)
+
+
+def decode_light(codes, curve):
+    y = codes.astype(np.float64) / curve["levels"]
+    return curve["white"] * np.where(y > 1, np.exp((np.maximum(y, 1) - 1) * 255 / LEVELS_PER_E), srgb_decode(y))
+
+
+# ---- footprints ----
+
+
+def zigzag(values):
+    values = values.astype(np.int64)
+    return np.where(values & 1, -((values + 1) >> 1), values >> 1)
+
+
+def wrap(value, bits):
+    return value & 255 if bits == 8 else (value + 2**31) % 2**32 - 2**31
+
+
+def plane(stream, present, bits, shift):
+    """Integers of one plane, undone pixel by pixel as retex-web(5) says."""
+    height, width = present.shape
+    head = stream.take(1)[0]
+    predictor, size = head & 15, head >> 4
+    out = np.zeros((height, width), np.int64)
+    if size == 0:
+        return out
+    count = int(present.sum())
+    raw = np.frombuffer(stream.take(count * size), np.uint8).reshape(size, count).astype(np.int64)
+    residuals = zigzag(sum(raw[k] << 8 * k for k in range(size))).tolist()
+    here, rows, steps, last, at = present.tolist(), out.tolist(), None if shift is None else shift.tolist(), 0, 0
+    for y in range(height):
+        row, above = rows[y], rows[y - 1] if y else None
+        for x in range(width):
+            if not here[y][x]:
+                continue
+            left, upper = x > 0 and here[y][x - 1], y > 0 and here[y - 1][x]
+            if predictor == 0:
+                guess = 0
+            elif left and upper and here[y - 1][x - 1]:
+                a, b, c = row[x - 1], above[x], above[x - 1]
+                if predictor == 1:
+                    guess = a
+                elif predictor == 2:
+                    guess = b
+                elif predictor == 3 or min(a, b) < c < max(a, b):
+                    guess = a + b - c
+                else:
+                    guess = min(a, b) if c >= max(a, b) else max(a, b)
+            else:
+                guess = row[x - 1] if left else above[x] if upper else last
+            s = steps[y][x] if steps else 0
+            guess = (guess + ((1 << s) >> 1)) >> s
+            row[x] = last = wrap((guess + residuals[at]) << s, bits)
+            at += 1
+    return np.array(rows, np.int64)
+
+
+class Stream:
+    def __init__(self, data):
+        self.data, self.at = data, 0
+
+    def take(self, count):
+        self.at += count
+        return self.data[self.at - count:self.at]
+
+
+def checked(folder, entry):
+    data = open(f"{folder}/{entry['file']}", "rb").read()
+    if len(data) != entry["bytes"] or zlib.crc32(data) != entry["crc32"]:
+        raise SystemExit(f"{entry['file']} is damaged")
+    return data
+
+
+def read_class(folder, c):
+    """For each footprint: present, u, v, standard deviations, correlation, weights by slot."""
+    stream = Stream(zlib.decompress(checked(folder, c)))
+    width, height, out = c["width"], c["height"], []
+    for f in c["footprints"]:
+        mask = np.frombuffer(stream.take((width + 7) // 8 * height), np.uint8).reshape(height, -1)
+        present = np.unpackbits(mask, axis=1, bitorder="little")[:, :width].astype(bool)
+        codes = [plane(stream, present, 8, None) for _ in range(c["spreads"])]
+        sigma = [np.where(k > 0, f["first"] * 2.0 ** ((k - 1) / f["per_octave"]), 0) for k in codes[:2]]
+        rho = np.sin((codes[2] - 128) / f["angle_steps"] * np.pi / 2) if c["spreads"] > 2 else np.zeros(present.shape)
+        uv = []
+        for k in range(2):
+            shift = np.clip((codes[k] - 1 + f["sigma_first"]) // f["per_octave"], 0, 24)
+            uv.append(plane(stream, present, 32, shift) * 2.0**-18)
+        weights = []
+        for first in f["weights"]:
+            if first == "one":
+                weights.append(np.ones(present.shape))
+            else:
+                weights.append(plane(stream, present, 8, None) * first if first else np.zeros(present.shape))
+        out.append((present, uv, sigma, rho, weights))
+    return out
+
+
+# ---- textures ----
+
+TENT, ALONG_MOST = 1 / 6, 32
+DISC_ROWS = [(-np.sqrt(0.5), 0.25), (0.0, 0.5), (np.sqrt(0.5), 0.25)]
+BELL_ROWS = [(-np.sqrt(3), 1 / 6), (0.0, 2 / 3), (np.sqrt(3), 1 / 6)]
+BELL_END = 2.5
+
+
+class Texture:
+    def __init__(self, text):
+        name, *options = text.split(":")
+        options = dict(o.split("=") for o in options)
+        pair = lambda key, default: np.array([float(x) for x in options.get(key, default).split(",")] * 2)[:2]
+        self.scale, self.offset = pair("scale", "1"), pair("offset", "0")
+        turn = np.radians(float(options.get("rotate", "0")))
+        self.turn = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        if "," in name:
+            base = np.array([[[float(x) for x in name.split(",")]]])
+        else:
+            base = srgb_decode(pixels(name, oiio.UINT8)[:, :, :3].astype(np.float64) / 255)
+        self.levels = [base]
+        while max(self.levels[-1].shape[:2]) > 1:
+            last = self.levels[-1]
+            for axis in range(2):
+                if last.shape[axis] > 1:
+                    last = np.moveaxis(last, axis, 0)
+                    last = (last[0:last.shape[0] // 2 * 2:2] + last[1::2][:last.shape[0] // 2]) / 2
+                    last = np.moveaxis(last, 0, axis)
+            self.levels.append(last)
+
+    def bilinear(self, level, u, v):
+        image = self.levels[level]
+        height, width = image.shape[:2]
+        x, y = u * width - 0.5, (1 - v) * height - 0.5
+        x0, y0 = np.floor(x), np.floor(y)
+        fx, fy = (x - x0)[:, None], (y - y0)[:, None]
+        x0, y0 = x0.astype(np.int64), y0.astype(np.int64)
+        at = lambda i, j: image[(y0 + j) % height, (x0 + i) % width]
+        return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy
+
+    def trilinear(self, lod, u, v):
+        lod = np.clip(lod, 0, len(self.levels) - 1)
+        low = np.floor(lod).astype(int)
+        out = np.zeros((len(u), 3))
+        for level in np.unique(low):
+            i = low == level
+            out[i] = self.bilinear(level, u[i], v[i])
+            f = (lod[i] - level)[:, None]
+            if f.any():
+                out[i] = out[i] * (1 - f) + self.bilinear(min(level + 1, len(self.levels) - 1), u[i], v[i]) * f
+        return out
+
+    def filtered(self, uv, sigma, rho, disc, bounds):
+        """The mean over a disc or a bell of these means and covariances; bounds: of UV, where a bell is cut off."""
+        height, width = self.levels[0].shape[:2]
+        turn = np.diag([width, height]) @ self.turn @ np.diag(self.scale)
+        back = np.linalg.inv(turn)
+        mean = self.turn @ (self.scale[:, None] * uv) + self.offset[:, None]
+        cross = rho * sigma[0] * sigma[1]
+        covariance = np.array([[sigma[0]**2, cross], [cross, sigma[1]**2]])
+        covariance = np.einsum("ij,jkn,lk->iln", turn, covariance, turn)
+        a, b, c = covariance[0, 0], covariance[0, 1], covariance[1, 1]
+        half, root = (a + c) / 2, np.sqrt(((a - c) / 2)**2 + b * b)
+        long, short = half + root, np.maximum(half - root, 0)
+        angle = 0.5 * np.arctan2(2 * b, a - c)
+        axis = np.array([np.cos(angle), np.sin(angle)])
+        reach = 2.0 if disc else BELL_END
+        tap = np.maximum(np.maximum(0.5 * short, TENT), long * (2 * reach / (1.5 * ALONG_MOST))**2)
+        power = 4 * (tap + 1 / 12)  # 4^level: a texel of that level, interpolated, has this variance
+        low = np.floor(np.log2(power) / 2)
+        lod = low + (power / 4**low - 1) / 3
+        long, short = np.sqrt(np.maximum(long - tap, 0)), np.sqrt(np.maximum(short - tap, 0))
+        total, sum_ = np.zeros(len(rho)), np.zeros((len(rho), 3))
+        for t, row_weight in DISC_ROWS if disc else BELL_ROWS:
+            chord = reach * long * (np.sqrt(1 - t * t) if disc else 1)
+            count = np.clip(np.ceil(2 * chord / (1.5 * np.sqrt(tap))), 1, ALONG_MOST).astype(int)
+            across = t * short * (2 if disc else 1)
+            for k in range(count.max()):
+                i = count > k
+                s = (2 * (k + 0.5) / count[i] - 1)
+                w = row_weight / count[i] if disc else row_weight * np.exp(-0.5 * (reach * s)**2)
+                offset = axis[:, i] * (s * chord[i]) + np.array([-axis[1, i], axis[0, i]]) * across[i]
+                if not disc:
+                    where = uv[:, i] + back @ offset
+                    for d in range(2):
+                        if not bounds["periodic"][d]:
+                            w = w * ((where[d] >= bounds["uv_min"][d]) & (where[d] <= bounds["uv_max"][d]))
+                offset = offset / np.array([[width], [height]])
+                sum_[i] += w[:, None] * self.trilinear(lod[i], mean[0, i] + offset[0], mean[1, i] + offset[1])
+                total[i] += w
+        plain = total <= 0
+        if plain.any():
+            sum_[plain] = self.trilinear(lod[plain], mean[0, plain], mean[1, plain])
+        return sum_ / np.where(plain, 1, total)[:, None]
+
+
+# ---- the picture ----
+
+
+def enlarge(image, factor, width, height):
+    """Bilinear, values lying at the centres of pixels."""
+    def axis(count, size):
+        at = np.clip((np.arange(count) + 0.5) / factor - 0.5, 0, size - 1)
+        low = np.minimum(np.floor(at).astype(int), max(size - 2, 0))
+        return low, np.minimum(low + 1, size - 1), at - low
+    if factor == 1:
+        return image[:height, :width]
+    y0, y1, fy = axis(height, image.shape[0])
+    x0, x1, fx = axis(width, image.shape[1])
+    rows = image[y0] * (1 - fy)[:, None, None] + image[y1] * fy[:, None, None]
+    return rows[:, x0] * (1 - fx)[None, :, None] + rows[:, x1] * fx[None, :, None]
+
+
+class Room:
+    def __init__(self, folder):
+        self.folder, self.room = folder, json.load(open(f"{folder}/room.json"))
+        self.size = self.room["width"], self.room["height"]
+        self.lights = [decode_light(self.image(x), x) for x in self.room["lights"]]
+        atlas = self.image(self.room["reduced"]) if self.room["reduced"] else None
+        self.tiles = []
+        for t in self.room["reduced"]["tiles"] if self.room["reduced"] else []:
+            self.tiles.append(decode_light(atlas[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t))
+        self.classes = [read_class(folder, c) for c in self.room["classes"]]
+
+    def image(self, entry):
+        checked(self.folder, entry)
+        return pixels(f"{self.folder}/{entry['file']}", oiio.UINT8)[:, :, :3]
+
+    def mixture(self, index, textures):
+        total = above = None
+        for c, slot in self.room["mixtures"][index]:
+            info = self.room["classes"][c]
+            albedo = self.lights[info["albedo"]] if info["scale"] == 1 else self.tiles[info["albedo"]]
+            texture = textures.get(info["target"])
+            disc = info["kind"] == "sharp" and self.room["filter"] == "box"
+            for present, uv, sigma, rho, weights in self.classes[c]:
+                if total is None:
+                    total, above = np.zeros(present.shape), np.zeros(present.shape + (3,))
+                w = weights[slot]
+                if texture is None:
+                    color = albedo[present]
+                else:
+                    color = texture.filtered(np.array([x[present] for x in uv]), [x[present] for x in sigma],
+                                             rho[present], disc, self.room["targets"][info["target"]])
+                above[present] += w[present][:, None] * color
+                total[present] += w[present]
+        return above / np.where(total > 0, total, 1)[:, :, None]
+
+    def combine(self, textures):
+        room, (width, height), finest = self.room, self.size, self.room["finest"]
+        small = -(-width // finest), -(-height // finest)
+        mixtures = [self.mixture(i, textures) for i in range(len(room["mixtures"]))]
+        scale = [room["classes"][m[0][0]]["scale"] for m in room["mixtures"]]
+        out = np.zeros((height, width, 3))
+        for g, group in enumerate(room["groups"]):
+            factor = None
+            for term in room["terms"]:
+                if term["group"] != g:
+                    continue
+                product = np.ones((small[1], small[0], 3))
+                if term["gain"] >= 0:
+                    product = product * enlarge(self.tiles[term["gain"]],
+                                                room["reduced"]["tiles"][term["gain"]]["scale"] // finest, *small)
+                for m in term["factors"]:
+                    product = product * enlarge(mixtures[m], scale[m] // finest, *small)
+                factor = product if factor is None else factor + product
+            light = self.lights[group["light"]] * enlarge(factor, finest, width, height)
+            out += light if group["mixture"] < 0 else light * mixtures[group["mixture"]]
+        return out
+
+
+def main():
+    room = Room(sys.argv[1])
+    names = [t["name"] for t in room.room["targets"]]
+    textures = {}
+    for argument in sys.argv[3:]:
+        name, text = argument.split("=", 1)
+        textures[names.index(name)] = Texture(text)
+    picture = room.combine(textures).astype(np.float32)
+    out = oiio.ImageOutput.create(sys.argv[2])
+    out.open(sys.argv[2], oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))
+    out.write_image(picture)
+    out.close()
+
+
+if __name__ == "__main__":
+    main()

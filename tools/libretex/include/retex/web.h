@@ -1,0 +1,38 @@
+/* A set as a folder that web browsers read: light as JPEG, footprints as zlib streams, and a manifest, room.json. See
+ * retex-web(5). */
+#ifndef RETEX_WEB_H
+#define RETEX_WEB_H
+
+#include <stddef.h>
+#include <retex/set.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RETEX_WEB_VERSION 1
+
+/* Begin with RETEX_WEB_INIT. */
+typedef struct RetexWebParams {
+    size_t size;
+    int quality; /* 1..100, default 90: as of packs, but pictures are not measured */
+} RetexWebParams;
+#define RETEX_WEB_INIT { sizeof(RetexWebParams), 90 }
+
+/* What the files take, in bytes. */
+typedef struct RetexWebBytes {
+    size_t still; /* until the picture is shown: picture.jpg and the manifest */
+    size_t first; /* until one target can be changed */
+    size_t all;
+} RetexWebBytes;
+
+/* Write a set of layout footprints, compact or not, into a folder that exists. The manifest is written last. If it
+ * fails, files that were written are removed. *bytes may be NULL. Sets without terms, or of another layout, are
+ * refused. */
+int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParams *params /* NULL = defaults */,
+                    RetexWebBytes *bytes, int nthreads /* 0 = all cores */, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,168 @@
+/* See model.h. */
+#include "web/model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int refuse(RetexError *err, const char *what)
+{
+    return retex_fail(err, RETEX_EUNSUPPORTED, "this set cannot be written for browsers: %s", what);
+}
+
+/* ---- classes ---- */
+
+static RetexWebClass *class_of(RetexWebModel *model, const RetexFootprint *f)
+{
+    for (int i = 0; i < model->nclasses; i++)
+        if (model->classes[i].target == f->target && model->classes[i].kind == f->kind)
+            return &model->classes[i];
+    return NULL;
+}
+
+static int add_footprint(RetexWebModel *model, const RetexSet *set, int number, RetexError *err)
+{
+    const RetexFootprint *f = &set->footprints[number];
+    RetexWebClass *c = class_of(model, f);
+    if (f->uv < 0 || f->spread < 0 || f->kind == RETEX_FOOTPRINT_HIT)
+        return refuse(err, "its layout is not footprints");
+    if (!c && model->nclasses == RETEX_WEB_CLASSES_MAX)
+        return refuse(err, "it has too many kinds of footprints");
+    if (!c) {
+        c = &model->classes[model->nclasses++];
+        *c = (RetexWebClass){f->target, retex_set_footprint_scale(set, number), f->albedo, f->kind, 0, {0}, 0, {{0}}};
+    }
+    if (c->nfootprints == RETEX_SHARES_MAX || c->albedo != f->albedo ||
+        c->scale != retex_set_footprint_scale(set, number) || c->scale < 1)
+        return refuse(err, "footprints of one kind have several sizes or albedos");
+    c->footprints[c->nfootprints++] = number;
+    return 0;
+}
+
+/* The slot of these weights, which is added if it is new; -1 if there are too many. */
+static int slot_of(RetexWebClass *c, const int weights[RETEX_SHARES_MAX])
+{
+    const size_t bytes = (size_t)c->nfootprints * sizeof *weights;
+    for (int i = 0; i < c->nslots; i++)
+        if (memcmp(c->weights[i], weights, bytes) == 0)
+            return i;
+    if (c->nslots == RETEX_WEB_SLOTS)
+        return -1;
+    memcpy(c->weights[c->nslots], weights, bytes);
+    return c->nslots++;
+}
+
+/* ---- mixtures ---- */
+
+/* The weight of a footprint in a factor of the set. */
+static int weight_in(const RetexSet *set, int factor, int footprint)
+{
+    if (factor >= 0)
+        return factor == footprint ? RETEX_WEB_WEIGHT_ONE : RETEX_WEB_WEIGHT_NONE;
+    const RetexMixture *mixture = &set->mixtures[RETEX_MIXTURE(factor)];
+    for (int i = 0; i < mixture->nshares; i++)
+        if (mixture->shares[i].footprint == footprint)
+            return mixture->shares[i].weight;
+    return RETEX_WEB_WEIGHT_NONE;
+}
+
+/* The index of the mixture that is a factor of the set, which is added if it is new; or a negative code. */
+static int mixture_of(RetexWebModel *model, const RetexSet *set, int factor, RetexError *err)
+{
+    for (int i = 0; i < model->nmixtures; i++)
+        if (model->mixtures[i].factor == factor)
+            return i;
+    if (model->nmixtures == (int)(sizeof model->mixtures / sizeof *model->mixtures))
+        return refuse(err, "it has too many mixtures");
+    RetexWebMixture *m = &model->mixtures[model->nmixtures];
+    *m = (RetexWebMixture){.factor = factor};
+    for (int i = 0; i < model->nclasses; i++) {
+        RetexWebClass *c = &model->classes[i];
+        int weights[RETEX_SHARES_MAX], any = 0;
+        for (int k = 0; k < c->nfootprints; k++) {
+            weights[k] = weight_in(set, factor, c->footprints[k]);
+            any |= weights[k] != RETEX_WEB_WEIGHT_NONE;
+            if (weights[k] >= 0 && set->parts[weights[k]].image.channels != 1)
+                return refuse(err, "it has weights by colour");
+        }
+        if (!any)
+            continue;
+        const int slot = slot_of(c, weights);
+        if (slot < 0)
+            return refuse(err, "footprints have more than two weights");
+        if (m->nclasses && model->classes[m->classes[0].index].scale != c->scale)
+            return refuse(err, "a mixture has several sizes");
+        m->classes[m->nclasses].index = i;
+        m->classes[m->nclasses++].slot = slot;
+    }
+    return m->nclasses ? model->nmixtures++ : refuse(err, "a mixture has no footprints");
+}
+
+/* ---- terms ---- */
+
+static int scale_of(const RetexWebModel *model, int mixture)
+{
+    return model->classes[model->mixtures[mixture].classes[0].index].scale;
+}
+
+/* The full size belongs to sharp footprints. A set whose other footprints have the picture's size is possible too: only
+ * the first factor may be of that size. */
+static int group_of(RetexWebModel *model, int light, int mixture, int target, RetexError *err)
+{
+    for (int i = 0; i < model->ngroups; i++)
+        if (model->groups[i].light == light && model->groups[i].mixture == mixture)
+            return i;
+    if (model->ngroups == RETEX_WEB_GROUPS_MAX)
+        return refuse(err, "it has too many kinds of light");
+    model->groups[model->ngroups] = (RetexWebGroup){light, mixture, target};
+    return model->ngroups++;
+}
+
+static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *term, RetexError *err)
+{
+    RetexWebTerm *to = &model->terms[model->nterms];
+    int full = -1, target = -1;
+    *to = (RetexWebTerm){.gain = term->gain};
+    if (term->gain && retex_set_scale(set, &set->parts[term->gain].image) < model->finest)
+        model->finest = retex_set_scale(set, &set->parts[term->gain].image);
+    for (int k = 0; k < term->nfactors; k++) {
+        const int mixture = mixture_of(model, set, term->factors[k], err);
+        if (mixture < 0)
+            return mixture;
+        if (k == 0)
+            target = model->classes[model->mixtures[mixture].classes[0].index].target;
+        if (scale_of(model, mixture) > 1)
+            to->factors[to->nfactors++] = mixture;
+        else if (full < 0)
+            full = mixture;
+        else
+            return refuse(err, "a term has two factors of the picture's size");
+        if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < model->finest)
+            model->finest = scale_of(model, mixture);
+    }
+    to->group = group_of(model, term->radiance, full, target, err);
+    model->nterms += to->group >= 0;
+    return to->group < 0 ? to->group : 0;
+}
+
+void retex_web_model_close(RetexWebModel *model)
+{
+    free(model->terms);
+    *model = (RetexWebModel){0};
+}
+
+int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *err)
+{
+    int code = set->nterms > 0 ? 0 : refuse(err, "it has no terms");
+    *model = (RetexWebModel){.finest = RETEX_SCALE_MAX};
+    model->terms = calloc((size_t)set->nterms + 1, sizeof *model->terms);
+    if (!model->terms)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
+    for (int i = 0; i < set->nfootprints && !code; i++)
+        code = add_footprint(model, set, i, err);
+    for (int i = 0; i < set->nterms && !code; i++)
+        if (!set->terms[i].edited)
+            code = add_term(model, set, &set->terms[i], err);
+    if (code)
+        retex_web_model_close(model);
+    return code;
+}

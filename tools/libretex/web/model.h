@@ -1,0 +1,57 @@
+/* The polynomial of a compact set as browsers evaluate it: what is smaller than the picture is summed there first, and
+ * the picture is a sum over few groups. Private to libretex. */
+#ifndef RETEX_WEB_MODEL_H
+#define RETEX_WEB_MODEL_H
+
+#include <retex/set.h>
+
+enum {
+    RETEX_WEB_SLOTS = 2,        /* most weights of a footprint */
+    RETEX_WEB_WEIGHT_NONE = -1, /* in place of a part: 0 */
+    RETEX_WEB_WEIGHT_ONE = -2,  /* 1 */
+    RETEX_WEB_CLASSES_MAX = 3 * RETEX_MAX_TARGETS,
+    RETEX_WEB_GROUPS_MAX = 1 + 6 * RETEX_MAX_TARGETS
+};
+
+/* The footprints of one target and kind. */
+typedef struct RetexWebClass {
+    int target, scale, albedo;
+    RetexFootprintKind kind;
+    int nfootprints, footprints[RETEX_SHARES_MAX];
+    int nslots, weights[RETEX_WEB_SLOTS][RETEX_SHARES_MAX]; /* parts, or RETEX_WEB_WEIGHT_… */
+} RetexWebClass;
+
+/* A mixture of all footprints of one class or of several, by one of their weights each. */
+typedef struct RetexWebMixture {
+    int nclasses, factor; /* of the set */
+    struct {
+        int index, slot;
+    } classes[RETEX_WEB_CLASSES_MAX];
+} RetexWebMixture;
+
+typedef struct RetexWebTerm {
+    int group, gain;                          /* part, or 0 */
+    int nfactors, factors[RETEX_MAX_FACTORS]; /* mixtures that are smaller than the picture */
+} RetexWebTerm;
+
+/* Terms of the same light and mixture of the picture's size: light times mixture times the sum over terms of gain times
+ * factors. */
+typedef struct RetexWebGroup {
+    int light, mixture; /* part; index, or -1 */
+    int target;         /* of its first factor, or -1 */
+} RetexWebGroup;
+
+typedef struct RetexWebModel {
+    int nclasses, nmixtures, nterms, ngroups;
+    RetexWebClass classes[RETEX_WEB_CLASSES_MAX];
+    RetexWebMixture mixtures[RETEX_MIXTURES_MAX + RETEX_WEB_CLASSES_MAX];
+    RetexWebTerm *terms;
+    RetexWebGroup groups[RETEX_WEB_GROUPS_MAX];
+    int finest; /* the smallest scale of what is smaller than the picture; 1 if there is nothing */
+} RetexWebModel;
+
+/* Sort a compact set's terms. Corrections are left out. RETEX_EUNSUPPORTED if the set has another form. */
+int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *err);
+void retex_web_model_close(RetexWebModel *model);
+
+#endif

@@ -1,0 +1,433 @@
+/* See retex/web.h. All files are encoded in memory, then written, the manifest last. */
+#include <retex/web.h>
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/compact.h>
+#include <retex/output_file.h>
+
+#include "io/checksum.h"
+#include "pack/plan.h"
+#include "web/footprints.h"
+#include "web/light.h"
+
+#define MANIFEST "room.json"
+/* Compacting aims above the whole by so many decibels, as for packs. */
+static const double COMPACTING_MARGIN = 3;
+/* Scales of what is smaller than the picture: as many times as quality allows, else fixed ones, where those make images
+ * that are too large. */
+static const int SCALES[] = {0, 4, 8};
+
+typedef struct File {
+    char name[RETEX_NAME_MAX + 8];
+    unsigned char *data;
+    size_t bytes;
+} File;
+
+typedef struct Web {
+    RetexSet *set; /* compact */
+    RetexPackPart *packed;
+    RetexWebModel model;
+    File picture, atlas, *lights, *streams; /* streams by class, the others by number */
+    int *light_parts, nlights;
+    RetexPackCurve *curves; /* of lights */
+    RetexWebTile *tiles;
+    int ntiles, atlas_width, atlas_height;
+} Web;
+
+static int no_memory(RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "no memory to write a folder for browsers");
+}
+
+static void web_close(Web *web)
+{
+    for (int i = 0; web->lights && i < web->nlights; i++)
+        free(web->lights[i].data);
+    for (int i = 0; web->streams && i < web->model.nclasses; i++)
+        free(web->streams[i].data);
+    for (int i = 0; web->packed && web->set && i < web->set->nparts; i++)
+        retex_pack_part_free(&web->packed[i]);
+    free(web->picture.data);
+    free(web->atlas.data);
+    free(web->lights);
+    free(web->streams);
+    free(web->light_parts);
+    free(web->curves);
+    free(web->tiles);
+    free(web->packed);
+    retex_web_model_close(&web->model);
+    retex_set_close(&web->set);
+    *web = (Web){0};
+}
+
+/* ---- encoding ---- */
+
+static int is_light(const Web *web, int part)
+{
+    for (int i = 0; i < web->nlights; i++)
+        if (web->light_parts[i] == part)
+            return i;
+    return -1;
+}
+
+static int tile_of(const Web *web, int part)
+{
+    for (int i = 0; i < web->ntiles; i++)
+        if (web->tiles[i].part == part)
+            return i;
+    return -1;
+}
+
+/* List the images of the picture's size, and those that are smaller. */
+static void list_images(Web *web)
+{
+    const RetexWebModel *m = &web->model;
+    for (int i = 0; i < m->ngroups; i++)
+        if (is_light(web, m->groups[i].light) < 0)
+            web->light_parts[web->nlights++] = m->groups[i].light;
+    for (int i = 0; i < m->nclasses; i++)
+        if (m->classes[i].scale == 1)
+            web->light_parts[web->nlights++] = m->classes[i].albedo;
+        else
+            web->tiles[web->ntiles++].part = m->classes[i].albedo;
+    for (int i = 0; i < m->nterms; i++)
+        if (m->terms[i].gain && tile_of(web, m->terms[i].gain) < 0)
+            web->tiles[web->ntiles++].part = m->terms[i].gain;
+}
+
+static int is_sharp_light(const Web *web, int part)
+{
+    for (int i = 0; i < web->model.nclasses; i++)
+        if (web->model.classes[i].scale == 1 && web->model.classes[i].albedo == part)
+            return 1;
+    for (int i = 0; i < web->model.ngroups; i++)
+        if (web->model.groups[i].light == part && web->model.groups[i].mixture < 0)
+            return 0;
+    return 1;
+}
+
+static void take_jpeg(File *file, RetexPackJpeg *jpeg, const char *name)
+{
+    snprintf(file->name, sizeof file->name, "%s.jpg", name);
+    file->data = jpeg->data;
+    file->bytes = jpeg->bytes;
+    jpeg->data = NULL;
+    retex_pack_jpeg_free(jpeg);
+}
+
+static int encode_picture(Web *web, RetexError *err)
+{
+    const RetexPart *part = &web->set->parts[0];
+    const RetexPackCurve curve = {1, 255};
+    const size_t count = (size_t)part->image.width * (size_t)part->image.height * (size_t)part->image.channels;
+    RetexPackJpeg jpeg = {0};
+    float *levels = malloc(count * sizeof *levels);
+    if (!levels)
+        return no_memory(err);
+    for (size_t i = 0; i < count; i++)
+        levels[i] = (float)fmin(retex_pack_curve_level(&curve, fmax((double)part->image.pixels[i], 0)), 255);
+    int code = retex_pack_jpeg_encode(&jpeg, levels, part->image.width, part->image.height, part->image.channels,
+                                      fmax(web->packed[0].jpeg_step, 1), err);
+    free(levels);
+    if (!code)
+        take_jpeg(&web->picture, &jpeg, "picture");
+    return code;
+}
+
+static int encode(Web *web, RetexError *err)
+{
+    const RetexSet *set = web->set;
+    RetexPackJpeg jpeg = {0};
+    int code = encode_picture(web, err);
+    for (int i = 0; i < web->nlights && !code; i++) {
+        const int part = web->light_parts[i];
+        code = retex_web_light_encode(&jpeg, &web->curves[i], &set->parts[part], &web->packed[part],
+                                      is_sharp_light(web, part), err);
+        if (!code)
+            take_jpeg(&web->lights[i], &jpeg, set->parts[part].name);
+    }
+    if (!code && web->ntiles)
+        code = retex_web_atlas_encode(&jpeg, web->tiles, web->ntiles, &web->atlas_width, &web->atlas_height, set,
+                                      web->packed, err);
+    if (!code && web->ntiles)
+        take_jpeg(&web->atlas, &jpeg, "reduced");
+    for (int i = 0; i < web->model.nclasses && !code; i++) {
+        const RetexWebClass *c = &web->model.classes[i];
+        File *file = &web->streams[i];
+        snprintf(file->name, sizeof file->name, "%s.bin", set->parts[set->footprints[c->footprints[0]].uv].name);
+        code = retex_web_footprints_encode(&file->data, &file->bytes, set, web->packed, c, err);
+    }
+    return code;
+}
+
+static int web_open(Web *web, const RetexSet *set, int quality, int scale, int nthreads, RetexError *err)
+{
+    const RetexPackQuantizer quantizer = retex_pack_quantizer(retex_pack_quality_psnr(quality));
+    RetexCompactParams compacting = RETEX_COMPACT_INIT;
+    compacting.psnr = retex_pack_quality_psnr(quality) + COMPACTING_MARGIN;
+    compacting.noise = pow(fmin((100 - quality) / 10.0, 1), 2);
+    compacting.broad = compacting.interreflection = compacting.gain = scale;
+    *web = (Web){0};
+    int code = retex_set_compact(&web->set, set, &compacting, nthreads, err);
+    if (!code)
+        code = retex_web_model_open(&web->model, web->set, err);
+    if (code)
+        return code;
+    const size_t count = (size_t)web->set->nparts + 1;
+    web->packed = calloc(count, sizeof *web->packed);
+    web->lights = calloc(count, sizeof *web->lights);
+    web->streams = calloc((size_t)web->model.nclasses + 1, sizeof *web->streams);
+    web->light_parts = calloc(count, sizeof *web->light_parts);
+    web->curves = calloc(count, sizeof *web->curves);
+    web->tiles = calloc(count, sizeof *web->tiles);
+    if (!web->packed || !web->lights || !web->streams || !web->light_parts || !web->curves || !web->tiles)
+        return no_memory(err);
+    list_images(web);
+    code = retex_pack_plan(web->packed, web->set, &quantizer, nthreads, err);
+    return code ? code : encode(web, err);
+}
+
+/* ---- the manifest ---- */
+
+static json_t *describe_file(const File *file)
+{
+    return json_pack("{s:s,s:I,s:I}", "file", file->name, "bytes", (json_int_t)file->bytes, "crc32",
+                     (json_int_t)retex_crc32(CRC32_OF_NONE, file->data, file->bytes));
+}
+
+static void put_curve(json_t **object, const RetexPackCurve *curve)
+{
+    retex_json_put(object, "white", json_real(curve->white));
+    retex_json_put(object, "levels", json_real(curve->levels));
+}
+
+/* A name of any bytes. */
+static json_t *text(const char *bytes)
+{
+    json_t *string = json_string(bytes);
+    return string ? string : json_string("?");
+}
+
+static json_t *describe_targets(const RetexSet *set)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < set->ntargets; i++) {
+        const RetexTarget *t = &set->targets[i];
+        json_t *object =
+            json_pack("{s:o,s:[i,i],s:[f,f],s:[f,f],s:[f,f],s:f}", "name", text(t->name), "periodic", t->periodic[0],
+                      t->periodic[1], "uv_min", t->uv_min[0], t->uv_min[1], "uv_max", t->uv_max[0], t->uv_max[1],
+                      "uv_scale", t->uv_scale[0], t->uv_scale[1], "share", t->share);
+        retex_json_put(
+            &object, "mean_albedo",
+            json_pack("[f,f,f]", (double)t->mean_albedo[0], (double)t->mean_albedo[1], (double)t->mean_albedo[2]));
+        retex_json_add(&list, object);
+    }
+    return list;
+}
+
+/* The target that light belongs to, or -1: of all. */
+static int target_of_light(const Web *web, int part)
+{
+    for (int i = 0; i < web->model.nclasses; i++)
+        if (web->model.classes[i].albedo == part)
+            return web->model.classes[i].target;
+    for (int i = 0; i < web->model.ngroups; i++)
+        if (web->model.groups[i].light == part)
+            return web->model.groups[i].target;
+    return -1;
+}
+
+static json_t *describe_lights(const Web *web)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < web->nlights; i++) {
+        json_t *object = describe_file(&web->lights[i]);
+        retex_json_put(&object, "target", json_integer(target_of_light(web, web->light_parts[i])));
+        put_curve(&object, &web->curves[i]);
+        retex_json_add(&list, object);
+    }
+    return list;
+}
+
+static json_t *describe_atlas(const Web *web)
+{
+    json_t *tiles = json_array(), *object = describe_file(&web->atlas);
+    for (int i = 0; i < web->ntiles; i++) {
+        const RetexImage *im = &web->set->parts[web->tiles[i].part].image;
+        json_t *tile = json_pack("{s:i,s:i,s:i,s:i,s:i}", "x", web->tiles[i].x, "y", web->tiles[i].y, "width",
+                                 im->width, "height", im->height, "scale", retex_set_scale(web->set, im));
+        put_curve(&tile, &web->tiles[i].curve);
+        retex_json_add(&tiles, tile);
+    }
+    retex_json_put(&object, "width", json_integer(web->atlas_width));
+    retex_json_put(&object, "height", json_integer(web->atlas_height));
+    retex_json_put(&object, "tiles", tiles);
+    return object;
+}
+
+static json_t *describe_classes(const Web *web)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < web->model.nclasses; i++) {
+        const RetexWebClass *c = &web->model.classes[i];
+        const RetexImage *im = &web->set->parts[web->set->footprints[c->footprints[0]].uv].image;
+        json_t *object = describe_file(&web->streams[i]);
+        retex_json_put(&object, "target", json_integer(c->target));
+        retex_json_put(&object, "kind", json_string(retex_footprint_kind_name(c->kind)));
+        retex_json_put(&object, "scale", json_integer(c->scale));
+        retex_json_put(&object, "width", json_integer(im->width));
+        retex_json_put(&object, "height", json_integer(im->height));
+        retex_json_put(&object, "albedo",
+                       json_integer(c->scale == 1 ? is_light(web, c->albedo) : tile_of(web, c->albedo)));
+        retex_json_put(&object, "records", json_integer((json_int_t)retex_web_records(web->set, c)));
+        retex_json_put(&object, "spreads",
+                       json_integer(web->set->parts[web->set->footprints[c->footprints[0]].spread].image.channels));
+        retex_json_put(&object, "footprints", retex_web_footprints_describe(web->packed, web->set, c));
+        retex_json_add(&list, object);
+    }
+    return list;
+}
+
+static void describe_terms(json_t **object, const Web *web)
+{
+    json_t *mixtures = json_array(), *groups = json_array(), *terms = json_array();
+    for (int i = 0; i < web->model.nmixtures; i++) {
+        const RetexWebMixture *m = &web->model.mixtures[i];
+        json_t *mixture = json_array();
+        for (int k = 0; k < m->nclasses; k++)
+            retex_json_add(&mixture, json_pack("[i,i]", m->classes[k].index, m->classes[k].slot));
+        retex_json_add(&mixtures, mixture);
+    }
+    for (int i = 0; i < web->model.ngroups; i++) {
+        const RetexWebGroup *g = &web->model.groups[i];
+        retex_json_add(&groups, json_pack("{s:i,s:i,s:i}", "light", is_light(web, g->light), "mixture", g->mixture,
+                                          "target", g->target));
+    }
+    for (int i = 0; i < web->model.nterms; i++) {
+        const RetexWebTerm *t = &web->model.terms[i];
+        json_t *factors = json_array();
+        for (int k = 0; k < t->nfactors; k++)
+            retex_json_add(&factors, json_integer(t->factors[k]));
+        retex_json_add(&terms, json_pack("{s:i,s:i,s:o}", "group", t->group, "gain",
+                                         t->gain ? tile_of(web, t->gain) : -1, "factors", factors));
+    }
+    retex_json_put(object, "mixtures", mixtures);
+    retex_json_put(object, "groups", groups);
+    retex_json_put(object, "terms", terms);
+}
+
+static char *describe(const Web *web, RetexError *err)
+{
+    const RetexSet *set = web->set;
+    char id[16];
+    snprintf(id, sizeof id, "%08x", set->id);
+    json_t *object =
+        json_pack("{s:i,s:o,s:s,s:i,s:i,s:s,s:i,s:o,s:o,s:o,s:o}", "retex_web", RETEX_WEB_VERSION, "scene",
+                  text(set->scene), "id", id, "width", set->width, "height", set->height, "filter", set->filter,
+                  "finest", web->model.finest, "picture", describe_file(&web->picture), "targets",
+                  describe_targets(set), "lights", describe_lights(web), "classes", describe_classes(web));
+    retex_json_put(&object, "reduced", web->ntiles ? describe_atlas(web) : json_null());
+    if (object)
+        describe_terms(&object, web);
+    char *json = object ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
+    json_decref(object);
+    if (!json)
+        no_memory(err);
+    return json;
+}
+
+/* ---- the folder ---- */
+
+static int write_file(const char *folder, const File *file, RetexError *err)
+{
+    char path[PATH_MAX];
+    if (snprintf(path, sizeof path, "%s/%s", folder, file->name) >= (int)sizeof path)
+        return retex_fail(err, RETEX_EINVAL, "the name of the folder is too long");
+    return retex_file_write(path, file->data, file->bytes, err);
+}
+
+static void remove_file(const char *folder, const File *file)
+{
+    char path[PATH_MAX];
+    if (snprintf(path, sizeof path, "%s/%s", folder, file->name) < (int)sizeof path)
+        unlink(path);
+}
+
+static const File *file_at(const Web *web, int index)
+{
+    if (index < 1 + web->nlights)
+        return index ? &web->lights[index - 1] : &web->picture;
+    index -= 1 + web->nlights;
+    return index < web->model.nclasses ? &web->streams[index] : web->ntiles ? &web->atlas : NULL;
+}
+
+static int write_all(const Web *web, const char *folder, const File *manifest, RetexError *err)
+{
+    const int count = 1 + web->nlights + web->model.nclasses + (web->ntiles > 0);
+    const File old = {.name = MANIFEST};
+    int code = 0, written = 0;
+    remove_file(folder, &old); /* it does not describe the new files */
+    for (; written < count && !code; written += !code)
+        code = write_file(folder, file_at(web, written), err);
+    if (!code)
+        code = write_file(folder, manifest, err);
+    for (int i = 0; code && i < written; i++)
+        remove_file(folder, file_at(web, i));
+    return code;
+}
+
+static RetexWebBytes count_bytes(const Web *web, size_t manifest)
+{
+    RetexWebBytes bytes = {.still = web->picture.bytes + manifest};
+    size_t common = web->atlas.bytes, others = 0;
+    int best = 0;
+    for (int i = 1; i < web->set->ntargets; i++)
+        if (web->set->targets[i].share > web->set->targets[best].share)
+            best = i;
+    for (int i = 0; i < web->model.nclasses; i++)
+        if (web->model.classes[i].scale > 1 || web->model.classes[i].target == best)
+            common += web->streams[i].bytes;
+        else
+            others += web->streams[i].bytes;
+    for (int i = 0; i < web->nlights; i++)
+        if (target_of_light(web, web->light_parts[i]) == best)
+            common += web->lights[i].bytes;
+        else
+            others += web->lights[i].bytes;
+    bytes.first = bytes.still + common;
+    bytes.all = bytes.first + others;
+    return bytes;
+}
+
+int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParams *params, RetexWebBytes *bytes,
+                    int nthreads, RetexError *err)
+{
+    static const RetexWebParams defaults = RETEX_WEB_INIT;
+    const int quality = params ? params->quality : defaults.quality;
+    Web web = {0};
+    if (quality < 1 || quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", quality);
+    int code = RETEX_EUNSUPPORTED;
+    for (size_t i = 0; i < sizeof SCALES / sizeof *SCALES && code == RETEX_EUNSUPPORTED; i++) {
+        web_close(&web);
+        code = web_open(&web, set, quality, SCALES[i], nthreads, err);
+    }
+    File manifest = {.name = MANIFEST};
+    if (!code && !(manifest.data = (unsigned char *)describe(&web, err)))
+        code = RETEX_ENOMEM;
+    if (!code) {
+        manifest.bytes = strlen((char *)manifest.data);
+        code = write_all(&web, folder, &manifest, err);
+    }
+    if (!code && bytes)
+        *bytes = count_bytes(&web, manifest.bytes);
+    free(manifest.data);
+    web_close(&web);
+    return code;
+}
