@@ -14,9 +14,15 @@ struct Environment {
     float density[TABLE_HEIGHT][TABLE_WIDTH]; /* per solid angle */
 };
 
-Rgb sky_radiance(const Scene *scene, Vec3 direction)
+/* Of the background, as surfaces see it. */
+static Rgb background_light(const Scene *scene)
 {
-    Rgb sum = scene->background;
+    return scene->background_only_seen ? rgb_grey(0) : scene->background;
+}
+
+Rgb sky_radiance(const Scene *scene, Vec3 direction, int seen)
+{
+    Rgb sum = seen ? scene->background : background_light(scene);
     if (!scene->sky)
         return sum;
     for (int k = 0; k < scene->sky->npigments; k++) {
@@ -76,7 +82,7 @@ static void row_luminances(const Scene *scene, const Longitudes *longitudes, int
         for (int k = first; k < end; k++) {
             const int i = 2 * x + (k & 1), j = k >> 1;
             const Vec3 direction = {sine[j] * longitudes->cosine[i], cosine[j], sine[j] * longitudes->sine[i]};
-            sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction)));
+            sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction, 0)));
         }
         luminances[x] = sum / (float)(end - first);
     }
@@ -142,7 +148,7 @@ static void normalize_sums(float *sums, int count)
 int environment_create(Environment **environment, const Scene *scene, RetexError *err)
 {
     *environment = NULL;
-    if (!scene->sky && rgb_is_black(scene->background))
+    if (!scene->sky && rgb_is_black(background_light(scene)))
         return RETEX_OK;
     Environment *e = malloc(sizeof *e);
     if (!e)

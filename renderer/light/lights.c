@@ -540,7 +540,7 @@ int lights_sample(const Lights *lights, const LightSampleContext *point, const L
         sample->kind = LIGHT_SAMPLE_SKY;
         sample->direction = environment_sample(lights->environment, u1, u2, &sample->pdf);
         sample->distance = INFINITY;
-        sample->radiance = sky_radiance(lights->scene, sample->direction);
+        sample->radiance = sky_radiance(lights->scene, sample->direction, 0);
         return sample->pdf > 0;
     }
     return source_sample(&lights->scene->lights[e->index], position, u1, u2, sample);

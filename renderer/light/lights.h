@@ -69,8 +69,8 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
 /* Estimate of the irradiance of all lights on a surface that faces them. */
 float lights_estimate(const Lights *lights, const LightSampleContext *point);
 
-/* Radiance of sky and background in a direction. */
-Rgb sky_radiance(const Scene *scene, Vec3 direction);
+/* Radiance of sky and background in a direction: that they are seen with, or that surfaces are lit with. */
+Rgb sky_radiance(const Scene *scene, Vec3 direction, int seen);
 /* 0: it is black in all directions, as far as the table of the sky tells. Quick where it is not. */
 int sky_shines(const Scene *scene);
 

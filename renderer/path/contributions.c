@@ -175,7 +175,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->beta = path->beta_rest = colour4(rgb_grey(1));
     path->wavelength = -1;
     path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){.position = ray->origin};
-    path->segments = 1, path->straight = 0, path->sharp = 1;
+    path->segments = 1, path->straight = 0, path->sharp = path->delta = 1;
     path->media = c->camera, path->kind = RAY_CAMERA;
     path->specular = 0, path->lit_group = NULL;
     path->sample = sampler->sample;

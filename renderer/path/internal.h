@@ -38,6 +38,7 @@ typedef struct Path {
     LightSampleContext prev_context; /* of the vertex where it was sampled: for MIS */
     int segments, straight;          /* so far; straight: surfaces that did not bend the path, which end no segment */
     int sharp;                       /* so far every bounce was specular, or nearly so */
+    int delta;                       /* so far every bounce was in a delta lobe */
     RayKind kind;
     uint32_t sample; /* in its half of the pixel's */
     int half;
@@ -205,6 +206,7 @@ static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)
 {
     path->pdf = pdf;
     path->sharp &= bsdf_pdf == 0 || bsdf_pdf > SHARP_PDF;
+    path->delta &= bsdf_pdf == 0;
     path->segments++;
 }
 int survives_roulette(PathWorker *worker, Path *path, float u);

@@ -96,7 +96,7 @@ static void add_surface_emission(PathWorker *w, Path *path, const Hit *hit, cons
 
 static void add_sky(PathWorker *w, Path *path, Vec3 direction)
 {
-    Rgb radiance = sky_radiance(w->context->scene, direction);
+    Rgb radiance = sky_radiance(w->context->scene, direction, path->delta);
     if (rgb_is_black(radiance))
         return;
     float weight = 1;

@@ -513,6 +513,7 @@ typedef struct Scene {
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
     Camera camera;
     Rgb background;
+    int background_only_seen; /* 1: directly and by delta lobes; it lights no surface */
     SkySphere *sky;          /* or NULL */
     Fog *fogs;               /* a list, or NULL */
     int nprimitives, ncsgs, nprototypes, ninstances, nlights, nimages;

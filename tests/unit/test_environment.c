@@ -38,7 +38,7 @@ static void densities_are_those_of_luminance(void **unused)
         for (int k = 0; k < 4000; k++) {
             const double y = 2 * test_random(&state) - 1, phi = 2 * PI * test_random(&state), rho = sqrt(1 - y * y);
             const Vec3 d = {rho * cos(phi), y, rho * sin(phi)};
-            const double of_sky = rgb_luminance(sky_radiance(scenes[0], d)) / (4 * PI * mean);
+            const double of_sky = rgb_luminance(sky_radiance(scenes[0], d, 0)) / (4 * PI * mean);
             other += fabs(environment_pdf(written, d) - environment_pdf(turned, d)) > 0.02 * environment_pdf(turned, d);
             far += fabs(environment_pdf(written, d) - of_sky) > 0.05 * of_sky;
         }

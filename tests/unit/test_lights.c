@@ -455,7 +455,7 @@ static void skies_are_sampled_by_luminance(void **state)
             const Vec3 d = vec3(r * cos(phi), z, r * sin(phi));
             const double pdf = (double)environment_pdf(sky, d) * 4 * PI;
             whole += pdf;
-            off += fabs(pdf - (double)(rgb_luminance(sky_radiance(scene, d)) / environment_mean(sky)));
+            off += fabs(pdf - (double)(rgb_luminance(sky_radiance(scene, d, 0)) / environment_mean(sky)));
         }
         if (!(fabs(whole / N / N - 1) < 0.05 && off / N / N < skies[k].within))
             fail_msg("sky %zu: densities add up to %.4f, and are %.4f off", k, whole / N / N, off / N / N);

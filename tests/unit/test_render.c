@@ -209,6 +209,29 @@ static void sphere_emitter_irradiance(void **state)
     stage_close(&s);
 }
 
+static void background_may_light_nothing(void **state)
+{
+    (void)state;
+    /* seen in a mirror and directly, in a stage with a white surface before it */
+    const float colors[3] = {0.25f, 0.5f, 1};
+    for (int mirror = 0; mirror < 2; mirror++)
+        for (int only_seen = 0; only_seen < 2; only_seen++) {
+            Stage s;
+            stage_open(&s);
+            s.scene->camera = orthographic_camera(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
+            s.scene->background = rgb(colors[0], colors[1], colors[2]);
+            s.scene->background_only_seen = only_seen;
+            stage_add(&s, &shape_plane, transform_identity(), 1, 1, 1);
+            s.finishes[0].diffuse = !mirror, s.finishes[0].reflection_max = rgb_grey(mirror ? 0.8f : 0);
+            s.finishes[0].reflection_min = s.finishes[0].reflection_max;
+            RetexSet *set = stage_render(&s, 16, 0, 1);
+            for (int c = 0; c < 3; c++)
+                expect(pixel(set, 5, 5)[c], mirror ? 0.8 * colors[c] : only_seen ? 0 : colors[c], 1e-4, "light");
+            retex_set_close(&set);
+            stage_close(&s);
+        }
+}
+
 static void slab_reflects_by_fresnel(void **state)
 {
     (void)state;
@@ -674,6 +697,7 @@ int main(void)
                                        cmocka_unit_test(point_light_over_a_plane),
                                        cmocka_unit_test(shadowless_lights_have_no_highlights),
                                        cmocka_unit_test(sphere_emitter_irradiance),
+                                       cmocka_unit_test(background_may_light_nothing),
                                        cmocka_unit_test(slab_reflects_by_fresnel),
                                        cmocka_unit_test(crops_are_cut_from_the_whole),
                                        cmocka_unit_test(filters_have_their_width),

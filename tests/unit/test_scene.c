@@ -294,6 +294,7 @@ static void test_emitters(void **state)
         {V37 "background{rgb .49} sphere{0,1 finish{ambient .5 diffuse .45}}", .5, .5},
         {V37 "background{rgb 1} sphere{0,1 finish{ambient .5 diffuse 0}}", .5, .5},
         {V37 "background{rgb 2} sphere{0,1 finish{ambient 1 diffuse .5}}", 1, 1},
+        {V37 "background{rgb .5} light_source{0,rgb 1} sphere{0,1 finish{ambient .5 diffuse .45}}", .5, .5},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_float_equal(emission_by(cases[k].text, 0), cases[k].by_rule, 1e-6);

@@ -139,7 +139,7 @@ static void test_sky(void **state)
     /* A pigment lets through what lies behind it, its filter in its own colour. */
     scene =
         parse(V37 "background{rgb <1,.5,.25>} sky_sphere{pigment{rgb .5} pigment{rgbft <.2,.4,.8,.5,.3>} emission 2}");
-    Rgb seen = sky_radiance(scene, vec3(0, 1, 0));
+    Rgb seen = sky_radiance(scene, vec3(0, 1, 0), 1);
     assert_near(seen.r, (0.5 * 0.2 + 0.3) * 0.5 * 2 + 0.2 * 0.2 * 2);
     assert_near(seen.g, (0.5 * 0.4 + 0.3) * 0.5 * 2 + 0.2 * 0.4 * 2);
     assert_near(seen.b, (0.5 * 0.8 + 0.3) * 0.5 * 2 + 0.2 * 0.8 * 2);
@@ -147,11 +147,38 @@ static void test_sky(void **state)
     /* In older scenes filter tints nothing; the version at the scene's end counts. POV-Ray shows .3501, .5, .75. */
     scene = parse("#version 3.7; global_settings{assumed_gamma 1}"
                   "sky_sphere{pigment{rgb <.2,.4,.8>} pigment{rgbf <.5,.6,.7,.5>}} #version 3.6;");
-    seen = sky_radiance(scene, vec3(0, 1, 0));
+    seen = sky_radiance(scene, vec3(0, 1, 0), 1);
     assert_near(seen.r, 0.35);
     assert_near(seen.g, 0.5);
     assert_near(seen.b, 0.75);
     scene_close(&scene);
+}
+
+/* The background lights surfaces beside radiosity, finishes of retex's own, or where there is no light source. */
+static void test_background_light(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int only_seen;
+    } cases[] = {
+        {V37 "sphere{0,1}", 0},
+        {V37 "light_source{0, rgb 1} sphere{0,1}", 1},
+        {V37 "light_source{0, rgb 0} sphere{0,1}", 0},
+        {V37 "global_settings{radiosity{}} light_source{0, rgb 1} sphere{0,1}", 0},
+        {V37 "light_source{0, rgb 1} sphere{0,1 finish{retex{roughness .5}}}", 0},
+        {"light_source{0, rgb 1} sphere{0,1}", 1},
+        {"global_settings{radiosity{}} light_source{0, rgb 1} sphere{0,1}", 0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s background{rgb <1,0,0>}", cases[k].text);
+        Scene *scene = parse(text);
+        assert_int_equal(scene->background_only_seen, cases[k].only_seen);
+        assert_near(sky_radiance(scene, vec3(0, 1, 0), 1).r, 1);
+        assert_near(sky_radiance(scene, vec3(0, 1, 0), 0).r, !cases[k].only_seen);
+        scene_close(&scene);
+    }
 }
 
 static void test_negative_light(void **state)
@@ -254,11 +281,17 @@ static void test_bright_lights_of_old_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_camera),  cmocka_unit_test(test_bright_lights_of_old_scenes),
-        cmocka_unit_test(test_lights),  cmocka_unit_test(test_light_kinds_written_twice),
-        cmocka_unit_test(test_photons), cmocka_unit_test(test_names_of_insides),
-        cmocka_unit_test(test_sky),     cmocka_unit_test(test_negative_light),
-        cmocka_unit_test(test_targets), cmocka_unit_test(test_target_errors),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_bright_lights_of_old_scenes),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_photons),
+        cmocka_unit_test(test_names_of_insides),
+        cmocka_unit_test(test_sky),
+        cmocka_unit_test(test_background_light),
+        cmocka_unit_test(test_negative_light),
+        cmocka_unit_test(test_targets),
+        cmocka_unit_test(test_target_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -154,15 +154,30 @@ static float shining_share(const Finish *finish, float ordinary, float backgroun
     return ambient > ordinary ? (ambient - ordinary) / ambient : 0;
 }
 
+/* POV-Ray's background lights nothing but through radiosity, and who placed light sources saw surfaces without it.
+ * Scenes with finishes of retex's own were made for it. */
+static void find_background_light(Sdl *sdl)
+{
+    const Builder *builder = builder_of(sdl);
+    Scene *scene = sdl_scene(sdl);
+    scene->background_only_seen = 0;
+    for (int k = 0; k < scene->nlights && !builder->radiosity; k++)
+        scene->background_only_seen |= !rgb_is_black(scene->lights[k].color);
+    for (const ParsedFinish *f = builder->finishes; f; f = f->next)
+        scene->background_only_seen &= !f->finish.retex.present;
+}
+
 /* Small `ambient` stands for the indirect light that paths find; what is above it was made to be seen, and strong one
  * wholly, as that of skies, lamps and molecules. POV-Ray has none beside radiosity, but in scenes of old versions.
- * Beside a bright background it stands for the light that comes from there, as molecules before white have it. Looks
- * at the numbers as they are written. */
+ * Beside a bright background that lights it stands for the light that comes from there. Looks at the numbers as they
+ * are written. */
 static void find_shining(Sdl *sdl)
 {
     const Builder *builder = builder_of(sdl);
     const int flag = sdl_options(sdl)->ambient, may = !builder->radiosity || sdl_version(sdl) < 3.7;
-    const float ordinary = ordinary_ambient(builder), background = rgb_max(sdl_scene(sdl)->background);
+    const Scene *scene = sdl_scene(sdl);
+    const float ordinary = ordinary_ambient(builder),
+                background = scene->background_only_seen ? 0 : rgb_max(scene->background);
     for (ParsedFinish *f = builder->finishes; f; f = f->next) {
         const float share = flag ? flag > 0 : may ? shining_share(&f->finish, ordinary, background) : 0;
         f->shines = share > 0;
@@ -303,6 +318,7 @@ void finalize_scene(Sdl *sdl)
     each_texture(sdl, visit_complete, NULL);
     each_texture(sdl, visit_albedo, NULL);
     add_tangents(sdl);
+    find_background_light(sdl);
     find_shining(sdl);
     decode_colors(sdl);
     camera_finish(sdl);
