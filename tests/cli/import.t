@@ -95,6 +95,16 @@ $ retex-import -q varying.gltf -o varying && grep -A8 declare.Steel varying/vary
 > }
 $ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic varying/varying.pov -o varying.exr && /usr/bin/python3 $TESTS/import_finish.py varying.exr
 
+# Normal maps: of glTF, with their scale; of OBJ, where the picture tells that it has normals or heights. Heights that
+# rise by 1 over the picture's width, a hundredth of it high, 30 times: a slope of .3.
+$ for m in bumpy.gltf bumpy.obj ramp.obj; do retex-import -q -f $m -o bumpy && grep retex_normal_map bumpy/bumpy.pov; cat camera.inc >>bumpy/bumpy.pov; retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr; oiiotool -q bumpy.exr --subimage normal -o bumpy.exr; make_values bumpy.exr 0,0 | awk '{ printf "%.2f %.2f %.2f\n", $1, $2, $3 }'; done
+>   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Leaning.png" gamma 1 interpolate 2 } } 0.5 } #end
+> -0.29 -0.15 -0.95
+>   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Leaning.png" gamma 1 interpolate 2 } } } #end
+> -0.51 -0.25 -0.82
+>   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Ramp_normals.png" gamma 1 interpolate 2 } } } #end
+> -0.29 0.00 -0.96
+
 # A lamp shines with glTF's strength.
 $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.pov
 > #declare Lamp = texture {

@@ -172,6 +172,16 @@ varying = gltf({'name': 'steel', 'pbrMetallicRoughness': {
     'metallicRoughnessTexture': {'index': 0}, 'roughnessFactor': .75}}, numbers)
 write('varying.gltf', json.dumps(varying))
 
+# Normals that lean to the left and down, in glTF by half; a ramp of heights.
+write('leaning.png', png(16, 16, lambda x, y: (64, 96, 230), 3))
+bumpy = gltf({'name': 'bumpy', 'normalTexture': {'index': 0, 'scale': .5}, 'pbrMetallicRoughness': {'metallicFactor': 0}},
+             {'uri': 'leaning.png'})
+write('bumpy.gltf', json.dumps(bumpy))
+write('ramp.png', png(256, 256, lambda x, y: (x,) * 3, 3))
+for name, image in (('bumpy', 'leaning.png'), ('ramp', '-bm 30 ramp.png')):
+    write(name + '.obj', obj.replace('card.mtl', name + '.mtl'))
+    write(name + '.mtl', 'newmtl wood\nKd 0.3 0.3 0.3\nmap_Bump %s\n' % image)
+
 # Damage.
 write('short.glb', card[:len(card) // 2])
 write('empty.obj', '')

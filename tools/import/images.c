@@ -449,43 +449,87 @@ int images_stats(Import *import, const char *source, ChannelStats *stats, int *f
     return RETEX_OK;
 }
 
-static int write_channel(Import *import, const char *source, int channel, const char *what, ImageFile *image,
-                         RetexError *err)
+/* What becomes of an image of numbers: one channel of it, or normals of its heights. */
+typedef struct Remake {
+    const char *name; /* of the file begins with the source's and ends with this */
+    int channel;      /* or -1: normals */
+    float scale;      /* of heights */
+} Remake;
+
+static void take_channel(const RetexImage *from, RetexImage *to, const Remake *remake)
 {
-    RetexImage pixels = {0}, grey = {0};
+    for (size_t i = 0; i < (size_t)from->width * (size_t)from->height; i++)
+        to->pixels[i] = from->pixels[4 * i + (size_t)remake->channel];
+}
+
+static float height_at(const RetexImage *image, int x, int y)
+{
+    const float *p = image->pixels +
+                     retex_image_index(image, (x + image->width) % image->width, (y + image->height) % image->height);
+    return (p[0] + p[1] + p[2]) / 3;
+}
+
+/* By the heights of the neighbours, for images that repeat. */
+static void normals_of_heights(const RetexImage *from, RetexImage *to, const Remake *remake)
+{
+    const float steps = 0.01f * remake->scale * (float)from->width / 2;
+    for (int y = 0; y < from->height; y++)
+        for (int x = 0; x < from->width; x++) {
+            const float right = steps * (height_at(from, x + 1, y) - height_at(from, x - 1, y)),
+                        up = steps * (height_at(from, x, y - 1) - height_at(from, x, y + 1)),
+                        scale = 0.5f / sqrtf(right * right + up * up + 1);
+            float *n = to->pixels + retex_image_index(to, x, y);
+            n[0] = 0.5f - scale * right, n[1] = 0.5f - scale * up, n[2] = 0.5f + scale;
+        }
+}
+
+static int write_numbers(Import *import, const char *source, const Remake *remake, ImageFile *image, RetexError *err)
+{
+    RetexImage pixels = {0}, made = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
     char path[PATH_MAX], ending[32];
     params.colorspace = "raw";
-    snprintf(ending, sizeof ending, "%s.png", what);
+    snprintf(ending, sizeof ending, "%s.png", remake->name);
     int code = name_file(import, source, ending, image->file, err);
     if (!code)
         code = decode_data(import, source, &pixels, image, err);
     if (code || image->missing)
         return code;
-    code = retex_image_alloc(&grey, pixels.width, pixels.height, 1, err);
-    for (size_t i = 0; !code && i < (size_t)pixels.width * (size_t)pixels.height; i++)
-        grey.pixels[i] = pixels.pixels[4 * i + (size_t)channel];
+    code = retex_image_alloc(&made, pixels.width, pixels.height, remake->channel < 0 ? 3 : 1, err);
+    if (!code)
+        (remake->channel < 0 ? normals_of_heights : take_channel)(&pixels, &made, remake);
     if (!code && snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
         code = retex_fail(err, RETEX_EIO, "the folder's name is too long");
     if (!code)
-        code = retex_image_write(&grey, path, &params, 1, err);
+        code = retex_image_write(&made, path, &params, 1, err);
     retex_image_free(&pixels);
-    retex_image_free(&grey);
+    retex_image_free(&made);
+    return code;
+}
+
+static int use_numbers(Import *import, const char *source, const Remake *remake, char file[NAME_SIZE + 32],
+                       RetexError *err)
+{
+    char key[PATH_MAX + 64];
+    int is_new;
+    snprintf(key, sizeof key, "%s %d %g %s", remake->name, remake->channel, (double)remake->scale, source);
+    ImageFile *image = look_up(import, key, &is_new, err);
+    if (!image)
+        return RETEX_ENOMEM;
+    const int code = is_new ? write_numbers(import, source, remake, image, err) : RETEX_OK;
+    snprintf(file, NAME_SIZE + 32, "%s", image->file);
     return code;
 }
 
 int images_channel(Import *import, const char *source, int channel, const char *what, char file[NAME_SIZE + 32],
                    RetexError *err)
 {
-    char key[PATH_MAX + 16];
-    int is_new;
-    snprintf(key, sizeof key, "channel %d %s", channel, source);
-    ImageFile *image = look_up(import, key, &is_new, err);
-    if (!image)
-        return RETEX_ENOMEM;
-    const int code = is_new ? write_channel(import, source, channel, what, image, err) : RETEX_OK;
-    snprintf(file, NAME_SIZE + 32, "%s", image->file);
-    return code;
+    return use_numbers(import, source, &(Remake){what, channel, 1}, file, err);
+}
+
+int images_normals(Import *import, const char *source, float scale, char file[NAME_SIZE + 32], RetexError *err)
+{
+    return use_numbers(import, source, &(Remake){"normals", -1, scale}, file, err);
 }
 
 int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err)

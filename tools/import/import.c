@@ -31,7 +31,7 @@ void import_tell(const Import *import, char kind, const char *fmt, ...)
 void import_leave_out(Import *import, LeftOut what)
 {
     static const char *const texts[] = {
-        [LEFT_NORMAL_MAP] = "normal maps are left out",
+        [LEFT_NORMAL_MAP] = "normal maps with another UV than the colour's are left out",
         [LEFT_FINISH_MAP] = "of images of metallic and roughness with another UV than the colour's, the mean is taken",
         [LEFT_EMISSION_MAP] = "emission from images is left out where a surface has another colour too",
         [LEFT_TRANSMISSION_MAP] = "transmission maps are left out",

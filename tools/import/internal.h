@@ -172,6 +172,8 @@ int images_stats(Import *import, const char *source, ChannelStats *stats, int *f
 /* Put one channel of an image, as numbers, into the scene's folder: a grey picture whose name ends in `what`. */
 int images_channel(Import *import, const char *source, int channel, const char *what, char file[NAME_SIZE + 32],
                    RetexError *err);
+/* Make a normal map of an image of heights, which are as high as a hundredth of the image is wide, times scale. */
+int images_normals(Import *import, const char *source, float scale, char file[NAME_SIZE + 32], RetexError *err);
 int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err);
 /* POV-Ray's keyword for a file's format. */
 const char *images_keyword(const char *file);

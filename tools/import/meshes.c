@@ -166,14 +166,15 @@ static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const 
         const unsigned *v = mesh->mFaces[i].mIndices;
         if (!is_surface(mesh, &mesh->mFaces[i]))
             continue;
-        fprintf(out, ",\n<%u,%u,%u>", v[0], v[1], v[2]);
+        /* z is mirrored: the other way round, so that the front stays in front */
+        fprintf(out, ",\n<%u,%u,%u>", v[0], v[2], v[1]);
         if (!colors->of_vertex)
             continue;
         const int a = colors->of_vertex[v[0]], b = colors->of_vertex[v[1]], c = colors->of_vertex[v[2]];
         if (a == b && b == c)
             fprintf(out, ",%d", a);
         else
-            fprintf(out, ",%d,%d,%d", a, b, c);
+            fprintf(out, ",%d,%d,%d", a, c, b);
     }
     fprintf(out, "\n  }\n");
 }
