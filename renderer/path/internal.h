@@ -127,10 +127,12 @@ static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
     return !c->split || s->surface.target < 0;
 }
 
-/* ---- air.c: fog ---- */
+/* ---- air.c: fog and rainbows ---- */
 
 /* Fog over a distance along the ray: its own light, and what it does to throughput. Returns path_is_alive. */
 int path_pass_fog(PathWorker *worker, Path *path, const Ray *ray, double distance);
+/* The same of rainbows, which only rays see that no direction was sampled for. */
+int path_pass_rainbows(PathWorker *worker, Path *path, const Ray *ray, double distance);
 /* What a shadow ray's light is multiplied by over a distance; source: NULL for other lights. */
 Rgb air_transmittance(const PathContext *context, const Media *media, const Ray *ray, double distance,
                       const Light *source);

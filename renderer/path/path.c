@@ -106,16 +106,21 @@ static void add_sky(PathWorker *w, Path *path, Vec3 direction)
 }
 
 /* Of white first hits what comes to them is asked, not what is seen of them. */
-static int is_in_fog(const PathContext *c, const Path *path, const Ray *ray)
+static int is_in_air(const PathContext *c, const Path *path, const Ray *ray)
 {
-    return c->scene->fogs && path->media.solids <= 0 && camera_ray_exists(ray) && !(c->white && is_first_hit(path));
+    return path->media.solids <= 0 && camera_ray_exists(ray) && !(c->white && is_first_hit(path));
 }
 
 int add_emission(PathWorker *w, Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
 {
-    if (is_in_fog(w->context, path, ray) &&
-        !path_pass_fog(w, path, ray, hit->primitive < 0 ? INFINITY : hit->t - ray->tmin))
-        return 0;
+    const Scene *scene = w->context->scene;
+    if ((scene->fogs || scene->rainbows) && is_in_air(w->context, path, ray)) {
+        const double distance = hit->primitive < 0 ? INFINITY : hit->t - ray->tmin;
+        if (scene->fogs && !path_pass_fog(w, path, ray, distance))
+            return 0;
+        if (scene->rainbows && path->pdf <= 0 && !path_pass_rainbows(w, path, ray, distance))
+            return 0;
+    }
     if (hit->primitive < 0) {
         if (camera_ray_exists(ray) && (!w->context->white || path->segments > 1))
             add_sky(w, path, ray->direction);

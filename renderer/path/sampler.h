@@ -23,6 +23,8 @@ enum {
     TEXTURE_VERTEX = 0, /* of the vertex itself */
     TEXTURE_LIGHT = 1,  /* of the emitter that is sampled */
     TEXTURE_SHADOW = 2, /* of the first surface on the shadow ray, and so on */
+    DIMENSION_JITTER = 0x3fff0000, /* u: of rainbows, one pair for each segment */
+    JITTER_SEGMENTS = 0x100,
     DIMENSION_WAVELENGTH = 0x3fffffff, /* u: the path's wavelength, only where light is dispersed */
     DIMENSION_CAMERA = 0x40000000, /* beyond those of all vertices; only of cameras that need it */
     VERTEX_LOBE = 0,        /* u: which lobe, v: Russian roulette */

@@ -495,6 +495,16 @@ typedef struct Fog {
     struct Fog *next;
 } Fog;
 
+typedef struct Rainbow {
+    Vec3 direction, up, right; /* orthonormal: of its middle, and across it */
+    double angle, width;     /* radians from the direction: of the bow's middle, and between its edges */
+    double arc, falloff;     /* radians round the direction, from up to either side: where it ends and begins to fade */
+    double distance;         /* over which light falls to 1/e */
+    double jitter;           /* most that is added to the place in the map */
+    const Pigment *colors;   /* by x, 0 at the inner edge and 1 at the outer one */
+    struct Rainbow *next;
+} Rainbow;
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
@@ -516,6 +526,7 @@ typedef struct Scene {
     int background_only_seen; /* 1: directly and by delta lobes; it lights no surface */
     SkySphere *sky;          /* or NULL */
     Fog *fogs;               /* a list, or NULL */
+    Rainbow *rainbows;       /* the same */
     int nprimitives, ncsgs, nprototypes, ninstances, nlights, nimages;
     Primitive *primitives;
     struct Csg **csgs;       /* trees over primitives, but for those of prototypes; shape/csg.h */

@@ -164,7 +164,7 @@ static void set(Value *value, ValueKind kind, const void *data)
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
-    static const char *const words[] = {"density", "density_map", "media", "rainbow", "radiosity", NULL};
+    static const char *const words[] = {"density", "density_map", "media", "radiosity", NULL};
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             skip_statement(sdl);
@@ -265,6 +265,11 @@ static int declare(Sdl *sdl, Value *value)
         value->word = "fog";
         return 1;
     }
+    if (sdl_accept(sdl, "rainbow")) {
+        set(value, VALUE_OTHER, parse_rainbow(sdl));
+        value->word = "rainbow";
+        return 1;
+    }
     if (sdl_accept(sdl, "camera")) {
         set(value, VALUE_CAMERA, parse_camera(sdl));
         return 1;
@@ -337,8 +342,7 @@ static void statement_fog(Sdl *sdl)
 
 static void statement_rainbow(Sdl *sdl)
 {
-    sdl_unsupported(sdl, "rainbow", "it is left out");
-    sdl_skip_block(sdl);
+    place_rainbow(sdl, parse_rainbow(sdl));
 }
 
 static void statement_media(Sdl *sdl)

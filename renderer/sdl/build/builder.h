@@ -461,6 +461,10 @@ void parse_global_settings(Sdl *sdl);
 void parse_background(Sdl *sdl);
 const ParsedSky *parse_sky_sphere(Sdl *sdl);
 
+/* rainbow.c */
+Rainbow *parse_rainbow(Sdl *sdl); /* after rainbow */
+void place_rainbow(Sdl *sdl, const Rainbow *rainbow);
+
 /* fog.c */
 Fog *parse_fog(Sdl *sdl); /* after fog */
 void complete_air(Sdl *sdl); /* at the end of reading */

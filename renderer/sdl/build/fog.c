@@ -88,6 +88,6 @@ void complete_air(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
     drop_empty_fogs(sdl);
-    for (int i = 0; scene->fogs && i < scene->nprimitives; i++)
+    for (int i = 0; (scene->fogs || scene->rainbows) && i < scene->nprimitives; i++)
         scene->primitives[i].is_solid = !scene->primitives[i].hollow && has_inside(&scene->primitives[i]);
 }

@@ -4,6 +4,8 @@ global_settings { assumed_gamma 1 ambient_light 1 }
 #default { texture { pigment { rgb 0.7 } finish { ambient 0 diffuse 0.8 } } }
 camera { orthographic location <0, 3, -9> direction z right 8 * x up 6 * y sky y look_at <0, 1, 0> rotate 5 * y }
 background { rgb <0.1, 0.2, 0.3> }
+rainbow { direction <1, -1, 2> angle 40 width 8 arc_angle 160 falloff_angle 90 jitter 0.1 up y distance 50
+  color_map { [0 rgbf <1, 0.5, 1, 0.8>] [1 rgbt <1, 0.2, 0.2, 0.6>] } }
 sky_sphere { pigment { gradient y color_map { [0 rgb 1] [0.5 rgb <0, 0, 1>] [1 rgb 0.2] } } rotate 20 * x emission 0.5 }
 light_source { <5, 8, -5>, rgb <1, 0.9, 0.8> 
   spotlight point_at 0 radius 20 falloff 30 tightness 5 fade_distance 4 fade_power 2 }
