@@ -14,9 +14,7 @@ static void check_names(const Arguments *a)
     frames_check_name(a->cli, range, "--control", a->control, 0);
     for (int k = 0; k < a->nmerged; k++)
         frames_check_name(a->cli, range, "--merge", a->merged[k], 0);
-    for (int k = 0; k < a->nreplacements; k++)
-        if (!a->replacements[k].constant)
-            frames_check_name(a->cli, range, "--replace", a->replacements[k].image, 0);
+    texture_args_check_frames(a->cli, range, "--replace", a->replacements, a->nreplacements);
 }
 
 void plan_frames(Arguments *a)
@@ -60,20 +58,6 @@ static void name_file(Frame *f, const char **name, int frame)
     *name = f->names[f->nnames++] = frames_name(f->arguments.cli, *name, frame);
 }
 
-static void name_images(Frame *f, int frame)
-{
-    Arguments *a = &f->arguments;
-    for (int k = 0; k < a->nreplacements; k++) {
-        RetexTextureSpec *spec = &a->replacements[k];
-        char *name = spec->constant ? NULL : frames_name(a->cli, spec->image, frame);
-        if (name && strlen(name) >= sizeof spec->image)
-            cli_die(a->cli, "--replace: the name of the image is too long: %s", name);
-        if (name)
-            strcpy(spec->image, name);
-        free(name);
-    }
-}
-
 /* The arguments for one frame. */
 static Frame *open_frame(const Arguments *all, int frame)
 {
@@ -88,7 +72,7 @@ static Frame *open_frame(const Arguments *all, int frame)
     name_file(f, &a->control, frame);
     for (int k = 0; k < a->nmerged; k++)
         name_file(f, &a->merged[k], frame);
-    name_images(f, frame);
+    texture_args_set_frame(a->cli, frame, a->replacements, a->nreplacements);
     animation_declares(&a->animation, frame, f->declares);
     for (int k = 0; k < ANIMATION_DECLARES; k++)
         a->declares[a->ndeclares++] = f->declares[k];

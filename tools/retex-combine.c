@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include "batch.h"
+#include "frames.h"
 #include "json_text.h"
+#include "kept_textures.h"
 #include "texture_args.h"
 #include "watchdog.h"
 
@@ -26,6 +28,7 @@ static const CliOption options[] = {
     {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0},
     {"memory", 0, "SIZE", "with --batch: keep the set and samples in memory if they take at most SIZE; default 2048 MB",
      0},
+    FRAMES_OPTION,
     BATCH_OPTIONS,
     CLI_PROGRESS_OPTION,
     {0},
@@ -33,6 +36,8 @@ static const CliOption options[] = {
 
 typedef struct Job {
     const char *set_path, *samples_path, *table, *error;
+    const char *output;
+    FrameRange frames;
     Batch batch;
     TextureArgs textures;
     long memory; /* megabytes of the set that --batch may keep in memory */
@@ -69,14 +74,21 @@ static void parse(Cli *cli, Job *job)
             job->memory = cli_megabytes(cli, option);
         } else if (strcmp(option->name, "batch") == 0) {
             job->table = cli->value;
+        } else if (strcmp(option->name, "frames") == 0) {
+            frames_take(cli, option, &job->frames);
         } else if (!batch_option(&job->batch, cli, option)) {
             cli_take_progress(cli);
         }
     }
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
+    const int keep_going = job->batch.keep_going;
+    if (job->frames.step && job->table)
+        cli_die(cli, "--frames and --batch exclude each other");
+    job->batch.keep_going &= !job->frames.step; /* which frames have as well */
     if (!job->table)
         batch_check_options(&job->batch, cli, "batch");
+    job->batch.keep_going = keep_going;
     if (job->table && cli->output)
         cli_die(cli, "the table of --batch names the outputs: no -o");
     if (job->error && job->table)
@@ -88,56 +100,62 @@ static void parse(Cli *cli, Job *job)
 }
 
 /* Announce the files of the command line. batch_check announces those of a table. */
-static void announce_files(const Cli *cli, const Job *job, const char *output)
+static void announce_files(const Cli *cli, const Job *job)
 {
     cli_reads(cli, "the set", job->set_path);
     cli_reads(cli, "the samples", job->samples_path);
     cli_reads(cli, "the table", job->table);
     texture_args_reads(cli, job->textures.specs, job->textures.count);
-    cli_writes(cli, "the output", output);
+    cli_writes(cli, "the output", job->output);
     cli_writes(cli, "--error", job->error);
 }
 
 /* The samples cannot be read. The message asks whether -o or --texture is missing before the name. */
-static void fail_samples(const Cli *cli, const Job *job, const RetexError *err)
+static int fail_samples(const Cli *cli, const Job *job, const RetexError *why, RetexError *err)
 {
     char forgotten[1024] = "";
     if (!job->table && strcmp(job->samples_path, job->set_path) != 0)
         cli_forgotten(cli, job->samples_path, forgotten, sizeof forgotten);
-    cli_die(cli, "%s%s", err->message, forgotten);
+    return retex_fail(err, why->code, "%.900s%.100s", why->message, forgotten);
 }
 
-static void check_samples_path(const Cli *cli, const Job *job)
+static int check_samples_path(const Cli *cli, const Job *job, RetexError *err)
 {
-    RetexError err = {0};
+    RetexError why = {0};
     struct stat info;
-    if (job->samples_path && strcmp(job->samples_path, "-") != 0 && stat(job->samples_path, &info) != 0) {
-        retex_fail(&err, RETEX_EIO, "cannot read %s: %s", job->samples_path, strerror(errno));
-        fail_samples(cli, job, &err);
-    }
+    if (!job->samples_path || strcmp(job->samples_path, "-") == 0 || stat(job->samples_path, &info) == 0)
+        return RETEX_OK;
+    retex_fail(&why, RETEX_EIO, "cannot read %s: %s", job->samples_path, strerror(errno));
+    return fail_samples(cli, job, &why, err);
+}
+
+static int load_samples(const Cli *cli, Job *job, RetexError *err)
+{
+    RetexError why = {0};
+    cli_input(cli, job->samples_path, "samples, as from retex-sample");
+    int code = retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &why);
+    if (!code && !job->samples)
+        code = retex_fail(&why, RETEX_EINVAL, "%s holds no samples", job->samples_path);
+    return code ? fail_samples(cli, job, &why, err) : retex_samples_check(job->samples, job->set, err);
 }
 
 /* Open the set, and the samples from the same stream or from a separate file. */
-static void load(const Cli *cli, Job *job)
+static int load(const Cli *cli, Job *job, RetexError *err)
 {
-    RetexError err = {0};
-    cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
-    if (retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, &err))
-        cli_fail(cli, &err);
-    if (!job->set)
-        cli_die(cli, "%s holds samples but no set", job->set_path);
+    cli_input(cli, job->set_path, "a set, as from retex-render");
+    int code = retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, err);
+    if (!code && !job->set)
+        code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set_path);
+    if (code)
+        return code;
     cli_check_pixels(cli, job->set, job->set_path);
-    if (!job->samples_path)
-        return;
-    cli_input(cli, job->samples_path, "samples, as from retex-sample");
-    if (retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &err))
-        fail_samples(cli, job, &err);
-    if (!job->samples) {
-        retex_fail(&err, RETEX_EINVAL, "%s holds no samples", job->samples_path);
-        fail_samples(cli, job, &err);
-    }
-    if (retex_samples_check(job->samples, job->set, &err))
-        cli_fail(cli, &err);
+    return job->samples_path ? load_samples(cli, job, err) : RETEX_OK;
+}
+
+static void unload(Job *job)
+{
+    retex_samples_close(&job->samples);
+    retex_set_close(&job->set);
 }
 
 /* The textures of one picture. Targets without one use the samples that came with the set. */
@@ -253,33 +271,58 @@ static int make_picture(const Cli *cli, Job *job, const Row *row, const char *ou
     return RETEX_OK;
 }
 
-static int make_one(const Cli *cli, Job *job, const char *output, double began, RetexError *err)
+/* One line of JSON about a picture that was made. */
+static void report_progress(const Cli *cli, const char *output, double began, int done, int total)
 {
-    RetexTexture *textures[RETEX_MAX_TARGETS];
-    const Row row = {job->textures.specs, job->textures.count, textures};
-    int code = retex_textures_load(textures, job->set, row.specs, row.count, cli->threads, err);
+    if (!cli->json_progress)
+        return;
+    fprintf(stderr, "{\"output\": ");
+    json_text(stderr, output);
+    fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": %d, \"total\": %d}\n",
+            retex_clock_seconds() - began, done, total);
+}
+
+/* Make the picture of a job whose set is open. */
+static int make_one(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err)
+{
+    const Row row = {job->textures.specs, job->textures.count, kept->textures};
+    int code = kept_textures_load(kept, job->set, row.specs, row.count, cli->threads, err);
     if (!code) {
         cli_detail(cli, "ready after %.2f s", retex_clock_seconds() - began);
-        code = make_picture(cli, job, &row, output, began, err);
+        code = make_picture(cli, job, &row, job->output, began, err);
     }
-    if (!code && cli->json_progress) {
-        fprintf(stderr, "{\"output\": ");
-        json_text(stderr, output);
-        fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": 1, \"total\": 1}\n",
-                retex_clock_seconds() - began);
-    }
-    retex_textures_close(textures);
     return code;
 }
 
-/* ---- --batch ---- */
+static void warn_display(const Cli *cli, const Job *job)
+{
+    if (job->output && (job->write.display || job->write.view) &&
+        (strcmp(job->output, "-") == 0 || cli_ends_with(job->output, ".exr")))
+        cli_warn(cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
+}
 
-/* Textures of the previous row, which the next row may use again. */
-typedef struct Kept {
-    RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    int count;
-    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
-} Kept;
+/* Check that a picture can be written. */
+static void check_output(const Cli *cli, const Job *job)
+{
+    RetexError err = {0};
+    if (retex_image_write_check(job->output, &job->write, &err))
+        cli_fail(cli, &err);
+    if (job->error && retex_image_write_check(job->error, NULL, &err))
+        cli_fail(cli, &err);
+}
+
+static int make_single(const Cli *cli, Job *job, double began)
+{
+    RetexError err = {0};
+    KeptTextures kept = {.count = 0};
+    if (make_one(cli, job, &kept, began, &err))
+        cli_fail(cli, &err);
+    report_progress(cli, job->output, began, 1, 1);
+    kept_textures_close(&kept);
+    return CLI_OK;
+}
+
+/* ---- --batch ---- */
 
 /* Add the textures of --texture to a row, for targets that the row does not name. */
 static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
@@ -292,39 +335,6 @@ static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
             specs[count++] = job->textures.specs[i];
     }
     return count;
-}
-
-/* Load the textures that the previous row did not have. `kept` then has the row's textures. */
-static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextureSpec *specs, int count,
-                    RetexError *err)
-{
-    Kept next = {.count = count};
-    RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
-    RetexTextureSpec missing[RETEX_MAX_TARGETS];
-    int nmissing = 0;
-    for (int i = 0; i < count; i++) {
-        int k = 0, target = retex_set_find_target(job->set, specs[i].target);
-        next.specs[i] = specs[i];
-        while (k < kept->count && memcmp(&kept->specs[k], &specs[i], sizeof specs[i]) != 0)
-            k++;
-        if (k < kept->count && target >= 0) {
-            next.textures[target] = kept->textures[target];
-            kept->textures[target] = NULL;
-        } else {
-            missing[nmissing++] = specs[i];
-        }
-    }
-    retex_textures_close(kept->textures);
-    int code = retex_textures_load(loaded, job->set, missing, nmissing, cli->threads, err);
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        if (loaded[t])
-            next.textures[t] = loaded[t];
-    if (code) { /* a texture failed: keep none of the row */
-        retex_textures_close(next.textures);
-        next.count = 0;
-    }
-    *kept = next;
-    return code;
 }
 
 /* Replace the table's column names by the set's target names; 0 if some match no target. */
@@ -380,47 +390,52 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
     return describe_targets(job, all, complete_row(job, all, count), textures);
 }
 
-static int make_row(const Cli *cli, Job *job, int number, Kept *kept, RetexError *err)
+static int make_row(const Cli *cli, Job *job, int number, KeptTextures *kept, RetexError *err)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     char path[PATH_MAX];
     const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
     const Row row = {kept->specs, count, kept->textures};
-    int code = load_row(cli, job, kept, specs, count, err);
+    int code = kept_textures_load(kept, job->set, specs, count, cli->threads, err);
     if (!code)
         code = batch_output(&job->batch, number, path, err);
     return code ? code : make_picture(cli, job, &row, path, began, err);
 }
 
+/* Add the targets whose corrections a picture with these textures uses. */
+static void add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS])
+{
+    int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
+    for (int t = 0; t < job->set->ntargets; t++)
+        edited[t] = job->samples && job->samples->textures[t][0];
+    for (int i = 0; i < nspecs; i++) {
+        const int t = retex_set_find_target(job->set, specs[i].target);
+        if (t >= 0)
+            edited[t] = 1;
+    }
+    for (int t = 0; t < job->set->ntargets; t++)
+        count += edited[t];
+    for (int t = 0; t < job->set->ntargets && retex_correction_weight(job->set->ntargets, count) > 0; t++)
+        corrected[t] |= edited[t];
+}
+
 /* Which targets' corrections the pictures of a table use. */
 static void find_corrected(const Job *job, int corrected[RETEX_MAX_TARGETS])
 {
-    memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
     for (int number = 0; number < job->batch.table.nrows; number++) {
         RetexTextureSpec specs[RETEX_MAX_TARGETS];
-        int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
         const int nspecs = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
-        for (int t = 0; t < job->set->ntargets; t++)
-            edited[t] = job->samples && job->samples->textures[t][0];
-        for (int i = 0; i < nspecs; i++) {
-            const int t = retex_set_find_target(job->set, specs[i].target);
-            if (t >= 0)
-                edited[t] = 1;
-        }
-        for (int t = 0; t < job->set->ntargets; t++)
-            count += edited[t];
-        for (int t = 0; t < job->set->ntargets && retex_correction_weight(job->set->ntargets, count) > 0; t++)
-            corrected[t] |= edited[t];
+        add_corrected(job, specs, nspecs, corrected);
     }
 }
 
 static int run_batch(const Cli *cli, Job *job)
 {
-    int corrected[RETEX_MAX_TARGETS];
+    int corrected[RETEX_MAX_TARGETS] = {0};
     Batch *batch = &job->batch;
     RetexError err = {0};
-    Kept kept = {.count = 0};
+    KeptTextures kept = {.count = 0};
     batch_open(batch, cli, job->table);
     batch->tool = (BatchTool){job, find_columns(&batch->table, job->set) ? check_row : NULL, describe_row};
     batch->inputs_known = 1;
@@ -439,8 +454,114 @@ static int run_batch(const Cli *cli, Job *job)
         if (!batch_done(batch, number, retex_clock_seconds() - began, failed ? &err : NULL))
             break;
     }
-    retex_textures_close(kept.textures);
+    kept_textures_close(&kept);
     return batch_finish(batch, NULL);
+}
+
+/* ---- --frames ---- */
+
+/* Whether all frames have the same set and samples, which then stay open. */
+static int has_one_set(const Job *job)
+{
+    return !frames_has_number(job->set_path) && !(job->samples_path && frames_has_number(job->samples_path));
+}
+
+static void check_names(const Cli *cli, const Job *job)
+{
+    frames_check_count(cli, &job->frames);
+    frames_check_name(cli, &job->frames, "the set", job->set_path, 0);
+    frames_check_name(cli, &job->frames, "the samples", job->samples_path, 0);
+    frames_check_name(cli, &job->frames, "the output", job->output, 1);
+    frames_check_name(cli, &job->frames, "--error", job->error, 1);
+    texture_args_check_frames(cli, &job->frames, "--texture", job->textures.specs, job->textures.count);
+}
+
+/* The job of one frame. */
+static Job *open_frame(const Cli *cli, const Job *all, int frame)
+{
+    Job *job = malloc(sizeof *job);
+    if (!job)
+        cli_die(cli, "not enough memory for a frame");
+    *job = *all;
+    job->set_path = frames_name(cli, all->set_path, frame);
+    job->samples_path = frames_name(cli, all->samples_path, frame);
+    job->output = frames_name(cli, all->output, frame);
+    job->error = frames_name(cli, all->error, frame);
+    texture_args_set_frame(cli, frame, job->textures.specs, job->textures.count);
+    return job;
+}
+
+static void close_frame(Job *job)
+{
+    free((char *)job->set_path), free((char *)job->samples_path);
+    free((char *)job->output), free((char *)job->error);
+    free(job);
+}
+
+/* Before the first frame: check the files of all. */
+static void check_frames(Cli *cli, const Job *job)
+{
+    check_names(cli, job);
+    FOR_FRAMES(number, job->frames)
+    {
+        Job *frame = open_frame(cli, job, number);
+        cli_set_frame(cli, number);
+        announce_files(cli, frame);
+        check_output(cli, frame);
+        close_frame(frame);
+    }
+    cli_set_frame(cli, -1);
+}
+
+static int make_frame(const Cli *cli, Job *job, int one_set, KeptTextures *kept, RetexError *err)
+{
+    const double began = retex_clock_seconds();
+    int code = one_set ? RETEX_OK : load(cli, job, err);
+    if (!code)
+        code = check_row(job, job->textures.specs, job->textures.count, err);
+    if (!code)
+        code = make_one(cli, job, kept, began, err);
+    if (!one_set)
+        unload(job);
+    return code;
+}
+
+/* As a batch, stop at a frame that fails, unless --keep-going. */
+static int run_frames(Cli *cli, Job *job)
+{
+    const double began = retex_clock_seconds();
+    const int total = frames_count(&job->frames), one_set = has_one_set(job);
+    KeptTextures kept = {.count = 0};
+    RetexError err = {0};
+    int corrected[RETEX_MAX_TARGETS] = {0}, made = 0, failed = 0;
+    if (one_set && load(cli, job, &err))
+        cli_fail(cli, &err);
+    if (one_set)
+        add_corrected(job, job->textures.specs, job->textures.count, corrected);
+    if (one_set &&
+        retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, &err))
+        cli_fail(cli, &err);
+    for (int number = job->frames.first; number <= job->frames.last && (!failed || job->batch.keep_going);
+         number += job->frames.step) {
+        const double started = retex_clock_seconds();
+        Job *frame = open_frame(cli, job, number);
+        cli_set_frame(cli, number);
+        if (make_frame(cli, frame, one_set, &kept, &err))
+            cli_error(cli, &err), failed++;
+        else
+            report_progress(cli, frame->output, started, ++made, total);
+        close_frame(frame);
+    }
+    cli_set_frame(cli, -1);
+    kept_textures_close(&kept);
+    unload(job);
+    if (failed && job->batch.keep_going) {
+        retex_fail_at(&err, RETEX_EIO, "", 0, 0, "%d of %d frames failed", failed, total);
+        cli_error(cli, &err);
+    }
+    if (!failed && !cli->json_progress)
+        cli_info(cli, "%d frame%s, %.2f s", total, total == 1 ? "" : "s", retex_clock_seconds() - began);
+    return failed ? CLI_FAIL : CLI_OK;
 }
 
 /* Keep freed memory in the process. Hundreds of bands are allocated and freed; the system would clear their memory each
@@ -465,26 +586,22 @@ int main(int argc, char **argv)
                .next = 1};
     double began = retex_clock_seconds();
     keep_memory();
-    parse(&cli, &job);
-    check_samples_path(&cli, &job);
-    const char *output = job.table ? NULL : cli_output(&cli);
-    int status = CLI_OK;
     RetexError err = {0};
-    announce_files(&cli, &job, output);
-    if (output) {
-        if (retex_image_write_check(output, &job.write, &err))
-            cli_fail(&cli, &err);
-        if (job.error && retex_image_write_check(job.error, NULL, &err))
-            cli_fail(&cli, &err);
-        if ((job.write.display || job.write.view) && (strcmp(output, "-") == 0 || cli_ends_with(output, ".exr")))
-            cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
-    }
-    load(&cli, &job);
-    if (job.table)
-        status = run_batch(&cli, &job);
-    else if (make_one(&cli, &job, output, began, &err))
+    parse(&cli, &job);
+    if (!job.frames.step && check_samples_path(&cli, &job, &err))
         cli_fail(&cli, &err);
-    retex_samples_close(&job.samples);
-    retex_set_close(&job.set);
+    job.output = job.table ? NULL : cli_output(&cli);
+    warn_display(&cli, &job);
+    if (job.frames.step) {
+        check_frames(&cli, &job);
+        return cli_close(&cli, run_frames(&cli, &job));
+    }
+    announce_files(&cli, &job);
+    if (job.output)
+        check_output(&cli, &job);
+    if (load(&cli, &job, &err))
+        cli_fail(&cli, &err);
+    int status = job.table ? run_batch(&cli, &job) : make_single(&cli, &job, began);
+    unload(&job);
     return cli_close(&cli, status);
 }

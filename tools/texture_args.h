@@ -3,11 +3,13 @@
 #define RETEX_TEXTURE_ARGS_H
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <retex/retex.h>
 
 #include "cli.h"
+#include "frames.h"
 
 typedef struct TextureArgs {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
@@ -51,6 +53,29 @@ static inline void texture_args_reads(const Cli *cli, const RetexTextureSpec *sp
     for (int i = 0; i < count; i++)
         if (texture_args_add_input(&specs[i], &err))
             cli_fail(cli, &err);
+}
+
+/* frames_check_name for the images of --texture or --replace, which `what` says. */
+static inline void texture_args_check_frames(const Cli *cli, const FrameRange *range, const char *what,
+                                             const RetexTextureSpec *specs, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!specs[i].constant)
+            frames_check_name(cli, range, what, specs[i].image, 0);
+}
+
+/* Give the images their names at one frame. */
+static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextureSpec *specs, int count)
+{
+    for (int i = 0; i < count; i++) {
+        RetexTextureSpec *spec = &specs[i];
+        char *image = spec->constant ? NULL : frames_name(cli, spec->image, frame);
+        if (image && strlen(image) >= sizeof spec->image)
+            cli_die(cli, "the name of the image is too long: %s", image);
+        memset(spec->image, 0, sizeof spec->image); /* specs are compared byte by byte */
+        strcpy(spec->image, image ? image : "");
+        free(image);
+    }
 }
 
 /* A texture in readable form: its file name or its colour. */

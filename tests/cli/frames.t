@@ -155,3 +155,53 @@ $ cp s.pov bad.pov; echo '#warning "odd" #if (frame_number = 3 & !defined(Mended
 > x-2.exr
 > x-3.exr
 > x-4.exr
+
+# retex-combine: sets, samples, textures and pictures by frame. Pictures are those of single commands.
+$ mkdir c; cd c; sed 's/, 1 pigment/, .5 + clock pigment/' ../s.pov >w.pov; for k in 1 2 3; do retex-render -q --size 24x16 --spp 4 --seed $k -D clock=.$k w.pov -t x=#1 -o set-0$k.exr; make_picture t-$k.png noise=0.$k; retex-combine -q set-0$k.exr --texture:width=.7 x=t-$k.png -o one-$k.png; retex-combine -q set-0$k.exr --texture:width=.7 x=t-1.png -o fix-$k.png; done; for k in 1 2 3; do retex-combine -q set-02.exr --texture x=t-$k.png -o still-$k.png; done
+$ cd c; retex-combine set-%02d.exr --frames 1-3 --texture:width=.7 x=t-%d.png -o a-%d.png 2>&1 | sed 's/, [0-9.]* s$//'; retex-combine -q set-%02d.exr --frames 1-3x2 --texture:width=.7 x=t-1.png -o b-%d.png; retex-combine -q set-02.exr --frames 1-3 --texture x=t-%d.png -o c-%d.png; retex-combine -q set-02.exr --memory 0 --frames 1-3 --texture x=t-%d.png -o d-%d.png --error d-%d.exr; for k in 1 2 3; do cmp one-$k.png a-$k.png; cmp still-$k.png c-$k.png; cmp still-$k.png d-$k.png; done; cmp fix-1.png b-1.png; cmp fix-3.png b-3.png; ls b-* d-*; for k in 1 2 3; do retex-sample -q set-0$k.exr --texture x=t-$k.png -o s-$k.exr; retex-combine -q set-0$k.exr s-$k.exr -o e-$k.png; done; retex-combine -q set-%02d.exr s-%d.exr --frames 1-3 -o f-%d.png; for k in 1 2 3; do cmp e-$k.png f-$k.png; done
+> retex-combine: frame 1: a-1.png: x <- t-1.png, 24 x 16
+> retex-combine: frame 2: a-2.png: x <- t-2.png, 24 x 16
+> retex-combine: frame 3: a-3.png: x <- t-3.png, 24 x 16
+> retex-combine: 3 frames
+> b-1.png
+> b-3.png
+> d-1.exr
+> d-1.png
+> d-2.exr
+> d-2.png
+> d-3.exr
+> d-3.png
+
+# The two targets of two sets in another order keep their textures.
+$ cd c; echo 'sphere { x, .5 pigment { rgb 1 } }' | cat ../s.pov - >two.pov; for o in '1 -t x=#1 -t y=#2' '2 -t y=#2 -t x=#1'; do retex-render -q --size 24x16 --spp 4 --seed 1 two.pov ${o#* } -o o-${o%% *}.exr; done; retex-combine -q o-%d.exr --frames 1-2 --texture x=t-1.png --texture 'y=rgb(1,0,0)' -o o-%d.png; retex-diff o-1.png o-2.png --fail-psnr 60 >/dev/null && echo same
+> same
+
+# A texture that stays is loaded once, and so what is odd about it is said once.
+$ cd c; retex-combine -q set-%02d.exr --frames 1-3 --texture 'x=rgb(3,3,3)' -o g-%d.png
+! retex-combine: warning: frame 1: x=rgb(3,3,3): a surface of a colour above 1 gives back more light than it gets
+
+# A frame that fails ends the command, unless --keep-going.
+$ cd c; rm -f a-* b-*; head -c 2000 set-02.exr >short; mv short set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 -o a-%d.png; ls a-*; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; ls b-*; rm set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; retex-combine -q set-%02d.exr --frames 1-3 --texture x=t-%d.jpg -o b-%d.png
+> a-1.png
+> b-1.png
+> b-3.png
+! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5448
+! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5448
+! retex-combine: error: 1 of 3 frames failed
+! retex-combine: error: frame 2: cannot read set-02.exr: No such file or directory
+! retex-combine: error: 1 of 3 frames failed
+! retex-combine: error: frame 1: cannot read t-1.jpg: No such file or directory
+= 2
+
+# Mistakes.
+$ cd c; retex-combine -q set-%02d.exr --frames 1-3 -o a.png; retex-combine -q set-%s.exr --frames 1-3 -o a-%d.png; retex-combine -q set-%02d.exr --frames 1-3 -o set-%02d.exr; retex-combine -q set-%02d.exr --frames 1-3 -o a-%d.png --error e.exr; retex-combine -q set-%02d.exr --frames 1-3 --texture x=t-%d.png -o t-%d.png; retex-combine -q set-%02d.exr --frames 1-3 --batch x.csv; retex-combine -q set-01.exr --keep-going -o a.png; retex-combine -q set-%02d.exr --frames 1-3 --dry-run -o a-%d.png; retex-combine -q set-%02d.exr --frames 1-3 --texture z=t-1.png -o a-%d.png
+! retex-combine: error: the output: 3 frames need a number in the name, as name-%04d.exr, not `a.png`
+! retex-combine: error: the set: expected %d or %04d, the frame's number, or %% for a percent sign, in `set-%s.exr`
+! retex-combine: error: frame 1: set-01.exr: the output would replace the set
+! retex-combine: error: --error needs the textures: name them with --texture
+! retex-combine: error: frame 1: t-1.png: the output would replace the texture
+! retex-combine: error: --frames and --batch exclude each other
+! retex-combine: error: --keep-going needs a table of pictures: --batch
+! retex-combine: error: --dry-run needs a table of pictures: --batch
+! retex-combine: error: frame 1: no target is called 'z'; the set has x
+= 2

@@ -86,6 +86,16 @@ static int check_footprints(const Loading *loading, RetexError *err)
 
 /* ---- loading ---- */
 
+static void describe_surface(RetexTextureSpec *spec, const RetexTarget *t)
+{
+    memcpy(spec->uv_scale, t->uv_scale, sizeof spec->uv_scale);
+    for (int axis = 0; axis < 2; axis++)
+        if (!t->periodic[axis]) {
+            spec->uv_min[axis] = t->uv_min[axis];
+            spec->uv_max[axis] = t->uv_max[axis];
+        }
+}
+
 static void load_job(void *context, int index, int thread)
 {
     Loading *loading = context;
@@ -93,13 +103,7 @@ static void load_job(void *context, int index, int thread)
     int target = loading->target[index];
     RetexTextureSpec spec = loading->specs[index];
     spec.warn = NULL; /* warnings come afterwards, in the order of specs */
-    const RetexTarget *t = &loading->set->targets[target];
-    memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
-    for (int axis = 0; axis < 2; axis++)
-        if (!t->periodic[axis]) {
-            spec.uv_min[axis] = t->uv_min[axis];
-            spec.uv_max[axis] = t->uv_max[axis];
-        }
+    describe_surface(&spec, &loading->set->targets[target]);
     retex_texture_load(&loading->textures[target], &spec, loading->threads, &loading->errors[index]);
 }
 
@@ -118,6 +122,13 @@ static int load_textures(Loading *loading, int nthreads, RetexError *err)
     for (int i = 0; i < loading->nspecs; i++)
         retex_texture_report_colors(loading->textures[loading->target[i]], &loading->specs[i]);
     return RETEX_OK;
+}
+
+int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, RetexError *err)
+{
+    RetexTextureSpec surface = RETEX_TEXTURE_SPEC_INIT;
+    describe_surface(&surface, &set->targets[target]);
+    return retex_texture_set_surface(texture, &surface, err);
 }
 
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])

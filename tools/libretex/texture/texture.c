@@ -346,6 +346,22 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     return RETEX_OK;
 }
 
+int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *surface, RetexError *err)
+{
+    RetexTextureSpec spec = texture->spec;
+    int width, height;
+    memcpy(spec.uv_scale, surface->uv_scale, sizeof spec.uv_scale);
+    memcpy(spec.uv_min, surface->uv_min, sizeof spec.uv_min);
+    memcpy(spec.uv_max, surface->uv_max, sizeof spec.uv_max);
+    if (!spec.constant && check_width(&spec, err))
+        return RETEX_EINVAL;
+    texture->spec = spec;
+    retex_texture_size(texture, &width, &height);
+    if (!spec.constant)
+        set_transform(texture, width, height);
+    return RETEX_OK;
+}
+
 int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, int nthreads,
                          RetexError *err)
 {

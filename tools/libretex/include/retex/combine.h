@@ -29,6 +29,8 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
  * most once; the set must hold these targets' footprints. To be closed by the caller, also after a failure. */
 int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
                         int nspecs, int nthreads, RetexError *err);
+/* Put a texture that was loaded for a target of another set on this target, without reading it again. */
+int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, RetexError *err);
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
 
 /* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or

@@ -86,6 +86,9 @@ typedef struct RetexTexture RetexTexture;
  * told how many there are and where the first is, and of an albedo that is brighter than white: of an image by its
  * luminance or a channel above 3, of a constant by any channel. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
+/* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
+ * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
+int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
