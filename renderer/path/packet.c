@@ -94,7 +94,8 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     int k = m->count;
     double density;
     Vec3 normal, geometric;
-    if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal)
+    if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal ||
+        s->surface.primitive->double_illuminate)
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
     LightSampleContext context = {s->surface.position, normal, s->surface.primitive->light_group};
@@ -167,8 +168,8 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!path_apply_weight(w, path, s, weight, 1))
         return 0;
     path->kind = RAY_BOUNCE;
-    path->prev_context = (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k),
-                                              s->surface.primitive->light_group};
+    path->prev_context =
+        (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k), s->surface.primitive->light_group};
     ray->origin = matte_get(&bounces->origin, k);
     ray->direction = matte_get(&bounces->direction, k);
     ray->tmin = 0, ray->tmax = INFINITY;

@@ -193,6 +193,7 @@ typedef struct Finish {
     int reflection_fresnel;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     int conserve_energy;
+    int use_alpha;           /* highlights and mirror count by the pigment's opacity */
     double irid, irid_thickness; /* thin film: its amount, and its thickness in units of irid_wavelength */
     double irid_turbulence;  /* by which share the thickness varies */
     Rgb irid_phase;          /* 2 pi thickness / wavelength; set at the end of reading, as the next one */
@@ -377,6 +378,7 @@ typedef struct Primitive {
     const Texture *interior_texture; /* or NULL: the same on both sides */
     const Interior *interior; /* or NULL */
     int no_shadow, no_image, no_reflection, inverse, hollow;
+    int double_illuminate;   /* 1: its diffuse lobes take light from both sides */
     const struct CsgNode *csg; /* its place in the tree of which it is an operand, or NULL; shape/csg.h */
     const struct LightGroup *light_group; /* that it is in, or NULL */
     const Prototype *prototype; /* that it is part of: its world is the prototype's space; or NULL */

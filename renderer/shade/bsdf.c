@@ -90,12 +90,13 @@ static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
     return (Split){rgb_grey((float)value), {0, 0, 0}};
 }
 
-/* The value of a highlight, and its density: of directions about one in which its cosine is 1. */
+/* The value of a highlight, and its density: of directions about one in which its cosine is 1. By rounding the cosine
+ * may be much more than 1, where light and eye are opposite each other. */
 static float highlight_value(const Highlight *h, float cosine, float jacobian, float *pdf)
 {
     if (h->amount <= 0 || cosine <= 0)
         return 0;
-    float lobe = powf(cosine, h->exponent);
+    float lobe = powf(at_most(cosine, 1), h->exponent);
     *pdf += h->p * (h->exponent + 1) / (2 * (float)PI) * lobe * jacobian;
     return h->amount * lobe / (float)PI;
 }

@@ -21,16 +21,15 @@ int finish_transmits(const Finish *finish)
            (finish->retex.metallic < 1 || finish->retex.metallic_map);
 }
 
-/* At most `left` of the light is reflected by them. Their amounts are the peaks in POV-Ray's
- * pictures. */
-static void setup_highlights(Bsdf *b, const Finish *f, float left)
+/* At most `left` of the light is reflected by them. Their amounts, times share, are the peaks in POV-Ray's pictures. */
+static void setup_highlights(Bsdf *b, const Finish *f, double share, float left)
 {
     double n = fmax(0, 1 / fmax(f->roughness, 1e-6)), p = fmax(0, f->phong_size);
     /* What a highlight of amount 1 reflects, seen head-on: the integral of its power. With `albedo`, what it reflects
      * is written in place of the amount. */
     double per_blinn = 4 * (2 - exp2(-n / 2)) / (n + 2), per_phong = 2 / (p + 1);
-    double blinn = fmax(0, f->specular_albedo ? f->specular / per_blinn : f->specular);
-    double phong = fmax(0, f->phong_albedo ? f->phong / per_phong : f->phong);
+    double blinn = share * fmax(0, f->specular_albedo ? f->specular / per_blinn : f->specular);
+    double phong = share * fmax(0, f->phong_albedo ? f->phong / per_phong : f->phong);
     double of_blinn = blinn * per_blinn, of_phong = phong * per_phong, sum = of_blinn + of_phong;
     if (!(sum > 0))
         return;
@@ -97,25 +96,33 @@ static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain, f
     b->passing = (Split){rgb_scale(b->passing.d, scale), rgb_scale(b->passing.i, scale)};
 }
 
-static void setup_povray(Bsdf *b, const Finish *f, Vec3 position, float filter, float transmit, float opacity)
+/* `double_illuminate`: light from behind counts as light from the front. */
+static double diffuse_from_behind(const Finish *f, const Primitive *primitive)
+{
+    return primitive->double_illuminate ? fmax(f->diffuse, f->diffuse_back) : f->diffuse_back;
+}
+
+static void setup_povray(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit, float opacity)
 {
     float gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
     b->brilliance = not_negative((float)f->brilliance);
     float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
     b->diffuse = (float)fmax(0, f->diffuse) * opacity * norm;
-    b->diffuse_back = (float)fmax(0, f->diffuse_back) * opacity * norm;
+    b->diffuse_back = (float)fmax(0, diffuse_from_behind(f, surface->primitive)) * opacity * norm;
     b->grain = (float)fmax(0, f->crand) / 2;
     setup_mirror(b, f, opacity < 1);
+    if (f->use_alpha)
+        b->mirror = (Split){rgb_scale(b->mirror.d, opacity), rgb_scale(b->mirror.i, opacity)};
     float mirror = at_most(rgb_max(split_apply(b->mirror, rgb_grey(1))), 1 / gain);
     b->highlight_lights_only = finish_is_mirror(f);
-    setup_highlights(b, f, 1 / gain - (b->highlight_lights_only ? 0 : mirror));
+    setup_highlights(b, f, f->use_alpha ? (double)opacity : 1, 1 / gain - (b->highlight_lights_only ? 0 : mirror));
     /* Mirrored light does not pass: POV-Ray does so with conserve_energy only. */
     float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
     b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
     limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain,
                  brightness(filter, transmit, opacity));
     if (gain > 1)
-        setup_film(b, f, position, mirror);
+        setup_film(b, f, surface->position, mirror);
 }
 
 /* A number of the extension block where it varies over the surface. */
@@ -184,9 +191,10 @@ static void setup_choice(Bsdf *b)
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
 }
 
-static void setup_lambert(Bsdf *b, const Finish *f)
+static void setup_lambert(Bsdf *b, const Finish *f, const Primitive *primitive)
 {
-    float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = f->diffuse_back > 0 ? (float)f->diffuse_back : 0;
+    const double behind = diffuse_from_behind(f, primitive);
+    float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = behind > 0 ? (float)behind : 0;
     b->lambert = 1, b->disney = 0, b->alpha = b->transmission = b->highlights = 0;
     b->passing = (Split){{0, 0, 0}, {0, 0, 0}};
     b->p_glossy = b->p_mirror = b->p_passing = b->p_diffuse = b->p_back = 0;
@@ -250,13 +258,13 @@ static void setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float 
     /* an opaque sheet has a coat on both sides */
     b->eta = b->bend = (float)(surface->backside && transparent ? 1 / ior : ior);
     if (lambert) {
-        setup_lambert(b, finish);
+        setup_lambert(b, finish, surface->primitive);
         return;
     }
     if (finish->retex.present)
         setup_disney(b, finish, surface, filter, transmit, opacity);
     else
-        setup_povray(b, finish, surface->position, filter, transmit, opacity);
+        setup_povray(b, finish, surface, filter, transmit, opacity);
     setup_choice(b);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);

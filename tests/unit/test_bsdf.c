@@ -202,6 +202,41 @@ static void mirrored_light_does_not_pass(void **state)
     close_to((double)b.passing.i.g, 0.7 * 0.5, 1e-6, "transmit");
 }
 
+/* Light from behind counts as light from the front, as far as both together give back no more than they get. */
+static void double_illuminate_lights_both_sides(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double diffuse = k & 1 ? 0.4 : 0.6;
+        Case c;
+        float pdf;
+        case_begin(&c, 0);
+        c.primitive.double_illuminate = 1;
+        c.finish.diffuse = diffuse, c.finish.phong = k & 2 ? 1e-6 : 0;
+        const Bsdf b = make(&c, 0.5, 0, 0);
+        const double front = bsdf_eval(&b, direction(0.7, 1), BSDF_LIGHT_SOURCE, &pdf).d.g;
+        const double back = bsdf_eval(&b, direction(PI - 0.7, 1), BSDF_LIGHT_SOURCE, &pdf).d.g;
+        close_to(front, fmin(diffuse, 0.5) * cos(0.7) / PI, 1e-5, "front");
+        close_to(back, fmin(diffuse, 0.5) * cos(0.7) / PI, 1e-5, "back");
+    }
+}
+
+static void use_alpha_dims_what_shines(void **state)
+{
+    (void)state;
+    Case c;
+    float pdf;
+    case_begin(&c, 0);
+    c.finish.specular = 0.4, c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0.6f);
+    const Bsdf plain = make(&c, 0.5, 0, 0.75);
+    c.finish.use_alpha = 1;
+    const Bsdf dim = make(&c, 0.5, 0, 0.75);
+    close_to(dim.mirror.i.g, 0.25 * (double)plain.mirror.i.g, 1e-6, "mirror");
+    const Vec3 mirrored = direction(0.5, 0.3 + PI);
+    close_to(bsdf_eval(&dim, mirrored, BSDF_LIGHT_SOURCE, &pdf).i.g,
+             0.25 * (double)bsdf_eval(&plain, mirrored, BSDF_LIGHT_SOURCE, &pdf).i.g, 1e-5, "highlight");
+}
+
 static void cutouts_pass_straight(void **state)
 {
     (void)state;
@@ -494,6 +529,8 @@ int main(void)
                                        cmocka_unit_test(glass_obeys_fresnel),
                                        cmocka_unit_test(refraction_bends_by_snell),
                                        cmocka_unit_test(cutouts_pass_straight),
+                                       cmocka_unit_test(double_illuminate_lights_both_sides),
+                                       cmocka_unit_test(use_alpha_dims_what_shines),
                                        cmocka_unit_test(mirrored_light_does_not_pass),
                                        cmocka_unit_test(highlights_are_povrays),
                                        cmocka_unit_test(highlights_are_symmetric),

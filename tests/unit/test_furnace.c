@@ -131,6 +131,7 @@ static void add_finish(char *text, int rough)
     if (!rough && pick(5) == 0)
         add(text, PICK("retex { metallic 1 roughness .5 }", "retex { transmission 1 ior 1.3 }",
                        "retex { transmission 1 roughness .5 ior 1.5 }", "retex { metallic 1 roughness .01 }"));
+    add(text, PICK("", "", "use_alpha"));
     add(text, "}");
 }
 
@@ -156,7 +157,9 @@ static const char *random_scene(int rough)
         add_texture(text, rough, rough);
     add(text, "interior {");
     add(text, PICK("ior 1", "ior 1", "ior 1.5", "ior .8"));
-    add(text, "} }");
+    add(text, "}");
+    add(text, PICK("", "", "double_illuminate"));
+    add(text, "}");
     return text;
 }
 

@@ -360,9 +360,25 @@ static void test_interior(void **state)
     scene_close(&scene);
 }
 
+static void finishes_of_new_scenes_and_interiors_of_old_ones(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "sphere { 0, 1 double_illuminate finish { irid { 2 thickness 1 } use_alpha fresnel 0 } }");
+    assert_true(only(scene)->double_illuminate);
+    assert_true(only(scene)->texture->finish->use_alpha);
+    assert_non_null(strstr(messages, "irid 2 would make light"));
+    assert_null(strstr(messages, "fresnel"));
+    scene_close(&scene);
+    scene = parse(V37 "sphere { 0, 1 finish { fresnel } interior { caustics 1 } }");
+    assert_non_null(strstr(messages, "finish fresnel"));
+    assert_non_null(strstr(messages, "interior caustics"));
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finishes_of_new_scenes_and_interiors_of_old_ones),
         cmocka_unit_test(test_sphere_and_transforms),
         cmocka_unit_test(test_box),
         cmocka_unit_test(test_plane),

@@ -21,7 +21,9 @@
 #define GAP_TABLE(X) \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
-    X(MEDIA, "media", "it is ignored")
+    X(MEDIA, "media", "it is ignored") \
+    X(FAKE_CAUSTICS, "interior caustics", "it is ignored, see photons") \
+    X(FINISH_FRESNEL, "finish fresnel", "it is ignored")
 
 typedef enum Gap {
 #define X(id, name, instead) GAP_##id,
@@ -160,7 +162,8 @@ enum {
     OBJECT_GLOBAL_LIGHTS = 128, /* of a light_group */
     OBJECT_PHOTON_TARGET = 256, /* the following two count with it */
     OBJECT_PHOTONS_REFRACT = 512,
-    OBJECT_PHOTONS_REFLECT = 1024
+    OBJECT_PHOTONS_REFLECT = 1024,
+    OBJECT_DOUBLE_ILLUMINATE = 2048
 };
 
 typedef struct ObjectList {

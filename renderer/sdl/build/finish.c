@@ -111,6 +111,8 @@ static void irid(Sdl *sdl, Finish *f)
 {
     sdl_expect(sdl, "{");
     f->irid = sdl_float(sdl);
+    if (f->irid > 1)
+        sdl_warn(sdl, "irid %g would make light: 1 is taken", f->irid);
     while (!sdl_accept(sdl, "}"))
         if (sdl_accept(sdl, "thickness"))
             f->irid_thickness = sdl_float(sdl);
@@ -184,7 +186,12 @@ static void item(Sdl *sdl, ParsedFinish *finish)
         reflection(sdl, f);
     else if (sdl_accept(sdl, "conserve_energy"))
         f->conserve_energy = sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "retex"))
+    else if (sdl_accept(sdl, "use_alpha"))
+        f->use_alpha = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "fresnel")) {
+        if (optional_float(sdl, 1) != 0)
+            gaps_add(&finish->gaps, GAP_FINISH_FRESNEL);
+    } else if (sdl_accept(sdl, "retex"))
         retex_block(sdl, f);
     else if (sdl_accept(sdl, "irid"))
         irid(sdl, f);

@@ -9,7 +9,7 @@ static int same_surface(const Primitive *a, const Primitive *b)
     return a->texture == b->texture && a->interior_texture == b->interior_texture && a->interior == b->interior &&
            a->idents == b->idents && a->no_shadow == b->no_shadow && a->no_image == b->no_image &&
            a->no_reflection == b->no_reflection && a->inverse == b->inverse && a->hollow == b->hollow &&
-           a->prototype == b->prototype && a->inherits == b->inherits;
+           a->double_illuminate == b->double_illuminate && a->prototype == b->prototype && a->inherits == b->inherits;
 }
 
 static void add_face(Mesh *mesh, const Mesh *one, const Transform *by)

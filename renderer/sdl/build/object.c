@@ -104,11 +104,11 @@ static int accept_flag(Sdl *sdl, Object *object)
         {"no_image", OBJECT_NO_IMAGE},
         {"no_reflection", OBJECT_NO_REFLECTION},
         {"hollow", OBJECT_HOLLOW},
+        {"double_illuminate", OBJECT_DOUBLE_ILLUMINATE},
         {"cutaway_textures", OBJECT_CUTAWAY_TEXTURES},
         {"global_lights", OBJECT_GLOBAL_LIGHTS},
     };
-    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy", "no_radiosity",
-                                          "split_union",       "no_bump_scale", NULL};
+    static const char *const ignored[] = {"sturm", "hierarchy", "no_radiosity", "split_union", "no_bump_scale", NULL};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (sdl_accept(sdl, flags[i].word)) {
             if (sdl_optional_bool(sdl, 1))

@@ -154,6 +154,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     p->no_reflection = (in->flags & OBJECT_NO_REFLECTION) != 0;
     p->inverse = (in->flags & OBJECT_INVERSE) != 0;
     p->hollow = (in->flags & OBJECT_HOLLOW) != 0;
+    p->double_illuminate = (in->flags & OBJECT_DOUBLE_ILLUMINATE) != 0;
     p->light_group = in->light_group;
     if (in->flags & OBJECT_PHOTON_TARGET)
         p->caustics = (in->flags & OBJECT_PHOTONS_REFRACT ? CAUSTICS_REFRACT : 0) |

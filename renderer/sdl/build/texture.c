@@ -139,7 +139,10 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
     else if (sdl_accept(sdl, "fade_color") || sdl_accept(sdl, "fade_colour")) {
         Rgbft c = sdl_color(sdl);
         i->fade_color = rgb(c.r, c.g, c.b);
-    } else if (sdl_accept(sdl, "caustics") || sdl_accept(sdl, "refraction") || sdl_accept(sdl, "dispersion_samples"))
+    } else if (sdl_accept(sdl, "caustics")) {
+        if (sdl_float(sdl) != 0)
+            gaps_add(&interior->gaps, GAP_FAKE_CAUSTICS);
+    } else if (sdl_accept(sdl, "refraction") || sdl_accept(sdl, "dispersion_samples"))
         sdl_float(sdl);
     else if (sdl_accept(sdl, "dispersion"))
         i->dispersion = sdl_float(sdl);
