@@ -23,7 +23,7 @@ static int is_sampled(const Primitive *p, int face)
 static int find_emission(const Texture *texture, int target, Rgb *emission)
 {
     const Rgbft *c = &texture->pigment->color;
-    if (target >= 0 || texture->tree || texture->pigment->kind != PIGMENT_COLOR)
+    if (target >= 0 || texture->tree || texture->pigment->kind != PIGMENT_COLOR || texture->finish->retex.emission_map)
         return 0;
     *emission = rgb_mul(rgb_scale(texture->finish->emission, pigment_opacity(texture->pigment, *c)),
                         rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b)));

@@ -1,9 +1,16 @@
 /* What is chosen at a surface: a light, and the next direction, by the BSDF or by the guide to caustics. */
 #include "path/internal.h"
+#include "shade/pigment.h"
 
 Split surface_emission(const Shading *s)
 {
-    return (Split){rgb_scale(s->surface.texture->finish->emission, s->opacity), {0, 0, 0}};
+    const Finish *finish = s->surface.texture->finish;
+    const Pigment *map = finish->retex.emission_map;
+    const Rgb emission = rgb_scale(finish->emission, s->opacity);
+    if (!map)
+        return (Split){emission, {0, 0, 0}};
+    const Rgbft c = pigment_eval(map, surface_texture_point(&s->surface), surface_uv(&s->surface).uv);
+    return (Split){{0, 0, 0}, rgb_mul(emission, rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b)))};
 }
 
 /* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */

@@ -207,7 +207,9 @@ typedef struct Finish {
         double ior;          /* eta of the dielectric coat and of transmission; default 1.5 */
         double specular_tint; /* t, scalar, 0..1; default 1 (F0 as it is) */
         double transmission; /* 0..1: share of the base that is a (rough) dielectric and lets light through */
-        const Pigment *metallic_map, *roughness_map; /* at the shape's UV; their luminance is a factor. NULL = 1 */
+        /* At the shape's UV; their luminance is a factor. NULL = 1. */
+        const Pigment *metallic_map, *roughness_map, *transmission_map;
+        const Pigment *emission_map; /* at the shape's UV; multiplies emission in place of the pigment. Or NULL */
     } retex;
     int matte;               /* finish_is_matte; set at the end of reading; 0 is only slower */
 } Finish;

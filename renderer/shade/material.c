@@ -138,7 +138,7 @@ static float mapped(double value, const Pigment *map, const Surface *surface)
 static void setup_disney(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit, float opacity)
 {
     b->metallic = mapped(f->retex.metallic, f->retex.metallic_map, surface);
-    float a = clamp01(f->retex.transmission) * (1 - b->metallic);
+    float a = mapped(f->retex.transmission, f->retex.transmission_map, surface) * (1 - b->metallic);
     opacity = a > 0 ? 1 : opacity; /* a finish that transmits ignores the pigment here */
     b->coverage = opacity;
     b->disney = 1;

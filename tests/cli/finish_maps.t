@@ -25,6 +25,19 @@ $ retex-render -q --plain --spp 1 --size 2x2 --aov roughness turned.pov -o aov.e
 $ printf '%s\n' '#include "head.inc"' '#declare Card = texture { pigment { rgb <.8,.3,.1> } finish { retex { metallic .8 metallic_map { rgb .5 } roughness 1 roughness_map { rgb .3 } } } }' 'object { M texture { Card } }' >constant.pov; sed 's/retex {.*/retex { metallic .4 roughness .3 } } }/' constant.pov >number.pov
 $ for s in constant number; do retex-render -q --plain --spp 4 --size 24x24 $s.pov -o $s.exr; done; retex-diff -q --fail-abs 1e-6 constant.exr number.exr
 
+$ printf '%s\n' '#include "head.inc"' '#declare Card = texture { pigment { rgb <.8,.3,.1> } finish { retex { transmission .8 transmission_map { rgb .5 } ior 1.3 roughness .4 } } }' 'object { M texture { Card } }' >constant.pov; sed 's/retex {.*/retex { transmission .4 ior 1.3 roughness .4 } } }/' constant.pov >number.pov
+$ for s in constant number; do retex-render -q --plain --spp 4 --size 24x24 $s.pov -o $s.exr; done; retex-diff -q --fail-abs 1e-6 constant.exr number.exr
+
+# emission_map stands in for the pigment: what shines keeps its colour. A card that is lit by it tells the same light as
+# by a lamp of that colour.
+$ printf '%s\n' '#include "head.inc"' 'object { M texture { pigment { rgb <0,1,0> } finish { emission 4 retex { ior 1 emission_map { checker rgb <1,.5,.25> rgb 0 scale .5 } } } } }' >glow.pov; sed -i '/^sky_sphere/d' head.inc; retex-render -q --plain --spp 1 --size 2x2 glow.pov -o glow.exr; make_values glow.exr 0,0 0,1
+> 0 0 0
+> 4 2 1
+$ printf '%s\n' '#include "head.inc"' 'object { M rotate 90*x texture { pigment { rgb .8 } } }' 'object { M texture { pigment { rgb 0 } finish { emission 4 retex { ior 1 emission_map { rgb <1,.5,.25> } } } } }' >lamp.pov; sed 's/pigment { rgb 0 } finish.*/pigment { rgb <1,.5,.25> } finish { emission 4 diffuse 0 } } }/' lamp.pov >other.pov; sed -i 's/location <.5, .5, -2>/location <.5, 1.5, -2>/' head.inc
+$ for s in lamp other; do retex-render -q --plain --spp 64 --size 24x24 $s.pov -o $s.exr; done; retex-diff -q --fail-psnr 45 lamp.exr other.exr
+$ printf '%s\n' '#include "head.inc"' 'object { M rotate 90*x texture { pigment { rgb .8 } } }' '#declare Card = texture { pigment { rgb .7 } finish { emission 2 retex { emission_map { checker rgb <1,.5,.25> rgb .1 scale .25 } } } }' 'object { M texture { Card } }' >card.pov; retex-render -q --spp 64 --size 24x24 -t Card card.pov -o set.exr && retex-combine -q set.exr --texture 'Card=rgb(.1,.5,.9)' -o new.exr; retex-render -q --spp 64 --size 24x24 -t Card --replace 'Card=rgb(.1,.5,.9)' card.pov -o truth.exr; retex-diff -q --fail-psnr 65 new.exr truth.exr; retex-render -q --plain --spp 64 --size 24x24 -t Card card.pov -o plain.exr; retex-combine -q set.exr -o own.exr; retex-diff -q --fail-psnr 80 own.exr plain.exr
+$ sed -i 's/^camera/sky_sphere { pigment { rgb 1 } }\n&/' head.inc
+
 # A constant texture is exact: what a map makes of metallic and roughness is no matter of the target's colour.
 $ retex-render -q --spp 64 --size 32x32 -t Card maps.pov -o set.exr && retex-combine -q set.exr --texture 'Card=rgb(.1,.5,.9)' -o new.exr
 $ retex-render -q --spp 64 --size 32x32 -t Card --replace 'Card=rgb(.1,.5,.9)' maps.pov -o truth.exr && retex-diff -q --fail-psnr 65 new.exr truth.exr

@@ -116,6 +116,16 @@ $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.
 $ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 glowing/glowing.pov -o lamp.exr && make_values lamp.exr 0,0
 > 4 2 1
 
+# A screen shines with its picture, and is grey.
+$ retex-import -q screen.gltf -o screen && grep -A6 declare.Screen screen/screen.pov
+> #declare Screen = texture {
+>   pigment { rgb 0.2 }
+>   finish {
+>     diffuse 0.96 specular albedo 0.04 roughness 0.001961 reflection { 0.0225, 0.5625 falloff 5 }
+>     #ifdef (Retex) emission rgb 0.5 #end
+>     #ifdef (Retex) retex { metallic 0 roughness 0.25 ior 1.5
+>       emission_map { image_map { png "textures/Image.png" interpolate 2 } } } #end
+
 # Names become identifiers.
 $ retex-import names.obj -o names && grep declare names/names.pov
 > #declare Sphere = texture {

@@ -116,6 +116,10 @@ write('glowing.gltf', json.dumps(dict(gltf({
     'extensions': {'KHR_materials_emissive_strength': {'emissiveStrength': 4}}}),
     extensionsUsed=['KHR_materials_emissive_strength'])))
 
+write('screen.gltf', json.dumps(gltf({
+    'name': 'screen', 'emissiveTexture': {'index': 0}, 'emissiveFactor': [.5, .5, .5],
+    'pbrMetallicRoughness': {'baseColorFactor': [.2, .2, .2, 1], 'metallicFactor': 0, 'roughnessFactor': .25}})))
+
 # The same card in other formats; both are placed, for these have no instances.
 side = [(1.25, y, -.25 - x) for x, y, _ in positions]
 obj = 'mtllib card.mtl\n' + ''.join('v %g %g %g\n' % p for p in positions + side)

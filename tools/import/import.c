@@ -32,9 +32,9 @@ void import_leave_out(Import *import, LeftOut what)
 {
     static const char *const texts[] = {
         [LEFT_NORMAL_MAP] = "normal maps with another UV than the colour's are left out",
-        [LEFT_FINISH_MAP] = "of images of metallic and roughness with another UV than the colour's, the mean is taken",
-        [LEFT_EMISSION_MAP] = "emission from images is left out where a surface has another colour too",
-        [LEFT_TRANSMISSION_MAP] = "transmission maps are left out",
+        [LEFT_FINISH_MAP] = "of images of metallic, roughness and transmission with another UV than the colour's, "
+                            "the mean is taken",
+        [LEFT_EMISSION_MAP] = "images of emission with another UV than the colour's are left out",
         [LEFT_SPECULAR_MAP] = "specular maps are left out",
         [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface has an image",
         [LEFT_CLEARCOAT] = "clear coats are left out",

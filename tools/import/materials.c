@@ -47,8 +47,9 @@ static void print_pigment(FILE *out, const Surface *s, const char *file)
 }
 
 typedef struct MapFiles {
-    char metallic[NAME_SIZE + 32], roughness[NAME_SIZE + 32], normal[NAME_SIZE + 32]; /* "" = none */
-    float mean_metallic, mean_roughness;
+    char metallic[NAME_SIZE + 32], roughness[NAME_SIZE + 32], transmission[NAME_SIZE + 32]; /* "" = none */
+    char emission[NAME_SIZE + 32], normal[NAME_SIZE + 32];
+    float mean_metallic, mean_roughness, mean_transmission;
 } MapFiles;
 
 /* An image of numbers. */
@@ -91,7 +92,7 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
         fprintf(out, "\n  }\n");
         return;
     }
-    fprintf(out, " diffuse %.4g", (1 - f0) * (1 - m + 0.5 * m * (1 - mirror)) * (1 - (double)s->transmission));
+    fprintf(out, " diffuse %.4g", (1 - f0) * (1 - m + 0.5 * m * (1 - mirror)) * (1 - (double)files->mean_transmission));
     if (m >= 0.5)
         fprintf(out, " specular %.4g roughness %.4g metallic reflection { %.4g metallic }", 0.5 * m, 1 / power,
                 0.9 * m * mirror);
@@ -100,8 +101,10 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
     if (m < 0.5 && f0 > 0 && mirror > 0.1)
         fprintf(out, " reflection { %.4g, %.4g falloff 5 }", f0 * mirror, mirror);
     if (largest(emission) > 0) {
-        fprintf(out, "\n    emission ");
+        fprintf(out, "\n    %semission ", files->emission[0] ? "#ifdef (Retex) " : "");
         print_color(out, emission);
+        if (files->emission[0])
+            fprintf(out, " #end");
     }
     fprintf(out, "\n    #ifdef (Retex) retex { metallic %.4g roughness %.4g ior %.4g", (double)s->metallic,
             (double)s->roughness, ior);
@@ -111,6 +114,13 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
         fprintf(out, " transmission %.4g", (double)s->transmission);
     print_finish_map(out, "metallic_map", files->metallic, &s->metallic_map);
     print_finish_map(out, "roughness_map", files->roughness, &s->roughness_map);
+    print_finish_map(out, "transmission_map", files->transmission, &s->transmission_map);
+    if (files->emission[0]) {
+        fprintf(out, "\n      emission_map { image_map { %s \"%s\" interpolate 2 }", images_keyword(files->emission),
+                files->emission);
+        print_place(out, &s->emission_map.place);
+        fprintf(out, " }");
+    }
     fprintf(out, " } #end\n  }\n");
 }
 
@@ -131,9 +141,9 @@ static void print_interior(FILE *out, const Surface *s)
     fprintf(out, " }\n");
 }
 
-/* Emission is a factor of the pigment. Give the pigment a colour where it has none, and find the factor. Returns 0
- * where the surface only shines. */
-static int place_emission(Import *import, Surface *s, float emission[3])
+/* Emission is a factor of the pigment, or of an image of its own. Give the pigment a colour where it has none, and find
+ * the factor. Returns 0 where the surface only shines. */
+static int place_emission(Surface *s, float emission[3])
 {
     memcpy(emission, s->emission, sizeof s->emission);
     if (s->unlit) {
@@ -143,15 +153,14 @@ static int place_emission(Import *import, Surface *s, float emission[3])
     if (largest(emission) == 0)
         return 1;
     if (s->emission_map.source[0] && strcmp(s->emission_map.source, s->base_map.source) != 0) {
-        if (s->base_map.source[0] || largest(s->base) > 0.05f) {
-            import_leave_out(import, LEFT_EMISSION_MAP);
-            emission[0] = emission[1] = emission[2] = 0;
+        if (s->base_map.source[0] || largest(s->base) > 0.05f)
             return 1;
-        }
         s->base_map = s->emission_map;
         s->base[0] = s->base[1] = s->base[2] = 1;
+        s->emission_map.source[0] = '\0';
         return 0;
     }
+    s->emission_map.source[0] = '\0';
     if (s->base_map.source[0])
         return 1;
     if (largest(s->base) < 0.05f) {
@@ -194,11 +203,31 @@ static int write_finish_map(Import *import, const Map *map, int channel, const c
 
 static int write_finish_maps(Import *import, Surface *s, int uv_set, MapFiles *files, RetexError *err)
 {
-    const int code = write_finish_map(import, &s->metallic_map, s->metallic_channel, "metallic", uv_set, &s->metallic,
-                                      &files->mean_metallic, files->metallic, err);
+    int code = write_finish_map(import, &s->metallic_map, s->metallic_channel, "metallic", uv_set, &s->metallic,
+                                &files->mean_metallic, files->metallic, err);
+    if (!code)
+        code = write_finish_map(import, &s->roughness_map, s->roughness_channel, "roughness", uv_set, &s->roughness,
+                                &files->mean_roughness, files->roughness, err);
     return code ? code
-                : write_finish_map(import, &s->roughness_map, s->roughness_channel, "roughness", uv_set, &s->roughness,
-                                   &files->mean_roughness, files->roughness, err);
+                : write_finish_map(import, &s->transmission_map, 0, "transmission", uv_set, &s->transmission,
+                                   &files->mean_transmission, files->transmission, err);
+}
+
+/* The image of emission, if the pigment is not that already. Where it is not to be had the surface does not shine. */
+static int write_emission_map(Import *import, const Surface *s, int uv_set, float emission[3],
+                              char file[NAME_SIZE + 32], RetexError *err)
+{
+    const ImageUse use = {.source = s->emission_map.source, .factor = {1, 1, 1}, .opacity_factor = 1};
+    file[0] = '\0';
+    if (!s->emission_map.source[0])
+        return RETEX_OK;
+    const int is_there = s->emission_map.uv_set == uv_set;
+    if (!is_there)
+        import_leave_out(import, LEFT_EMISSION_MAP);
+    const int code = is_there ? images_use(import, &use, file, err) : RETEX_OK;
+    if (!file[0])
+        emission[0] = emission[1] = emission[2] = 0;
+    return code;
 }
 
 /* A normal map, made of heights where it has these. */
@@ -219,6 +248,17 @@ static int write_normal_map(Import *import, Surface *s, int uv_set, char file[NA
     return images_normals(import, use.source, scale, file, err);
 }
 
+/* That of the first map there is. */
+static int first_uv_set(const Surface *s)
+{
+    const Map *const maps[] = {&s->roughness_map, &s->metallic_map, &s->normal_map, &s->emission_map,
+                               &s->transmission_map};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (maps[i]->source[0])
+            return maps[i]->uv_set;
+    return 0;
+}
+
 static int write_material(Import *import, int index, ImportMaterial *to, FILE *out, RetexError *err)
 {
     Surface s;
@@ -227,8 +267,7 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     int code = surface_read(import, index, &s, err);
     if (code)
         return code;
-    const int has_diffuse = place_emission(import, &s, emission);
-    import->emits |= !s.unlit && largest(emission) > 0;
+    const int has_diffuse = place_emission(&s, emission);
     if (s.base_map.source[0]) {
         const ImageUse use = {.source = s.base_map.source,
                               .opacity = s.opacity_map.source[0] ? s.opacity_map.source : NULL,
@@ -242,15 +281,15 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     }
     MapFiles files = {0};
     to->has_image = file[0] != '\0';
-    to->uv_set = to->has_image               ? s.base_map.uv_set
-                 : s.roughness_map.source[0] ? s.roughness_map.uv_set
-                 : s.metallic_map.source[0]  ? s.metallic_map.uv_set
-                                             : s.normal_map.uv_set;
+    to->uv_set = to->has_image ? s.base_map.uv_set : first_uv_set(&s);
     code = write_finish_maps(import, &s, to->uv_set, &files, err);
+    if (!code)
+        code = write_emission_map(import, &s, to->uv_set, emission, files.emission, err);
     if (!code)
         code = write_normal_map(import, &s, to->uv_set, files.normal, err);
     if (code)
         return code;
+    import->emits |= !s.unlit && largest(emission) > 0;
     to->is_solid = s.transmission > 0;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
     print_pigment(out, &s, file);

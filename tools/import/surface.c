@@ -150,8 +150,12 @@ static int take_finish_maps(Import *import, const struct aiMaterial *m, Surface 
         get_map(import, m, aiTextureType_UNKNOWN, 0, &s->roughness_map);
     s->metallic_channel = import->is_gltf ? 2 : 0;
     s->roughness_channel = import->is_gltf ? 1 : 0;
-    const int code = take_finish_map(import, &s->metallic_map, s->metallic_channel, &s->metallic, err);
-    return code ? code : take_finish_map(import, &s->roughness_map, s->roughness_channel, &s->roughness, err);
+    int code = take_finish_map(import, &s->metallic_map, s->metallic_channel, &s->metallic, err);
+    if (!code)
+        code = take_finish_map(import, &s->roughness_map, s->roughness_channel, &s->roughness, err);
+    if (!code && get_map(import, m, AI_MATKEY_TRANSMISSION_TEXTURE, &s->transmission_map))
+        code = take_finish_map(import, &s->transmission_map, 0, &s->transmission, err);
+    return code;
 }
 
 /* Formats other than glTF do not say whether bumps are normals, which are blue, or heights, which are grey. */
@@ -241,8 +245,6 @@ static void take_volume(const struct aiMaterial *m, Surface *s)
 static void note_left_out(Import *import, const struct aiMaterial *m)
 {
     float factor;
-    if (has_any(import, m, AI_MATKEY_TRANSMISSION_TEXTURE))
-        import_leave_out(import, LEFT_TRANSMISSION_MAP);
     if (has_any(import, m, aiTextureType_SPECULAR, 0) || has_any(import, m, aiTextureType_SHININESS, 0))
         import_leave_out(import, LEFT_SPECULAR_MAP);
     if (get_float(m, AI_MATKEY_CLEARCOAT_FACTOR, &factor) && factor > 0)

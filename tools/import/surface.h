@@ -22,7 +22,7 @@ typedef struct Surface {
     AlphaMode alpha;
     float cutoff;
     int unlit;
-    Map base_map, opacity_map, emission_map, metallic_map, roughness_map, normal_map;
+    Map base_map, opacity_map, emission_map, metallic_map, roughness_map, normal_map, transmission_map;
     int metallic_channel, roughness_channel;
     float normal_scale;
     int has_heights; /* normal_map has heights, in widths of the image times normal_scale */

@@ -75,10 +75,13 @@ static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *conte
     load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish));
     normal_load(sdl, texture->texture.normal);
     const Finish *finish = texture->texture.finish;
-    if (finish && finish->retex.metallic_map)
-        load_pigment_images(sdl, finish->retex.metallic_map, 0);
-    if (finish && finish->retex.roughness_map)
-        load_pigment_images(sdl, finish->retex.roughness_map, 0);
+    if (!finish)
+        return;
+    const Pigment *const maps[] = {finish->retex.metallic_map, finish->retex.roughness_map,
+                                   finish->retex.transmission_map, finish->retex.emission_map};
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (maps[i])
+            load_pigment_images(sdl, maps[i], maps[i] == finish->retex.emission_map);
 }
 
 /* ---- every texture in use ---- */

@@ -80,7 +80,7 @@ const Pigment *parse_uv_pigment(Sdl *sdl)
 }
 
 /* Our extension: retex{ metallic M roughness R ior N specular_tint T transmission A metallic_map{ PIGMENT }
- * roughness_map{ PIGMENT } }. */
+ * roughness_map{ PIGMENT } transmission_map{ PIGMENT } emission_map{ PIGMENT } }. */
 static void retex_block(Sdl *sdl, Finish *f)
 {
     f->retex.present = 1;
@@ -100,9 +100,13 @@ static void retex_block(Sdl *sdl, Finish *f)
             f->retex.metallic_map = parse_uv_pigment(sdl);
         else if (sdl_accept(sdl, "roughness_map"))
             f->retex.roughness_map = parse_uv_pigment(sdl);
+        else if (sdl_accept(sdl, "transmission_map"))
+            f->retex.transmission_map = parse_uv_pigment(sdl);
+        else if (sdl_accept(sdl, "emission_map"))
+            f->retex.emission_map = parse_uv_pigment(sdl);
         else
-            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, metallic_map, roughness_map or } "
-                              "in retex");
+            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, metallic_map, roughness_map, "
+                              "transmission_map, emission_map or } in retex");
     }
 }
 
