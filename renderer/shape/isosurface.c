@@ -88,14 +88,15 @@ static void adapt(Search *search, double slope)
 }
 
 /* The first interval, shorter than accuracy, at whose end f is negative. Depth first, so that what is to the right
- * waits on a stack. */
+ * waits on a stack. A search of more evaluations than any sensible surface needs ends without one: in a container that
+ * is a million million times wider than accuracy, it would go on for days. */
 static int bracket(Search *search, Sample *left, Sample *end)
 {
-    enum { DEPTH = 64 };
+    enum { DEPTH = 64, EVALUATIONS = 1 << 18 };
     Sample right[DEPTH];
     int top = 0;
     right[0] = *end;
-    while (top >= 0) {
+    while (top >= 0 && search->evaluations < EVALUATIONS) {
         const double length = right[top].s - left->s, sum = left->f + right[top].f;
         adapt(search, fabs(right[top].f - left->f) / length);
         if (length < search->accuracy || top == DEPTH - 1) {

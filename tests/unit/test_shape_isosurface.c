@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 #include "lib_scene_text.h"
 #include "shape/isosurface.h"
 
@@ -179,11 +180,27 @@ static void test_errors(void **unused)
     expect_error("isosurface{function{x} contained_by{cone{0,1,x,1}}}", "box");
 }
 
+/* Nowhere near enough to the threshold that its slope could not reach it, for ever. The surface is at the far end. */
+static void test_endless_search(void **unused)
+{
+    (void)unused;
+    Scene *scene = parse(V37 "isosurface { function { y - 4e9 < 0 ? .05 : -1 } max_gradient 4 accuracy .001"
+                             "  contained_by { box { -1, <1, 4294967296, 1> } } }");
+    const Primitive *p = only(scene);
+    const ShapeRay ray = {.origin = {0, -5, 0}, .direction = {0, 1, 0}, .tmin = 0, .tmax = INFINITY};
+    double t = 0;
+    int face;
+    const clock_t before = clock();
+    assert_int_equal(p->shape.ops->intersect(p, &ray, &t, &face), 0);
+    assert_true((double)(clock() - before) < 10.0 * CLOCKS_PER_SEC);
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_marching), cmocka_unit_test(test_jumps),  cmocka_unit_test(test_options),
-        cmocka_unit_test(test_surface),  cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_surface),  cmocka_unit_test(test_errors), cmocka_unit_test(test_endless_search),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
