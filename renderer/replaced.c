@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include "render/first_hit.h"
 #include "retex-render.h"
 
 static int find_target(const Scene *scene, const char *name)
@@ -35,6 +36,7 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
             return err->code;
         a->measured = 1;
         memcpy(spec->uv_scale, a->uv_scales[t], sizeof spec->uv_scale);
+        target_periodic(scene, t, spec->periodic);
     }
     return retex_texture_load(texture, spec, a->cli->threads, err);
 }

@@ -121,3 +121,6 @@ $ retex-render -q --list-targets=- room.pov; retex-render -q --list-targets=room
 # Its memory is limited.
 $ retex-render -q -v --list-targets --max-memory 200 --size 16000x16000 room.pov 2>&1 | grep -c 'pixels need .* of memory'
 > 1
+# A width on a cylinder means whole repeats around it, in set and --replace alike: 4.4 become 4, which need no seam.
+$ printf 'P6 4 1 255 \200\000\000\377\377\377\000\000\200\000\200\000' >stripes.ppm; echo '#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location -9*z right 4*x up 3*y } background { rgb 1 } #declare T = texture { pigment { rgb 1 } } cylinder { -y, y, 1 texture { T } rotate 90*y }' >can.pov; retex-render -q --spp 16 --size 16x12 -t T can.pov -o set.exr; for w in 1.5708 1.428; do retex-combine -q set.exr --texture:width=$w,2 T=stripes.ppm -o s$w.exr; retex-render -q --spp 16 --plain --size 16x12 -t T --replace:width=$w,2 T=stripes.ppm can.pov -o r$w.exr; done; retex-diff -q --fail-abs 1e-4 s1.5708.exr s1.428.exr && retex-diff -q --fail-abs 1e-4 r1.5708.exr r1.428.exr && echo same
+> same

@@ -109,6 +109,60 @@ static void test_edits(void **state)
     retex_image_free(&im);
 }
 
+/* Around a column of 5.03 x 2, whose UV closes in u, a width means the nearest whole number of repeats. */
+static void test_closed_surfaces(void **state)
+{
+    (void)state;
+    static const struct {
+        double width, rotate, scale;
+        RetexRepeat repeat;
+        RetexWrap wrap;
+        double around, upwards; /* repeats; 0: not fitted */
+    } cases[] = {
+        {1, 0, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, 5, 4},
+        {1, 180, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, -5, -4},
+        {1, 90, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, 10, -2}, /* 5.03 over the height of .5 */
+        {1, 0, -0.72, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, -4, 2.88},
+        {20, 0, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, 1, 0.2},
+        {1, 0, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_MIRROR, 6, 4}, /* an even number */
+        {1, 0, 1, RETEX_REPEAT_HALF_DROP, RETEX_WRAP_REPEAT, 6, 4},
+        {1, 0, 1, RETEX_REPEAT_BRICK, RETEX_WRAP_REPEAT, 5, 4},
+        {1, 0, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_CLAMP, 0, 0},
+        {1, 45, 1, RETEX_REPEAT_STRAIGHT, RETEX_WRAP_REPEAT, 0, 0},
+    };
+    RetexImage im = {0};
+    test_random_image(&im, 60, 30, 3, 8, 0, 1);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const int fitted = cases[k].around != 0, turned = cases[k].rotate == 90;
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        spec.width[0] = cases[k].width, spec.rotate = cases[k].rotate, spec.repeat = cases[k].repeat;
+        spec.scale[0] = cases[k].scale, spec.scale[1] = fabs(cases[k].scale);
+        spec.wrap[0] = cases[k].wrap;
+        spec.uv_scale[0] = 5.03, spec.uv_scale[1] = 2;
+        RetexTexture *open = create(&im, &spec);
+        spec.periodic[0] = 1;
+        RetexTexture *closed = create(&im, &spec);
+        RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+        plain.repeat = cases[k].repeat, plain.wrap[0] = cases[k].wrap;
+        RetexTexture *straight = create(&im, &plain);
+        uint32_t seed = 1;
+        for (int i = 0; i < 50; i++) {
+            const double u = test_random(&seed), v = test_random(&seed), x = cases[k].around * u,
+                         y = cases[k].upwards * v;
+            float a[4], b[4];
+            retex_texture_point(closed, u, v, a);
+            retex_texture_point(fitted ? straight : open, fitted ? (turned ? y : x) : u, fitted ? (turned ? x : y) : v,
+                                b);
+            assert_colors(a, b, 5e-3);
+            retex_texture_point(closed, u + 1, v, b);
+            if (fitted)
+                assert_colors(a, b, 5e-3); /* no seam */
+        }
+        retex_texture_close(&open), retex_texture_close(&closed), retex_texture_close(&straight);
+    }
+    retex_image_free(&im);
+}
+
 /* A plank of 1.2 x 0.2 turned by 90 degrees on a floor of 6 x 3: 0.2 of it along u, 1.2 along v. */
 static void test_planks(void **state)
 {
@@ -339,9 +393,9 @@ static void test_mistakes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),           cmocka_unit_test(test_planks),           cmocka_unit_test(test_flips),
-        cmocka_unit_test(test_shifted_repeats), cmocka_unit_test(test_mirrored_repeats), cmocka_unit_test(test_square),
-        cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_edits),  cmocka_unit_test(test_closed_surfaces), cmocka_unit_test(test_planks),
+        cmocka_unit_test(test_flips),  cmocka_unit_test(test_shifted_repeats), cmocka_unit_test(test_mirrored_repeats),
+        cmocka_unit_test(test_square), cmocka_unit_test(test_mistakes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,6 +89,7 @@ static int check_footprints(const Loading *loading, RetexError *err)
 static void describe_surface(RetexTextureSpec *spec, const RetexTarget *t)
 {
     memcpy(spec->uv_scale, t->uv_scale, sizeof spec->uv_scale);
+    memcpy(spec->periodic, t->periodic, sizeof spec->periodic);
     for (int axis = 0; axis < 2; axis++)
         if (!t->periodic[axis]) {
             spec->uv_min[axis] = t->uv_min[axis];

@@ -57,6 +57,24 @@ static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError
     return RETEX_OK;
 }
 
+/* Fits the repeats around a surface that closes: see <retex/texture.h>. before: units of width for a unit of UV. */
+static void fit_repeats(const RetexTexture *texture, double before[2], const double after[2])
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    const double quarters = spec->rotate / 90;
+
+    for (int axis = 0; axis < 2; axis++) {
+        const int of = fmod(quarters, 2) == 0 ? axis : !axis; /* the texture's axis that lies along it */
+        const RetexWrap wrap = spec->wrap[of];
+        if (!spec->periodic[axis] || quarters != rint(quarters) ||
+            (wrap != RETEX_WRAP_REPEAT && wrap != RETEX_WRAP_MIRROR))
+            continue;
+        const double period = wrap == RETEX_WRAP_MIRROR ? 2 : texture->repeats[of],
+                     around = before[axis] * after[of] / period;
+        before[axis] *= fmax(1, rint(fabs(around))) / fabs(around);
+    }
+}
+
 /* Combines the spec's placement into one matrix and offset, for an image of that size. */
 static void set_transform(RetexTexture *texture, int width, int height)
 {
@@ -73,6 +91,7 @@ static void set_transform(RetexTexture *texture, int width, int height)
             before[axis] *= spec->uv_scale[axis];
             after[axis] = 1 / size[axis];
         }
+        fit_repeats(texture, before, after);
     }
     for (int axis = 0; axis < 2; axis++) {
         double sign = spec->flip[axis] ? -1 : 1, share = 1.0 / texture->repeats[axis];

@@ -10,6 +10,10 @@
  *
  *     M = diag(1 / width, 1 / height) R(rotate) diag(uv_scale * scale)
  *
+ * Where the surface closes along u (or v), width means the nearest whole number of repeats around it, at least one, so
+ * that there is no seam: uv_scale becomes that number of widths. That is so of rotations by quarter turns, and of
+ * textures that repeat or are mirrored in that direction.
+ *
  * `flip` is applied last, u' -> 1 - u' and v' -> 1 - v'. A footprint's mean is transformed so, its covariance C becomes
  * M C M^T: exactly, in every look-up below. Constants ignore the placement. */
 #ifndef RETEX_TEXTURE_H
@@ -62,10 +66,11 @@ typedef struct RetexTextureSpec {
     int is_light;          /* 1: it stands for light, which may be brighter than white; default 0: for albedo */
     RetexBudget *budget;   /* what the texture's memory is charged to until it is closed, and which says how many pixels
                               its image may have (otherwise 2^28); filled in by the caller. Default NULL = none */
+    int periodic[2];       /* 1: the surface closes after one unit of u (or v); filled in by the caller. Default 0, 0 */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0} }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
