@@ -37,6 +37,10 @@ $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(L
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+# It runs the tools, and has models from Assimp.
+$(BUILD)/tests/fuzz/fuzz_import: TEST_LIBS += -lassimp
+$(BUILD)/tests/fuzz/fuzz_import: | $(addprefix $(BUILD)/bin/,retex-import retex-render)
+
 $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)

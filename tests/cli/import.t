@@ -156,6 +156,19 @@ $ retex-import below/buffer.gltf -o buffer
 ! retex-import: error: below/buffer.gltf: the model names the file `below/../F.png`, which is outside of its folder; -I DIR adds folders that may be read
 = 2
 
+# Damaged images are left out.
+$ for m in torn no_image; do retex-import -q $m.gltf -o $m 2>err; echo $?; grep -c 'warning: the image .* cannot be read' err; grep -c image_map $m/$m.pov; ls $m; done
+> 0
+> 1
+> 0
+> torn-meshes.inc
+> torn.pov
+> 0
+> 1
+> 0
+> no_image-meshes.inc
+> no_image.pov
+
 # Damaged models: one line, and nothing is left.
 $ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj; do retex-import $m -o damaged; echo $?; done; ls -d damaged*
 > 2

@@ -186,6 +186,10 @@ for name, image in (('bumpy', 'leaning.png'), ('ramp', '-bm 30 ramp.png')):
     write(name + '.obj', obj.replace('card.mtl', name + '.mtl'))
     write(name + '.mtl', 'newmtl wood\nKd 0.3 0.3 0.3\nmap_Bump %s\n' % image)
 
+# An image that ends too early, and one that is none.
+write('torn.gltf', json.dumps(gltf(MATERIAL, F[:-30])))
+write('no_image.gltf', json.dumps(gltf(MATERIAL, F[:8] + b'no')))
+
 # Damage.
 write('short.glb', card[:len(card) // 2])
 write('empty.obj', '')

@@ -348,17 +348,19 @@ static int make_image(Import *import, const ImageUse *use, ImageFile *image, Byt
     int code = name_file(import, use->source, format && !changes ? format->ending : "png", image->file, err);
     if (code)
         return code;
-    if (format && !changes) {
-        if (snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
-            return retex_fail(err, RETEX_EIO, "the folder's name is too long");
-        return retex_file_write(path, bytes->data, bytes->size, err);
-    }
+    /* What is copied is decoded as well: a damaged image would stop the renderer. */
     RetexError why = {0};
     code = decode(import, bytes, 0, &pixels, &why);
     if (code) {
         if (is_fatal(code))
             *err = why;
         return is_fatal(code) ? code : is_missing(import, image, use->source, &why);
+    }
+    if (format && !changes) {
+        retex_image_free(&pixels);
+        if (snprintf(path, sizeof path, "%s/%s", import->options->folder, image->file) >= (int)sizeof path)
+            return retex_fail(err, RETEX_EIO, "the folder's name is too long");
+        return retex_file_write(path, bytes->data, bytes->size, err);
     }
     code = bake(import, use, &pixels, err);
     if (!code)
