@@ -13,7 +13,7 @@
 #include "output_folder.h"
 
 static const CliOption options[] = {
-    {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90", 0},
+    {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by group and the loss in pictures; - is standard output", 0},
@@ -156,11 +156,12 @@ static int write_player(const char *folder, RetexError *err)
 /* A folder for browsers: the player, and the set as it reads it. */
 static int run_web(Cli *cli, const Job *job)
 {
-    const RetexWebParams params = {sizeof params, job->params.quality};
+    RetexWebParams params = RETEX_WEB_INIT;
     RetexWebBytes bytes = {0};
     RetexError err = {0};
     RetexSet *set = NULL;
     char manifest[PATH_MAX];
+    params.quality = job->quality_given ? job->params.quality : params.quality;
     if (snprintf(manifest, sizeof manifest, "%s/room.json", job->web) >= (int)sizeof manifest - RETEX_NAME_MAX)
         cli_die(cli, "--web: the name of the folder is too long");
     cli_input(cli, job->input, "a set, as from retex-render");

@@ -7,6 +7,7 @@ import sys
 import zlib
 
 folder = sys.argv[1]
+printed = sys.stdin.read()  # until retex-pack has ended
 with open(f"{folder}/room.json", encoding="utf-8") as file:
     room = json.load(file)
 entries = [room["picture"], room["reduced"], *room["lights"], *room["classes"]]
@@ -14,7 +15,7 @@ for entry in entries:
     with open(f"{folder}/{entry['file']}", "rb") as file:
         data = file.read()
     assert (len(data), zlib.crc32(data)) == (entry["bytes"], entry["crc32"]), entry["file"]
-total, still, first = map(int, re.findall(r" (\d+) ", sys.stdin.read().splitlines()[1]))
+total, still, first = map(int, re.findall(r" (\d+) ", printed.splitlines()[1]))
 own = os.path.getsize(f"{folder}/room.json")
 assert total == own + sum(e["bytes"] for e in entries)
 assert still == own + room["picture"]["bytes"] and still < first < total

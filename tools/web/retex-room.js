@@ -14,10 +14,10 @@ function crc32(bytes) {
   return ~crc >>> 0;
 }
 
-async function fetchBytes(url, signal) {
+async function fetchBytes(url, signal, cache = "default") {
   let answer;
   try {
-    answer = await fetch(url, { signal });
+    answer = await fetch(url, { signal, cache });
   } catch (error) {
     if (signal.aborted) throw error;
     throw new Error(location.protocol === "file:" ? "This page must come from a web server, not from a file."
@@ -611,8 +611,10 @@ class Renderer {
 
   isReady(group) {
     const { room } = this, g = room.groups[group];
-    return this.reduced && this.small.every((c) => this.loaded.has(c)) && this.lights.has(g.light) &&
-      (g.mixture < 0 || room.mixtures[g.mixture].every(([c]) => this.loaded.has(room.classes[c]) && (room.classes[c].scale > 1 || this.lights.has(room.classes[c].albedo))));
+    const mixtures = room.terms.filter((t) => t.group === group).flatMap((t) => t.factors);
+    if (g.mixture >= 0) mixtures.push(g.mixture);
+    return (this.reduced || !room.reduced) && this.lights.has(g.light) && mixtures.every((m) => room.mixtures[m].every(([c]) =>
+      this.loaded.has(room.classes[c]) && (room.classes[c].scale > 1 || this.lights.has(room.classes[c].albedo))));
   }
 
   /* Whether a target's own light is there. */
@@ -684,12 +686,13 @@ const STYLE = `
 svg { width: 22px; height: 22px; fill: none; stroke: currentColor; stroke-width: 1.7; display: block; margin: auto; }
 .tools button:hover, .tools button[aria-pressed=true] { background: #0001; }
 .name { position: absolute; left: 10px; top: 10px; padding: 4px 10px; border-radius: 10px; background: #fffd; pointer-events: none; }
-.line { position: absolute; top: 0; bottom: 0; width: 2px; margin-left: -1px; background: #fff; box-shadow: 0 0 4px #0008; pointer-events: none; }
-.split { position: absolute; left: 0; right: 0; bottom: 64px; width: 100%; height: 44px; margin: 0; background: none; appearance: none; cursor: ew-resize; }
+.line { position: absolute; width: 2px; margin-left: -1px; background: #fff; box-shadow: 0 0 4px #0008; pointer-events: none; }
+.split { position: absolute; height: 44px; margin: 0; background: none; appearance: none; cursor: ew-resize; }
 .split::-webkit-slider-thumb { appearance: none; width: 44px; height: 44px; border-radius: 50%; background: #fffe; box-shadow: 0 1px 6px #0005; }
 .split::-moz-range-thumb { width: 44px; height: 44px; border: 0; border-radius: 50%; background: #fffe; box-shadow: 0 1px 6px #0005; }
 .split::-webkit-slider-runnable-track { background: none; }
-.message { position: absolute; left: 50%; top: 50%; transform: translate(-50%, -50%); max-width: 90%; padding: 14px 20px; border-radius: 12px; background: #fff; box-shadow: 0 2px 14px #0004; }
+.split:focus-visible { outline: none; } .split:focus-visible::-webkit-slider-thumb { outline: 3px solid var(--accent); } .split:focus-visible::-moz-range-thumb { outline: 3px solid var(--accent); }
+.message { position: absolute; left: 16px; top: 16px; max-width: calc(100% - 32px); padding: 14px 20px; border-radius: 12px; background: #fff; box-shadow: 0 2px 14px #0004; }
 .panel { padding: 18px; overflow: auto; border-left: 1px solid var(--line); background: #fff; min-height: 0; }
 h2 { font-size: 13px; font-weight: 600; margin: 18px 0 6px; color: #555; } h2:first-child { margin-top: 0; }
 .row { display: flex; flex-wrap: wrap; gap: 6px; }
@@ -711,6 +714,7 @@ input[type=color] { width: 44px; height: 40px; padding: 2px; border: 1px solid v
 @media (max-width: 760px), (max-aspect-ratio: 1/1) {
   .room { grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); }
   .panel { border-left: 0; border-top: 1px solid var(--line); padding: 14px; }
+  .tools { position: static; width: 100%; justify-content: space-around; border-radius: 0; background: none; box-shadow: none; }
 }
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 @media (prefers-color-scheme: dark) {
@@ -726,7 +730,7 @@ const TOOLS = [
   ["full", "Full screen", "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5"],
   ["download", "Download the picture", "M12 4v11M7 11l5 5 5-5M5 20h14"],
   ["link", "Copy a link to this room", "M10 14l4-4M8 11l-3 3a3.5 3.5 0 0 0 5 5l3-3M16 13l3-3a3.5 3.5 0 0 0-5-5l-3 3"],
-].map(([name, text, path]) => `<button data-do="${name}" title="${text}" aria-label="${text}"><svg viewBox="0 0 24 24"><path d="${path}"/></svg></button>`).join("");
+].map(([name, text, path]) => `<button data-do="${name}" title="${text}" aria-label="${text}"><svg aria-hidden="true" viewBox="0 0 24 24"><path d="${path}"/></svg></button>`).join("");
 
 const slider = (name, text, low, high, step) => `<label class="slider"><span>${text}</span><input type="range" min="${low}" max="${high}" step="${step}" value="0" data-set="${name}"><output></output></label>`;
 
@@ -899,7 +903,7 @@ class RetexRoom extends HTMLElement {
 
   async run(signal) {
     const base = new URL(this.getAttribute("src").replace(/\/?$/, "/"), document.baseURI);
-    const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal));
+    const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache"));
     let room;
     try {
       room = JSON.parse(text);
@@ -953,10 +957,10 @@ class RetexRoom extends HTMLElement {
       renderer.putClass(c, decodeClass(c, data, c.base));
     });
     if (room.reduced) jobs.push(async () => renderer.putReduced(await decodeJpeg(await get(room.reduced), room.reduced.file)));
-    room.classes.filter((c) => c.scale > 1).forEach(footprints);
+    room.classes.filter((c) => c.kind === "interreflection").forEach(footprints);
     const steps = [];
     for (const t of order) {
-      room.classes.filter((c) => c.scale === 1 && c.target === t).forEach(footprints);
+      room.classes.filter((c) => c.kind !== "interreflection" && c.target === t).forEach(footprints);
       room.lights.forEach((l, i) => l.target === t && light(i));
       steps.push(jobs.length);
     }
@@ -1080,6 +1084,7 @@ class RetexRoom extends HTMLElement {
       }));
     const off = !this.renderer?.canEdit(this.selected);
     for (const button of offers.children) button.disabled = off, button.setAttribute("aria-pressed", button.dataset.source === texture.source);
+    this.$("[data-set=exposure]").disabled = this.$("[data-set=warmth]").disabled = !this.renderer;
     this.$("[data-set=file]").disabled = this.$("[data-set=color]").disabled = this.$("[data-do=original]").disabled = off;
     this.$(".placing").hidden = !texture.image;
     const mean = Array.isArray(texture.scale) ? texture.scale[0] : texture.scale;
@@ -1176,10 +1181,12 @@ class RetexRoom extends HTMLElement {
   }
 
   moveLine() {
-    const { left, width } = this.$("canvas").getBoundingClientRect(), stage = this.$(".stage").getBoundingClientRect();
+    const { left, top, width, height } = this.$("canvas").getBoundingClientRect(), stage = this.$(".stage").getBoundingClientRect();
     const split = this.$(".split");
-    Object.assign(split.style, { left: `${left - stage.left - 22}px`, width: `${width + 44}px`, right: "auto" });
-    this.$(".line").style.left = `${left - stage.left + (width * split.value) / 100}px`;
+    const bottom = Math.min(top + height, stage.bottom) - stage.top;
+    Object.assign(split.style, { left: `${left - stage.left - 22}px`, width: `${width + 44}px`, top: `${bottom - 52}px` });
+    const x = left - stage.left + (width * split.value) / 100;
+    Object.assign(this.$(".line").style, { left: `${x}px`, top: `${top - stage.top}px`, height: `${height}px` });
   }
 
   zoomBy(times, x, y) {

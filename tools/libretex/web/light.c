@@ -99,10 +99,11 @@ static void draw(float *levels, int width, const RetexWebTile *tile, const Retex
         }
 }
 
+/* The step is the mean of those that the tiles alone would have: most are gains, whose errors average out. */
 int retex_web_atlas_encode(RetexPackJpeg *jpeg, RetexWebTile *tiles, int count, int *width, int *height,
                            const RetexSet *set, const RetexPackPart *packed, RetexError *err)
 {
-    double step = INFINITY;
+    double step = 0;
     if (!place(tiles, count, width, height, set))
         return retex_fail(err, RETEX_EUNSUPPORTED, "the set's reduced images do not fit into a texture of %d texels",
                           RETEX_WEB_ATLAS_SIDE_MAX);
@@ -115,7 +116,7 @@ int retex_web_atlas_encode(RetexPackJpeg *jpeg, RetexWebTile *tiles, int count, 
         const RetexImage *im = &set->parts[tiles[i].part].image;
         double own;
         tiles[i].curve = choose_curve(im, &packed[tiles[i].part], &own);
-        step = fmin(step, own);
+        step += own / count;
         draw(levels, *width, &tiles[i], im);
     }
     int code = retex_pack_jpeg_encode(jpeg, levels, *width, *height, 3, step, err);

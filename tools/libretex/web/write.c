@@ -23,10 +23,14 @@ static const double COMPACTING_MARGIN = 3;
  * that are too large. */
 static const int SCALES[] = {0, 4, 8};
 
+/* A name has the checksum of the content: new files never replace those of an older manifest, and caches may keep
+ * them. */
 typedef struct File {
-    char name[RETEX_NAME_MAX + 8];
+    char name[RETEX_NAME_MAX + 16];
     unsigned char *data;
     size_t bytes;
+    uint32_t crc;
+    int is_old; /* a file of this name was there before */
 } File;
 
 typedef struct Web {
@@ -112,11 +116,17 @@ static int is_sharp_light(const Web *web, int part)
     return 1;
 }
 
+static void give_name(File *file, const char *stem, const char *ending)
+{
+    file->crc = retex_crc32(CRC32_OF_NONE, file->data, file->bytes);
+    snprintf(file->name, sizeof file->name, "%s-%08x.%s", stem, file->crc, ending);
+}
+
 static void take_jpeg(File *file, RetexPackJpeg *jpeg, const char *name)
 {
-    snprintf(file->name, sizeof file->name, "%s.jpg", name);
     file->data = jpeg->data;
     file->bytes = jpeg->bytes;
+    give_name(file, name, "jpg");
     jpeg->data = NULL;
     retex_pack_jpeg_free(jpeg);
 }
@@ -160,8 +170,9 @@ static int encode(Web *web, RetexError *err)
     for (int i = 0; i < web->model.nclasses && !code; i++) {
         const RetexWebClass *c = &web->model.classes[i];
         File *file = &web->streams[i];
-        snprintf(file->name, sizeof file->name, "%s.bin", set->parts[set->footprints[c->footprints[0]].uv].name);
         code = retex_web_footprints_encode(&file->data, &file->bytes, set, web->packed, c, err);
+        if (!code)
+            give_name(file, set->parts[set->footprints[c->footprints[0]].uv].name, "bin");
     }
     return code;
 }
@@ -198,7 +209,7 @@ static int web_open(Web *web, const RetexSet *set, int quality, int scale, int n
 static json_t *describe_file(const File *file)
 {
     return json_pack("{s:s,s:I,s:I}", "file", file->name, "bytes", (json_int_t)file->bytes, "crc32",
-                     (json_int_t)retex_crc32(CRC32_OF_NONE, file->data, file->bytes));
+                     (json_int_t)file->crc);
 }
 
 static void put_curve(json_t **object, const RetexPackCurve *curve)
@@ -344,22 +355,28 @@ static char *describe(const Web *web, RetexError *err)
 
 /* ---- the folder ---- */
 
-static int write_file(const char *folder, const File *file, RetexError *err)
+static int path_of(char path[PATH_MAX], const char *folder, const char *name)
+{
+    return snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX;
+}
+
+static int write_file(const char *folder, File *file, RetexError *err)
 {
     char path[PATH_MAX];
-    if (snprintf(path, sizeof path, "%s/%s", folder, file->name) >= (int)sizeof path)
+    if (!path_of(path, folder, file->name))
         return retex_fail(err, RETEX_EINVAL, "the name of the folder is too long");
+    file->is_old = access(path, F_OK) == 0;
     return retex_file_write(path, file->data, file->bytes, err);
 }
 
-static void remove_file(const char *folder, const File *file)
+static void remove_file(const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    if (snprintf(path, sizeof path, "%s/%s", folder, file->name) < (int)sizeof path)
+    if (path_of(path, folder, name))
         unlink(path);
 }
 
-static const File *file_at(const Web *web, int index)
+static File *file_at(Web *web, int index)
 {
     if (index < 1 + web->nlights)
         return index ? &web->lights[index - 1] : &web->picture;
@@ -367,18 +384,48 @@ static const File *file_at(const Web *web, int index)
     return index < web->model.nclasses ? &web->streams[index] : web->ntiles ? &web->atlas : NULL;
 }
 
-static int write_all(const Web *web, const char *folder, const File *manifest, RetexError *err)
+static int count_files(const Web *web)
 {
-    const int count = 1 + web->nlights + web->model.nclasses + (web->ntiles > 0);
-    const File old = {.name = MANIFEST};
+    return 1 + web->nlights + web->model.nclasses + (web->ntiles > 0);
+}
+
+/* Remove a file that an older manifest names, unless it is one of the new ones. */
+static void remove_old(Web *web, const char *folder, const json_t *entry)
+{
+    const char *name = json_string_value(json_object_get(entry, "file"));
+    for (int i = 0; name && i < count_files(web); i++)
+        if (strcmp(name, file_at(web, i)->name) == 0)
+            return;
+    if (name && !strchr(name, '/') && strchr(name, '-'))
+        remove_file(folder, name);
+}
+
+static void remove_all_old(Web *web, const char *folder, const json_t *old)
+{
+    static const char *const lists[] = {"lights", "classes"};
+    remove_old(web, folder, json_object_get(old, "picture"));
+    remove_old(web, folder, json_object_get(old, "reduced"));
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < json_array_size(json_object_get(old, lists[k])); i++)
+            remove_old(web, folder, json_array_get(json_object_get(old, lists[k]), i));
+}
+
+/* Until the new manifest replaces an older one, that one and its files stay whole. */
+static int write_all(Web *web, const char *folder, File *manifest, RetexError *err)
+{
+    char path[PATH_MAX];
+    json_t *old = path_of(path, folder, MANIFEST) ? json_load_file(path, 0, NULL) : NULL;
     int code = 0, written = 0;
-    remove_file(folder, &old); /* it does not describe the new files */
-    for (; written < count && !code; written += !code)
+    for (; written < count_files(web) && !code; written += !code)
         code = write_file(folder, file_at(web, written), err);
     if (!code)
         code = write_file(folder, manifest, err);
     for (int i = 0; code && i < written; i++)
-        remove_file(folder, file_at(web, i));
+        if (!file_at(web, i)->is_old)
+            remove_file(folder, file_at(web, i)->name);
+    if (!code)
+        remove_all_old(web, folder, old);
+    json_decref(old);
     return code;
 }
 
@@ -391,7 +438,7 @@ static RetexWebBytes count_bytes(const Web *web, size_t manifest)
         if (web->set->targets[i].share > web->set->targets[best].share)
             best = i;
     for (int i = 0; i < web->model.nclasses; i++)
-        if (web->model.classes[i].scale > 1 || web->model.classes[i].target == best)
+        if (web->model.classes[i].kind == RETEX_FOOTPRINT_INTERREFLECTION || web->model.classes[i].target == best)
             common += web->streams[i].bytes;
         else
             others += web->streams[i].bytes;

@@ -15,9 +15,9 @@ extern "C" {
 /* Begin with RETEX_WEB_INIT. */
 typedef struct RetexWebParams {
     size_t size;
-    int quality; /* 1..100, default 90: as of packs, but pictures are not measured */
+    int quality; /* 1..100, default 60: as of packs, but pictures are not measured */
 } RetexWebParams;
-#define RETEX_WEB_INIT { sizeof(RetexWebParams), 90 }
+#define RETEX_WEB_INIT { sizeof(RetexWebParams), 60 }
 
 /* What the files take, in bytes. */
 typedef struct RetexWebBytes {

@@ -1,0 +1,382 @@
+"""Checks the player of retex-pack --web in headless Chromium, and prints TAP: check.py SCENES FOLDER.
+
+FOLDER has the set room.exr and what retex-pack --web made of it, room/. With RETEX_WEB_SHOTS=DIR screenshots are kept."""
+import base64
+import http.server
+import json
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+from browser import Browser
+
+scenes, work = sys.argv[1:]
+textures = ["walnut-herringbone", "terrazzo", "fans", "travertine", "brick", "damask"]
+shots = os.environ.get("RETEX_WEB_SHOTS")
+number = 0
+held, released = set(), threading.Event()
+
+
+class Handler(http.server.SimpleHTTPRequestHandler):
+    """Files of the working folder; those that are held wait until they are released."""
+
+    def __init__(self, *args):
+        super().__init__(*args, directory=work)
+
+    def do_GET(self):
+        if any(name in self.path for name in held):
+            released.wait(60)
+        try:
+            super().do_GET()
+        except (BrokenPipeError, ConnectionResetError):
+            pass
+
+    def log_message(self, *_):
+        pass
+
+
+server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+threading.Thread(target=server.serve_forever, daemon=True).start()
+url = f"http://127.0.0.1:{server.server_port}/"
+
+
+def result(good, name):
+    global number
+    number += 1
+    print(f"{'ok' if good else 'not ok'} {number} - {name}", flush=True)
+
+
+def psnr(a, b):
+    text = subprocess.run(["retex-diff", "--json", a, b], capture_output=True, text=True, check=False).stdout
+    return json.loads(text)["psnr"]
+
+
+ROOM = "document.querySelector('retex-room')"
+PART = ROOM + ".shadowRoot.querySelector"
+
+
+class Page(Browser):
+    def room(self, code):
+        return self.run(f"{ROOM}.{code}")
+
+    def save(self, path):
+        data = self.room("toBlob().then(x => x.arrayBuffer()).then(a => { let s = ''; for (const c of new Uint8Array(a)) "
+                         "s += String.fromCharCode(c); return btoa(s); })")
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(data))
+
+    def put(self, target, texture, options="{scale: [1, 1]}"):
+        source = "null" if texture is None else json.dumps(url + texture)
+        self.room(f"setTexture('{target}', {source}, {options})")
+
+    def middle(self, selector):
+        box = self.run(f"(() => {{ const r = {PART}({json.dumps(selector)}).getBoundingClientRect(); "
+                       "return [r.x, r.y, r.width, r.height]; })()")
+        return box[0] + box[2] / 2, box[1] + box[3] / 2
+
+    def press(self, selector, touch=False):
+        self.run(f"{PART}({json.dumps(selector)}).scrollIntoView({{block: 'nearest'}})")
+        at = self.middle(selector)
+        if touch:
+            time.sleep(1)  # while a swipe still moves the page, a tap only stops it
+            self.tap([at])
+            time.sleep(0.3)
+        else:
+            self.click(*at)
+        self.settle()
+
+    def settle(self):
+        self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60))))")
+
+    def until(self, code, seconds=20):
+        end = time.time() + seconds
+        while time.time() < end:
+            if self.run(code):
+                return True
+            time.sleep(0.1)
+        return False
+
+    def state(self):
+        return self.room("getState()")
+
+    def message(self):
+        return self.run(f"{PART}('.message').hidden ? '' : {PART}('.message').textContent")
+
+    def shot(self, name):
+        if shots:
+            os.makedirs(shots, exist_ok=True)
+            self.screenshot(f"{shots}/{name}.png")
+
+
+def reference(path, *options):
+    subprocess.run(["retex-combine", "-q", f"{work}/room.exr", *options, "-o", path], check=True)
+
+
+def compare(page, least, name, placed=""):
+    """name: the textures of Floor and Wall, or None."""
+    options = []
+    for target, texture in zip(("Floor", "Wall"), name):
+        page.put(target, texture)
+        if texture:
+            options += ["--texture", f"{target}={work}/{texture}"]
+    page.save(f"{work}/canvas.png")
+    reference(f"{work}/combined.png", *options)
+    decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+    print(f"# {name}: {decibels:.2f} dB")
+    result(decibels >= least, f"canvas and retex-combine: {' and '.join(str(x) for x in name)}")
+
+
+def check_pictures(page):
+    compare(page, 38, (None, None))
+    for i, texture in enumerate(textures):
+        compare(page, 38, (f"textures/{texture}.jpg", None) if i % 2 else (None, f"textures/{texture}.jpg"))
+    for i in range(0, len(textures), 2):
+        compare(page, 38, (f"textures/{textures[i]}.jpg", f"textures/{textures[i + 1]}.jpg"))
+    compare(page, 38, ("large.jpg", None))
+    begin = page.run("performance.now()")
+    for i in range(4):
+        page.put("Floor", f"textures/{textures[i]}.jpg")
+        page.room("toBlob().then(() => 1)")
+    print(f"# a swap: {(page.run('performance.now()') - begin) / 4:.0f} ms, with Chromium's software renderer")
+
+
+def set_slider(page, name, touch, end=0.75):
+    """Drag a slider from its middle, or tap on it."""
+    page.run(f"{PART}('[data-set={name}]').scrollIntoView({{block: 'nearest'}})")
+    x, y = page.middle(f"[data-set={name}]")
+    width = page.run(f"{PART}('[data-set={name}]').offsetWidth")
+    if touch:
+        page.tap([(x, y), (x + width * 0.1, y), (x + width * (end - 0.5), y)])
+    else:
+        page.drag(x, y, x + width * (end - 0.5), y)
+    page.settle()
+
+
+def check_controls(page, touch):
+    how = "touch" if touch else "mouse"
+    page.press(".targets button:first-child", touch)
+    result(page.room("selected") == 0, f"{how}: a surface is chosen")
+    page.press(".swatch:nth-child(2)", touch)
+    result(page.until(f"!!{ROOM}.getState().textures.Floor"), f"{how}: an offered texture is put on it")
+    page.settle()
+    for name, key in (("size", "scale"), ("rotate", "rotate"), ("right", "offset"), ("up", "offset")):
+        before = page.state()["textures"]["Floor"][key]
+        set_slider(page, name, touch)
+        result(page.state()["textures"]["Floor"][key] != before, f"{how}: {name}")
+    for name in ("exposure", "warmth"):
+        set_slider(page, name, touch)
+        result(page.state()["light"][name] > 0.2, f"{how}: {name}")
+    page.press("[data-do=original]", touch)
+    result(page.until(f"!{ROOM}.getState().textures.Floor"), f"{how}: back to the original")
+    page.press(".targets button:first-child", touch)
+    box = page.run(f"(() => {{ const r = {PART}('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; }})()")
+    wall = (box[0] + box[2] * 0.25, box[1] + box[3] * 0.3)
+    page.tap([wall]) if touch else page.click(*wall)
+    page.settle()
+    result(page.room("selected") == 1, f"{how}: pointing at the wall chooses it")
+    page.press("[data-do=in]", touch)
+    zoomed = page.room("zoom.times")
+    page.press("[data-do=out]", touch)
+    result(zoomed > 1.4 and page.room("zoom.times") == 1, f"{how}: zoom by buttons")
+    x, y = box[0] + box[2] / 2, box[1] + box[3] / 2
+    if touch:
+        page.tap([(x - 20, y), (x - 40, y), (x - 80, y)], [(x + 20, y), (x + 40, y), (x + 80, y)])
+    else:
+        page.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-300)
+    page.settle()
+    zoomed, before = page.room("zoom.times"), page.room("zoom.x")
+    page.tap([(x, y), (x + 20, y), (x + 40, y)]) if touch else page.drag(x, y, x + 40, y)
+    page.settle()
+    result(zoomed > 1.4 and page.room("zoom.x") != before, f"{how}: {'pinch' if touch else 'wheel'} and pan")
+    page.room("panTo(0, 0, 1)")
+    page.press("[data-do=compare]", touch)
+    x, y = page.middle(".split")
+    page.tap([(x, y), (x - 30, y), (x - 90, y)]) if touch else page.drag(x, y, x - 90, y)
+    page.settle()
+    result(float(page.run(f"{PART}('.split').value")) < 48, f"{how}: before and after")
+    page.shot(f"compare-{how}")
+    page.press("[data-do=compare]", touch)
+    page.press("[data-do=full]", touch)
+    full = page.until("!!document.fullscreenElement", 5)
+    page.run("document.exitFullscreen().catch(() => 0)")
+    result(full, f"{how}: full screen")
+    page.settle()
+    downloads = f"{work}/downloads-{how}"
+    os.makedirs(downloads, exist_ok=True)
+    page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=downloads)
+    page.press("[data-do=download]", touch)
+    end = time.time() + 20
+    while time.time() < end and "room.png" not in os.listdir(downloads):
+        time.sleep(0.1)
+    result("room.png" in os.listdir(downloads), f"{how}: download")
+    page.press("[data-do=link]", touch)
+    result(page.until("location.hash.startsWith('#room=')", 5), f"{how}: a link")
+    page.room("setLight({exposure: 0, warmth: 0})")
+
+
+def check_keyboard(page):
+    """Every control is reached by Tab; then each is worked by keys."""
+    page.run("document.activeElement.blur()")
+    seen, focused = [], f"(({ROOM}.shadowRoot.activeElement || {{dataset: {{}}}}))"
+    page.put("Floor", "textures/brick.jpg")
+    page.room("select('Floor')")
+    for _ in range(60):
+        page.key("Tab", 9)
+        seen.append(page.run(f"(e => e.dataset.do || e.dataset.set || e.className || e.textContent)({focused})"))
+    wanted = {"stage", "compare", "out", "in", "full", "download", "link", "Floor", "Wall", "swatch", "file", "color",
+              "original", "size", "rotate", "right", "up", "tint", "exposure", "warmth"}
+    result(wanted <= set(seen), f"keyboard: Tab reaches every control{' but ' if wanted - set(seen) else ''}"
+           f"{', '.join(sorted(wanted - set(seen)))}")
+
+    def on(selector, *keys):
+        page.run(f"{PART}({json.dumps(selector)}).focus()")
+        for key in keys:
+            page.key(*key)
+        page.settle()
+    enter, space, right = ("Enter", 13, "\r"), (" ", 32, " "), ("ArrowRight", 39)
+    on(".targets button:nth-child(2)", enter)
+    result(page.room("selected") == 1, "keyboard: a surface is chosen")
+    on(".swatch:nth-child(3)", space)
+    result(page.until(f"!!{ROOM}.getState().textures.Wall"), "keyboard: an offered texture is put on it")
+    for name in ("size", "rotate", "right", "up", "exposure", "warmth"):
+        before = json.dumps(page.state())
+        on(f"[data-set={name}]", right, right)
+        result(json.dumps(page.state()) != before, f"keyboard: {name}")
+    on(".stage", ("+", 187, "+"), ("+", 187, "+"), right)
+    result(page.room("zoom.times") > 2 and page.room("zoom.x") < 0, "keyboard: zoom and pan")
+    on(".stage", ("0", 48, "0"))
+    result(page.room("zoom.times") == 1, "keyboard: the whole picture again")
+    on("[data-do=compare]", enter)
+    before = float(page.run(f"{PART}('.split').value"))
+    on(".split", ("ArrowLeft", 37), ("ArrowLeft", 37))
+    result(float(page.run(f"{PART}('.split').value")) == before - 2, "keyboard: before and after")
+    on("[data-do=compare]", enter)
+    on("[data-do=original]", enter)
+    result(page.until(f"!{ROOM}.getState().textures.Wall"), "keyboard: back to the original")
+    tree = page.call("Accessibility.getFullAXTree")["nodes"]
+    bare = [n["role"]["value"] for n in tree if n.get("role", {}).get("value") in ("button", "slider", "ColorWell", "image")
+            and not n.get("ignored") and not n.get("name", {}).get("value")]
+    result(not bare, f"screen readers: every control has a name {bare or ''}")
+    spoken = page.run(f"{PART}('canvas').getAttribute('aria-label')")
+    result("brick" in spoken and "Wall: Original" in spoken, "screen readers: the picture says what is on it")
+
+
+def check_files(page):
+    node = page.call("Runtime.evaluate", expression=f"{PART}('input[type=file]')")["result"]["objectId"]
+    page.room("select('Floor')")
+    page.call("DOM.setFileInputFiles", files=[f"{work}/textures/damask.jpg"], objectId=node)
+    result(page.until(f"{ROOM}.textures[0].label === 'damask.jpg'"), "a picture of one's own, chosen")
+    page.run(f"""(async () => {{
+        const data = new DataTransfer(), r = {PART}('canvas').getBoundingClientRect();
+        data.items.add(new File([await (await fetch('{url}textures/fans.jpg')).blob()], 'mine.jpg', {{type: 'image/jpeg'}}));
+        {PART}('.stage').dispatchEvent(new DragEvent('drop', {{dataTransfer: data, clientX: r.x + r.width / 4,
+            clientY: r.y + r.height * 0.3, bubbles: true, cancelable: true}}));
+    }})()""")
+    result(page.until(f"{ROOM}.textures[1].label === 'mine.jpg'"), "a picture of one's own, dropped on the wall")
+    page.room("setTexture('Wall', new Blob(['no picture'])).catch(e => { window.said = e.message; })")
+    result("no picture" in page.run("window.said"), "a file that is no picture is refused with words")
+
+
+def check_link(page):
+    page.put("Floor", "textures/walnut-herringbone.jpg", "{scale: [2, 3], rotate: 20, offset: [0.1, 0.2], tint: '#ffe0c0'}")
+    page.room("setTexture('Wall', 'rgb(0.2,0.3,0.7)')")
+    page.room("setLight({exposure: 0.3, warmth: 0.2})")
+    state, link = page.state(), page.room("link")
+    page.save(f"{work}/before.png")
+    page.open(link)
+    page.save(f"{work}/after.png")
+    result(page.state() == state and psnr(f"{work}/before.png", f"{work}/after.png") > 60, "a link restores the room")
+
+
+def check_stages(page):
+    """While the light of no target is held back, the first target can be changed, and looks nearly as it will."""
+    held.add("/indep-")
+    page.open(url + "page.html", "new Promise(done => (function look() { "
+              f"{ROOM}.renderer && {ROOM}.renderer.canEdit({ROOM}.selected) ? done() : setTimeout(look, 50); }})())")
+    first = page.room("targets")[page.room("selected")]
+    page.put(first, "textures/terrazzo.jpg")
+    early = not page.room("renderer.complete")
+    page.save(f"{work}/early.png")
+    released.set()
+    page.room("complete")
+    page.save(f"{work}/late.png")
+    decibels = psnr(f"{work}/early.png", f"{work}/late.png")
+    print(f"# before all is loaded: {decibels:.2f} dB")
+    result(early and decibels > 33, "the first target can be changed before all is loaded")
+    held.clear()
+
+
+def check_faults(page):
+    def fault(name, change, *words):
+        folder = f"{work}/broken"
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(f"{work}/room", folder)
+        change(folder)
+        page.open(url + "broken/index.html")
+        said = page.message()
+        result(all(w in said for w in words), f"{name}: {said or 'nothing is said'}")
+
+    def write(folder, file, change):
+        with open(f"{folder}/{file}", "rb") as f:
+            data = f.read()
+        with open(f"{folder}/{file}", "wb") as f:
+            f.write(change(data))
+    files = sorted(os.listdir(f"{work}/room"))
+    binary, indep, picture, reduced = (next(f for f in files if part in f)
+                                       for part in ("sharp1-", "indep-", "picture-", "reduced-"))
+    for file in (binary, indep, picture, "room.json"):
+        fault(f"{file} missing", lambda d: os.remove(f"{d}/{file}"), file, "missing")
+    for file in (binary, reduced):
+        fault(f"{file} damaged", lambda d: write(d, file, lambda x: x[:500] + bytes([x[500] ^ 8]) + x[501:]), file, "damaged")
+        fault(f"{file} cut off", lambda d: write(d, file, lambda x: x[:-9]), file, "damaged")
+    fault("room.json cut off", lambda d: write(d, "room.json", lambda x: x[:-9]), "room.json", "damaged")
+    for before, after in ((b'"retex_web":1', b'"retex_web":2'), (b'"classes":', b'"klasses":'), (b'"mixture":0', b'"mixture":99')):
+        fault(f"room.json with {after.decode()}", lambda d: write(d, "room.json", lambda x: x.replace(before, after)), "room.json")
+    page.shot("broken")
+
+
+def check_no_webgl():
+    page = Page("--disable-3d-apis")
+    try:
+        page.size(1280, 800)
+        page.open(url + "page.html")
+        said = page.message()
+        seen = page.run(f"{PART}('img').naturalWidth") > 0 and not page.run(f"{PART}('img').hidden")
+        page.shot("no-webgl")
+        result("WebGL 2" in said and seen, f"without WebGL 2: the picture and {said or 'no word'}")
+    finally:
+        page.close()
+
+
+def main():
+    page = Page()
+    try:
+        page.size(1280, 800)
+        page.open(url + "page.html")
+        check_pictures(page)
+        page.shot("desktop")
+        check_controls(page, False)
+        check_keyboard(page)
+        check_files(page)
+        check_link(page)
+        page.size(390, 844, True)
+        page.open(url + "page.html")
+        page.shot("phone")
+        check_controls(page, True)
+        page.size(1280, 800)
+        check_stages(page)
+        bad = [e for e in page.events if e.get("method") == "Runtime.exceptionThrown"]
+        result(not bad, f"no script fails {bad or ''}")
+        page.call("Network.enable")
+        page.call("Network.setCacheDisabled", cacheDisabled=True)
+        check_faults(page)
+    finally:
+        page.close()
+    check_no_webgl()
+    print(f"1..{number}")
+
+
+main()
