@@ -1,4 +1,5 @@
 /* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
+#include "kept_textures.h"
 #include "texture_args.h"
 
 static const CliOption options[] = {
@@ -7,25 +8,32 @@ static const CliOption options[] = {
      "flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, repeat=straight|brick|half-drop|mirror, "
      "colorspace=NAME",
      1},
+    FRAMES_OPTION,
     {0},
 };
 
-static const char *parse(Cli *cli, TextureArgs *textures)
+typedef struct Job {
+    const char *set, *output;
+    TextureArgs textures;
+    FrameRange frames;
+} Job;
+
+static void parse(Cli *cli, Job *job)
 {
-    const char *set = NULL;
     for (const CliOption *option; (option = cli_next(cli));) {
-        if (option != &cli_positional)
-            texture_args_add(cli, textures);
-        else if (set)
+        if (option != &cli_positional && strcmp(option->name, "frames") == 0)
+            frames_take(cli, option, &job->frames);
+        else if (option != &cli_positional)
+            texture_args_add(cli, &job->textures);
+        else if (job->set)
             cli_surplus(cli, "one set is enough");
         else
-            set = cli->value;
+            job->set = cli->value;
     }
-    if (!set)
+    if (!job->set)
         cli_die(cli, "no set given; - is standard input");
-    if (!textures->count)
+    if (!job->textures.count)
         cli_die(cli, "no texture given; expected --texture NAME=IMAGE");
-    return set;
 }
 
 /* Samples are always OpenEXR. Refuse names of other formats, which suggest that retex-combine is meant. */
@@ -37,9 +45,89 @@ static void check_ending(const Cli *cli, const char *output)
             cli_die(cli, "%s: samples are an OpenEXR file, .exr; pictures are made by retex-combine", output);
 }
 
+/* Before anything is read: check the files of a frame, or the only ones. */
+static void check_files(const Cli *cli, const Job *job)
+{
+    RetexError err = {0};
+    cli_input(cli, job->set, "a set, as from retex-render");
+    cli_reads(cli, "the set", job->set);
+    texture_args_reads(cli, job->textures.specs, job->textures.count);
+    cli_writes(cli, "the output", job->output);
+    check_ending(cli, job->output);
+    if (retex_set_write_check(job->output, &err))
+        cli_fail(cli, &err);
+}
+
+static void make_samples(const Cli *cli, const Job *job, KeptTextures *kept)
+{
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL, *earlier = NULL;
+    RetexError err = {0};
+    const RetexTextureSpec *specs = job->textures.specs;
+    const int count = job->textures.count;
+    double began = retex_clock_seconds();
+    if (retex_set_open(job->set, &set, &earlier, cli->threads, &err))
+        cli_fail(cli, &err);
+    if (!set)
+        cli_die(cli, "%s holds samples but no set", job->set);
+    cli_check_pixels(cli, set, job->set);
+    double read = retex_clock_seconds();
+    if (kept_textures_load(kept, set, specs, count, cli->threads, &err) ||
+        retex_sample_textures(&samples, set, kept->textures, specs, count, job->output, cli->threads, &err))
+        cli_fail(cli, &err);
+    if (earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
+        if (retex_samples_merge(earlier, samples, cli->threads, &err))
+            cli_fail(cli, &err);
+        retex_samples_close(&samples);
+        samples = earlier;
+    }
+    double sampled = retex_clock_seconds();
+    RetexStoreParams store = RETEX_STORE_INIT;
+    int to_pipe = strcmp(job->output, "-") == 0;
+    if (retex_set_write(to_pipe ? set : NULL, samples, job->output, &store, cli->threads, &err))
+        cli_fail(cli, &err);
+    double written = retex_clock_seconds();
+
+    char text[2048];
+    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(samples, text, sizeof text), set->width, set->height,
+             written - began);
+    cli_detail(cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+}
+
+static void check_frame_names(const Cli *cli, const Job *job)
+{
+    frames_check_count(cli, &job->frames);
+    frames_check_name(cli, &job->frames, "the set", job->set, 0);
+    frames_check_name(cli, &job->frames, "the output", job->output, 1);
+    texture_args_check_frames(cli, &job->frames, "--texture", job->textures.specs, job->textures.count);
+}
+
+/* Check all frames, or make them. */
+static void each_frame(Cli *cli, const Job *all, KeptTextures *kept /* NULL = check */)
+{
+    FOR_FRAMES(number, all->frames)
+    {
+        char *set = frames_name(cli, all->set, number), *output = frames_name(cli, all->output, number);
+        Job job = *all;
+        job.set = set, job.output = output;
+        texture_args_set_frame(cli, number, job.textures.specs, job.textures.count);
+        cli_set_frame(cli, number);
+        if (kept)
+            make_samples(cli, &job, kept);
+        else
+            check_files(cli, &job);
+        free(set);
+        free(output);
+    }
+    cli_set_frame(cli, -1);
+}
+
 int main(int argc, char **argv)
 {
-    static TextureArgs textures;
+    static Job job;
+    static KeptTextures kept;
     Cli cli = {.tool = "retex-sample",
                .usage = "SET --texture[:opts] NAME=IMAGE ... [-o SAMPLES]",
                .about = "Filter new textures at a set's footprints, for retex-combine.",
@@ -47,45 +135,16 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
-    const char *input = parse(&cli, &textures), *output = cli_output(&cli);
-    RetexSet *set = NULL;
-    RetexSamples *samples = NULL, *earlier = NULL;
-    RetexError err = {0};
-
-    cli_input(&cli, input, "a set, as from retex-render");
-    cli_reads(&cli, "the set", input);
-    texture_args_reads(&cli, textures.specs, textures.count);
-    cli_writes(&cli, "the output", output);
-    check_ending(&cli, output);
-    if (retex_set_write_check(output, &err))
-        cli_fail(&cli, &err);
-    double began = retex_clock_seconds();
-    if (retex_set_open(input, &set, &earlier, cli.threads, &err))
-        cli_fail(&cli, &err);
-    if (!set)
-        cli_die(&cli, "%s holds samples but no set", input);
-    cli_check_pixels(&cli, set, input);
-    double read = retex_clock_seconds();
-    if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
-        cli_fail(&cli, &err);
-    if (earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
-        if (retex_samples_merge(earlier, samples, cli.threads, &err))
-            cli_fail(&cli, &err);
-        retex_samples_close(&samples);
-        samples = earlier;
+    parse(&cli, &job);
+    job.output = cli_output(&cli);
+    if (job.frames.step) {
+        check_frame_names(&cli, &job);
+        each_frame(&cli, &job, NULL);
+        each_frame(&cli, &job, &kept);
+    } else {
+        check_files(&cli, &job);
+        make_samples(&cli, &job, &kept);
     }
-    double sampled = retex_clock_seconds();
-    RetexStoreParams store = RETEX_STORE_INIT;
-    int to_pipe = strcmp(output, "-") == 0;
-    if (retex_set_write(to_pipe ? set : NULL, samples, output, &store, cli.threads, &err))
-        cli_fail(&cli, &err);
-    double written = retex_clock_seconds();
-
-    char text[2048];
-    cli_info(&cli, "%s: %d x %d, %.2f s", texture_args_describe(samples, text, sizeof text), set->width, set->height,
-             written - began);
-    cli_detail(&cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
-    retex_samples_close(&samples);
-    retex_set_close(&set);
+    kept_textures_close(&kept);
     return cli_close(&cli, CLI_OK);
 }

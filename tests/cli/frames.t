@@ -205,3 +205,12 @@ $ cd c; retex-combine -q set-%02d.exr --frames 1-3 -o a.png; retex-combine -q se
 ! retex-combine: error: --dry-run needs a table of pictures: --batch
 ! retex-combine: error: frame 1: no target is called 'z'; the set has x
 = 2
+
+# retex-sample by frame: as frame by frame.
+$ cd c; for k in 1 3; do retex-sample -q set-0$k.exr --texture:width=.7 x=t-1.png -o w-$k.exr; done; retex-sample -q set-%02d.exr --frames 1-3x2 --texture:width=.7 x=t-1.png -o v-%d.exr; for k in 1 3; do cmp v-$k.exr w-$k.exr; done; retex-sample -q set-%02d.exr --frames 1-3 --texture x=t-%d.png -o u-%d.exr; ls u-*; retex-sample -q set-%02d.exr --frames 1-3 --texture x=t-%d.png -o u.exr; retex-sample -q set-%02d.exr --frames 1-3 --texture x=t-%d.png -o t-%d.png; retex-sample -q set-%02d.exr --frames 1-3 --texture x=t-%d.png -o set-%02d.exr
+> u-1.exr
+! retex-sample: error: frame 2: cannot read set-02.exr: No such file or directory
+! retex-sample: error: the output: 3 frames need a number in the name, as name-%04d.exr, not `u.exr`
+! retex-sample: error: frame 1: t-1.png: the output would replace the texture
+! retex-sample: error: frame 1: set-01.exr: the output would replace the set
+= 2

@@ -17,6 +17,7 @@ typedef struct SampleWork {
     int nspecs;
     RetexSamples *samples;
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
+    int borrowed;                              /* the textures are the caller's */
     RetexImageTransfer *edited;                /* footprints of edited targets */
     int nedited;
 } SampleWork;
@@ -129,7 +130,9 @@ static int check_loaded(const SampleWork *work, RetexError *err)
 
 static int open_work(SampleWork *work, int nthreads, RetexError *err)
 {
-    int code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
+    int code = RETEX_OK;
+    if (!work->borrowed)
+        code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
     if (!code)
         code = create_samples(work, err);
     return code ? code : list_edited(work, err);
@@ -141,7 +144,8 @@ static int close_work(SampleWork *work, RetexSamples **samples, int code)
     if (code)
         retex_samples_close(&work->samples);
     *samples = work->samples;
-    retex_textures_close(work->textures);
+    if (!work->borrowed)
+        retex_textures_close(work->textures);
     free(work->edited);
     return code;
 }
@@ -158,14 +162,27 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
     return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
+static int sample_to_store(SampleWork *work, RetexSamples **samples, const char *near, int nthreads, RetexError *err)
+{
+    int code = open_work(work, nthreads, err);
+    if (!code)
+        code = store_images(work, near, err);
+    return close_work(work, samples, code ? code : sample_all(work, nthreads, err));
+}
+
 int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
                           const char *near, int nthreads, RetexError *err)
 {
     SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    int code = open_work(&work, nthreads, err);
-    if (!code)
-        code = store_images(&work, near, err);
-    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
+    return sample_to_store(&work, samples, near, nthreads, err);
+}
+
+int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                          const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads, RetexError *err)
+{
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs, .borrowed = 1};
+    memcpy(work.textures, textures, sizeof work.textures);
+    return sample_to_store(&work, samples, near, nthreads, err);
 }
 
 /* ---- more of them ---- */

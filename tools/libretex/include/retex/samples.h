@@ -48,6 +48,10 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
 int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
                           const char *near, int nthreads, RetexError *err);
 
+/* The same with textures that were loaded already, by target, of these specs: see retex_textures_load. */
+int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                          const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads, RetexError *err);
+
 /* Move the images of `more` into samples, where they replace those of the same footprints; both must be of the same
  * set. `more` keeps no image and is still the caller's to close. On failure both are as they were. */
 int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads, RetexError *err);
