@@ -53,7 +53,7 @@ void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
     else if (!source && !any_surface(scene, emits))
         why = scene->nlights ? "its light sources are black, nothing shines and there is no sky"
                              : "no light source, nothing that shines and no sky";
-    if (!why || !sdl->message || sky_shines(scene) || scene->fogs || scene->rainbows)
+    if (!why || !sdl->message || sky_shines(scene) || scene->fogs || scene->rainbows || scene->has_media)
         return;
     if (scene->nprimitives && sdl->ambient <= 0 && !rgb_is_black(scene->ambient_light) &&
         any_surface(scene, is_ambient))

@@ -525,6 +525,12 @@ static int sample_emitter(const Lights *lights, const LightPick *pick, Vec3 posi
     return 1;
 }
 
+const Light *lights_picked_source(const Lights *lights, const LightPick *pick)
+{
+    const Entry *e = pick->entry >= 0 ? &lights->entries[pick->entry] : NULL;
+    return e && e->kind == ENTRY_SOURCE ? &lights->scene->lights[e->index] : NULL;
+}
+
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample)
 {

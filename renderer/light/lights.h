@@ -46,6 +46,8 @@ typedef struct LightPick {
 /* Sample light for a point: u_pick chooses the light, u_part the part of it (of many lights, both together), u1 and u2
  * the point on it. Returns 0 where no light reaches the point. */
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part);
+/* The light source that was picked; NULL: a light of another kind, or none. */
+const Light *lights_picked_source(const Lights *lights, const LightPick *pick);
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
 /* The picked face of a mesh, if its radiance is uniform and rays of paths see it; else NULL. Such a face is sampled by
@@ -85,6 +87,11 @@ float environment_mean(const Environment *environment); /* mean luminance over t
 
 /* source.c: one of POV-Ray's light sources seen from a point: direction, distance, irradiance on a facing surface. */
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance);
+/* The most irradiance that it may give on a ray from its tmin on, up to a distance; as if spots shone everywhere. */
+float source_most_irradiance(const Light *light, const Ray *ray, double distance);
+/* The part of a ray, from its tmin on and up to a distance, where the light may shine, by its cone or cylinder.
+ * Returns 0 where there is none. */
+int source_lit_part(const Light *light, const Ray *ray, double distance, double *begin, double *end);
 int source_is_beam(const Light *light); /* parallel light, that comes from infinitely far */
 /* Whether a ray meets a light source that has caustics: a small sphere, the plane of an area_light, a small cone of
  * directions for beams. All such rays together have source_irradiance where they come from. Fills what source_sample

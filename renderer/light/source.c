@@ -129,6 +129,59 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
 }
 
+/* The part of a line, from a point seen from the light, that lies in its cone about an axis. */
+static int part_in_cone(Vec3 from, Vec3 direction, Vec3 axis, double cosine, double *begin, double *end)
+{
+    const double c2 = cosine * cosine, f = vec_dot(from, axis), d = vec_dot(direction, axis);
+    const double a = d * d - c2, b = f * d - c2 * vec_dot(from, direction), c = f * f - c2 * vec_dot(from, from);
+    const double discriminant = b * b - a * c, root = sqrt(fmax(discriminant, 0));
+    const double one = (-b - root) / a, two = (-b + root) / a, low = fmin(one, two), high = fmax(one, two);
+    if (!isfinite(one + two))
+        return 1;
+    if (a < 0) { /* between the roots, where it is the cone's own half */
+        *begin = fmax(*begin, low), *end = fmin(*end, high);
+        return discriminant > 0 && f + d * (low + high) / 2 > 0;
+    }
+    if (discriminant > 0)
+        *begin = d > 0 ? fmax(*begin, high) : *begin, *end = d > 0 ? *end : fmin(*end, low);
+    return 1;
+}
+
+static int part_in_cylinder(Vec3 from, Vec3 direction, Vec3 axis, double radius, double *begin, double *end)
+{
+    const Vec3 f = vec_mad(from, axis, -vec_dot(from, axis)), d = vec_mad(direction, axis, -vec_dot(direction, axis));
+    const double a = vec_dot(d, d), b = vec_dot(f, d), c = vec_dot(f, f) - radius * radius,
+                 discriminant = b * b - a * c;
+    if (a < 1e-12)
+        return c < 0;
+    *begin = fmax(*begin, (-b - sqrt(fmax(discriminant, 0))) / a);
+    *end = fmin(*end, (-b + sqrt(fmax(discriminant, 0))) / a);
+    return discriminant > 0;
+}
+
+int source_lit_part(const Light *light, const Ray *ray, double distance, double *begin, double *end)
+{
+    const Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
+    const Vec3 from = vec_sub(vec_mad(ray->origin, ray->direction, ray->tmin), light->location);
+    int found = 1;
+    *begin = 0, *end = distance;
+    if (light->kind == LIGHT_CYLINDER)
+        found = part_in_cylinder(from, ray->direction, axis, light->falloff, begin, end);
+    else if (light->kind == LIGHT_SPOT && light->falloff > 0 && light->falloff < 89 && !light->area_illumination)
+        found = part_in_cone(from, ray->direction, axis, cos(light->falloff * PI / 180), begin, end);
+    return found && *begin < *end;
+}
+
+float source_most_irradiance(const Light *light, const Ray *ray, double distance)
+{
+    const double strength = PI * fmaxf(0, rgb_luminance(light->color));
+    if (light->fade_power <= 0 || source_is_beam(light))
+        return (float)strength;
+    const Vec3 to = vec_sub(light->location, vec_mad(ray->origin, ray->direction, ray->tmin));
+    const double along = fmin(fmax(vec_dot(to, ray->direction), 0), distance);
+    return (float)(strength * distance_fade(light, vec_length(vec_mad(to, ray->direction, -along))));
+}
+
 /* The shadow ray ends where it first meets the object that light is projected through: what is beyond throws no
  * shadow. Returns 0 where it does not meet it. */
 static int project(const Light *light, Vec3 position, LightSample *sample)

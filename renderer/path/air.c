@@ -1,4 +1,4 @@
-/* What is between surfaces: fog and rainbows. */
+/* What is between surfaces: what a ray is in, fog and rainbows. */
 #include "medium/fog.h"
 #include "medium/rainbow.h"
 #include "path/internal.h"
@@ -23,11 +23,13 @@ static int is_inside(const Primitive *p, Vec3 at)
 static void enter(Media *media, const Primitive *p)
 {
     media->solids += p->is_solid;
+    if (p->interior && p->interior->media && media->nfilled < FILLED_MAX)
+        media->filled[media->nfilled++] = p->interior;
 }
 
 Media media_at(const Scene *scene, Vec3 at)
 {
-    const int has_air = scene->fogs || scene->rainbows;
+    const int has_air = scene->fogs || scene->rainbows || scene->has_media;
     Media media = {.count = 0};
     for (int k = 0; has_air && k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
@@ -53,14 +55,14 @@ static int pass(PathWorker *w, Path *path, const char *what, Rgb passing, Rgb ow
     return path_scale(w, path, passing);
 }
 
-int path_pass_fog(PathWorker *w, Path *path, const Ray *ray, double distance)
+static int pass_fog(PathWorker *w, Path *path, const Ray *ray, double distance)
 {
     Rgb own;
     const Rgb passing = fog_transmittance(w->context->scene, ray, distance, &own);
     return pass(w, path, "fog", passing, own);
 }
 
-int path_pass_rainbows(PathWorker *w, Path *path, const Ray *ray, double distance)
+static int pass_rainbows(PathWorker *w, Path *path, const Ray *ray, double distance)
 {
     const Sampler sampler = {w->key[path->half], path->sample};
     const unsigned segment = (unsigned)(path->segments + path->straight) % JITTER_SEGMENTS;
@@ -71,10 +73,26 @@ int path_pass_rainbows(PathWorker *w, Path *path, const Ray *ray, double distanc
            pass(w, path, "rainbow", passing, own);
 }
 
-Rgb air_transmittance(const PathContext *c, const Media *media, const Ray *ray, double distance, const Light *source)
+int path_pass_air(PathWorker *w, Path *path, const Ray *ray, const Hit *hit)
 {
-    Rgb own;
-    if (media->solids > 0 || !c->scene->fogs || (source && !source->dimmed_by_air))
-        return rgb_grey(1);
-    return fog_transmittance(c->scene, ray, distance, &own);
+    const PathContext *c = w->context;
+    const double distance = hit->primitive < 0 ? INFINITY : hit->t - ray->tmin;
+    if (path->media.solids > 0 || !path_is_seen(c, path, ray))
+        return 1;
+    if (c->scene->fogs && !pass_fog(w, path, ray, distance))
+        return 0;
+    return !c->scene->rainbows || path->pdf > 0 || pass_rainbows(w, path, ray, distance);
+}
+
+Rgb air_transmittance(PathWorker *w, const Path *path, const Media *media, const Ray *ray, double distance,
+                      const Light *source)
+{
+    const Scene *scene = w->context->scene;
+    const int is_dimmed = !source || source->dimmed_by_air;
+    Rgb own, passing = rgb_grey(1);
+    if (media->solids > 0)
+        return passing;
+    if (scene->fogs && is_dimmed)
+        passing = fog_transmittance(scene, ray, distance, &own);
+    return scene->has_media ? rgb_mul(passing, media_transmittance(w, path, media, ray, distance, is_dimmed)) : passing;
 }

@@ -11,14 +11,15 @@
 #include "path/internal.h"
 
 /* Contributions at a vertex: of an emitter that the path meets, and of direct light. */
-#define VERTEX_LIGHTS_MAX 3 /* of fog too; and light sources that throw caustics */
+#define VERTEX_LIGHTS_MAX 2 /* and light sources that throw caustics */
 
 /* Memory for the most contributions that there may be, of which little is ever touched. */
 int path_worker_open(PathWorker *w, RetexError *err)
 {
     const PathContext *c = w->context;
+    const int of_air = c->scene->fogs || c->scene->has_media ? 4 : 0; /* of each segment */
     size_t lights = (size_t)PATHS_MAX * (size_t)(c->max_depth + STRAIGHT_MAX + 1) *
-                    (size_t)(VERTEX_LIGHTS_MAX + c->caustic_sources);
+                    (size_t)(VERTEX_LIGHTS_MAX + of_air + c->caustic_sources);
     if (c->split)
         w->hits = aligned_alloc(sizeof *w->hits, (size_t)PATHS_MAX * PATH_HITS_MAX * sizeof *w->hits);
     if (w->control) {
@@ -176,7 +177,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->wavelength = -1;
     path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){.position = ray->origin};
     path->segments = 1, path->straight = 0, path->sharp = path->delta = 1;
-    path->media = c->camera, path->kind = RAY_CAMERA;
+    path->media = c->camera, path->media_weight = splat(1), path->kind = RAY_CAMERA;
     path->specular = 0, path->lit_group = NULL;
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;

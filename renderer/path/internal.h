@@ -3,6 +3,7 @@
 #define RENDERER_PATH_INTERNAL_H
 
 #include "base/color4.h"
+#include "camera/camera.h"
 #include "path/leaves.h"
 #include "path/path.h"
 
@@ -45,6 +46,7 @@ typedef struct Path {
     int specular;                /* what bent it since it left a surface that scatters widely, see SPECULAR_… */
     const LightGroup *lit_group; /* of that surface: which light sources shine on it */
     Media media;
+    Float4 media_weight;         /* of what media did to throughput, the distances of scattering are chosen by it */
     double light[3];             /* sum of its contributions */
     int first_light, last_light; /* of them in the worker's log, or -1 */
     /* In sets: */
@@ -127,15 +129,31 @@ static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
     return !c->split || s->surface.target < 0;
 }
 
-/* ---- air.c: fog and rainbows ---- */
+/* ---- air.c: what is between surfaces ---- */
 
-/* Fog over a distance along the ray: its own light, and what it does to throughput. Returns path_is_alive. */
-int path_pass_fog(PathWorker *worker, Path *path, const Ray *ray, double distance);
-/* The same of rainbows, which only rays see that no direction was sampled for. */
-int path_pass_rainbows(PathWorker *worker, Path *path, const Ray *ray, double distance);
+/* Whether what lies between is part of what the ray sees: not before white first hits, of which it is asked what comes
+ * to them. */
+static inline int path_is_seen(const PathContext *c, const Path *path, const Ray *ray)
+{
+    return camera_ray_exists(ray) && !(c->white && path->segments + path->straight == 1);
+}
+/* Fog along the ray, up to what it hits: its own light, and what it does to throughput. The same of rainbows, which
+ * only rays see that no direction was sampled for. Returns path_is_alive. */
+int path_pass_air(PathWorker *worker, Path *path, const Ray *ray, const Hit *hit);
 /* What a shadow ray's light is multiplied by over a distance; source: NULL for other lights. */
-Rgb air_transmittance(const PathContext *context, const Media *media, const Ray *ray, double distance,
+Rgb air_transmittance(PathWorker *worker, const Path *path, const Media *media, const Ray *ray, double distance,
                       const Light *source);
+
+/* ---- media_path.c: participating media ---- */
+
+typedef enum MediumEvent { MEDIUM_PASSED, MEDIUM_SCATTERED, MEDIUM_ENDED } MediumEvent;
+/* Media along the ray, up to what it hits: their emission, what they scatter of light sources, and what they do to
+ * throughput. Where the path is scattered on the way the ray is the next one. */
+MediumEvent path_cross_media(PathWorker *worker, Path *path, Ray *ray, const Hit *hit);
+
+/* media.c: of a shadow ray. with_air: what fills the air counts too. */
+Rgb media_transmittance(PathWorker *worker, const Path *path, const Media *media, const Ray *ray, double distance,
+                        int with_air);
 
 /* ---- shadow_ray.c: visibility ---- */
 
@@ -152,6 +170,10 @@ float path_pdf_of_light(const PathContext *context, const Ray *ray, RayKind kind
 /* ---- vertex.c: what is chosen at a surface ---- */
 
 LightSampleContext light_sample_context(const Shading *s);
+/* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */
+int light_factors(PathWorker *worker, const Path *path, int lane, LightSample *light, Factor *factors);
+/* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
+double shadow_ray_end(Vec3 position, const LightSample *light);
 /* Emitted radiance over albedo: only the opaque share of a surface emits. */
 Split surface_emission(const Shading *s);
 const CausticsCell *guide_cell(const PathContext *context, const Shading *s);

@@ -187,6 +187,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
     Vertex *v = &p->vertices[lane];
     p->matte[lane] = -1;
     w->segments++;
+    p->scatters[lane] = !w->context->has_air || path_pass_air(w, path, ray, hit);
     if (hit->primitive >= 0) {
         find_colors(w, path, v, ray, hit, &p->numbers[path->half], lane);
         if (!add_matte(w, p, lane)) {
@@ -198,7 +199,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
         }
     }
     observe_first_hit(w, path, v, ray, hit);
-    p->scatters[lane] = add_emission(w, path, v, ray, hit);
+    p->scatters[lane] = add_emission(w, path, v, ray, hit) && p->scatters[lane];
 }
 
 static void shade(PathWorker *w, Packet *p, const Hit *hits, int step)
@@ -309,7 +310,10 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
         w->key[path->half] = samplers[i].key;
         path_start(w, path, &rays[i], &samplers[i]);
     }
-    if (count == 1 && !w->context->matte) /* contributions of matte surfaces are rounded in another order */
+    if (w->context->scene->has_media)
+        for (int i = 0; i < count; i++)
+            w->draws = 0, trace_path(w, &wave.paths[i], rays[i]);
+    else if (count == 1 && !w->context->matte) /* contributions of matte surfaces are rounded in another order */
         trace_path(w, &wave.paths[0], rays[0]);
     else
         trace_wavefront(w, &wave);

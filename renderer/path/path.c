@@ -4,8 +4,7 @@
  * trace_path tells it from top to bottom, for one path. Most paths go by packet.c, which takes the same steps for many
  * paths of a pixel at once. */
 #include <string.h>
-#include "camera/camera.h"
-#include "path/internal.h"
+#include "path/media.h"
 #include "shade/dispersion.h"
 #include "shade/material.h"
 
@@ -105,22 +104,8 @@ static void add_sky(PathWorker *w, Path *path, Vec3 direction)
     path_add_light(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
-/* Of white first hits what comes to them is asked, not what is seen of them. */
-static int is_in_air(const PathContext *c, const Path *path, const Ray *ray)
-{
-    return path->media.solids <= 0 && camera_ray_exists(ray) && !(c->white && is_first_hit(path));
-}
-
 int add_emission(PathWorker *w, Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
 {
-    const Scene *scene = w->context->scene;
-    if ((scene->fogs || scene->rainbows) && is_in_air(w->context, path, ray)) {
-        const double distance = hit->primitive < 0 ? INFINITY : hit->t - ray->tmin;
-        if (scene->fogs && !path_pass_fog(w, path, ray, distance))
-            return 0;
-        if (scene->rainbows && path->pdf <= 0 && !path_pass_rainbows(w, path, ray, distance))
-            return 0;
-    }
     if (hit->primitive < 0) {
         if (camera_ray_exists(ray) && (!w->context->white || path->segments > 1))
             add_sky(w, path, ray->direction);
@@ -248,6 +233,25 @@ int survives_roulette(PathWorker *w, Path *path, float u)
     return 1;
 }
 
+/* ---- media ---- */
+
+/* First hits are told of where no path gets to as well. */
+static MediumEvent cross_media(PathWorker *w, Path *path, Ray *ray, const Hit *hit)
+{
+    const Ray before = *ray;
+    const int is_wanted = w->first_hits_wanted > 0 && is_first_hit(path);
+    MediumEvent event = path_cross_media(w, path, ray, hit);
+    if (event == MEDIUM_SCATTERED && !survives_roulette(w, path, media_draw(w, path)))
+        event = MEDIUM_ENDED;
+    if (is_wanted && event != MEDIUM_PASSED) {
+        Shading s = {.is_leaf = 0};
+        if (hit->primitive >= 0)
+            shading_at(&s, w->context->scene, w->variants, w->context->nvariants, &before, hit);
+        w->first_hits_wanted = w->first_hit(w->first_hit_context, &before, hit, &s);
+    }
+    return event;
+}
+
 /* ---- the path ---- */
 
 /* The order is that of PathIntegrator::Li in pbrt. */
@@ -260,9 +264,23 @@ void trace_path(PathWorker *w, Path *path, Ray ray)
     BsdfSample next;
     Hit hit;
     for (unsigned vertex = 0;; vertex++) {
-        /* Intersect the ray with the scene; find the colours and the BSDF of the surface. */
+        /* Intersect the ray with the scene. */
         w->segments++;
-        if (accel_intersect(c->accel, &ray, path->kind, &hit)) {
+        accel_intersect(c->accel, &ray, path->kind, &hit);
+
+        /* Add the light of fog and media on the way, which dim what lies behind. Media may scatter the path. */
+        if (c->has_air && !path_pass_air(w, path, &ray, &hit))
+            return;
+        if (c->scene->has_media) {
+            const MediumEvent event = cross_media(w, path, &ray, &hit);
+            if (event == MEDIUM_ENDED)
+                return;
+            if (event == MEDIUM_SCATTERED)
+                continue;
+        }
+
+        /* Find the colours and the BSDF of the surface. */
+        if (hit.primitive >= 0) {
             vertex_samples(&w->keys[path->half], w->key[path->half], samples, vertex, &numbers);
             surface_at(&v.s.surface, c->scene, &ray, &hit);
             find_colors(w, path, &v, &ray, &hit, &numbers, 0);

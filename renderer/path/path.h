@@ -12,13 +12,16 @@
 #define SHADOW_FACTORS_MAX 16 /* factors of targets on one shadow ray */
 #define LIGHT_FACTORS_MAX 8   /* of an emitter that is sampled: its own, and of layers above it that are targets */
 #define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
+#define FILLED_MAX 8          /* interiors with participating media that a path may be in at once */
 #define PATHS_MAX 128         /* that are traced side by side */
 
 /* What a ray is in. */
 typedef struct Media {
     const Interior *interiors[MEDIA_MAX]; /* those that fade light */
     int count;
-    int solids; /* how many things that are not hollow: fog is not in them */
+    int solids; /* how many things that are not hollow: neither fog nor media are in them */
+    const Interior *filled[FILLED_MAX]; /* those with participating media; the same one as often as it was entered */
+    int nfilled;
 } Media;
 
 typedef struct PathContext {
@@ -35,7 +38,9 @@ typedef struct PathContext {
     int caustic_sources; /* light sources that paths may meet, for they have caustics */
     int white;         /* first hits are white diffuse surfaces that do not emit */
     int has_no_shadow; /* some primitive throws no shadow: shadow rays and paths see different primitives */
+    int has_air;       /* the scene has fog or rainbows */
     Media camera;      /* what the camera is in */
+    double reach;      /* how far media of the air that vary from place to place are looked at */
     FILE *trace;       /* print every step, or NULL */
 } PathContext;
 
@@ -65,6 +70,7 @@ typedef struct PathWorker {
     PathHit *hits;                           /* of sets: memory for the hits of all paths of a packet */
     int nhits;
     ControlLog log; /* where there is a control film */
+    uint32_t draws; /* random numbers that the current path took in media */
     PixelKeys keys[2];
     uint32_t key[2]; /* of the sample numbers of the current paths, by half of the samples */
     long segments, shadow_rays;

@@ -23,6 +23,7 @@ enum {
     TEXTURE_VERTEX = 0, /* of the vertex itself */
     TEXTURE_LIGHT = 1,  /* of the emitter that is sampled */
     TEXTURE_SHADOW = 2, /* of the first surface on the shadow ray, and so on */
+    DIMENSION_MEDIA = 0x30000000, /* the same of distances and lights in media, some pairs for each segment */
     DIMENSION_JITTER = 0x3fff0000, /* u: of rainbows, one pair for each segment */
     JITTER_SEGMENTS = 0x100,
     DIMENSION_WAVELENGTH = 0x3fffffff, /* u: the path's wavelength, only where light is dispersed */

@@ -42,12 +42,29 @@ Rgb media_fade(const Media *media, double distance, const Surface *met)
     return in && media_find(media, in) < 0 ? rgb_mul(fade, fade_over(in, distance)) : fade;
 }
 
+static void cross_filled(Media *media, const Surface *surface)
+{
+    const Interior *in = surface->primitive->interior;
+    int k = media->nfilled - 1;
+    if (!surface->backside) {
+        if (media->nfilled < FILLED_MAX)
+            media->filled[media->nfilled++] = in;
+        return;
+    }
+    while (k >= 0 && media->filled[k] != in)
+        k--;
+    if (k >= 0)
+        media->filled[k] = media->filled[--media->nfilled];
+}
+
 /* A ray passes through a surface: it enters or leaves an interior. */
 void media_cross(Media *media, const Surface *surface)
 {
     const Interior *in = fading_interior(surface);
     if (surface->primitive->is_solid)
         media->solids += surface->backside ? -1 : 1;
+    if (surface->primitive->interior && surface->primitive->interior->media)
+        cross_filled(media, surface);
     if (!in)
         return;
     int k = media_find(media, in);
@@ -129,13 +146,14 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
 }
 
 /* What is between surfaces, over a distance up to one of them or NULL. */
-static void dim(const PathContext *c, const Media *media, const Ray *ray, double distance, const Surface *met,
-                const Light *source, Rgb *light)
+static void dim(PathWorker *w, const Path *path, const Media *media, const Ray *ray, double distance,
+                const Surface *met, const Light *source, Rgb *light)
 {
+    const Scene *scene = w->context->scene;
     if ((media->count > 0 || met) && isfinite(distance))
         *light = rgb_mul(*light, media_fade(media, distance, met));
-    if (c->scene->fogs)
-        *light = rgb_mul(*light, air_transmittance(c, media, ray, distance, source));
+    if (scene->fogs || scene->has_media)
+        *light = rgb_mul(*light, air_transmittance(w, path, media, ray, distance, source));
 }
 
 /* Follow a shadow ray through transparent surfaces, one after the other. */
@@ -146,7 +164,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
     Hit hit;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
         if (!accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) {
-            dim(c, media, &ray, ray.tmax - ray.tmin, NULL, source, to->light);
+            dim(w, path, media, &ray, ray.tmax - ray.tmin, NULL, source, to->light);
             return to->count;
         }
         Surface surface;
@@ -155,7 +173,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
         surface_at(&surface, c->scene, &ray, &hit);
         if (!pass_surface(w, path, &surface, k, vec_neg(ray.direction), source, to))
             return -1;
-        dim(c, media, &ray, hit.t - ray.tmin, &surface, source, to->light);
+        dim(w, path, media, &ray, hit.t - ray.tmin, &surface, source, to->light);
         media_cross(media, &surface);
         ray.tmin = hit.t; /* not a new ray from there: points on large triangles are good to float only */
     }
@@ -181,7 +199,7 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     if (t->visibility == VISIBILITY_TRANSPARENT)
         return trace_through_surfaces(w, path, t->ray, source, &media,
                                       &(ShadowFactors){factors, 0, most_factors, light});
-    dim(w->context, &media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
+    dim(w, path, &media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
     return 0;
 }
 

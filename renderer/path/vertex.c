@@ -13,8 +13,7 @@ Split surface_emission(const Shading *s)
     return (Split){{0, 0, 0}, rgb_mul(emission, rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b)))};
 }
 
-/* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */
-static int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
+int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
 {
     const PathContext *c = w->context;
     Rgb(*storage)[VARIANTS_MAX] = w->light_albedos[lane];
@@ -111,8 +110,7 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
     return 1;
 }
 
-/* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
-static double shadow_ray_end(Vec3 position, const LightSample *light)
+double shadow_ray_end(Vec3 position, const LightSample *light)
 {
     double distance = light->kind == LIGHT_SAMPLE_SOURCE ? light->shadow_distance : light->distance;
     if (!isfinite(distance))

@@ -107,6 +107,15 @@ void render_close(Render *r)
     accel_close(&r->accel);
 }
 
+/* Some way beyond all that is bounded. */
+static double media_reach(const Render *r)
+{
+    Vec3 low, high;
+    accel_bounds(r->accel, &low, &high);
+    const double size = vec_length(vec_sub(high, low));
+    return isfinite(size) ? fmax(1000, 32 * size) : 1000;
+}
+
 int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
 {
     *r = (Render){.scene = scene};
@@ -127,8 +136,11 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .most_hits = render_layout(&r->params)->most_hits(scene->ntargets),
                                .split = split,
                                .nvariants = 1,
+                               .has_air = scene->fogs || scene->rainbows,
                                .camera = media_at(scene, scene->camera.location),
                                .halves = 1};
+    if (!code)
+        r->context.reach = media_reach(r);
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;

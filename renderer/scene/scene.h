@@ -236,11 +236,32 @@ static inline int finish_is_sampled(const Finish *f)
     return !rgb_is_black(f->emission) && !(f->emission_of_ambient && rgb_max(f->emission) < 1);
 }
 
+typedef enum PhaseKind {
+    PHASE_ISOTROPIC = 1,     /* POV-Ray's numbers */
+    PHASE_MIE_HAZY = 2,
+    PHASE_MIE_MURKY = 3,
+    PHASE_RAYLEIGH = 4,
+    PHASE_HENYEY_GREENSTEIN = 5
+} PhaseKind;
+
+/* What fills space, per unit of length where all its densities are 1. */
+typedef struct Medium {
+    Rgb absorption, emission, scattering;
+    PhaseKind phase;
+    double eccentricity;     /* of Henyey and Greenstein's phase function, -1 to 1 */
+    double extinction;       /* share of the scattering that dims light; 1 in nature */
+    int ndensities;          /* those that vary; each multiplies */
+    const struct Pigment *const *densities;
+    Rgb most;                /* bound of their product */
+    const struct Medium *next;
+} Medium;
+
 typedef struct Interior {
     double ior;              /* default 1 */
     double dispersion;       /* ior of violet over that of red; 0 or 1: one ior for all colours */
     double fade_distance, fade_power;
     Rgb fade_color;
+    const Medium *media;     /* a list, or NULL */
     const IdentList *idents;
 } Interior;
 
@@ -418,6 +439,7 @@ typedef struct Light {
     int size1, size2;        /* lights along each axis */
     int circular, orient, jitter;
     int dimmed_by_air;       /* by fog and media of the scene, as media_attenuation says */
+    int passes_media;        /* 1: no medium scatters its light */
     int area_illumination;   /* 1: each light of the grid shines from its own place; 0: all from the middle, and only
                                 shadows are those of the grid */
     int shadowless;
@@ -531,6 +553,8 @@ typedef struct Scene {
     SkySphere *sky;          /* or NULL */
     Fog *fogs;               /* a list, or NULL */
     Rainbow *rainbows;       /* the same */
+    const Medium *media;     /* of the air: a list, or NULL */
+    int has_media;           /* there, or in something */
     int nprimitives, ncsgs, nprototypes, ninstances, nlights, nimages;
     Primitive *primitives;
     struct Csg **csgs;       /* trees over primitives, but for those of prototypes; shape/csg.h */

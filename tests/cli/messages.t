@@ -149,11 +149,10 @@ $ for x in 'sphere { 0, 1 texture { Oka } }' 'sphere { 0, 1 texture { oak } }' '
 = 2
 
 # A brace that is missing: where its opening one stands.
-$ for x in 'union { sphere { 0, 1 }' 'union {\n sphere { 0, 1 pigment { rgb 1 }\n box { 0, 1 }\n}' 'union {\n sphere { 0, 1 pigment { rgb 1 \n}\n box { 0, 1 }\n}' 'media {\n a { b c \n' '#declare A = texture {\n pigment { rgb 1\n#declare B = 1;\nsphere { 0, 1 }' '#declare F = function(x) {\n x + 1 \n sphere { 0, 1 }' '#declare A = array[2] {\n 1, 2\n sphere { 0, 1 }' 'mesh {\n triangle { x, y, z }\n sphere { 0, 1 }' 'sphere { 0, 1 texture { Oak }' 'sphere { 0, 1 box }' '#macro M() sphere { 0, 1\n#end\nM()\nbox { 0, 1 }'; do sh try "$x"; done
+$ for x in 'union { sphere { 0, 1 }' 'union {\n sphere { 0, 1 pigment { rgb 1 }\n box { 0, 1 }\n}' 'union {\n sphere { 0, 1 pigment { rgb 1 \n}\n box { 0, 1 }\n}' 'global_settings { radiosity {\n a { b c \n' '#declare A = texture {\n pigment { rgb 1\n#declare B = 1;\nsphere { 0, 1 }' '#declare F = function(x) {\n x + 1 \n sphere { 0, 1 }' '#declare A = array[2] {\n 1, 2\n sphere { 0, 1 }' 'mesh {\n triangle { x, y, z }\n sphere { 0, 1 }' 'sphere { 0, 1 texture { Oak }' 'sphere { 0, 1 box }' '#macro M() sphere { 0, 1\n#end\nM()\nbox { 0, 1 }'; do sh try "$x"; done
 ! retex-render: error: m.pov:10:1: expected an object modifier or }, found the end of the file; the `{` of line 9 is not closed
 ! retex-render: error: m.pov:11:2: expected an object modifier or }, found `box`; the `{` of line 10 is not closed
 ! retex-render: error: m.pov:12:2: expected an object modifier or }, found `box`; the `{` of line 10 is not closed
-! retex-render: m.pov:9: warning: `media` is not supported yet: the air is clear
 ! retex-render: error: m.pov:12:1: expected `}`, found the end of the file; the `{` of line 10 is not closed
 ! retex-render: error: m.pov:12:1: expected a colour, a pattern, a transform or the end of the pigment, found `sphere`; the `{` of line 10 is not closed
 ! retex-render: error: m.pov:11:2: expected `}`, found `sphere`; the `{` of line 9 is not closed

@@ -86,6 +86,12 @@ void *accept_ident(Sdl *sdl, ValueKind kind)
     return data;
 }
 
+void *accept_ident_of_word(Sdl *sdl, const char *word)
+{
+    const Value *value = peek_ident(sdl, VALUE_OTHER);
+    return value && value->word && strcmp(value->word, word) == 0 ? accept_ident(sdl, VALUE_OTHER) : NULL;
+}
+
 int is_float_start(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
@@ -164,7 +170,7 @@ static void set(Value *value, ValueKind kind, const void *data)
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
-    static const char *const words[] = {"density", "density_map", "media", "radiosity", NULL};
+    static const char *const words[] = {"radiosity", NULL};
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             skip_statement(sdl);
@@ -249,6 +255,25 @@ static int declare_same(Sdl *sdl, Value *value)
     }
 }
 
+static int declare_air(Sdl *sdl, Value *value)
+{
+    if (sdl_accept(sdl, "fog")) {
+        set(value, VALUE_OTHER, parse_fog(sdl));
+        value->word = "fog";
+    } else if (sdl_accept(sdl, "rainbow")) {
+        set(value, VALUE_OTHER, parse_rainbow(sdl));
+        value->word = "rainbow";
+    } else if (sdl_accept(sdl, "media")) {
+        set(value, VALUE_OTHER, parse_media(sdl));
+        value->word = "media";
+    } else if (sdl_accept(sdl, "density")) {
+        set(value, VALUE_OTHER, parse_density(sdl));
+        value->word = "density";
+    } else
+        return 0;
+    return 1;
+}
+
 static int declare(Sdl *sdl, Value *value)
 {
     if (declare_same(sdl, value) || declare_surface(sdl, value) || declare_map(sdl, value) ||
@@ -260,16 +285,8 @@ static int declare(Sdl *sdl, Value *value)
         set(value, VALUE_TRANSFORM, transform);
         return 1;
     }
-    if (sdl_accept(sdl, "fog")) {
-        set(value, VALUE_OTHER, parse_fog(sdl));
-        value->word = "fog";
+    if (declare_air(sdl, value))
         return 1;
-    }
-    if (sdl_accept(sdl, "rainbow")) {
-        set(value, VALUE_OTHER, parse_rainbow(sdl));
-        value->word = "rainbow";
-        return 1;
-    }
     if (sdl_accept(sdl, "camera")) {
         set(value, VALUE_CAMERA, parse_camera(sdl));
         return 1;
@@ -347,8 +364,7 @@ static void statement_rainbow(Sdl *sdl)
 
 static void statement_media(Sdl *sdl)
 {
-    sdl_unsupported(sdl, "media", "the air is clear");
-    sdl_skip_block(sdl);
+    sdl_scene(sdl)->media = media_with(sdl, sdl_scene(sdl)->media, parse_media(sdl));
 }
 
 static void statement(Sdl *sdl)

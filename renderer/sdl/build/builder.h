@@ -21,7 +21,6 @@
 #define GAP_TABLE(X) \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
     X(SUBSURFACE, "subsurface", "it is ignored") \
-    X(MEDIA, "media", "it is ignored") \
     X(FAKE_CAUSTICS, "interior caustics", "it is ignored, see photons") \
     X(FINISH_FRESNEL, "finish fresnel", "it is ignored")
 
@@ -142,6 +141,12 @@ typedef struct ParsedInterior {
     Gaps gaps;
 } ParsedInterior;
 
+typedef struct ParsedMedium {
+    Medium medium; /* first */
+    Rgb constant;  /* product of its densities that are the same everywhere */
+    Gaps gaps;
+} ParsedMedium;
+
 typedef struct ParsedMaterial {
     const ParsedTexture *texture, *interior_texture;
     const ParsedInterior *interior;
@@ -195,6 +200,7 @@ typedef struct Object {
     Transform transform;        /* canonical shape, or the children's space, to here */
     MovedTexture texture, interior_texture;
     const ParsedInterior *interior;
+    Transform interior_transform; /* what moved it since, where its media vary */
     unsigned flags;
     int uv_mapping;
     int depth;    /* of nested groups */
@@ -289,6 +295,8 @@ void *builder_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size)
 Value *peek_ident(Sdl *sdl, ValueKind kind);
 /* … taken: its data, or NULL. */
 void *accept_ident(Sdl *sdl, ValueKind kind);
+/* The same of a VALUE_OTHER with that word. */
+void *accept_ident_of_word(Sdl *sdl, const char *word);
 /* 1 where the next token begins a number (not a vector or colour). */
 int is_float_start(Sdl *sdl);
 double optional_float(Sdl *sdl, double missing);
@@ -467,6 +475,13 @@ const ParsedSky *parse_sky_sphere(Sdl *sdl);
 /* rainbow.c */
 Rainbow *parse_rainbow(Sdl *sdl); /* after rainbow */
 void place_rainbow(Sdl *sdl, const Rainbow *rainbow);
+/* media.c */
+ParsedMedium *parse_media(Sdl *sdl); /* after media */
+const ParsedPigment *parse_density(Sdl *sdl); /* after density */
+const Medium *media_with(Sdl *sdl, const Medium *list, const ParsedMedium *added);
+int interior_varies(const ParsedInterior *interior); /* its media do, from place to place; NULL: 0 */
+const ParsedInterior *interior_moved(Sdl *sdl, const ParsedInterior *interior, const Transform *by);
+void complete_media(Sdl *sdl); /* with the images */
 
 /* fog.c */
 Fog *parse_fog(Sdl *sdl); /* after fog */

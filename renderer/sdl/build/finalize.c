@@ -304,6 +304,7 @@ static void load_images(Sdl *sdl)
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
         load_pigment_images(sdl, scene->sky->pigments[i], 1);
     normal_load(sdl, scene->camera.normal);
+    complete_media(sdl);
     const ParsedPigment *bokeh = builder_of(sdl)->bokeh;
     if (bokeh)
         load_pigment_images(sdl, &bokeh->pigment, 0);

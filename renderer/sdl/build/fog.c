@@ -1,5 +1,4 @@
 /* fog, and what is in the way of the air. */
-#include <string.h>
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
 
@@ -18,16 +17,10 @@ static FogKind fog_kind(Sdl *sdl)
     return type == 2 ? FOG_GROUND : FOG_CONSTANT;
 }
 
-static const Fog *accept_fog_ident(Sdl *sdl)
-{
-    const Value *value = peek_ident(sdl, VALUE_OTHER);
-    return value && value->word && strcmp(value->word, "fog") == 0 ? accept_ident(sdl, VALUE_OTHER) : NULL;
-}
-
 static void fog_item(Sdl *sdl, Fog *fog)
 {
     Transform by;
-    const Fog *known = accept_fog_ident(sdl);
+    const Fog *known = accept_ident_of_word(sdl, "fog");
     if (known)
         *fog = *known;
     else if (sdl_accept(sdl, "fog_type"))
@@ -88,6 +81,6 @@ void complete_air(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
     drop_empty_fogs(sdl);
-    for (int i = 0; (scene->fogs || scene->rainbows) && i < scene->nprimitives; i++)
+    for (int i = 0; (scene->fogs || scene->rainbows || scene->has_media) && i < scene->nprimitives; i++)
         scene->primitives[i].is_solid = !scene->primitives[i].hollow && has_inside(&scene->primitives[i]);
 }

@@ -82,8 +82,9 @@ static int can_be_copied(Sdl *sdl, const Object *object, int has_texture)
     sdl_step(sdl, 1);
     has_texture |= object->texture.texture != NULL;
     if (object->kind == OBJECT_LIGHT || (object->flags & OBJECT_CUTAWAY_TEXTURES) ||
-        (object->uv_mapping && !has_texture) || may_emit(sdl, object->texture.texture) ||
-        may_emit(sdl, object->interior_texture.texture) || faces_may_emit(sdl, object->shape.textures))
+        (object->uv_mapping && !has_texture) || interior_varies(object->interior) ||
+        may_emit(sdl, object->texture.texture) || may_emit(sdl, object->interior_texture.texture) ||
+        faces_may_emit(sdl, object->shape.textures))
         return 0;
     for (const ObjectList *list = object->children; list; list = list->next)
         if (!can_be_copied(sdl, list->object, has_texture))
@@ -191,7 +192,8 @@ int place_instance(Sdl *sdl, const Object *object, const Inherited *around)
                           object->interior ? object->interior : around->interior,
                           around->light_group};
     if (object->kind != OBJECT_GROUP || around->csg || around->prototype || around->interior_texture ||
-        object->interior_texture.texture || (key.flags & OBJECT_CUTAWAY_TEXTURES) || object->parts > PROTOTYPE_PARTS)
+        object->interior_texture.texture || interior_varies(key.interior) || (key.flags & OBJECT_CUTAWAY_TEXTURES) ||
+        object->parts > PROTOTYPE_PARTS)
         return 0;
     CopiedGroup *group = group_of(sdl, &key);
     group->parts += object->parts;

@@ -121,7 +121,7 @@ static int accept_switch(Sdl *sdl, Light *light)
     else if (sdl_accept(sdl, "media_attenuation"))
         light->dimmed_by_air = sdl_optional_bool(sdl, 1);
     else if (sdl_accept(sdl, "media_interaction"))
-        sdl_optional_bool(sdl, 1);
+        light->passes_media = !sdl_optional_bool(sdl, 1);
     else
         return 0;
     return 1;

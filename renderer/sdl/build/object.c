@@ -73,6 +73,8 @@ static void moved_texture_move(MovedTexture *moved, const Transform *by)
 void object_move(Object *object, const Transform *by)
 {
     object->transform = transform_then(object->transform, *by);
+    if (interior_varies(object->interior))
+        object->interior_transform = transform_then(object->interior_transform, *by);
     /* Under uv_mapping what moves an object does not move its texture. */
     if (!object->uv_mapping) {
         moved_texture_move(&object->texture, by);
@@ -90,6 +92,12 @@ static void set_texture(MovedTexture *moved, const ParsedTexture *texture)
 {
     moved->texture = texture;
     moved->is_moved = 0;
+}
+
+static void set_interior(Object *object, const ParsedInterior *interior)
+{
+    object->interior = interior;
+    object->interior_transform = transform_identity();
 }
 
 /* ---- modifiers ---- */
@@ -182,7 +190,7 @@ static void material(Sdl *sdl, Object *object)
         set_texture(&object->interior_texture,
                     texture_over(sdl, inside, texture_so_far(sdl, &object->interior_texture)));
     if (material->interior)
-        object->interior = material->interior;
+        set_interior(object, material->interior);
 }
 
 static int accept_surface(Sdl *sdl, Object *object)
@@ -195,7 +203,7 @@ static int accept_surface(Sdl *sdl, Object *object)
     else if (sdl_accept(sdl, "material"))
         material(sdl, object);
     else if (sdl_accept(sdl, "interior"))
-        object->interior = parse_interior(sdl, object->interior);
+        set_interior(object, parse_interior(sdl, interior_moved(sdl, object->interior, &object->interior_transform)));
     else if (sdl_accept(sdl, "uv_mapping"))
         object->uv_mapping = sdl_optional_bool(sdl, 1);
     else if (sdl_is(sdl, "pigment") || sdl_is(sdl, "finish") || sdl_is(sdl, "normal")) {

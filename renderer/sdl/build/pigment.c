@@ -249,7 +249,7 @@ static int accept_map(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *textur
     }
     if (sdl_accept(sdl, "color_map") || sdl_accept(sdl, "colour_map"))
         map = parse_color_map(sdl);
-    else if (sdl_accept(sdl, "pigment_map"))
+    else if (sdl_accept(sdl, "pigment_map") || sdl_accept(sdl, "density_map"))
         map = parse_pigment_map(sdl);
     else
         return 0;
@@ -267,7 +267,7 @@ static void set_color(ParsedPigment *pigment, Rgbft color)
 static int accept_named(Sdl *sdl, ParsedPigment *pigment)
 {
     const ParsedPigment *known = accept_ident(sdl, VALUE_PIGMENT);
-    if (!known)
+    if (!known && !(known = accept_ident_of_word(sdl, "density")))
         return 0;
     ParsedPigment *next = pigment->next;
     *pigment = *known;

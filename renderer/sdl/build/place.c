@@ -62,6 +62,15 @@ void texture_report(Sdl *sdl, const ParsedTexture *texture)
     texture_visit(sdl, texture, report_leaf, report_selector, NULL);
 }
 
+/* The pointer is the same where nothing varies: it tells media apart. */
+static const ParsedInterior *interior_placed(Sdl *sdl, const Object *object, const Transform *outer)
+{
+    if (!interior_varies(object->interior))
+        return object->interior;
+    const Transform by = transform_then(object->interior_transform, *outer);
+    return interior_moved(sdl, object->interior, &by);
+}
+
 /* ---- shapes ---- */
 
 /* A shape's own textures in world space. */
@@ -303,7 +312,7 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
     if (inside)
         here.interior_texture = inside;
     if (object->interior)
-        here.interior = object->interior;
+        here.interior = interior_placed(sdl, object, &around->to_world);
     here.flags = flags_within(object, around);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
     here.places = places_join(sdl, object->places, around->places);

@@ -146,13 +146,9 @@ static void interior_item(Sdl *sdl, ParsedInterior *interior)
         sdl_float(sdl);
     else if (sdl_accept(sdl, "dispersion"))
         i->dispersion = sdl_float(sdl);
-    else if (sdl_accept(sdl, "media")) {
-        gaps_add(&interior->gaps, GAP_MEDIA);
-        sdl_skip_block(sdl);
-    } else if (peek_ident(sdl, VALUE_OTHER)) {
-        gaps_add(&interior->gaps, GAP_MEDIA);
-        sdl_next(sdl);
-    } else
+    else if (sdl_accept(sdl, "media"))
+        i->media = media_with(sdl, i->media, parse_media(sdl));
+    else
         sdl_expected(sdl, "ior, fade_distance, fade_power, fade_color, media or } in interior");
 }
 
@@ -191,6 +187,7 @@ const ParsedMaterial *parse_material(Sdl *sdl)
             material->interior = parse_interior(sdl, material->interior);
         else if (accept_transform(sdl, &by)) {
             material->texture = texture_moved(sdl, material->texture, &by);
+            material->interior = interior_moved(sdl, material->interior, &by);
             material->interior_texture = texture_moved(sdl, material->interior_texture, &by);
         } else if (!accept_texture_part(sdl, &material->texture))
             sdl_expected(sdl, "texture, interior, interior_texture or a transform in material");
