@@ -33,6 +33,25 @@ picture living-room living-room-walnut --texture "Floor=$textures/walnut-herring
 picture living-room living-room-terrazzo-brick --texture "Floor=$textures/terrazzo.jpg" --texture "Wall=$textures/brick.jpg"
 picture living-room living-room-damask --texture "Wall=$textures/damask.jpg"
 
+# The page of retex-pack --web in a browser.
+if command -v chromium >/dev/null && /usr/bin/python3 -c 'import websocket' 2>/dev/null; then
+    site=$sets/web
+    mkdir -p "$site"
+    [ -e "$site/room.exr" ] || retex-render --size 1600x900 --spp 16 --denoise -t Floor -t Wall \
+        scenes/living-room/living-room.pov -o "$site/room.exr"
+    retex-pack -q "$site/room.exr" --web "$site/room"
+    ln -sfn "$textures" "$site/textures"
+    offers=$(cd "$site" && echo textures/*.jpg)
+    sed "s|src=\".\"|src=\"room/\" textures=\"$offers\"|; s|src=\"retex-room.js|src=\"room/retex-room.js|" \
+        "$site/room/index.html" >"$site/page.html"
+    (cd tests/web && /usr/bin/python3 -B shots.py "$site" page.html "$site")
+    for name in desktop phone compare; do
+        oiiotool "$site/web-$name.png" --ch R,G,B --compression jpeg:88 -o "$out/web-$name.jpg"
+    done
+else
+    echo "there is no chromium or no python3-websocket: pictures of the page are unchanged" >&2
+fi
+
 # A set of few samples, as rendered and denoised.
 [ -e "$sets/living-room-64.exr" ] || retex-render --size 640x480 --spp 64 -t Floor -t Wall \
     scenes/living-room/living-room.pov -o "$sets/living-room-64.exr"
