@@ -1,10 +1,12 @@
 """For import_lights.t. Without arguments: writes models of a white matte plane under a camera that looks down from a height
 of 4, each with lights of one kind, and expected.txt: the radiance of the plane's middle, by closed forms. With a name and a
-picture: compares the middle of the picture with it."""
+picture: compares the middle of the picture with it, or with that of another picture."""
 import json
 import math
 import struct
 import sys
+
+import OpenImageIO as oiio
 
 HEIGHT = 2  # of the lights above the plane
 DOWN = [-.5**.5, 0, 0, .5**.5]  # -z becomes -y
@@ -46,6 +48,14 @@ def of_intensity(i, x=0):
     return i / squared * HEIGHT / math.sqrt(squared) / math.pi
 
 
+def look_up(model):
+    """From below the area light to the ceiling; a lamp, also below, lights both planes."""
+    nodes = model['nodes']
+    nodes[1].update(translation=[0, .5, 0], rotation=UP)
+    nodes.append({'name': 'lamp', 'translation': [.5, 1, 0], 'extensions': {'KHR_lights_punctual': {'light': 0}}})
+    model['scenes'][0]['nodes'].append(len(nodes) - 1)
+
+
 def write_all():
     point, sun = {'type': 'point', 'intensity': 20}, {'type': 'directional', 'intensity': 3}
     spot = {'type': 'spot', 'intensity': 20, 'spot': {'innerConeAngle': 0, 'outerConeAngle': .8}}
@@ -53,6 +63,7 @@ def write_all():
     inner, outer = math.cos(.2), math.cos(.8)
     t = (slant - outer) / (inner - outer)
     square = {'size': [.02, .04], 'radiance': [1000, 1000, 1000]}
+    ceiling = {'mesh': 0, 'name': 'ceiling', 'translation': [0, 3, 0]}
     models = {
         'shared': ([lamp('a', 1), lamp('b', -1)], [point], 2 * of_intensity(20, 1)),
         'ball': ([lamp('a', extras={'radius': .1})], [point], of_intensity(20)),
@@ -64,10 +75,14 @@ def write_all():
         'ellipse': ([lamp('a', light=None, extras={**square, 'shape': 'ellipse'})], [],
                     of_intensity(1000 * .02 * .04 * math.pi / 4)),
         'away': ([lamp('a', light=None, extras=square, rotation=UP)], [], 0),
+        'behind': ([ceiling, lamp('b', light=None, extras={'size': [4, 4], 'radiance': [0, 0, 0]})], [point], 0),
+        'empty': ([ceiling], [point], 0),
     }
     with open('expected.txt', 'w') as out:
         for name, (nodes, lights, radiance) in models.items():
             text, buffer = model(nodes, lights)
+            if nodes[:1] == [ceiling]:
+                look_up(text)
             json.dump(text, open(name + '.gltf', 'w'))
             open('plane.bin', 'wb').write(buffer)
             print(name, radiance, file=out)
@@ -76,7 +91,6 @@ def write_all():
 
 
 def middle(file, part):
-    import OpenImageIO as oiio
     source = oiio.ImageInput.open(file)
     index = 0
     while source.seek_subimage(index, 0):
@@ -87,8 +101,10 @@ def middle(file, part):
         index += 1
 
 
-def compare(name, file):
+def compare(name, file, other=None):
     expected = {line.split()[0]: float(line.split()[1]) for line in open('expected.txt')}[name]
+    if other:
+        expected = float(middle(other, None)[1])
     found = float(middle(file, None)[1])
     print(name, 'as expected' if abs(found - expected) <= .005 * expected + 1e-6 else f'{found} instead of {expected}')
 
@@ -98,4 +114,4 @@ if len(sys.argv) == 1:
 elif sys.argv[1] == 'position':
     print(*(f'{x:.2f}' for x in middle(sys.argv[2], 'position')))
 else:
-    compare(sys.argv[1], sys.argv[2])
+    compare(*sys.argv[1:])

@@ -15,6 +15,10 @@ $ for m in ball area; do retex-import -q --scale 10 $m.gltf -o big-$m && retex-r
 > ball as expected
 > area as expected
 
+# An area light is in no light's way: the ceiling above it is lit by all of the floor.
+$ for m in empty behind; do retex-import -q $m.gltf -o $m && retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr; done; /usr/bin/python3 $TESTS/import_lights.py behind behind.exr empty.exr
+> behind as expected
+
 # The window of a shifted lens lies a quarter of its width to the right, and half of its height further down, towards the
 # viewer: 4 * 2 tan .3 * .25 is .62, and .5 is 1.24.
 $ retex-import -q lens.gltf -o lens && retex-render -q --plain --spp 4 --size 32x32 --aov position lens/lens.pov -o lens.exr && /usr/bin/python3 $TESTS/import_lights.py position lens.exr
@@ -28,4 +32,4 @@ $ grep -c 'focal_point <0, 1,' lens/lens.pov
 $ grep -h -o '^light_source.*falloff 45' spot/spot.pov
 > light_source { <1, 2, 0>, rgb <7957.75, 7957.75, 7957.75> spotlight radius 11.459 falloff 45
 $ grep -h -o 'texture { pig.*no_shadow' area/area.pov
-> texture { pigment { rgb 1 } finish { diffuse 0 emission rgb <1000, 1000, 1000> } } interior_texture { pigment { rgb 0 } finish { diffuse 0 } } no_image no_shadow
+> texture { pigment { rgb 1 } finish { diffuse 0 emission rgb <1000, 1000, 1000> } } interior_texture { pigment { rgbt 1 } finish { diffuse 0 } } no_reflection no_image no_shadow

@@ -69,12 +69,14 @@ def light(kind, **settings):
 
 checks = image("checks", 256, 256, lambda u, v: (.7, .6, .5) if (u < .5) == (v < .5) else (.2, .25, .3))
 sky = image("sky", 64, 32, lambda u, v: (1.5 * u, .5, 1.5 * (1 - u)) if v > .5 else (.2, .2, .2), True)
+numbers = image("numbers", 8, 8, lambda u, v: (.7, .7, .7))
+numbers.colorspace_settings.name = "Non-Color"  # linear, while images of glTF are sRGB
 mesh = bpy.ops.mesh
 add(mesh.primitive_plane_add, principled("floor 1", (1, 1, 1), checks, Roughness=.6), size=10)
 add(mesh.primitive_plane_add, diffuse("wall", (.6, .3, .2)), size=10, location=(0, 3, 0), rotation=(math.pi / 2, 0, 0))
 add(mesh.primitive_cube_add, principled("box", (.2, .5, .3), Specular=0, Roughness=1), size=1, location=(1.2, .5, .5))
 # a cube for the viewport, a ball in the render
-ball = add(mesh.primitive_cube_add, principled("ball", (.8, .8, .8), Roughness=.4), size=1.6, location=(-1, 0, .6))
+ball = add(mesh.primitive_cube_add, principled("ball", (1, 1, 1), numbers, Roughness=.4), size=1.6, location=(-1, 0, .6))
 rounded = ball.modifiers.new("round", "SUBSURF")
 rounded.levels, rounded.render_levels = 0, 3
 metal = add(mesh.primitive_uv_sphere_add, principled("metal", (.9, .7, .3), Metallic=1, Roughness=.3), radius=.35,

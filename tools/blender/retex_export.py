@@ -50,7 +50,7 @@ def set_for_now(stack, owner, name, value):
 
 
 def rendered_objects(view_layer):
-    """The objects that a render shows: not hidden, and in a collection that is not."""
+    """The objects that a render shows: not hidden, in a collection that is not, or in one that is instanced."""
     found = set()
 
     def walk(layer):
@@ -60,7 +60,15 @@ def rendered_objects(view_layer):
         for child in layer.children:
             walk(child)
 
+    def walk_instances(objects):
+        for obj in objects:
+            if obj.instance_type == "COLLECTION" and obj.instance_collection:
+                inner = {o for o in obj.instance_collection.all_objects if not o.hide_render} - found
+                found.update(inner)
+                walk_instances(inner)
+
     walk(view_layer.layer_collection)
+    walk_instances(list(found))
     return found
 
 
@@ -164,8 +172,6 @@ def used_materials(objects):
         for slot in getattr(obj, "material_slots", ()):
             if slot.material:
                 found[slot.material.name] = slot.material
-        if obj.instance_type == "COLLECTION" and obj.instance_collection:
-            found.update(used_materials(obj.instance_collection.all_objects))
     return found
 
 
@@ -231,13 +237,63 @@ def prepare_material(stack, material, warn):
         warn(f"material '{material.name}': its surface is {shader}, not a Principled BSDF: it may look different")
         return
     shader = surface_link(material).from_node
+    transmission, ior = socket_of(shader, "Transmission"), shader.inputs["IOR"]
+    if bpy.app.version < (4, 0, 0) and not (transmission.is_linked or transmission.default_value or ior.is_linked):
+        set_for_now(stack, ior, "default_value", 1.5)  # Specular alone is the reflectance, which glTF's index is of
     alpha = shader.inputs["Alpha"]
     if (alpha.is_linked or alpha.default_value < 1) and getattr(material, "blend_method", "") == "OPAQUE":
         set_for_now(stack, material, "blend_method", "BLEND")  # Cycles knows no blend modes
+    encode_images(stack, shader)
     for name in ("Base Color", "Roughness", "Metallic"):
         socket = shader.inputs[name]
         if socket.is_linked and not reaches_image(socket):
             warn(f"material '{material.name}': {name} comes from nodes without an image; glTF takes none of it")
+
+
+# glTF decodes images of colours as sRGB and takes others as numbers, whatever a file's nodes say.
+AS_NUMBERS = {"Raw", "Non-Color", "Linear", "Linear Rec.709"}
+IS_COLOR = {"Base Color": True, "Emission": True, "Roughness": False, "Metallic": False, "Transmission": False}
+
+
+def image_nodes(socket, depth=0):
+    for link in socket.links if depth < 16 else ():
+        if link.from_node.type == "TEX_IMAGE" and link.from_node.image:
+            yield link.from_node
+        for inner in link.from_node.inputs:
+            yield from image_nodes(inner, depth + 1)
+
+
+def encoded_copy(stack, image, is_color):
+    """The image with the numbers that glTF needs to mean the same: encoded as sRGB, or decoded."""
+    import numpy as np
+    width, height = image.size
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    rgb = pixels.reshape(-1, 4)[:, :3]
+    if is_color:
+        rgb[:] = np.where(rgb <= .0031308, 12.92 * rgb, 1.055 * np.maximum(rgb, 1e-6)**(1 / 2.4) - .055)
+    else:
+        rgb[:] = np.where(rgb <= .04045, rgb / 12.92, ((rgb + .055) / 1.055)**2.4)
+    made = bpy.data.images.new(image.name + " for glTF", width, height, alpha=True)
+    stack.callback(bpy.data.images.remove, made)
+    made.colorspace_settings.name = "sRGB" if is_color else "Non-Color"
+    made.pixels.foreach_set(pixels)
+    made.pack()
+    return made
+
+
+def encode_images(stack, shader):
+    copies = {}
+    for name, is_color in IS_COLOR.items():
+        socket = socket_of(shader, name)
+        for node in image_nodes(socket) if socket else ():
+            image = node.image
+            if image.is_float or (image.colorspace_settings.name in AS_NUMBERS) != is_color:
+                continue
+            key = (image.name, is_color)
+            if key not in copies:
+                copies[key] = encoded_copy(stack, image, is_color)
+            set_for_now(stack, node, "image", copies[key])
 
 
 def reaches_image(socket, depth=0):

@@ -90,14 +90,15 @@ static void print_color(FILE *out, const double c[3], double factor)
     fprintf(out, "rgb <%.6g, %.6g, %.6g>", c[0] * factor, c[1] * factor, c[2] * factor);
 }
 
-/* What shines itself: it is seen in mirrors, and by the camera if it says so. */
+/* What shines itself; seen by the camera if it says so. An area light is in no light's way, as in Cycles: light from
+ * other surfaces passes it too, and so mirrors do not show it. */
 static void print_emission(FILE *out, const GltfLight *light, double factor)
 {
     fprintf(out, " texture { pigment { rgb 1 } finish { diffuse 0 emission ");
     print_color(out, light->color, factor);
     fprintf(out, " } }");
     if (light->type == aiLightSource_AREA)
-        fprintf(out, " interior_texture { pigment { rgb 0 } finish { diffuse 0 } }");
+        fprintf(out, " interior_texture { pigment { rgbt 1 } finish { diffuse 0 } } no_reflection");
     fprintf(out, "%s no_shadow", light->is_seen ? "" : " no_image");
 }
 
