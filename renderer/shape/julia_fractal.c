@@ -59,22 +59,27 @@ static Quad hypercomplex_function(const JuliaFractal *f, Quad z)
                    0.5 * (creal(b) - creal(a))}};
 }
 
-/* A power of a quaternion keeps the direction of its imaginary part. */
-static Quad quaternion_function(const JuliaFractal *f, Quad z)
+/* A power of a quaternion, here its square or cube, keeps the direction of its imaginary part. norm: norm_of(z). */
+static inline Quad quaternion_power(int square, Quad z, double norm)
 {
-    const double r = z.v[0], rr = r * r, ii = norm_of(z) - rr;
-    const double real = f->function == JULIA_sqr ? rr - ii : r * (rr - 3 * ii);
-    const double imaginary = f->function == JULIA_sqr ? 2 * r : 3 * rr - ii;
+    const double r = z.v[0], rr = r * r, ii = norm - rr;
+    const double real = square ? rr - ii : r * (rr - 3 * ii);
+    const double imaginary = square ? 2 * r : 3 * rr - ii;
 
     return (Quad){{real, imaginary * z.v[1], imaginary * z.v[2], imaginary * z.v[3]}};
 }
 
-static Quad next_iterate(const JuliaFractal *f, Quad z)
+static inline Quad plus_constant(const JuliaFractal *f, Quad z)
 {
-    z = f->hypercomplex ? hypercomplex_function(f, z) : quaternion_function(f, z);
     for (int k = 0; k < 4; k++)
         z.v[k] += f->constant[k];
     return z;
+}
+
+static Quad next_iterate(const JuliaFractal *f, Quad z)
+{
+    return plus_constant(f, f->hypercomplex ? hypercomplex_function(f, z)
+                                            : quaternion_power(f->function == JULIA_sqr, z, norm_of(z)));
 }
 
 /* How much an iterate moves with the one before, at most, squared. */
@@ -103,8 +108,9 @@ static double growth(const JuliaFractal *f, Quad z, double norm)
     }
 }
 
-/* The first iterate that is not small, from 1 on; 0: all are. *distance: about how far away the set is. */
-static int escape(const JuliaFractal *f, Vec3 p, double *distance)
+/* The first iterate that is not small, from 1 on; 0: all are. *distance: about how far away the set is. Compiled twice,
+ * for most of the time goes into squares of quaternions. */
+static inline int escape_of(const JuliaFractal *f, int is_square, Vec3 p, double *distance)
 {
     Quad z = quad_of(f, p);
     double slope = 1; /* squared */
@@ -119,9 +125,14 @@ static int escape(const JuliaFractal *f, Vec3 p, double *distance)
         if (k == f->iterations)
             return 0;
         if (distance)
-            slope *= growth(f, z, size);
-        z = next_iterate(f, z);
+            slope *= is_square ? 4 * size : growth(f, z, size);
+        z = is_square ? plus_constant(f, quaternion_power(1, z, size)) : next_iterate(f, z);
     }
+}
+
+static int escape(const JuliaFractal *f, Vec3 p, double *distance)
+{
+    return f->function == JULIA_sqr && !f->hypercomplex ? escape_of(f, 1, p, distance) : escape_of(f, 0, p, distance);
 }
 
 static double size_after(const JuliaFractal *f, Vec3 p, int k)
