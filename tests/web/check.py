@@ -79,14 +79,21 @@ class Page(Browser):
 
     def press(self, selector, touch=False):
         self.run(f"{PART}({json.dumps(selector)}).scrollIntoView({{block: 'nearest'}})")
-        at = self.middle(selector)
         if touch:
-            time.sleep(1)  # while a swipe still moves the page, a tap only stops it
-            self.tap([at])
-            time.sleep(0.3)
+            self.touch(selector)
         else:
-            self.click(*at)
+            self.click(*self.middle(selector))
         self.settle()
+
+    def touch(self, selector):
+        """Tap until it is noticed: the browser drops taps while a swipe moves the page or a slow script runs."""
+        self.run(f"window.seen = 0; {PART}({json.dumps(selector)}).addEventListener('click', () => window.seen++, "
+                 "{once: true})")
+        for _ in range(4):
+            time.sleep(0.5)
+            self.tap([self.middle(selector)])
+            if self.until("window.seen > 0", 3):
+                return
 
     def settle(self):
         self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60))))")
@@ -367,11 +374,11 @@ def main():
         page.shot("phone")
         check_controls(page, True)
         page.size(1280, 800)
+        page.call("Network.enable")
+        page.call("Network.setCacheDisabled", cacheDisabled=True)
         check_stages(page)
         bad = [e for e in page.events if e.get("method") == "Runtime.exceptionThrown"]
         result(not bad, f"no script fails {bad or ''}")
-        page.call("Network.enable")
-        page.call("Network.setCacheDisabled", cacheDisabled=True)
         check_faults(page)
     finally:
         page.close()
