@@ -714,7 +714,8 @@ input[type=color] { width: 44px; height: 40px; padding: 2px; border: 1px solid v
 @media (max-width: 760px), (max-aspect-ratio: 1/1) {
   .room { grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); }
   .panel { border-left: 0; border-top: 1px solid var(--line); padding: 14px; }
-  .tools { position: static; width: 100%; justify-content: space-around; border-radius: 0; background: none; box-shadow: none; }
+  .tools { position: relative; inset: auto; width: 100%; justify-content: space-around; border-radius: 0; background: inherit; box-shadow: none; }
+  .stage { grid-template-rows: auto auto; }
 }
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 @media (prefers-color-scheme: dark) {
