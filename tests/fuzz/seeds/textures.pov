@@ -29,3 +29,14 @@ sphere { <-3, 1, 3>, 1 pigment { bozo pigment_map { [0.2 Wood] [0.8 rgb x] } }
   finish { irid { 0.3 thickness 0.2 } subsurface { translucency 0.1 } } }
 fog { distance 50 rgb 0.8 fog_type 2 fog_alt 1 fog_offset 0 }
 media { scattering { 1, 0.1 } }
+#declare Smoke = density { spherical turbulence 0.3 density_map { [0 rgb 0] [0.5 bozo scale 0.2] [1 rgb <1, 2, 3>] } }
+sphere {
+  0, 1
+  pigment { rgbt 1 }
+  hollow
+  interior {
+    media { scattering { 5, <1, 2, 3> eccentricity 0.4 extinction 0.5 } absorption 0.1 density { Smoke } rotate 20 * y }
+    media { emission rgb <0.3, 0.2, 0.1> method 3 intervals 1 samples 2, 8 confidence 0.9 }
+  }
+  scale 0.5
+}
