@@ -77,7 +77,7 @@ int path_pass_air(PathWorker *w, Path *path, const Ray *ray, const Hit *hit)
 {
     const PathContext *c = w->context;
     const double distance = hit->primitive < 0 ? INFINITY : hit->t - ray->tmin;
-    if (path->media.solids > 0 || !path_is_seen(c, path, ray))
+    if (path->media.solids > 0 || path->leaving || !path_is_seen(c, path, ray))
         return 1;
     if (c->scene->fogs && !pass_fog(w, path, ray, distance))
         return 0;

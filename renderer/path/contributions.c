@@ -174,7 +174,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
 {
     const PathContext *c = w->context;
     path->beta = path->beta_rest = colour4(rgb_grey(1));
-    path->wavelength = -1;
+    path->wavelength = -1, path->leaving = 0;
     path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){.position = ray->origin};
     path->segments = 1, path->straight = 0, path->sharp = path->delta = 1;
     path->media = c->camera, path->media_weight = splat(1), path->kind = RAY_CAMERA;

@@ -34,6 +34,7 @@ typedef struct Path {
     Rgb *betas;         /* by variant, from the second on: the first one's is beta */
     Float4 beta_rest;   /* throughput without the factors that hits keep, see contributions.c */
     float beta_neutral; /* throughput with NEUTRAL_ALBEDO everywhere and without the eta scale: for Russian roulette */
+    int leaving;        /* the ray ends where light comes out that went below a surface */
     float wavelength;   /* since light was dispersed, see shade/dispersion.h; -1: not yet */
     float pdf;          /* with which the ray's direction was sampled, per steradian; 0 after a delta lobe */
     LightSampleContext prev_context; /* of the vertex where it was sampled: for MIS */
@@ -204,6 +205,13 @@ int choose_leaf_of_light(PathWorker *worker, const Path *path, Shading *s, Vec3 
 void disperse(PathWorker *worker, Path *path, Vertex *vertex, Vec3 wo);
 /* From here on the path has one wavelength, by which its throughput is coloured. */
 void path_take_wavelength(PathWorker *worker, Path *path, float wavelength);
+
+/* ---- subsurface.c ---- */
+
+/* Go below the surface along a direction: the ray gets one that ends where light comes out. */
+void walk_below_surface(PathWorker *worker, Path *path, const Vertex *vertex, Vec3 direction, Ray *ray);
+/* Make the surface there one that scatters outwards. */
+void leave_surface(Vertex *vertex);
 
 /* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
 

@@ -24,7 +24,9 @@ void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit
     v->distance = hit->t, v->is_last = path->segments >= c->max_depth;
     v->numbers = numbers, v->lane = lane;
     v->light.found = v->picked = 0;
-    if (v->s.surface.texture->tree && !(c->white && is_first_hit(path)))
+    if (path->leaving)
+        leave_surface(v);
+    else if (v->s.surface.texture->tree && !(c->white && is_first_hit(path)))
         choose_leaf(w, path, &v->s, vec_neg(ray->direction));
     else
         shading_color(&v->s, &v->place, w->variants, c->nvariants);
@@ -60,7 +62,7 @@ static void print_hit(const PathContext *c, const Hit *hit, const Shading *s)
 void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *hit)
 {
     const PathContext *c = w->context;
-    shading_bsdf(&v->s, vec_neg(ray->direction));
+    shading_bsdf(&v->s, path->leaving ? v->s.surface.shading_normal : vec_neg(ray->direction));
     if (c->white && is_first_hit(path))
         whiten(v, ray);
     v->wavelength = -1;
@@ -106,6 +108,8 @@ static void add_sky(PathWorker *w, Path *path, Vec3 direction)
 
 int add_emission(PathWorker *w, Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
 {
+    if (path->leaving)
+        return hit->primitive >= 0;
     if (hit->primitive < 0) {
         if (camera_ray_exists(ray) && (!w->context->white || path->segments > 1))
             add_sky(w, path, ray->direction);
@@ -185,6 +189,7 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
 {
     const Shading *s = &v->s;
     float pdf;
+    path->leaving = 0;
     if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts))
         return 0; /* no segment is left, and nothing passes straight */
     if (!sample_direction(v, next, &pdf))
@@ -210,6 +215,10 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
     }
     if (v->is_last)
         return 0;
+    if (next->subsurface) {
+        walk_below_surface(w, path, v, next->wi, ray);
+        return path_is_alive(w, path);
+    }
     path->kind = path_next_kind(path->kind, &s->bsdf, next->transmitted);
     path->prev_context = light_sample_context(s);
     ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next->wi);
@@ -271,7 +280,7 @@ void trace_path(PathWorker *w, Path *path, Ray ray)
         /* Add the light of fog and media on the way, which dim what lies behind. Media may scatter the path. */
         if (c->has_air && !path_pass_air(w, path, &ray, &hit))
             return;
-        if (c->scene->has_media) {
+        if (c->scene->has_media && !path->leaving) {
             const MediumEvent event = cross_media(w, path, &ray, &hit);
             if (event == MEDIUM_ENDED)
                 return;

@@ -198,6 +198,8 @@ typedef struct Finish {
     double irid_turbulence;  /* by which share the thickness varies */
     Rgb irid_phase;          /* 2 pi thickness / wavelength; set at the end of reading, as the next one */
     int irid_noise;          /* noise generator of its turbulence */
+    Rgb translucency;        /* of subsurface, in millimetres */
+    Rgb mean_free_path;      /* the same in units; black: there is none. Set at the end of reading */
     /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it
      * is present it replaces all of the above but ambient and emission. */
     struct {
@@ -218,11 +220,15 @@ static inline int finish_is_mirror(const Finish *f)
 {
     return !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
 }
+static inline int finish_is_subsurface(const Finish *f)
+{
+    return !f->retex.present && !rgb_is_black(f->mean_free_path);
+}
 /* Most surfaces: nothing but Lambert's law, on either side; or on the side that is seen. */
 static inline int finish_is_lambert(const Finish *f)
 {
     return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&
-           f->crand <= 0 && f->irid <= 0 && !finish_is_mirror(f);
+           f->crand <= 0 && f->irid <= 0 && !finish_is_mirror(f) && rgb_is_black(f->mean_free_path);
 }
 static inline int finish_is_matte(const Finish *f)
 {

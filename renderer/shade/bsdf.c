@@ -271,7 +271,7 @@ static int sample_lambert(const Bsdf *b, float u_lobe, float u1, float u2, BsdfS
     sample->weight = (Split){rgb_grey((back ? b->diffuse_back : b->diffuse) / p), {0, 0, 0}};
     sample->pdf = p * cosine / (float)PI;
     sample->transmitted = back;
-    sample->straight = 0;
+    sample->straight = sample->subsurface = 0;
     return 1;
 }
 
@@ -350,6 +350,12 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
     return 1;
 }
 
+Vec3 bsdf_enter(const Bsdf *b, float u1, float u2)
+{
+    const Vec3 wi = vec_neg(cosine_direction(bsdf_surface_normal(b), u1, u2));
+    return vec_dot(wi, b->geometric) < 0 ? wi : mirrored(wi, b->geometric);
+}
+
 int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
 {
     if (b->lambert)
@@ -360,6 +366,12 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
         return sample_mirror(b, sample);
     if ((u -= b->p_passing) < 0)
         return sample_passing(b, sample);
+    if ((u -= b->p_subsurface) < 0) {
+        sample->wi = bsdf_enter(b, u1, u2);
+        sample->weight.d = rgb_grey(b->subsurface / b->p_subsurface);
+        sample->subsurface = 1;
+        return 1;
+    }
     if ((u -= b->p_diffuse) < 0) {
         sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
     } else if ((u -= b->p_back) < 0) {

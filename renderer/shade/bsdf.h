@@ -43,6 +43,8 @@ typedef struct Bsdf {
 
     float diffuse, diffuse_back;
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
+    float subsurface;        /* light that goes in and comes out elsewhere */
+    float p_subsurface;      /* of sampling it */
     float transmission;
     Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
     float alpha;             /* GGX of disney; 0 = no microfacet lobe, or a smooth one that counts as mirror */
@@ -68,6 +70,7 @@ typedef struct BsdfSample {
     float pdf;               /* per solid angle, of all non-delta lobes together; 0 for a delta */
     int transmitted;         /* wi is on the other side */
     int straight;            /* passed without bending: the same ray goes on */
+    int subsurface;          /* goes in along wi, to come out elsewhere */
 } BsdfSample;
 
 /* What light comes from. */
@@ -82,6 +85,9 @@ typedef enum BsdfLight {
 Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, BsdfLight light, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
+
+/* A direction in which light goes below the surface. */
+Vec3 bsdf_enter(const Bsdf *bsdf, float u1, float u2);
 
 /* The GGX alpha that is as wide as the sharpest highlight; 0 where there is none. */
 float bsdf_highlight_alpha(const Bsdf *bsdf);

@@ -102,8 +102,9 @@ static double diffuse_from_behind(const Finish *f, const Primitive *primitive)
     return primitive->double_illuminate ? fmax(f->diffuse, f->diffuse_back) : f->diffuse_back;
 }
 
-static void setup_povray(Bsdf *b, const Finish *f, const Surface *surface, float filter, float transmit, float opacity)
+static void setup_povray(Bsdf *b, const Surface *surface, float filter, float transmit, float opacity)
 {
+    const Finish *f = surface->texture->finish;
     float gain = f->irid > 0 ? 1 + at_most((float)f->irid, 1) : 1;
     b->brilliance = not_negative((float)f->brilliance);
     float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
@@ -123,6 +124,8 @@ static void setup_povray(Bsdf *b, const Finish *f, const Surface *surface, float
                  brightness(filter, transmit, opacity));
     if (gain > 1)
         setup_film(b, f, surface->position, mirror);
+    if (!surface->backside && finish_is_subsurface(f))
+        b->subsurface = b->diffuse, b->diffuse = 0;
 }
 
 /* A number of the extension block where it varies over the surface. */
@@ -182,13 +185,14 @@ static void setup_choice(Bsdf *b)
     float glossy = b->disney ? glossy_estimate(b) : b->highlight_lights_only ? 0 : b->highlights;
     if (b->disney && !b->smooth && b->eta != 1)
         glossy += b->transmission;
-    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy, split_neutral(b->mirror),
-                  split_neutral(b->passing)};
-    float sum = w[0] + w[1] + w[2] + w[3] + w[4];
+    float w[6] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO,
+                  glossy,                      split_neutral(b->mirror),
+                  split_neutral(b->passing),   b->subsurface * NEUTRAL_ALBEDO};
+    float sum = w[0] + w[1] + w[2] + w[3] + w[4] + w[5];
     if (!(sum > 0))
         return;
     b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
-    b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
+    b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum, b->p_subsurface = w[5] / sum;
 }
 
 static void setup_lambert(Bsdf *b, const Finish *f, const Primitive *primitive)
@@ -264,7 +268,7 @@ static void setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float 
     if (finish->retex.present)
         setup_disney(b, finish, surface, filter, transmit, opacity);
     else
-        setup_povray(b, finish, surface, filter, transmit, opacity);
+        setup_povray(b, surface, filter, transmit, opacity);
     setup_choice(b);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);
@@ -288,4 +292,5 @@ void bsdf_stop_passing(Bsdf *b)
     b->passing = (Split){{0, 0, 0}, {0, 0, 0}};
     b->p_passing = 0;
     b->p_diffuse *= scale, b->p_back *= scale, b->p_glossy *= scale, b->p_mirror *= scale;
+    b->p_subsurface *= scale;
 }

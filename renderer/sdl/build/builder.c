@@ -133,6 +133,7 @@ static void begin(Sdl *sdl)
     Scene *scene = sdl_scene(sdl);
     scene->ambient_light = rgb_grey(1);
     builder->irid_wavelength = rgb(0.70f, 0.52f, 0.48f);
+    builder->mm_per_unit = 10;
     scene->number_of_waves = 10;
     scene->noise_generator = NOISE_RANGE_CORRECTED;
 }

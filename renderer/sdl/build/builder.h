@@ -20,7 +20,6 @@
 
 #define GAP_TABLE(X) \
     X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
-    X(SUBSURFACE, "subsurface", "it is ignored") \
     X(FAKE_CAUSTICS, "interior caustics", "it is ignored, see photons") \
     X(FINISH_FRESNEL, "finish fresnel", "it is ignored")
 
@@ -252,6 +251,8 @@ typedef struct Builder {
     int radiosity;        /* global_settings has a block of it */
     int photons;          /* global_settings has a block of them */
     Rgb irid_wavelength;
+    int has_subsurface;  /* global_settings has the block, without which POV-Ray has none either */
+    double mm_per_unit;
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;

@@ -128,6 +128,8 @@ static void complete_finishes(Sdl *sdl)
     const Rgb w = builder_of(sdl)->irid_wavelength;
     for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
         const float path = (float)(2 * PI * f->finish.irid_thickness);
+        if (builder_of(sdl)->has_subsurface)
+            f->finish.mean_free_path = rgb_scale(f->finish.translucency, (float)(1 / builder_of(sdl)->mm_per_unit));
         f->finish.matte = finish_is_matte(&f->finish);
         f->finish.irid_noise = sdl_scene(sdl)->noise_generator;
         f->finish.irid_phase = rgb(w.r > 0 ? path / w.r : 0, w.g > 0 ? path / w.g : 0, w.b > 0 ? path / w.b : 0);

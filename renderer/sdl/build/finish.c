@@ -126,6 +126,17 @@ static void irid(Sdl *sdl, Finish *f)
             sdl_expected(sdl, "thickness, turbulence or } in irid");
 }
 
+static void subsurface(Sdl *sdl, Finish *f)
+{
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}"))
+        if (sdl_accept(sdl, "translucency")) {
+            const Rgb c = opaque_color(sdl);
+            f->translucency = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
+        } else
+            sdl_expected(sdl, "translucency or } in subsurface");
+}
+
 static void diffuse(Sdl *sdl, Finish *f)
 {
     f->diffuse_albedo = sdl_accept(sdl, "albedo");
@@ -199,10 +210,9 @@ static void item(Sdl *sdl, ParsedFinish *finish)
         retex_block(sdl, f);
     else if (sdl_accept(sdl, "irid"))
         irid(sdl, f);
-    else if (sdl_accept(sdl, "subsurface")) {
-        gaps_add(&finish->gaps, GAP_SUBSURFACE);
-        sdl_skip_block(sdl);
-    } else
+    else if (sdl_accept(sdl, "subsurface"))
+        subsurface(sdl, f);
+    else
         sdl_expected(sdl, "a finish keyword or }");
 }
 

@@ -22,10 +22,11 @@ static void ignored(Sdl *sdl)
     for (int i = 0; blocks[i]; i++)
         if (sdl_is(sdl, blocks[i])) {
             builder_of(sdl)->radiosity |= i == 0;
+            builder_of(sdl)->has_subsurface |= i == 2;
             skip_statement(sdl);
             return;
         }
-    static const char *const settings[] = {"adc_bailout", "max_intersections", "mm_per_unit", "max_trace_level",
+    static const char *const settings[] = {"adc_bailout", "max_intersections", "max_trace_level",
                                            "hf_gray_16",  "charset",           NULL};
     for (int i = 0; settings[i]; i++)
         if (sdl_accept(sdl, settings[i])) {
@@ -51,6 +52,10 @@ void parse_global_settings(Sdl *sdl)
         } else if (sdl_accept(sdl, "irid_wavelength")) {
             const Rgbft c = sdl_color(sdl);
             builder_of(sdl)->irid_wavelength = rgb(c.r, c.g, c.b);
+        } else if (sdl_accept(sdl, "mm_per_unit")) {
+            builder_of(sdl)->mm_per_unit = sdl_float(sdl);
+            if (!(builder_of(sdl)->mm_per_unit > 0))
+                sdl_error(sdl, "mm_per_unit must be above 0");
         } else if (sdl_accept(sdl, "number_of_waves")) {
             const double count = sdl_float(sdl);
             if (!(count >= 1 && count <= WAVE_SOURCES_MAX))

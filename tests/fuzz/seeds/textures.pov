@@ -1,5 +1,6 @@
 // Pigments, finishes, layers and what is only reported.
 #version 3.7;
+global_settings { mm_per_unit 5 subsurface { samples 9, 9 radiosity off } }
 camera { location <0, 2, -6> look_at 0 angle 60 }
 light_source { <3, 5, -4>, rgb 1 }
 #declare Glass = material {
