@@ -17,6 +17,7 @@ typedef enum PatternArguments {
     ARGUMENTS_FUNCTION,
     ARGUMENTS_IMAGE,
     ARGUMENTS_OBJECT, /* in braces, with the list of colours */
+    ARGUMENTS_PAVEMENT,
     ARGUMENTS_PIGMENT,
     ARGUMENTS_SLOPE,
     ARGUMENTS_TILING, /* Pattern.number, from 1 to 27 */

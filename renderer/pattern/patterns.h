@@ -33,6 +33,7 @@
     X(marble) \
     X(object) \
     X(onion) \
+    X(pavement) \
     X(pigment_pattern) \
     X(planar) \
     X(quilted) \
@@ -53,7 +54,6 @@
 /* POV-Ray's patterns that are read, with a warning, and replaced by their mean colour: keyword, PatternArguments,
  * length of the list of colours, name in the warning. */
 #define UNSUPPORTED_PATTERNS(X) \
-    X(pavement, NONE, 0, "pavement") \
     X(projection, BLOCK, 0, "projection")
 
 #define X(name) extern const PatternOps pattern_##name;

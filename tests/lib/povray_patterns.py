@@ -145,6 +145,9 @@ waves
 wrinkles'''.split('\n')]
 PIGMENTS += [f'tiling {n} scale .4 translate <.123,0,.077>' for n in range(1, 25)]
 PIGMENTS += [f'tiling 22 scale {s} translate <.123,0,.077>' for s in (.07, .13, .17, .23, .31)]
+PIGMENTS += [f'pavement number_of_sides 4 number_of_tiles {tiles} pattern {k} exterior {(k + 1) % 3} '
+             f'interior {k // 3 % 3} form {(k + tiles) % 4} scale .4 translate <.123,0,.077>'
+             for tiles, count in ((1, 1), (2, 1), (3, 2), (4, 5), (5, 12), (6, 35)) for k in range(1, count + 1)]
 
 
 def main():

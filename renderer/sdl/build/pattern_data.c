@@ -6,6 +6,7 @@
 #include "pattern/density_file.h"
 #include "pattern/field.h"
 #include "pattern/fractal.h"
+#include "pattern/pavement.h"
 #include "pattern/slope.h"
 #include "pattern/tiling.h"
 #include "sdl/build/builder.h"
@@ -240,6 +241,48 @@ static void parse_tiling(Sdl *sdl, ParsedPigment *pigment)
     }
 }
 
+/* ---- pavement ---- */
+
+static int accept_pavement_number(Sdl *sdl, Pavement *pavement)
+{
+    const struct {
+        const char *word;
+        int *number, low, high;
+    } numbers[] = {
+        {"number_of_sides", &pavement->sides, 3, 6}, {"number_of_tiles", &pavement->tiles, 1, PAVEMENT_SQUARES},
+        {"pattern", &pavement->pattern, 1, 35},      {"exterior", &pavement->exterior, 0, 2},
+        {"interior", &pavement->interior, 0, 2},     {"form", &pavement->form, 0, 3},
+    };
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (sdl_accept(sdl, numbers[k].word)) {
+            const double value = floor(sdl_float(sdl));
+            if (!(value >= numbers[k].low && value <= numbers[k].high))
+                sdl_error(sdl, "%s %g of a pavement: it goes from %d to %d", numbers[k].word, value, numbers[k].low,
+                          numbers[k].high);
+            *numbers[k].number = (int)value;
+            return 1;
+        }
+    return 0;
+}
+
+static void parse_pavement(Sdl *sdl, ParsedPigment *pigment)
+{
+    Pattern *pattern = &pigment->pigment.pattern;
+    Pavement *pavement = sdl_alloc(sdl, sizeof *pavement);
+    *pavement = (Pavement){.sides = 3, .tiles = 1, .pattern = 1};
+    while (accept_pavement_number(sdl, pavement))
+        ;
+    pattern->data = pavement;
+    if (pavement->sides != 4) {
+        gaps_add_pattern(&pigment->gaps, pattern_find(pattern->ops->keyword));
+        pigment->averaged = 1;
+        *pavement = (Pavement){.sides = 4, .tiles = 1, .pattern = 1};
+    }
+    if (pavement->pattern > pavement_count(pavement->tiles))
+        sdl_error(sdl, "pattern %d of a pavement of %d squares: there are 1 to %d", pavement->pattern, pavement->tiles,
+                  pavement_count(pavement->tiles));
+}
+
 /* ---- brick ---- */
 
 static int accept_brick_modifier(Sdl *sdl, Pattern *pattern)
@@ -282,6 +325,9 @@ void parse_pattern_data(Sdl *sdl, ParsedPigment *pigment)
         break;
     case ARGUMENTS_FRACTAL:
         parse_fractal(sdl, pattern);
+        break;
+    case ARGUMENTS_PAVEMENT:
+        parse_pavement(sdl, pigment);
         break;
     case ARGUMENTS_TILING:
         parse_tiling(sdl, pigment);
