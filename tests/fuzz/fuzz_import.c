@@ -57,12 +57,14 @@ static void seed(const char *ending, const void *bytes, size_t size)
     free(input);
 }
 
-/* Assimp's writers stop at nested metadata. */
-static void drop_metadata(struct aiNode *node)
+/* Assimp's writers stop at nested metadata: take it from the nodes, or give it back. */
+static void exchange_metadata(struct aiNode *node, struct aiMetadata **kept)
 {
-    node->mMetaData = NULL;
+    struct aiMetadata *own = node->mMetaData;
+    node->mMetaData = *kept;
+    *kept++ = own;
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        drop_metadata(node->mChildren[i]);
+        exchange_metadata(node->mChildren[i], kept++);
 }
 
 /* The same model in all formats that Assimp writes. */
@@ -80,8 +82,9 @@ static void begin(void)
     seed("gltf", model, sizeof model - 1);
     fuzz_words(model, sizeof model - 1);
     const struct aiScene *scene = aiImportFileFromMemory(model, sizeof model - 1, 0, "gltf");
+    struct aiMetadata *metadata[8] = {NULL}; /* of the root and those below it */
     if (scene)
-        drop_metadata(scene->mRootNode);
+        exchange_metadata(scene->mRootNode, metadata);
     for (size_t i = 0; scene && i < sizeof formats / sizeof *formats; i++) {
         const struct aiExportDataBlob *blob = aiExportSceneToBlob(scene, formats[i][0], 0);
         if (blob)
@@ -90,6 +93,8 @@ static void begin(void)
             fuzz_words(blob->data, blob->size);
         aiReleaseExportBlob(blob);
     }
+    if (scene)
+        exchange_metadata(scene->mRootNode, metadata);
     aiReleaseImport(scene);
 }
 
