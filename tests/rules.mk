@@ -139,13 +139,15 @@ bench-paper: all
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-rooms
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
 fidelity-frames: all
 	@BUILD=$(BUILD) tests/fidelity/table/frames.sh
+fidelity-rooms: all
+	@BUILD=$(BUILD) tests/fidelity/table/imported-rooms.sh
 
 # The pages with measured figures in docs/, and the figures of README and man pages from them. PAGES='…' chooses.
 .PHONY: figures
