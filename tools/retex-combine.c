@@ -142,7 +142,7 @@ static int load_samples(const Cli *cli, Job *job, RetexError *err)
 /* Open the set, and the samples from the same stream or from a separate file. */
 static int load(const Cli *cli, Job *job, RetexError *err)
 {
-    cli_input(cli, job->set_path, "a set, as from retex-render");
+    cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
     int code = retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, err);
     if (!code && !job->set)
         code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set_path);

@@ -1,4 +1,4 @@
-/* Participating media: phase functions, and single scattering against a sum over the segment. */
+/* Participating media: phase functions, and single scattering in a ball against values of POV-Ray. */
 #include "lib_scene_text.h"
 
 #include <math.h>
