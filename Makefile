@@ -20,6 +20,7 @@
 #   make fidelity     compare retextures with new renders; BENCH_DOCS=1: docs/fidelity.md; takes hours
 #   make fidelity-denoise   compare denoised sets with new renders; BENCH_DOCS=1: docs/denoise.md; takes hours
 #   make fidelity-frames    whether frames of an animation flicker; BENCH_DOCS=1: docs/frames.md; takes an hour
+#   make fidelity-rooms     imported rooms of $RETEX_ROOMS beside Cycles and new renders: docs/imported-rooms.md
 #   make figures      the pages of measured figures in docs/, and those figures in README and man pages;
 #                     PAGES='post speed' FIGURES=small
 #   make pictures     make the README's pictures in docs/pictures; takes long

@@ -46,8 +46,8 @@ void shading_bsdf(Shading *s, Vec3 wo)
 
 int shading_disperses(const Shading *s)
 {
-    const int passes = s->filter + s->transmit > 0 || finish_transmits(s->surface.texture->finish);
-    return interior_disperses(s->surface.primitive->interior) && passes && !s->is_layer;
+    return interior_disperses(s->surface.primitive->interior) && !s->is_layer &&
+           (s->filter + s->transmit > 0 || finish_transmits(s->surface.texture->finish));
 }
 
 void shading_bsdf_wavelength(Shading *s, Vec3 wo, double wavelength)

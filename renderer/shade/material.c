@@ -128,13 +128,16 @@ static void setup_povray(Bsdf *b, const Surface *surface, float filter, float tr
         b->subsurface = b->diffuse, b->diffuse = 0;
 }
 
-/* A number of the extension block where it varies over the surface. */
-static float mapped(double value, const Pigment *map, const Surface *surface)
+/* A number of the extension block: the same everywhere, or varied over the surface by a map. */
+static float map_value(double value, const Pigment *map, const Surface *surface)
 {
-    if (!map)
-        return clamp01(value);
     const Rgbft c = pigment_eval(map, surface_texture_point(surface), surface_uv(surface).uv);
     return clamp01(value * (double)rgb_luminance(rgb(c.r, c.g, c.b)));
+}
+
+static inline float mapped(double value, const Pigment *map, const Surface *surface)
+{
+    return map ? map_value(value, map, surface) : clamp01(value);
 }
 
 /* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
