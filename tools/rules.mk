@@ -41,12 +41,18 @@ $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) |
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
-# The player of --web is embedded in retex-pack as bytes, scripts without indentation, which is a tenth of them.
-PLAYER := $(addprefix tools/web/,index.html retex-room.js package.json README.md)
+# The player of --web is one script: its parts one after the other, without indentation, which is a tenth of the bytes.
+PLAYER_PARTS := $(patsubst %,tools/web/%.js,files shaders renderer look element)
+$(BUILD)/gen/retex-room.js: $(PLAYER_PARTS) tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY)cat $(PLAYER_PARTS) | sed 's/^ *//' >$@
+
+# The player's files are embedded in retex-pack as bytes.
+PLAYER := tools/web/index.html $(BUILD)/gen/retex-room.js tools/web/package.json tools/web/README.md
 $(BUILD)/gen/player.c: $(PLAYER) tools/rules.mk
 	@mkdir -p $(@D)
 	$(SAY){ echo '#include <stddef.h>'; number=0; for file in $(PLAYER); do number=$$((number + 1)); \
-	    echo "static const unsigned char file$$number[] = {"; case $$file in *.js) sed 's/^ *//' $$file ;; *) cat $$file ;; esac | od -An -v -tx1 | sed 's/ \(..\)/0x\1,/g'; \
+	    echo "static const unsigned char file$$number[] = {"; od -An -v -tx1 $$file | sed 's/ \(..\)/0x\1,/g'; \
 	    echo '};'; done; \
 	    echo 'typedef struct PlayerFile { const char *name; const unsigned char *data; size_t bytes; } PlayerFile;'; \
 	    echo 'extern const PlayerFile retex_player_files[]; const PlayerFile retex_player_files[] = {'; number=0; \

@@ -1,0 +1,549 @@
+class RetexRoom extends HTMLElement {
+  static observedAttributes = ["src"];
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: "open" });
+    root.innerHTML = `<style>${STYLE}</style>${BODY}`;
+    this.$ = (selector) => root.querySelector(selector);
+    this.textures = [];
+    this.light = { exposure: 0, warmth: 0 };
+    this.zoom = { times: 1, x: 0, y: 0 };
+    this.selected = 0;
+    this.loading = 0;
+    this.listen(root);
+  }
+
+  connectedCallback() {
+    if (!this.started && this.hasAttribute("src")) this.load();
+  }
+
+  disconnectedCallback() {
+    this.abort?.abort();
+    this.started = false;
+  }
+
+  attributeChangedCallback() {
+    if (this.isConnected) this.load();
+  }
+
+  // ---- public ----
+
+  /* The names of what can be changed. */
+  get targets() {
+    return this.room ? this.room.targets.map((t) => t.name) : [];
+  }
+
+  /* Resolves when all is loaded. */
+  get complete() {
+    return this.whenComplete;
+  }
+
+  /* Put a texture on a target: a File or Blob, the URL of a picture, "#rrggbb", "rgb(r,g,b)" with linear numbers, or null
+   * for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
+   * degrees, offset [u, v], tint "#rrggbb", label. Resolves when it is drawn. */
+  async setTexture(name, source, options = {}) {
+    const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
+    let image = null, label = "Original", kept = null;
+    if (source instanceof Blob) {
+      label = source.name || "Picture";
+      image = await decodeImage(source, label);
+    } else if (source) {
+      kept = String(source);
+      image = parseColor(kept);
+      label = kept;
+      if (!image) {
+        label = nameOf(kept);
+        const bytes = await fetchBytes(new URL(kept, document.baseURI), this.abort.signal);
+        image = await decodeImage(new Blob([bytes]), label);
+      }
+    }
+    if (order !== this.textures[index].order) return; // another one has been chosen since
+    const most = Math.min(this.renderer?.most || 4096, 4096);
+    if (image && !Array.isArray(image) && Math.max(image.naturalWidth, image.naturalHeight) > most) image = smaller(image, most);
+    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order });
+    this.renderer?.putTexture(index, image);
+    this.place(name, options);
+    this.say(`${name}: ${this.textures[index].label}`);
+  }
+
+  /* Change scale, rotate, offset or tint of a target's texture. */
+  place(name, options) {
+    const texture = this.textures[this.indexOf(name)];
+    for (const key of ["scale", "rotate", "offset", "tint", "label"]) if (options[key] !== undefined) texture[key] = options[key];
+    this.update();
+  }
+
+  /* Brightness in stops, warmth from -1 to 1. */
+  setLight(light) {
+    Object.assign(this.light, light);
+    this.update();
+  }
+
+  getState() {
+    const textures = {};
+    this.textures.forEach(({ source, scale, rotate, offset, tint }, i) => {
+      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint };
+    });
+    return { textures, light: { ...this.light } };
+  }
+
+  async setState(state) {
+    this.setLight({ exposure: Number(state.light?.exposure) || 0, warmth: Number(state.light?.warmth) || 0 });
+    for (const name of this.targets) {
+      const { source = null, ...options } = state.textures?.[name] || {};
+      await this.setTexture(name, source, options);
+    }
+  }
+
+  /* A link to the page with this room's state. Pictures from the visitor's own files are not in it. */
+  get link() {
+    const url = new URL(location.href);
+    url.hash = "room=" + encodeURIComponent(JSON.stringify(this.getState()));
+    return url.href;
+  }
+
+  /* The picture in the room's own size. */
+  toBlob(type = "image/png", quality) {
+    this.draw(true);
+    return new Promise((resolve) => this.$("canvas").toBlob(resolve, type, quality));
+  }
+
+  select(name) {
+    this.selected = this.indexOf(name);
+    this.refresh();
+    this.emit("retex-select", { target: name });
+  }
+
+  // ---- loading ----
+
+  async load() {
+    this.started = true;
+    this.abort?.abort();
+    const abort = (this.abort = new AbortController());
+    this.renderer = this.room = null;
+    this.textures = [];
+    this.fail(null);
+    this.whenComplete = this.run(abort.signal).catch((error) => {
+      if (!abort.signal.aborted) this.fail(error.message);
+    });
+  }
+
+  async run(signal) {
+    const base = new URL(this.getAttribute("src").replace(/\/?$/, "/"), document.baseURI);
+    const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache"));
+    let room;
+    try {
+      room = JSON.parse(text);
+    } catch {
+      throw new Error("room.json is damaged.");
+    }
+    try {
+      checkManifest(room);
+    } catch (error) {
+      throw error instanceof TypeError ? new Error("room.json is damaged.") : error;
+    }
+    if (signal.aborted) return;
+    this.room = room;
+    this.textures = room.targets.map(plainTexture);
+    this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
+    const view = this.$(".view");
+    view.style.aspectRatio = `${room.width} / ${room.height}`;
+    view.style.maxWidth = `calc(100cqh * ${room.width / room.height})`;
+    this.refresh();
+    this.progress = { done: 0, all: [room.picture, room.reduced, ...room.lights, ...room.classes].reduce((n, f) => n + (f?.bytes || 0), 0) };
+    const get = async (entry) => {
+      const bytes = await fetchChecked(base, entry, signal);
+      this.$(".bar").value = (this.progress.done += bytes.length) / this.progress.all;
+      return bytes;
+    };
+    const still = await decodeJpeg(await get(room.picture), room.picture.file);
+    if (still.naturalWidth !== room.width || still.naturalHeight !== room.height) throw new Error(`${room.picture.file} is damaged.`);
+    const shown = this.$("img");
+    shown.src = new URL(room.picture.file, base).href;
+    shown.hidden = false;
+    this.emit("retex-still", {});
+    try {
+      this.renderer = new Renderer(this.$("canvas"), room);
+    } catch (error) {
+      this.$(".bar").hidden = true;
+      throw error.message === "no WebGL 2" || typeof DecompressionStream === "undefined" ? new Error(NO_WEBGL) : error;
+    }
+    this.renderer.putStill(still);
+    await this.stream(get, signal);
+  }
+
+  /* The target that shows most, then the others, then light that no target changes. */
+  async stream(get, signal) {
+    const { room, renderer } = this;
+    const order = room.targets.map((_, i) => i).sort((a, b) => room.targets[b].share - room.targets[a].share);
+    const jobs = [];
+    const light = (l) => jobs.push(async () => renderer.putLight(l, await decodeJpeg(await get(room.lights[l]), room.lights[l].file)));
+    const footprints = (c) => jobs.push(async () => {
+      const data = await inflate(await get(c), c.file);
+      await new Promise((resolve) => setTimeout(resolve));
+      renderer.putClass(c, decodeClass(c, data, c.base));
+    });
+    if (room.reduced) jobs.push(async () => renderer.putReduced(await decodeJpeg(await get(room.reduced), room.reduced.file)));
+    room.classes.filter((c) => c.kind === "interreflection").forEach(footprints);
+    const steps = [];
+    for (const t of order) {
+      room.classes.filter((c) => c.kind !== "interreflection" && c.target === t).forEach(footprints);
+      room.lights.forEach((l, i) => l.target === t && light(i));
+      steps.push(jobs.length);
+    }
+    room.lights.forEach((l, i) => (l.target < 0 || l.target >= room.targets.length) && light(i));
+    for (let i = 0, step = 0; i < jobs.length; ) {
+      const end = steps[step] ?? jobs.length;
+      await Promise.all(jobs.slice(i, end).map((job) => job()));
+      if (signal.aborted) return;
+      i = end;
+      if (step++ === 0) await this.begin();
+      this.refresh();
+      this.draw(true);
+    }
+    this.$(".bar").hidden = true;
+    this.emit("retex-complete", {});
+    this.say("All is loaded.");
+  }
+
+  /* The first target can be changed. */
+  async begin() {
+    this.$("canvas").classList.add("shown");
+    this.emit("retex-ready", { targets: this.targets });
+    const hash = /[#&]room=([^&]*)/.exec(location.hash);
+    if (!hash || this.hasAttribute("no-link")) return;
+    try {
+      await this.setState(JSON.parse(decodeURIComponent(hash[1])));
+    } catch (error) {
+      this.fail(`The link's textures could not be restored: ${error.message}`);
+    }
+  }
+
+  // ---- drawing ----
+
+  settings() {
+    return this.textures.map((t, i) => {
+      const { uv_scale: unit } = this.room.targets[i], image = t.image;
+      let scale = t.scale;
+      if (!Array.isArray(scale)) {
+        const wide = image && !Array.isArray(image) ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
+        scale = [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
+      }
+      return { scale, rotate: t.rotate, offset: t.offset, tint: parseColor(t.tint) || [1, 1, 1] };
+    });
+  }
+
+  /* now: before returning, and not with the next frame. */
+  draw(now) {
+    if (!this.renderer) return;
+    if (!now) {
+      this.frame ||= requestAnimationFrame(() => this.draw(true));
+      return;
+    }
+    cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    const begin = performance.now(), { exposure, warmth } = this.light, most = 2 ** exposure;
+    const split = this.comparing ? (this.$(".split").value / 100) * this.room.width : 0;
+    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)]);
+    this.emit("retex-draw", { milliseconds: performance.now() - begin });
+  }
+
+  update() {
+    this.refresh();
+    this.draw(false);
+    this.emit("retex-change", this.getState());
+  }
+
+  emit(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
+  }
+
+  say(text) {
+    this.$("[role=status]").textContent = text;
+  }
+
+  fail(message) {
+    const box = this.$(".message");
+    box.hidden = !message;
+    box.textContent = message || "";
+    if (message) this.$(".bar").hidden = true, this.emit("retex-error", { message });
+  }
+
+  indexOf(name) {
+    const index = this.targets.indexOf(name);
+    if (index < 0) throw new Error(`The room has no '${name}'.`);
+    return index;
+  }
+
+  // ---- controls ----
+
+  /* Pictures and colours that are offered: attribute `textures`, URLs separated by blanks. */
+  get offers() {
+    const given = (this.getAttribute("textures") || "").split(/\s+/).filter(Boolean);
+    return [...given, "#e9e4da", "#b9a48c", "#7d5f48", "#8b9a86", "#44525c", "#2b2b2b"];
+  }
+
+  refresh() {
+    const { room } = this, texture = this.textures[this.selected];
+    if (!room) return;
+    const row = this.$(".targets"), offers = this.$(".swatches");
+    if (row.children.length !== room.targets.length)
+      row.replaceChildren(...room.targets.map((t) => {
+        const button = document.createElement("button");
+        button.textContent = t.name;
+        button.onclick = () => this.select(t.name);
+        return button;
+      }));
+    [...row.children].forEach((button, i) => {
+      button.setAttribute("aria-pressed", i === this.selected);
+      button.disabled = !this.renderer?.canEdit(i);
+    });
+    if (!offers.children.length)
+      offers.replaceChildren(...this.offers.map((source) => {
+        const button = document.createElement("button"), color = parseColor(source);
+        button.className = "swatch";
+        button.style.background = color ? source : `url("${new URL(source, document.baseURI).href.replace(/"/g, "%22")}")`;
+        button.dataset.source = source;
+        button.title = color ? source : nameOf(source);
+        button.setAttribute("aria-label", color ? `Colour ${source}` : nameOf(source));
+        button.onclick = () => this.try(() => this.setTexture(this.targets[this.selected], source));
+        return button;
+      }));
+    const off = !this.renderer?.canEdit(this.selected);
+    for (const button of offers.children) button.disabled = off, button.setAttribute("aria-pressed", button.dataset.source === texture.source);
+    this.$("[data-set=exposure]").disabled = this.$("[data-set=warmth]").disabled = !this.renderer;
+    this.$("[data-set=file]").disabled = this.$("[data-set=color]").disabled = this.$("[data-do=original]").disabled = off;
+    this.$(".placing").hidden = !texture.image;
+    const mean = Array.isArray(texture.scale) ? texture.scale[0] : texture.scale;
+    const show = (key, value, text) => {
+      const input = this.$(`[data-set=${key}]`), output = input.parentElement.querySelector("output");
+      if (this.shadowRoot.activeElement !== input || input.type !== "range") input.value = value;
+      if (output) output.textContent = text;
+      if (text) input.setAttribute("aria-valuetext", text);
+    };
+    show("size", -Math.log2(mean), `${(1 / mean).toFixed(2)}×`);
+    show("rotate", texture.rotate, `${Math.round(texture.rotate)}°`);
+    show("right", texture.offset[0], texture.offset[0].toFixed(2));
+    show("up", texture.offset[1], texture.offset[1].toFixed(2));
+    show("tint", texture.tint, "");
+    show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
+    show("warmth", this.light.warmth, (this.light.warmth > 0 ? "+" : "") + this.light.warmth.toFixed(2));
+    this.$("canvas").setAttribute("aria-label", `The room. ${this.targets.map((n, i) => `${n}: ${this.textures[i].label}`).join(", ")}.`);
+  }
+
+  async try(action) {
+    try {
+      this.fail(null);
+      await action();
+    } catch (error) {
+      this.fail(error.message);
+    }
+  }
+
+  setControl(input) {
+    const name = this.targets[this.selected], texture = this.textures[this.selected], value = Number(input.value);
+    if (!texture) return;
+    switch (input.dataset.set) {
+      case "file": {
+        const [file] = input.files;
+        input.value = "";
+        if (file) this.try(() => this.setTexture(name, file));
+        break;
+      }
+      case "color": return this.try(() => this.setTexture(name, input.value));
+      case "size": {
+        const times = 2 ** -value, old = texture.scale;
+        return this.place(name, { scale: Array.isArray(old) ? [times, old[1] / old[0] * times] : times });
+      }
+      case "rotate": return this.place(name, { rotate: value });
+      case "right": return this.place(name, { offset: [value, texture.offset[1]] });
+      case "up": return this.place(name, { offset: [texture.offset[0], value] });
+      case "tint": return this.place(name, { tint: input.value });
+      default: return this.setLight({ [input.dataset.set]: value });
+    }
+  }
+
+  async command(name) {
+    switch (name) {
+      case "compare":
+        this.comparing = !this.comparing;
+        this.$("[data-do=compare]").setAttribute("aria-pressed", this.comparing);
+        this.$(".split").hidden = this.$(".line").hidden = !this.comparing;
+        if (this.comparing) this.$(".split").focus();
+        this.moveLine();
+        return this.draw(false);
+      case "in": return this.zoomBy(1.5);
+      case "out": return this.zoomBy(1 / 1.5);
+      case "full": return document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen();
+      case "original": return this.setTexture(this.targets[this.selected], null);
+      case "link": {
+        const local = this.textures.some((t) => t.local);
+        history.replaceState(null, "", this.link);
+        try {
+          await navigator.clipboard.writeText(this.link);
+        } catch { /* the address bar has it */ }
+        return this.note(local ? "Link copied. Your own pictures are not in it." : "Link copied.");
+      }
+      case "download": {
+        const a = document.createElement("a"), comparing = this.comparing;
+        this.comparing = false;
+        a.href = URL.createObjectURL(await this.toBlob());
+        this.comparing = comparing;
+        this.draw(false);
+        a.download = "room.png";
+        a.click();
+        return setTimeout(() => URL.revokeObjectURL(a.href), 1000);
+      }
+    }
+  }
+
+  /* Show a few words for a moment. */
+  note(text) {
+    const label = this.$(".name");
+    label.textContent = text;
+    label.hidden = false;
+    clearTimeout(this.noting);
+    this.noting = setTimeout(() => (label.hidden = true), 2500);
+    this.say(text);
+  }
+
+  moveLine() {
+    const { left, top, width, height } = this.$("canvas").getBoundingClientRect(), stage = this.$(".stage").getBoundingClientRect();
+    const split = this.$(".split");
+    const bottom = Math.min(top + height, stage.bottom) - stage.top;
+    Object.assign(split.style, { left: `${left - stage.left - 22}px`, width: `${width + 44}px`, top: `${bottom - 52}px` });
+    const x = left - stage.left + (width * split.value) / 100;
+    Object.assign(this.$(".line").style, { left: `${x}px`, top: `${top - stage.top}px`, height: `${height}px` });
+  }
+
+  zoomBy(times, x, y) {
+    const stage = this.$(".stage").getBoundingClientRect(), z = this.zoom, next = clamp(z.times * times, 1, 12);
+    const view = this.$(".view"), left = view.offsetLeft, top = view.offsetTop;
+    const px = (x ?? stage.left + stage.width / 2) - stage.left - left, py = (y ?? stage.top + stage.height / 2) - stage.top - top;
+    this.panTo(px - ((px - z.x) * next) / z.times, py - ((py - z.y) * next) / z.times, next);
+  }
+
+  panTo(x, y, times = this.zoom.times) {
+    const view = this.$(".view"), width = view.offsetWidth, height = view.offsetHeight;
+    this.zoom = { times, x: clamp(x, width - width * times, 0), y: clamp(y, height - height * times, 0) };
+    view.style.transform = times > 1 ? `translate(${this.zoom.x}px, ${this.zoom.y}px) scale(${times})` : "";
+    this.$(".stage").classList.toggle("zoomed", times > 1);
+    this.moveLine();
+  }
+
+  /* The target that is seen at a place of the window, or -1. */
+  targetAt(x, y) {
+    const box = this.$("canvas").getBoundingClientRect(), room = this.room;
+    if (!room || !this.renderer) return -1;
+    const px = Math.floor(((x - box.left) / box.width) * room.width), py = Math.floor(((y - box.top) / box.height) * room.height);
+    if (px < 0 || py < 0 || px >= room.width || py >= room.height) return -1;
+    const seen = this.renderer.full.filter((c) => c.heads && c.heads[py * room.width + px] & 31);
+    return seen.length ? seen.reduce((a, b) => (room.targets[a.target].share < room.targets[b.target].share ? a : b)).target : -1;
+  }
+
+  listen(root) {
+    const stage = this.$(".stage"), canvas = this.$("canvas"), pointers = new Map();
+    let moved = 0, pinch = 0;
+    root.addEventListener("input", ({ target }) => {
+      if (target.classList.contains("split")) this.moveLine(), this.draw(false);
+      else if (target.dataset.set) this.setControl(target);
+    });
+    root.addEventListener("click", ({ target }) => {
+      const button = target.closest("[data-do]");
+      if (button) this.try(() => this.command(button.dataset.do));
+    });
+    const isPicture = (event) => !event.target.closest("button, input");
+    stage.addEventListener("pointerdown", (event) => {
+      if (!isPicture(event)) return;
+      pointers.set(event.pointerId, event);
+      moved = pointers.size > 1 ? 99 : 0;
+      pinch = 0;
+    });
+    stage.addEventListener("pointermove", (event) => {
+      const last = pointers.get(event.pointerId);
+      if (!last) {
+        if (event.pointerType === "mouse" && isPicture(event)) this.hover(event);
+        return;
+      }
+      const dx = event.clientX - last.clientX, dy = event.clientY - last.clientY;
+      moved += Math.abs(dx) + Math.abs(dy);
+      pointers.set(event.pointerId, event);
+      if (pointers.size === 2) {
+        const [a, b] = pointers.values(), far = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+        if (pinch) this.zoomBy(far / pinch, (a.clientX + b.clientX) / 2, (a.clientY + b.clientY) / 2);
+        pinch = far;
+      } else if (moved > 6 && this.zoom.times > 1) {
+        if (!stage.hasPointerCapture(event.pointerId)) stage.setPointerCapture(event.pointerId);
+        this.panTo(this.zoom.x + dx, this.zoom.y + dy);
+      }
+    });
+    const end = (event) => {
+      if (!pointers.delete(event.pointerId) || event.type !== "pointerup" || moved > 6) return;
+      const target = this.targetAt(event.clientX, event.clientY);
+      if (target < 0 || !this.renderer.canEdit(target)) return;
+      this.select(this.targets[target]);
+      this.note(this.targets[target]);
+    };
+    stage.addEventListener("pointerup", end);
+    stage.addEventListener("pointercancel", end);
+    stage.addEventListener("pointerleave", () => (this.$(".name").hidden = true));
+    stage.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey && this.zoom.times === 1 && event.deltaY > 0) return; // the page scrolls
+      event.preventDefault();
+      this.zoomBy(2 ** (-event.deltaY / 300), event.clientX, event.clientY);
+    }, { passive: false });
+    stage.addEventListener("dblclick", (event) => isPicture(event) && (this.zoom.times > 1 ? this.panTo(0, 0, 1) : this.zoomBy(2.5, event.clientX, event.clientY)));
+    stage.addEventListener("keydown", (event) => {
+      if (event.target !== stage) return;
+      const step = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] }[event.key];
+      if (step) this.panTo(this.zoom.x + step[0], this.zoom.y + step[1]);
+      else if (event.key === "+" || event.key === "=") this.zoomBy(1.5);
+      else if (event.key === "-") this.zoomBy(1 / 1.5);
+      else if (event.key === "0") this.panTo(0, 0, 1);
+      else return;
+      event.preventDefault();
+    });
+    stage.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      stage.classList.add("drop");
+      this.hover(event);
+    });
+    stage.addEventListener("dragleave", () => stage.classList.remove("drop"));
+    stage.addEventListener("drop", (event) => {
+      event.preventDefault();
+      stage.classList.remove("drop");
+      const [file] = event.dataTransfer.files, target = this.targetAt(event.clientX, event.clientY);
+      if (target >= 0 && this.renderer?.canEdit(target)) this.select(this.targets[target]);
+      if (file) this.try(() => this.setTexture(this.targets[this.selected], file));
+    });
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.renderer = null;
+      canvas.classList.remove("shown");
+      this.fail("The graphics card was needed elsewhere. Please reload the page.");
+    });
+    new ResizeObserver(() => this.panTo(this.zoom.x, this.zoom.y)).observe(stage);
+  }
+
+  hover(event) {
+    const target = this.targetAt(event.clientX, event.clientY), label = this.$(".name");
+    label.hidden = target < 0;
+    if (target >= 0) label.textContent = this.targets[target];
+    clearTimeout(this.noting);
+  }
+}
+
+/* A large picture in a canvas whose longer side has so many pixels. */
+function smaller(image, most) {
+  const times = most / Math.max(image.naturalWidth, image.naturalHeight), canvas = document.createElement("canvas");
+  canvas.width = Math.max(1, Math.round(image.naturalWidth * times));
+  canvas.height = Math.max(1, Math.round(image.naturalHeight * times));
+  const context = canvas.getContext("2d");
+  context.imageSmoothingQuality = "high";
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas;
+}
+
+if (!customElements.get("retex-room")) customElements.define("retex-room", RetexRoom);
+export { RetexRoom };

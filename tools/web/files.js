@@ -1,0 +1,160 @@
+/* <retex-room src="FOLDER/">: a room whose textures can be changed in the browser. FOLDER is what `retex-pack --web`
+ * wrote. The picture is a polynomial in the textures, see retex-web(5); WebGL 2 evaluates it. See README.md. */
+
+// ---- files ----
+
+const crcTable = Uint32Array.from({ length: 256 }, (_, n) => {
+  for (let k = 0; k < 8; k++) n = n & 1 ? (n >>> 1) ^ 0xedb88320 : n >>> 1;
+  return n;
+});
+
+function crc32(bytes) {
+  let crc = -1;
+  for (let i = 0; i < bytes.length; i++) crc = crcTable[(crc ^ bytes[i]) & 255] ^ (crc >>> 8);
+  return ~crc >>> 0;
+}
+
+async function fetchBytes(url, signal, cache = "default") {
+  let answer;
+  try {
+    answer = await fetch(url, { signal, cache });
+  } catch (error) {
+    if (signal.aborted) throw error;
+    throw new Error(location.protocol === "file:" ? "This page must come from a web server, not from a file."
+      : `${nameOf(url)} could not be loaded.`);
+  }
+  if (!answer.ok) throw new Error(`${nameOf(url)} is missing (status ${answer.status}).`);
+  return new Uint8Array(await answer.arrayBuffer());
+}
+
+const nameOf = (url) => decodeURIComponent(String(url).split(/[?#]/)[0].split("/").pop());
+
+/* A file of the room, whose size and checksum the manifest has. */
+async function fetchChecked(base, entry, signal) {
+  const bytes = await fetchBytes(new URL(entry.file, base), signal);
+  if (bytes.length !== entry.bytes || crc32(bytes) !== entry.crc32) throw new Error(`${entry.file} is damaged.`);
+  return bytes;
+}
+
+async function decodeImage(blob, name) {
+  const image = new Image();
+  image.src = URL.createObjectURL(blob);
+  try {
+    await image.decode();
+  } catch {
+    throw new Error(`${name} is no picture that this browser reads.`);
+  } finally {
+    URL.revokeObjectURL(image.src);
+  }
+  return image;
+}
+
+const decodeJpeg = (bytes, name) => decodeImage(new Blob([bytes], { type: "image/jpeg" }), name);
+
+async function inflate(bytes, name) {
+  try {
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  } catch {
+    throw new Error(`${name} is damaged.`);
+  }
+}
+
+// ---- footprints ----
+
+/* The integers of one plane, in the pixels where `present` is 1. */
+function decodePlane(stream, present, width, height, out, shift, mask) {
+  const head = stream.data[stream.at++], predictor = head & 15, size = head >> 4;
+  out.fill(0);
+  if (!size) return;
+  const count = stream.count, data = stream.data, first = stream.at;
+  let last = 0, at = 0;
+  for (let y = 0, i = 0; y < height; y++)
+    for (let x = 0; x < width; x++, i++) {
+      if (!present[i]) continue;
+      let residual = data[first + at];
+      for (let k = 1; k < size; k++) residual |= data[first + k * count + at] << (8 * k);
+      residual = (residual >>> 1) ^ -(residual & 1);
+      at++;
+      const left = x > 0 && present[i - 1], upper = y > 0 && present[i - width];
+      let guess = 0;
+      if (!predictor) guess = 0;
+      else if (left && upper && present[i - width - 1]) {
+        const a = out[i - 1], b = out[i - width], c = out[i - width - 1];
+        if (predictor === 1) guess = a;
+        else if (predictor === 2) guess = b;
+        else if (predictor === 3 || (c < Math.max(a, b) && c > Math.min(a, b))) guess = a + b - c;
+        else guess = c >= Math.max(a, b) ? Math.min(a, b) : Math.max(a, b);
+      } else guess = left ? out[i - 1] : upper ? out[i - width] : last;
+      const s = shift ? shift[i] : 0;
+      guess = (guess + ((1 << s) >> 1)) >> s;
+      out[i] = last = ((guess + residual) << s) & mask;
+    }
+  stream.at += count * size;
+  if (stream.at > data.length) throw new Error("Footprints are damaged.");
+}
+
+const RECORD_COLUMNS = 2048;
+const LOG_OFFSET = 24, LOG_STEPS = 2048;
+
+/* All footprints of a class as records of four 32-bit numbers, pixel by pixel, and for each pixel where its records
+ * begin, times 32, plus how many there are. */
+function decodeClass(info, data, base) {
+  const { width, height } = info, pixels = width * height, stream = { data, at: 0, count: 0 };
+  const footprints = info.footprints.map((f) => {
+    const present = new Uint8Array(pixels), rowBytes = (width + 7) >> 3;
+    stream.count = 0;
+    for (let y = 0, i = 0; y < height; y++)
+      for (let x = 0; x < width; x++, i++)
+        stream.count += present[i] = (data[stream.at + y * rowBytes + (x >> 3)] >> (x & 7)) & 1;
+    stream.at += rowBytes * height;
+    const coded = (bytes) => {
+      decodePlane(stream, present, width, height, bytes, null, 255);
+      return bytes;
+    };
+    const spread = Array.from({ length: info.spreads }, () => coded(new Uint8Array(pixels)));
+    const uv = [0, 1].map((k) => {
+      const shift = new Uint8Array(pixels), out = new Int32Array(pixels);
+      for (let i = 0; i < pixels; i++)
+        shift[i] = Math.min(Math.max(Math.floor((spread[k][i] - 1 + f.sigma_first) / f.per_octave), 0), 24);
+      decodePlane(stream, present, width, height, out, shift, -1);
+      return out;
+    });
+    const weights = f.weights.map((first) => (typeof first === "number" ? coded(new Uint8Array(pixels)) : null));
+    return { f, present, spread, uv, weights };
+  });
+  if (stream.at !== data.length) throw new Error(`${info.file} is damaged.`);
+  const most = footprints.reduce((m, { f, weights }) =>
+    Math.max(m, ...f.weights.map((w, k) => (w === "one" ? 1 : weights[k] ? w * weights[k].reduce((a, b) => Math.max(a, b), 0) : 0))), 1e-6);
+  for (const p of footprints) {
+    const { f } = p;
+    p.log = Uint16Array.from({ length: 256 }, (_, k) => k ? Math.min(Math.max(
+      Math.round((Math.log2(f.first) + (k - 1) / f.per_octave + LOG_OFFSET) * LOG_STEPS), 1), 65535) : 0);
+    p.rho = Uint8Array.from({ length: 256 }, (_, k) => f.angle_steps ? 128 + Math.round(127 *
+      Math.sin(Math.min(Math.max((k - 128) / f.angle_steps, -1), 1) * Math.PI / 2)) : 128);
+    p.share = f.weights.map((w) => Uint16Array.from({ length: 256 }, (_, k) =>
+      w === "one" ? 4095 : w ? Math.round(Math.min(k * w / most, 1) * 4095) : 0));
+    if (f.weights.includes("one")) p.share = p.share.map((t, k) => f.weights[k] === "one" ? t.fill(Math.round(4095 / most)) : t);
+  }
+  const total = footprints.reduce((n, p) => n + p.present.reduce((a, b) => a + b, 0), 0);
+  if (total !== info.records) throw new Error(`${info.file} is damaged.`);
+  const rows = Math.ceil(total / RECORD_COLUMNS);
+  const records = new Uint32Array(rows * RECORD_COLUMNS * 4), floats = new Float32Array(records.buffer);
+  const heads = new Uint32Array(pixels);
+  let at = 0;
+  for (let i = 0; i < pixels; i++) {
+    const begin = at;
+    for (const p of footprints) {
+      if (!p.present[i]) continue;
+      const w = [0, 1].map((k) => (p.share[k] ? p.share[k][p.weights[k] ? p.weights[k][i] : 0] : 0));
+      floats[4 * at] = p.uv[0][i] / 262144;
+      floats[4 * at + 1] = p.uv[1][i] / 262144;
+      records[4 * at + 2] = p.log[p.spread[0][i]] | (p.log[p.spread[1][i]] << 16);
+      records[4 * at + 3] = (info.spreads > 2 ? p.rho[p.spread[2][i]] : 128) | (w[0] << 8) | (w[1] << 20);
+      at++;
+    }
+    heads[i] = (base + begin) * 32 + at - begin;
+  }
+  return { heads, records, rows };
+}
+

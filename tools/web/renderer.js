@@ -1,0 +1,252 @@
+// ---- the room on the graphics card ----
+
+/* Numbers go into shaders, so they must be numbers. */
+function checkManifest(room) {
+  const bad = () => { throw new Error("room.json is damaged."); };
+  if (!room || typeof room !== "object") bad();
+  if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room.");
+  const list = (value, keys) => {
+    if (!Array.isArray(value) || value.some((x) => keys.split(" ").some((k) => typeof x[k] !== "number"))) bad();
+    return value;
+  };
+  const inside = (index, array, least = 0) => Number.isInteger(index) && index >= least && index < array.length || bad();
+  for (const key of ["width", "height", "finest"]) if (!Number.isInteger(room[key]) || room[key] < 1) bad();
+  list(room.targets, "share");
+  list(room.lights, "bytes crc32 white levels target");
+  list(room.classes, "bytes crc32 target scale width height albedo spreads records");
+  list(room.groups, "light mixture target");
+  list(room.terms, "group gain");
+  const tiles = room.reduced ? list(room.reduced.tiles, "x y width height scale white levels") : [];
+  if (!Array.isArray(room.mixtures)) bad();
+  for (const t of room.targets) for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) if (t[key]?.length !== 2) bad();
+  for (const c of room.classes) {
+    inside(c.target, room.targets);
+    inside(c.albedo, c.scale === 1 ? room.lights : tiles);
+    list(c.footprints, "first per_octave sigma_first angle_steps");
+  }
+  for (const m of room.mixtures) if (!m.length || m.some(([c, slot]) => inside(c, room.classes) !== true || !(slot in [0, 1]))) bad();
+  for (const g of room.groups) inside(g.light, room.lights), inside(g.mixture, room.mixtures, -1);
+  for (const t of room.terms) {
+    inside(t.group, room.groups);
+    inside(t.gain, tiles, -1);
+    for (const m of t.factors) inside(m, room.mixtures);
+  }
+}
+
+class Renderer {
+  constructor(canvas, room) {
+    const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("no WebGL 2");
+    if (!gl.getExtension("EXT_color_buffer_float") && !gl.getExtension("EXT_color_buffer_half_float")) throw new Error("no WebGL 2");
+    Object.assign(this, { gl, room, loaded: new Set(), lights: new Set(), textures: [], most: gl.getParameter(gl.MAX_TEXTURE_SIZE) });
+    if (Math.max(room.width, room.height) > this.most) throw new Error("The room is too large for this device.");
+    canvas.width = room.width;
+    canvas.height = room.height;
+    this.full = room.classes.filter((c) => c.scale === 1);
+    this.small = room.classes.filter((c) => c.scale > 1);
+    this.full.forEach((c, i) => (c.layer = i));
+    this.small.forEach((c, i) => (c.layer = i));
+    let layers = 0, rows = 0;
+    room.mixtureLayers = room.mixtures.map((m) => (room.classes[m[0][0]].scale > 1 ? layers++ : -1));
+    for (const c of room.classes) {
+      c.base = rows * RECORD_COLUMNS;
+      rows += Math.ceil(c.records / RECORD_COLUMNS);
+    }
+    if (rows > this.most) throw new Error("The room is too large for this device.");
+    const most = (list, key) => Math.max(1, ...list.map((x) => x[key]));
+    const smallSize = [most(this.small, "width"), most(this.small, "height")];
+    this.groupSize = [Math.ceil(room.width / room.finest), Math.ceil(room.height / room.finest)];
+    this.records = this.texture(gl.TEXTURE_2D, gl.RGBA32UI, RECORD_COLUMNS, Math.max(rows, 1), 0, gl.NEAREST);
+    this.heads = this.texture(gl.TEXTURE_2D_ARRAY, gl.R32UI, room.width, room.height, Math.max(this.full.length, 1), gl.NEAREST);
+    this.smallHeads = this.texture(gl.TEXTURE_2D_ARRAY, gl.R32UI, ...smallSize, Math.max(this.small.length, 1), gl.NEAREST);
+    this.light = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA8, room.width, room.height, room.lights.length, gl.NEAREST);
+    this.still = this.texture(gl.TEXTURE_2D, gl.RGBA8, room.width, room.height, 0, gl.NEAREST);
+    this.mixtures = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...smallSize, Math.max(layers, 1), gl.LINEAR);
+    this.factors = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
+    this.originals = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
+    this.none = this.texture(gl.TEXTURE_2D, gl.RGBA8, 1, 1, 0, gl.NEAREST);
+    this.frame = gl.createFramebuffer();
+    this.programs = [mixtureShader(room), factorShader(room), pictureShader(room)].map((text) => this.program(text));
+    for (const target of room.targets) this.textures.push(null), (target.image = this.none);
+  }
+
+  texture(kind, format, width, height, layers, filter) {
+    const { gl } = this, texture = gl.createTexture();
+    gl.bindTexture(kind, texture);
+    if (layers) gl.texStorage3D(kind, 1, format, width, height, layers);
+    else gl.texStorage2D(kind, 1, format, width, height);
+    for (const [key, value] of [["MIN_FILTER", filter], ["MAG_FILTER", filter], ["WRAP_S", gl.CLAMP_TO_EDGE], ["WRAP_T", gl.CLAMP_TO_EDGE]])
+      gl.texParameteri(kind, gl[`TEXTURE_${key}`], value);
+    return texture;
+  }
+
+  program(fragment) {
+    const { gl } = this, program = gl.createProgram();
+    for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
+        throw new Error(`The room's shader does not compile: ${gl.getShaderInfoLog(shader)}`);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(`The room's shader does not link: ${gl.getProgramInfoLog(program)}`);
+    const uniforms = new Map();
+    for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
+      const { name, type } = gl.getActiveUniform(program, i);
+      uniforms.set(name.replace("[0]", ""), { at: gl.getUniformLocation(program, name), type });
+    }
+    return { program, uniforms };
+  }
+
+  putClass(info, { heads, records, rows }) {
+    const { gl } = this;
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
+    gl.bindTexture(gl.TEXTURE_2D, this.records);
+    if (rows) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, info.base / RECORD_COLUMNS, RECORD_COLUMNS, rows, gl.RGBA_INTEGER, gl.UNSIGNED_INT, records);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, info.scale === 1 ? this.heads : this.smallHeads);
+    gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, info.layer, info.width, info.height, 1, gl.RED_INTEGER, gl.UNSIGNED_INT, heads);
+    this.loaded.add(info);
+    if (info.scale === 1) info.heads = heads; // for pointing at targets
+  }
+
+  /* Codes of images are numbers here: the browser must not convert them. */
+  exactly(upload) {
+    const { gl } = this;
+    gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
+    upload();
+    gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.BROWSER_DEFAULT_WEBGL);
+  }
+
+  putLight(index, image) {
+    const { gl, room } = this;
+    if (image.naturalWidth !== room.width || image.naturalHeight !== room.height) throw new Error(`${room.lights[index].file} is damaged.`);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.light);
+    this.exactly(() => gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, index, room.width, room.height, 1, gl.RGBA, gl.UNSIGNED_BYTE, image));
+    this.lights.add(index);
+  }
+
+  putStill(image) {
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, this.still);
+    this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
+  }
+
+  putReduced(image) {
+    const { gl } = this;
+    if (Math.max(image.naturalWidth, image.naturalHeight) > this.most) throw new Error("The room is too large for this device.");
+    this.reduced = this.texture(gl.TEXTURE_2D, gl.RGBA8, image.naturalWidth, image.naturalHeight, 0, gl.NEAREST);
+    this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
+  }
+
+  /* A new texture: an image, or a linear colour; null: the original. */
+  putTexture(index, source) {
+    const { gl } = this, target = this.room.targets[index];
+    if (target.image !== this.none) gl.deleteTexture(target.image);
+    target.image = this.none;
+    target.hasImage = !!source;
+    if (!source) return;
+    const width = source.naturalWidth || source.width || 1, height = source.naturalHeight || source.height || 1;
+    target.image = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, target.image);
+    if (Array.isArray(source)) {
+      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, 1, 1);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array([...source, 1]));
+    } else {
+      gl.texStorage2D(gl.TEXTURE_2D, Math.floor(Math.log2(Math.max(width, height))) + 1, gl.SRGB8_ALPHA8, width, height);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, source);
+      gl.generateMipmap(gl.TEXTURE_2D);
+    }
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, Array.isArray(source) ? gl.NEAREST : gl.LINEAR_MIPMAP_LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, Array.isArray(source) ? gl.NEAREST : gl.LINEAR);
+  }
+
+  /* Draw with one program; values by name: numbers, arrays, or [kind, texture]. */
+  draw({ program, uniforms }, values) {
+    const { gl } = this;
+    gl.useProgram(program);
+    let unit = 0;
+    for (const [name, { at, type }] of uniforms) {
+      const value = values[name];
+      if (value instanceof WebGLTexture) {
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(type === gl.SAMPLER_2D || type === gl.UNSIGNED_INT_SAMPLER_2D ? gl.TEXTURE_2D : gl.TEXTURE_2D_ARRAY, value);
+        gl.uniform1i(at, unit++);
+      } else if (type === gl.FLOAT_MAT2) gl.uniformMatrix2fv(at, false, value);
+      else if (type === gl.FLOAT_VEC2) gl.uniform2fv(at, value);
+      else if (type === gl.FLOAT_VEC3) gl.uniform3fv(at, value);
+      else if (type === gl.FLOAT) gl.uniform1f(at, value);
+      else if (Array.isArray(value)) gl.uniform1iv(at, value);
+      else gl.uniform1i(at, value);
+    }
+    gl.activeTexture(gl.TEXTURE0);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  into(texture, layer, width, height) {
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
+    gl.framebufferTextureLayer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, texture, 0, layer);
+    gl.viewport(0, 0, width, height);
+  }
+
+  /* What is smaller than the picture: mixtures, then factors of groups. */
+  drawFactors(to, original, values) {
+    const { room } = this;
+    room.mixtures.forEach((m, mixture) => {
+      const c = room.classes[m[0][0]];
+      if (c.scale === 1) return;
+      this.into(this.mixtures, room.mixtureLayers[mixture], c.width, c.height);
+      this.draw(this.programs[0], { ...values, heads: this.smallHeads, mixture, original: original ? 1 : 0 });
+    });
+    room.groups.forEach((_, group) => {
+      this.into(to, group, ...this.groupSize);
+      this.draw(this.programs[1], { mixtures: this.mixtures, reduced: this.reduced, group });
+    });
+  }
+
+  get complete() {
+    return this.loaded.size === this.room.classes.length && this.lights.size === this.room.lights.length;
+  }
+
+  isReady(group) {
+    const { room } = this, g = room.groups[group];
+    const mixtures = room.terms.filter((t) => t.group === group).flatMap((t) => t.factors);
+    if (g.mixture >= 0) mixtures.push(g.mixture);
+    return (this.reduced || !room.reduced) && this.lights.has(g.light) && mixtures.every((m) => room.mixtures[m].every(([c]) =>
+      this.loaded.has(room.classes[c]) && (room.classes[c].scale > 1 || this.lights.has(room.classes[c].albedo))));
+  }
+
+  /* Whether a target's own light is there. */
+  canEdit(target) {
+    return this.room.groups.every((g, i) => g.target !== target || this.isReady(i));
+  }
+
+  /* settings: by target {scale, rotate, offset, tint}; split: pixels from the left that stay as they were. */
+  render(settings, split, lamp) {
+    const { gl, room } = this, count = room.targets.length;
+    const values = { records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edited: [] };
+    for (let t = 0; t < count; t++) {
+      const s = settings[t], angle = s.rotate * Math.PI / 180, [c, d] = [Math.cos(angle), Math.sin(angle)];
+      values.turn.push(c * s.scale[0], d * s.scale[0], -d * s.scale[1], c * s.scale[1]);
+      values.offset.push(...s.offset);
+      values.tint.push(...s.tint);
+      values.edited.push(room.targets[t].hasImage ? 1 : 0);
+      values[`image${t}`] = room.targets[t].image;
+    }
+    const partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
+    if (ready.includes(1)) {
+      if (partial) this.drawFactors(this.originals, true, values);
+      this.drawFactors(this.factors, false, values);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, room.width, room.height);
+    this.draw(this.programs[2], {
+      ...values, heads: this.heads, lights: this.light, factors: this.factors, originals: this.originals, still: this.still,
+      loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)), ready, partial: partial ? 1 : 0, split, lamp,
+    });
+  }
+}
+

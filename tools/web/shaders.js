@@ -1,0 +1,238 @@
+// ---- shaders ----
+
+const VERTEX = `#version 300 es
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`;
+
+const HEAD = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler2DArray;
+precision highp usampler2D;
+precision highp usampler2DArray;
+vec3 linear(vec3 y) { return mix(y / 12.92, pow((max(y, 0.04045) + 0.055) / 1.055, vec3(2.4)), greaterThan(y, vec3(0.04045))); }
+vec3 light(vec3 code, float white, float levels) {
+  vec3 y = code * (255.0 / levels);
+  return white * mix(linear(y), exp((max(y, 1.0) - 1.0) * (255.0 / 48.0)), greaterThan(y, vec3(1.0)));
+}
+`;
+
+/* The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
+ * Three rows across the shorter axis; along the longer axis as many samples as its length needs. Each sample is a
+ * trilinear look-up with a part of the footprint's variance, the rows and samples have the rest. */
+const FILTER = `
+uniform usampler2D records;
+uniform mat2 turn[TARGETS];
+uniform vec2 offset[TARGETS];
+uniform vec3 tint[TARGETS];
+uniform bool edited[TARGETS];
+vec4 filtered(sampler2D image, mat2 turned, vec2 moved, vec4 bounds, uvec4 record, bool disc) {
+  const float along = 32.0;
+  vec2 size = vec2(textureSize(image, 0)), uv = vec2(uintBitsToFloat(record.x), uintBitsToFloat(record.y));
+  vec2 codes = vec2(float(record.z & 65535u), float(record.z >> 16));
+  vec2 sigma = mix(vec2(0.0), exp2(codes / ${LOG_STEPS}.0 - ${LOG_OFFSET}.0), greaterThan(codes, vec2(0.0)));
+  float cross = (float(record.w & 255u) - 128.0) / 127.0 * sigma.x * sigma.y;
+  mat2 texels = mat2(size.x, 0.0, 0.0, size.y) * turned, back = inverse(texels);
+  mat2 c = texels * mat2(sigma.x * sigma.x, cross, cross, sigma.y * sigma.y) * transpose(texels);
+  vec2 mean = turned * uv + moved;
+  float middle = 0.5 * (c[0][0] + c[1][1]);
+  float root = length(vec2(0.5 * (c[0][0] - c[1][1]), c[0][1]));
+  float longest = middle + root, shortest = max(middle - root, 0.0);
+  float angle = root > 0.0 ? 0.5 * atan(2.0 * c[0][1], c[0][0] - c[1][1]) : 0.0;
+  vec2 axis = vec2(cos(angle), sin(angle));
+  float reach = disc ? 2.0 : 2.5, least = 2.0 * reach / (1.5 * along);
+  float tap = max(max(0.5 * shortest, 1.0 / 6.0), longest * least * least);
+  float power = 4.0 * (tap + 1.0 / 12.0), low = floor(0.5 * log2(power));
+  float lod = low + (power / exp2(2.0 * low) - 1.0) / 3.0;
+  longest = sqrt(max(longest - tap, 0.0));
+  shortest = sqrt(max(shortest - tap, 0.0));
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int row = -1; row <= 1; row++) {
+    if (row != 0 && shortest < 0.05) continue;
+    float t = float(row) * (disc ? 0.70710678 : 1.7320508);
+    float weight = disc ? (row == 0 ? 0.5 : 0.25) : (row == 0 ? 2.0 / 3.0 : 1.0 / 6.0);
+    float chord = reach * longest * (disc ? sqrt(1.0 - t * t) : 1.0);
+    float count = clamp(ceil(2.0 * chord / (1.5 * sqrt(tap))), 1.0, along);
+    vec2 across = vec2(-axis.y, axis.x) * (t * shortest * (disc ? 2.0 : 1.0));
+    for (float k = 0.5; k < count; k += 1.0) {
+      float s = 2.0 * k / count - 1.0;
+      vec2 step = axis * (s * chord) + across;
+      float w = disc ? weight / count : weight * exp(-0.5 * reach * reach * s * s);
+      if (!disc) {
+        vec2 at = uv + back * step;
+        if (any(lessThan(at, bounds.xy)) || any(greaterThan(at, bounds.zw))) continue;
+      }
+      vec2 place = mean + step / size;
+      sum += w * textureLod(image, vec2(place.x, 1.0 - place.y), lod);
+      total += w;
+    }
+  }
+  return total > 0.0 ? sum / total : textureLod(image, vec2(mean.x, 1.0 - mean.y), lod);
+}
+vec2 shares(uvec4 r) { return vec2(float((r.w >> 8) & 4095u), float(r.w >> 20)); }
+uvec4 recordAt(int at) { return texelFetch(records, ivec2(at & ${RECORD_COLUMNS - 1}, at / ${RECORD_COLUMNS}), 0); }
+`;
+
+const number = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
+
+/* Adds the colours of class c's records in pixel p to sum and total, weighted by w. */
+function classCode(room, c, albedo, slots) {
+  const info = room.classes[c], t = info.target, target = room.targets[t];
+  const disc = info.kind === "sharp" && room.filter === "box";
+  const bound = (value, k, far) => number(target.periodic[k] ? far : value[k]);
+  const bounds = `vec4(${bound(target.uv_min, 0, -1e30)}, ${bound(target.uv_min, 1, -1e30)}, ` +
+    `${bound(target.uv_max, 0, 1e30)}, ${bound(target.uv_max, 1, 1e30)})`;
+  return `{
+    uint head = texelFetch(heads, ivec3(p, ${info.layer}), 0).r;
+    int count = int(head & 31u), first = int(head >> 5);
+    vec3 own = count > 0 ? ${albedo} : vec3(0.0);
+    for (int i = 0; i < count; i++) {
+      uvec4 r = recordAt(first + i);
+      vec2 w = shares(r);
+      vec3 color = own;
+      if (edited[${t}]${slots.original ? " && !original" : ""}) {
+        vec4 found = filtered(image${t}, turn[${t}], offset[${t}], ${bounds}, r, ${disc});
+        color = mix(own, found.rgb * tint[${t}], found.a);
+      }
+      ${slots.add}
+    }
+  }`;
+}
+
+const lightCode = (room, l) => `light(texelFetch(lights, ivec3(p, ${l}), 0).rgb, ${number(room.lights[l].white)}, ${number(room.lights[l].levels)})`;
+
+const imageUniforms = (room) => room.targets.map((_, t) => `uniform sampler2D image${t};`).join("\n");
+
+const withTargets = (room, text) => text.replace(/TARGETS/g, room.targets.length);
+
+/* An image of the atlas at pixel p of the size that is `finest` times smaller than the picture. */
+function tileCode(room, index, finest) {
+  const t = room.reduced.tiles[index];
+  const read = (at) => `light(texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ${at}, 0).rgb, ${number(t.white)}, ${number(t.levels)})`;
+  if (t.scale === finest) return read(`min(p, ivec2(${t.width - 1}, ${t.height - 1}))`);
+  return `bilinear${index}(p)`;
+}
+
+function tileFunction(room, index, finest) {
+  const t = room.reduced.tiles[index];
+  if (t.scale === finest) return "";
+  const read = (x, y) => `light(texelFetch(reduced, ivec2(${t.x}, ${t.y}) + ivec2(${x}, ${y}), 0).rgb, ${number(t.white)}, ${number(t.levels)})`;
+  return `vec3 bilinear${index}(ivec2 p) {
+    vec2 at = clamp((vec2(p) + 0.5) / ${number(t.scale / finest)} - 0.5, vec2(0.0), vec2(${t.width - 1}, ${t.height - 1}));
+    ivec2 a = ivec2(at), b = min(a + 1, ivec2(${t.width - 1}, ${t.height - 1}));
+    vec2 f = fract(at);
+    return mix(mix(${read("a.x", "a.y")}, ${read("b.x", "a.y")}, f.x), mix(${read("a.x", "b.y")}, ${read("b.x", "b.y")}, f.x), f.y);
+  }`;
+}
+
+/* First step: mixtures that are smaller than the picture, one layer each. */
+function mixtureShader(room) {
+  const cases = room.mixtures.map((m, index) => {
+    if (room.classes[m[0][0]].scale === 1) return "";
+    const code = m.map(([c, slot]) => classCode(room, c, tileCode(room, room.classes[c].albedo, room.classes[c].scale), {
+      original: true, add: `sum += w[${slot}] * color; total += w[${slot}];`,
+    }));
+    return `if (mixture == ${index}) { ${code.join("\n")} }`;
+  });
+  return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
+uniform usampler2DArray heads;
+uniform sampler2D reduced;
+uniform int mixture;
+uniform bool original;
+out vec4 result;
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  ${cases.join("\n")}
+  result = vec4(total > 0.0 ? sum / total : vec3(0.0), 1.0);
+}`;
+}
+
+/* Second step: for each group the sum over its terms of gain times mixtures, at the finest of the smaller sizes. */
+function factorShader(room) {
+  const scale = (m) => room.classes[room.mixtures[m][0][0]].scale;
+  const size = (m) => [room.classes[room.mixtures[m][0][0]].width, room.classes[room.mixtures[m][0][0]].height];
+  const used = [...new Set(room.terms.flatMap((t) => t.factors))];
+  const cases = room.groups.map((_, g) => {
+    const terms = room.terms.filter((t) => t.group === g);
+    const mixtures = [...new Set(terms.flatMap((t) => t.factors))];
+    return `if (group == ${g}) {
+      ${mixtures.map((m) => `vec3 m${m} = mixed(${room.mixtureLayers[m]}, vec2(${size(m)}), ${number(scale(m) / room.finest)});`).join("\n")}
+      ${terms.map((t) => {
+        const factors = t.factors.map((m) => `m${m}`);
+        if (t.gain >= 0) factors.unshift(tileCode(room, t.gain, room.finest));
+        return `sum += ${factors.join(" * ") || "vec3(1.0)"};`;
+      }).join("\n")}
+    }`;
+  });
+  const tiles = [...new Set(room.terms.map((t) => t.gain).filter((g) => g >= 0))];
+  return HEAD + `
+uniform sampler2DArray mixtures;
+uniform sampler2D reduced;
+uniform int group;
+out vec4 result;
+vec3 mixed(int layer, vec2 size, float times) {
+  vec2 at = clamp(gl_FragCoord.xy / times, vec2(0.5), size - 0.5);
+  return texture(mixtures, vec3(at / vec2(textureSize(mixtures, 0).xy), layer)).rgb;
+}
+${tiles.map((t) => tileFunction(room, t, room.finest)).join("\n")}
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec3 sum = vec3(0.0);
+  ${used.length || cases.length ? cases.join("\n") : ""}
+  result = vec4(sum, 1.0);
+}`;
+}
+
+/* Last step: the picture. While not everything is loaded it is the still plus what new textures change. */
+function pictureShader(room) {
+  const full = room.mixtures.map((m, i) => [m, i]).filter(([m]) => room.classes[m[0][0]].scale === 1);
+  const byClass = new Map();
+  for (const [m, i] of full) for (const [c, slot] of m) byClass.set(c, [...(byClass.get(c) || []), [i, slot]]);
+  const mixtures = [...byClass].map(([c, list]) => `
+  if (loaded[${c}]) ${classCode(room, c, lightCode(room, room.classes[c].albedo), {
+    add: list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}];`).join(" ") +
+      list.map(([i, slot]) => `own${i} += w[${slot}] * own;`).join(" "),
+  })}`);
+  const groups = room.groups.map((g, i) => {
+    const factor = g.mixture < 0 ? "" : ` * mean(sum${g.mixture}, total${g.mixture})`;
+    const before = g.mixture < 0 ? "" : ` * mean(own${g.mixture}, total${g.mixture})`;
+    return `
+  if (ready[${i}]) {
+    vec3 d = ${lightCode(room, g.light)};
+    color += d * factor(factors, ${i})${factor};
+    if (partial) color -= d * factor(originals, ${i})${before};
+  }`;
+  });
+  const small = [Math.ceil(room.width / room.finest), Math.ceil(room.height / room.finest)];
+  return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
+uniform usampler2DArray heads;
+uniform sampler2DArray lights, factors, originals;
+uniform sampler2D still;
+uniform bool loaded[${room.classes.length}];
+uniform bool ready[${room.groups.length}];
+uniform bool partial;
+uniform float split;
+uniform vec3 lamp;
+out vec4 result;
+vec3 factor(sampler2DArray from, int layer) {
+  vec2 at = clamp((vec2(gl_FragCoord.x, ${number(room.height)} - gl_FragCoord.y)) / ${number(room.finest)}, vec2(0.5), vec2(${small.map(number)}) - 0.5);
+  return texture(from, vec3(at / vec2(textureSize(from, 0).xy), layer)).rgb;
+}
+vec3 mean(vec3 sum, float total) { return total > 0.0 ? sum / total : vec3(0.0); }
+void main() {
+  ivec2 p = ivec2(int(gl_FragCoord.x), ${room.height - 1} - int(gl_FragCoord.y));
+  vec3 color = linear(texelFetch(still, p, 0).rgb);
+  if (gl_FragCoord.x >= split) {
+    if (!partial) color = vec3(0.0);
+    ${full.map(([, i]) => `vec3 sum${i} = vec3(0.0), own${i} = vec3(0.0); float total${i} = 0.0;`).join("\n")}
+    ${mixtures.join("")}
+    ${groups.join("")}
+  }
+  vec3 y = clamp(color * lamp, 0.0, 1.0);
+  result = vec4(mix(12.92 * y, 1.055 * pow(max(y, 0.0031308), vec3(1.0 / 2.4)) - 0.055, greaterThan(y, vec3(0.0031308))), 1.0);
+}`;
+}
+
