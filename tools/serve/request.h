@@ -1,0 +1,107 @@
+/* What a URL asks retex-serve for. Only text is looked at here: no sockets, no files, no room.
+ *
+ *     /health   /metrics
+ *     /v1                                               rooms and textures
+ *     /v1/ROOM                                          a room: its size, targets
+ *     /v1/ROOM[/EDITS]/SIZE[.EXTENSION][?QUERY]         a picture
+ *     /iiif/3/ID   /iiif/3/ID/info.json                 IIIF Image API 3.0; ID = ROOM[;EDITS]
+ *     /iiif/3/ID/REGION/SIZE/ROTATION/QUALITY.FORMAT
+ *
+ * EDITS are divided by semicolons, in any order: TARGET=IMAGE, TARGET=rgb(r,g,b) and TARGET.OPTION=VALUE, where OPTION
+ * is one of --texture, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have further options of these
+ * targets, and crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
+ *
+ * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be
+ * UTF-8 without control characters, slashes and backslashes. */
+#ifndef RETEX_SERVE_REQUEST_H
+#define RETEX_SERVE_REQUEST_H
+
+#include <retex/texture.h>
+#include <retex/set.h>
+
+enum {
+    SERVE_URL_MAX = 4096,      /* bytes of a URL's path and query */
+    SERVE_NAME_MAX = 127,      /* bytes of the name of a room, target or texture */
+    SERVE_THUMBNAIL_SIDE = 256 /* a thumbnail fits into a square of these pixels */
+};
+
+typedef enum ServeRoute {
+    SERVE_HEALTH,
+    SERVE_METRICS,
+    SERVE_ROOMS,
+    SERVE_ROOM,
+    SERVE_PICTURE,
+    SERVE_THUMBNAIL, /* a small picture, for lists; in all else as SERVE_PICTURE */
+    SERVE_IIIF_BASE, /* redirect to its info.json */
+    SERVE_IIIF_INFO,
+    SERVE_IIIF_IMAGE
+} ServeRoute;
+
+typedef enum ServeFormat { SERVE_JPEG, SERVE_PNG, SERVE_WEBP, SERVE_AVIF, SERVE_FORMATS } ServeFormat;
+
+/* Part of the room's picture, as it was asked for. */
+typedef enum ServeRegionKind {
+    SERVE_REGION_FULL,
+    SERVE_REGION_SQUARE,
+    SERVE_REGION_PIXELS,
+    SERVE_REGION_PERCENT
+} ServeRegionKind;
+typedef struct ServeRegion {
+    ServeRegionKind kind;
+    double x, y, width, height; /* pixels, whole, or percent; not of FULL and SQUARE */
+} ServeRegion;
+
+/* Size to which the region is scaled, before rotation. */
+typedef enum ServeSizeKind {
+    SERVE_SIZE_MAX,     /* that of the region */
+    SERVE_SIZE_WIDTH,   /* height by the region's aspect */
+    SERVE_SIZE_HEIGHT,  /* width by the region's aspect */
+    SERVE_SIZE_PERCENT, /* of the region's */
+    SERVE_SIZE_EXACT,   /* width and height, which may distort */
+    SERVE_SIZE_WITHIN,  /* as large as width and height allow, by the region's aspect */
+    SERVE_SIZE_FILL     /* width and height; the region loses what does not fit, evenly on both sides */
+} ServeSizeKind;
+typedef struct ServeSize {
+    ServeSizeKind kind;
+    int width, height; /* 0 = not given */
+    double percent;
+    int may_enlarge; /* IIIF's `^` */
+} ServeSize;
+
+typedef struct ServeRequest {
+    ServeRoute route;
+    int status;       /* 0, or the HTTP status of an error: 400, 404, 406, 414 or 501 */
+    char reason[200]; /* of the error, one line of plain text: UTF-8 without control characters */
+    char room[SERVE_NAME_MAX + 1];
+
+    /* Textures by target, each target at most once, sorted by name. `image` is a file's name without folder. The names
+     * of targets are as in the URL: whether the room has them, and as what, is for retex_set_find_target. */
+    int nspecs;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    char edits[SERVE_URL_MAX]; /* the same as text in one form, decoded: EDITS sorted by target and option, or "" */
+
+    /* pictures, thumbnails and images of IIIF */
+    ServeRegion region;
+    ServeSize size;
+    int quarter_turns; /* 0..3, clockwise, after scaling */
+    int mirror;        /* 1: left-right, before turning */
+    int gray;
+    ServeFormat format;
+    int format_by_accept; /* 1: the response needs `Vary: Accept` */
+    int quality;          /* of JPEG, WebP and AVIF, 1..100; 0 = not given */
+} ServeRequest;
+
+/* Parse the URL of a GET or HEAD: its path and query as they came, percent-encoded. accept is the header of that name,
+ * or NULL; formats has the bit 1 << f of each ServeFormat f that can be written, JPEG's always. Returns
+ * request->status. */
+int serve_request_parse(ServeRequest *request, const char *url, const char *accept, unsigned formats);
+
+/* "jpg", "image/jpeg" */
+const char *serve_format_extension(ServeFormat format);
+const char *serve_format_type(ServeFormat format);
+
+/* Whether text is the name of a room or texture: letters, digits, spaces, `_-.,+()` and characters beyond ASCII, at
+ * most SERVE_NAME_MAX bytes of UTF-8, not beginning with a dot. Files with other names cannot be asked for. */
+int serve_name_is_valid(const char *text);
+
+#endif
