@@ -1,9 +1,9 @@
 /* See json_text.h. */
 #include "json_text.h"
 
-/* Length of the UTF-8 character at the start of text; 0 if it is invalid by RFC 3629 (overlong, a surrogate …). */
-static int utf8_length(const unsigned char *text)
+int utf8_length(const char *characters)
 {
+    const unsigned char *text = (const unsigned char *)characters;
     const unsigned first = text[0];
     const int length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
     for (int i = 1; i < length; i++)
@@ -19,7 +19,7 @@ void json_text(FILE *file, const char *text)
 {
     putc('"', file);
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
-        const int length = utf8_length(c);
+        const int length = utf8_length((const char *)c);
         if (*c == '"' || *c == '\\')
             fprintf(file, "\\%c", *c);
         else if (*c < 32)

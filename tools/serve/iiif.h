@@ -7,7 +7,7 @@
 
 #include "request.h"
 
-enum { IIIF_TILE_SIDE = 512, IIIF_URL_MAX = 3 * SERVE_URL_MAX };
+enum { IIIF_TILE_SIDE = 512, IIIF_URL_MAX = 3 * SERVE_URL_MAX + 1024 };
 
 /* The pixels of a picture: x, y, width, height of the room's picture, scaled to scaled_width x scaled_height, then
  * mirrored, then turned. Turned by a quarter, the picture is scaled_height wide. */
@@ -15,6 +15,10 @@ typedef struct ServePlace {
     int x, y, width, height;
     int scaled_width, scaled_height;
 } ServePlace;
+
+/* Parse the parameters of an image, decoded, into the request. Returns request->status. */
+int iiif_parse(ServeRequest *request, const char *region, const char *size, const char *rotation, char *quality,
+               unsigned formats);
 
 /* The place of request->region and request->size, also of requests that are not IIIF's, in a room of this size.
  * Returns 0; or 400, and 501 for IIIF's `^` that would enlarge, in request->status with request->reason. */

@@ -96,6 +96,12 @@ typedef struct ServeRequest {
  * request->status. */
 int serve_request_parse(ServeRequest *request, const char *url, const char *accept, unsigned formats);
 
+/* Refuse a request: set its status and reason, and return the status. Text that comes from the URL must be decoded. */
+int serve_refuse(ServeRequest *request, int status, const char *fmt, ...) RETEX_PRINTF(3, 4);
+
+/* Set the format by its extension. Returns 0, or the status if it is none of `formats`. */
+int serve_format_set(ServeRequest *request, const char *extension, unsigned formats);
+
 /* "jpg", "image/jpeg" */
 const char *serve_format_extension(ServeFormat format);
 const char *serve_format_type(ServeFormat format);

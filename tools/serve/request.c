@@ -1,0 +1,373 @@
+/* See request.h. */
+#include "request.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "iiif.h"
+#include "json_text.h"
+#include "url.h"
+
+int serve_refuse(ServeRequest *request, int status, const char *fmt, ...)
+{
+    va_list arguments;
+    size_t end = 0;
+    va_start(arguments, fmt);
+    vsnprintf(request->reason, sizeof request->reason, fmt, arguments);
+    va_end(arguments);
+    for (int length; (length = utf8_length(request->reason + end)) > 0 && request->reason[end]; end += (size_t)length)
+        ;
+    request->reason[end] = '\0'; /* the last character may be cut in the middle */
+    return request->status = status;
+}
+
+/* ---- formats ---- */
+
+static const struct {
+    const char *extension, *type;
+} format_names[SERVE_FORMATS] = {
+    {"jpg", "image/jpeg"}, {"png", "image/png"}, {"webp", "image/webp"}, {"avif", "image/avif"}};
+
+const char *serve_format_extension(ServeFormat format)
+{
+    return format_names[format].extension;
+}
+
+const char *serve_format_type(ServeFormat format)
+{
+    return format_names[format].type;
+}
+
+int serve_format_set(ServeRequest *request, const char *extension, unsigned formats)
+{
+    for (int f = 0; f < SERVE_FORMATS; f++)
+        if (strcmp(extension, format_names[f].extension) == 0 && formats & 1u << f) {
+            request->format = (ServeFormat)f;
+            return 0;
+        }
+    return serve_refuse(request, 400, "pictures are not written as .%s", extension);
+}
+
+/* The format of the highest weight; of several, the smallest files. AVIF and WebP must be named, for a program that
+ * accepts anything may know neither. */
+static int choose_format(ServeRequest *request, const char *accept, unsigned formats)
+{
+    static const ServeFormat order[] = {SERVE_AVIF, SERVE_WEBP, SERVE_JPEG, SERVE_PNG};
+    double best = 0;
+    request->format_by_accept = 1;
+    for (int i = 0; i < SERVE_FORMATS; i++) {
+        int named;
+        double weight = url_accepts(accept, format_names[order[i]].type, &named);
+        if (!(formats & 1u << order[i]) || (i < 2 && !named) || weight <= best)
+            continue;
+        best = weight;
+        request->format = order[i];
+    }
+    return best > 0 ? 0 : serve_refuse(request, 406, "no picture is of a type that `Accept` allows");
+}
+
+/* ---- names ---- */
+
+int serve_name_is_valid(const char *text)
+{
+    size_t length = strlen(text);
+    if (length < 1 || length > SERVE_NAME_MAX || text[0] == '.')
+        return 0;
+    for (int bytes; *text; text += bytes) {
+        bytes = utf8_length(text);
+        int is_word =
+            (*text >= '0' && *text <= '9') || (*text >= 'A' && *text <= 'Z') || (*text >= 'a' && *text <= 'z');
+        if (bytes == 0 || (bytes == 1 && !is_word && !strchr(" _-.,+()", *text)))
+            return 0;
+    }
+    return 1;
+}
+
+static int set_room(ServeRequest *request, const char *name)
+{
+    if (!serve_name_is_valid(name))
+        return serve_refuse(request, 400, "`%s` cannot be the name of a room", name);
+    strcpy(request->room, name);
+    return 0;
+}
+
+/* ---- textures ---- */
+
+static const char *const option_names[] = {"colorspace", "flip",  "offset", "repeat",
+                                           "rotate",     "scale", "width",  "wrap"};
+enum { OPTIONS = sizeof option_names / sizeof *option_names };
+
+/* What is asked for one target, as text. */
+typedef struct Edit {
+    const char *target, *image; /* image NULL: only options came so far */
+    const char *options[OPTIONS];
+} Edit;
+
+typedef struct Edits {
+    Edit edits[RETEX_MAX_TARGETS];
+    int count;
+} Edits;
+
+static int find_option(const char *name)
+{
+    for (int o = 0; o < OPTIONS; o++)
+        if (strcmp(name, option_names[o]) == 0)
+            return o;
+    return -1;
+}
+
+static Edit *edit_of(Edits *edits, const char *target)
+{
+    for (int i = 0; i < edits->count; i++)
+        if (strcmp(edits->edits[i].target, target) == 0)
+            return &edits->edits[i];
+    if (edits->count == RETEX_MAX_TARGETS)
+        return NULL;
+    Edit *edit = &edits->edits[edits->count++];
+    *edit = (Edit){.target = target};
+    return edit;
+}
+
+/* Add KEY=VALUE, KEY being TARGET or TARGET.OPTION. The text is changed and must stay. */
+static int add_edit(ServeRequest *request, Edits *edits, char *key, const char *value)
+{
+    char *dot = strrchr(key, '.');
+    int option = dot ? find_option(dot + 1) : -1;
+    if (option >= 0)
+        *dot = '\0';
+    size_t length = strlen(key);
+    if (length < 1 || length > SERVE_NAME_MAX || !value || !*value)
+        return serve_refuse(request, 400, "`%s`: expected TARGET=IMAGE or TARGET.OPTION=VALUE", key);
+    Edit *edit = edit_of(edits, key);
+    if (!edit)
+        return serve_refuse(request, 400, "textures for more than %d targets", RETEX_MAX_TARGETS);
+    const char **place = option < 0 ? &edit->image : &edit->options[option];
+    if (*place)
+        return serve_refuse(request, 400, "%s%s%s is given twice", key, option < 0 ? "" : ".",
+                            option < 0 ? "" : option_names[option]);
+    if (option >= 0 && strchr(value, ':'))
+        return serve_refuse(request, 400, "%s.%s: no colon can be in `%s`", key, option_names[option], value);
+    if (option < 0 && strncasecmp(value, "rgb(", 4) != 0 && !serve_name_is_valid(value))
+        return serve_refuse(request, 400, "`%s` cannot be the name of a texture", value);
+    *place = value;
+    return 0;
+}
+
+static int add_edits(ServeRequest *request, Edits *edits, char *text)
+{
+    for (char *next; text; text = next) {
+        next = url_cut(text, ';');
+        char *value = url_cut(text, '=');
+        if (add_edit(request, edits, text, value))
+            return request->status;
+    }
+    return 0;
+}
+
+static int compare_edits(const void *a, const void *b)
+{
+    return strcmp(((const Edit *)a)->target, ((const Edit *)b)->target);
+}
+
+/* Text cannot be longer than the URL that it came from. */
+static void append(char *text, size_t size, const char *fmt, ...) RETEX_PRINTF(3, 4);
+static void append(char *text, size_t size, const char *fmt, ...)
+{
+    size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, fmt);
+    vsnprintf(text + used, size - used, fmt, arguments);
+    va_end(arguments);
+}
+
+/* Parse the textures, sorted by target. */
+static int take_edits(ServeRequest *request, Edits *edits)
+{
+    qsort(edits->edits, (size_t)edits->count, sizeof *edits->edits, compare_edits);
+    for (int i = 0; i < edits->count; i++) {
+        const Edit *edit = &edits->edits[i];
+        char options[SERVE_URL_MAX] = "", argument[SERVE_URL_MAX];
+        RetexError err = {0};
+        if (!edit->image)
+            return serve_refuse(request, 400, "%s has options, but no texture; expected %s=IMAGE too", edit->target,
+                                edit->target);
+        snprintf(argument, sizeof argument, "%s=%s", edit->target, edit->image);
+        append(request->edits, sizeof request->edits, "%s%s", i ? ";" : "", argument);
+        for (int o = 0; o < OPTIONS; o++)
+            if (edit->options[o]) {
+                append(options, sizeof options, "%s%s=%s", *options ? ":" : "", option_names[o], edit->options[o]);
+                append(request->edits, sizeof request->edits, ";%s.%s=%s", edit->target, option_names[o],
+                       edit->options[o]);
+            }
+        if (retex_texture_spec_parse(&request->specs[i], options, argument, &err))
+            return serve_refuse(request, 400, "%s", err.message);
+        request->nspecs++;
+    }
+    return 0;
+}
+
+/* ---- pictures ---- */
+
+/* X,Y,WIDTH,HEIGHT */
+static int set_crop(ServeRequest *request, char *text)
+{
+    int values[4];
+    for (int i = 0; i < 4; i++) {
+        char *next = text ? url_cut(text, ',') : NULL;
+        if (!text || !url_integer(text, &values[i]) || (i == 3 && next))
+            return serve_refuse(request, 400, "crop: expected X,Y,WIDTH,HEIGHT in pixels");
+        text = next;
+    }
+    request->region = (ServeRegion){SERVE_REGION_PIXELS, values[0], values[1], values[2], values[3]};
+    return 0;
+}
+
+static int parse_query(ServeRequest *request, Edits *edits, char *query)
+{
+    int has_crop = 0;
+    if (query && !*query)
+        query = NULL;
+    for (char *next; query; query = next) {
+        next = url_cut(query, '&');
+        char *value = url_cut(query, '=');
+        if (!value || !url_decode(query) || !url_decode(value))
+            return serve_refuse(request, 400, "the query is not well formed; expected KEY=VALUE&KEY=VALUE");
+        char *dot = strrchr(query, '.');
+        if (strcmp(query, "crop") == 0 && !has_crop++) {
+            if (set_crop(request, value))
+                return request->status;
+        } else if (strcmp(query, "quality") == 0 && !request->quality) {
+            if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
+                return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
+        } else if (dot && find_option(dot + 1) >= 0) {
+            if (add_edit(request, edits, query, value))
+                return request->status;
+        } else {
+            return serve_refuse(request, 400, "`%s`: expected crop, quality or TARGET.OPTION, each once", query);
+        }
+    }
+    return 0;
+}
+
+/* WIDTHxHEIGHT, one of them may be missing; full; thumbnail. */
+static int set_size(ServeRequest *request, char *text)
+{
+    ServeSize *size = &request->size;
+    request->route = SERVE_PICTURE;
+    if (strcmp(text, "full") == 0) {
+        size->kind = SERVE_SIZE_MAX;
+        return 0;
+    }
+    if (strcmp(text, "thumbnail") == 0) {
+        request->route = SERVE_THUMBNAIL;
+        *size = (ServeSize){.kind = SERVE_SIZE_WITHIN, .width = SERVE_THUMBNAIL_SIDE, .height = SERVE_THUMBNAIL_SIDE};
+        return 0;
+    }
+    char *height = url_cut(text, 'x');
+    int is_number = height && (*text || *height) && (!*text || url_integer(text, &size->width)) &&
+                    (!*height || url_integer(height, &size->height));
+    if (!is_number)
+        return serve_refuse(request, 404,
+                            "expected a size: WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail, as in 800x.jpg");
+    if ((*text && !size->width) || (*height && !size->height))
+        return serve_refuse(request, 400, "a size of 0 pixels");
+    size->kind = !*height ? SERVE_SIZE_WIDTH : !*text ? SERVE_SIZE_HEIGHT : SERVE_SIZE_FILL;
+    return 0;
+}
+
+/* The last part of a picture's path, and the query. */
+static int parse_picture(ServeRequest *request, Edits *edits, char *name, char *query, const char *accept,
+                         unsigned formats)
+{
+    char *dot = strrchr(name, '.');
+    if (dot)
+        *dot = '\0';
+    if (set_size(request, name) || parse_query(request, edits, query) || take_edits(request, edits))
+        return request->status;
+    return !dot                               ? choose_format(request, accept, formats)
+           : strcasecmp(dot + 1, "jpeg") == 0 ? serve_format_set(request, "jpg", formats)
+                                              : serve_format_set(request, dot + 1, formats);
+}
+
+/* ---- paths ---- */
+
+enum { PARTS_MAX = 7 };
+
+static int unknown_path(ServeRequest *request)
+{
+    return serve_refuse(request, 404, "there are /v1, /v1/ROOM, /v1/ROOM/TARGET=IMAGE/SIZE.jpg, /iiif/3/ID");
+}
+
+/* ROOM;EDITS, and what follows. */
+static int parse_iiif(ServeRequest *request, char *parts[], int count, unsigned formats)
+{
+    Edits edits = {.count = 0};
+    char *text = url_cut(parts[0], ';');
+    if (set_room(request, parts[0]) || add_edits(request, &edits, text) || take_edits(request, &edits))
+        return request->status;
+    if (count == 1) {
+        request->route = SERVE_IIIF_BASE;
+        return 0;
+    }
+    if (count == 2 && strcmp(parts[1], "info.json") == 0) {
+        request->route = SERVE_IIIF_INFO;
+        return 0;
+    }
+    request->route = SERVE_IIIF_IMAGE;
+    if (count != 5)
+        return serve_refuse(request, 404, "expected info.json or REGION/SIZE/ROTATION/QUALITY.FORMAT");
+    return iiif_parse(request, parts[1], parts[2], parts[3], parts[4], formats);
+}
+
+static int parse_path(ServeRequest *request, char *parts[], int count, char *query, const char *accept,
+                      unsigned formats)
+{
+    int is_picture = count >= 3 && strcmp(parts[0], "v1") == 0;
+    Edits edits = {.count = 0};
+    if (!is_picture && query && *query)
+        return serve_refuse(request, 400, "only pictures of /v1 have a query");
+    if (count == 1 && strcmp(parts[0], "health") == 0) {
+        request->route = SERVE_HEALTH;
+    } else if (count == 1 && strcmp(parts[0], "metrics") == 0) {
+        request->route = SERVE_METRICS;
+    } else if (count == 1 && strcmp(parts[0], "v1") == 0) {
+        request->route = SERVE_ROOMS;
+    } else if (count == 2 && strcmp(parts[0], "v1") == 0) {
+        request->route = SERVE_ROOM;
+        return set_room(request, parts[1]);
+    } else if (is_picture && count <= 4) {
+        if (set_room(request, parts[1]) || (count == 4 && add_edits(request, &edits, parts[2])))
+            return request->status;
+        return parse_picture(request, &edits, parts[count - 1], query, accept, formats);
+    } else if (count >= 3 && strcmp(parts[0], "iiif") == 0 && strcmp(parts[1], "3") == 0) {
+        return parse_iiif(request, parts + 2, count - 2, formats);
+    } else {
+        return unknown_path(request);
+    }
+    return 0;
+}
+
+int serve_request_parse(ServeRequest *request, const char *url, const char *accept, unsigned formats)
+{
+    char text[SERVE_URL_MAX + 1], *parts[PARTS_MAX];
+    int count = 0;
+    *request = (ServeRequest){.route = SERVE_PICTURE};
+    if (strlen(url) > SERVE_URL_MAX)
+        return serve_refuse(request, 414, "the URL is longer than %d bytes", SERVE_URL_MAX);
+    if (url[0] != '/')
+        return serve_refuse(request, 400, "the URL does not begin with a slash");
+    strcpy(text, url);
+    char *query = url_cut(text, '?');
+    for (char *part = text + 1, *next; part; part = next) {
+        next = url_cut(part, '/');
+        if (!url_decode(part))
+            return serve_refuse(request, 400, "the path is not well formed");
+        if (count == PARTS_MAX || !*part)
+            return unknown_path(request);
+        parts[count++] = part;
+    }
+    return parse_path(request, parts, count, query, accept, formats);
+}
