@@ -133,6 +133,8 @@ static void test_textures(void **state)
         "/v1/room/Floor=oak/full.jpg?Wall.scale=2",
         "/v1/room/Floor=oak/full.jpg?Floor.scal=2",
         "/v1/room/Floor=oak/full.jpg?Wall=oak",
+        "/v1/room/Floor=oak/full.jpg?Floor.colorspace=a;Floor.flip=u",
+        "/v1/room/Floor=oak/full.jpg?Floor.colorspace=a%3BFloor.flip=u",
         "/v1/room/Floor=oak;Floor.scale=0/full.jpg",
         "/v1/room/Floor=oak;Floor.scale=2:rotate=3/full.jpg",
         "/v1/room/Floor=oak;Floor.rotate=inf/full.jpg",

@@ -148,8 +148,9 @@ static int add_edit(ServeRequest *request, Edits *edits, char *key, const char *
     if (*place)
         return serve_refuse(request, 400, "%s%s%s is given twice", key, option < 0 ? "" : ".",
                             option < 0 ? "" : option_names[option]);
-    if (option >= 0 && strchr(value, ':'))
-        return serve_refuse(request, 400, "%s.%s: no colon can be in `%s`", key, option_names[option], value);
+    if (option >= 0 && strpbrk(value, ":;"))
+        return serve_refuse(request, 400, "%s.%s: neither a colon nor a semicolon can be in `%s`", key,
+                            option_names[option], value);
     if (option < 0 && strncasecmp(value, "rgb(", 4) != 0 && !serve_name_is_valid(value))
         return serve_refuse(request, 400, "`%s` cannot be the name of a texture", value);
     *place = value;
