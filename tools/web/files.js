@@ -1,4 +1,4 @@
-/* <retex-room src="FOLDER/">: a room whose textures can be changed in the browser. FOLDER is what `retex-pack --web`
+/*! <retex-room src="FOLDER/">: a room whose textures can be changed in the browser. FOLDER is what `retex-pack --web`
  * wrote. The picture is a polynomial in the textures, see retex-web(5); WebGL 2 evaluates it. See README.md. */
 
 // ---- files ----
