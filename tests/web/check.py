@@ -5,11 +5,14 @@ import base64
 import http.server
 import json
 import os
+import random
 import shutil
 import subprocess
 import sys
 import threading
 import time
+import urllib.parse
+import zlib
 
 from browser import Browser
 
@@ -122,18 +125,18 @@ def reference(path, *options):
     subprocess.run(["retex-combine", "-q", f"{work}/room.exr", *options, "-o", path], check=True)
 
 
-def compare(page, least, name, placed=""):
-    """name: the textures of Floor and Wall, or None."""
-    options = []
+def compare(page, least, name, placed="", options="{scale: [1, 1]}"):
+    """name: the textures of Floor and Wall, or None; placed, options: how they lie, for retex-combine and the player."""
+    given = []
     for target, texture in zip(("Floor", "Wall"), name):
-        page.put(target, texture)
+        page.put(target, texture, options)
         if texture:
-            options += ["--texture", f"{target}={work}/{texture}"]
+            given += [f"--texture{placed}", f"{target}={work}/{texture}"]
     page.save(f"{work}/canvas.png")
-    reference(f"{work}/combined.png", *options)
+    reference(f"{work}/combined.png", *given)
     decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
-    print(f"# {name}: {decibels:.2f} dB")
-    result(decibels >= least, f"canvas and retex-combine: {' and '.join(str(x) for x in name)}")
+    print(f"# {name}{placed}: {decibels:.2f} dB")
+    result(decibels >= least, f"canvas and retex-combine: {' and '.join(str(x) for x in name)}{placed}")
 
 
 def check_pictures(page):
@@ -150,6 +153,32 @@ def check_pictures(page):
     print(f"# a swap: {(page.run('performance.now()') - begin) / 4:.0f} ms, with Chromium's software renderer")
 
 
+def check_placing(page):
+    """Textures without symmetry, one with transparent parts, in all ways in which they can lie."""
+    corners = "topleft=.9,.1,.1{}:topright=.1,.8,.1{}:bottomleft=.1,.2,.9{}:bottomright=.9,.9,.2{}"
+    for name, channels, alpha in (("corners.png", 3, [""] * 4), ("glass.png", 4, [",1", ",.9", ",.95", ",1"])):
+        kind = f"fill:{corners.format(*alpha)}"
+        cut = ["--fill:color=0,0,0,0", "60x200+70+0"] if channels == 4 else []
+        subprocess.run(["oiiotool", "--pattern", kind, "250x200", str(channels), *cut, "-d", "uint8", "-o", f"{work}/{name}"],
+                       check=True)
+    for image, placed, options in (
+            ("corners.png", ":scale=2:repeat=brick", "{scale: [2, 2], repeat: 'brick'}"),
+            ("corners.png", ":scale=2,3:repeat=half-drop:rotate=20", "{scale: [2, 3], repeat: 'half-drop', rotate: 20}"),
+            ("corners.png", ":scale=1.5:repeat=mirror", "{scale: [1.5, 1.5], repeat: 'mirror'}"),
+            ("corners.png", ":scale=2:wrap=mirror,clamp:offset=.2,-.7", "{scale: [2, 2], wrap: 'mirror,clamp', offset: [0.2, -0.7]}"),
+            ("textures/travertine.jpg", ":scale=2:wrap=clamp:offset=-.6,-.5", "{scale: [2, 2], wrap: 'clamp', offset: [-0.6, -0.5]}"),
+            ("corners.png", ":scale=2:wrap=black:offset=-.4,-.3", "{scale: [2, 2], wrap: 'black', offset: [-0.4, -0.3]}"),
+            ("corners.png", ":flip=u:rotate=20:offset=.1,.3", "{scale: [1, 1], flip: 'u', rotate: 20, offset: [0.1, 0.3]}"),
+            ("corners.png", ":flip=uv:repeat=half-drop:offset=.1,.3", "{scale: [1, 1], flip: 'uv', repeat: 'half-drop', offset: [0.1, 0.3]}"),
+            ("glass.png", ":scale=1.5", "{scale: [1.5, 1.5]}")):
+        compare(page, 38, (image, None), placed, options)
+        compare(page, 38, (None, image), placed, options)
+    said = page.room("setTexture('Floor', 'rgb(1,0,0)', {scale: 'large'}).catch(e => e.message)")
+    result("scale" in said, f"a number that is none: {said}")
+    said = page.room("setTexture('Floor', 'corners.png', {repeat: 'brick', wrap: 'clamp'}).catch(e => e.message)")
+    result("brick" in said, f"what does not go together: {said}")
+
+
 def set_slider(page, name, touch, end=0.75):
     """Drag a slider from its middle, or tap on it."""
     page.run(f"{PART}('[data-set={name}]').scrollIntoView({{block: 'nearest'}})")
@@ -160,6 +189,13 @@ def set_slider(page, name, touch, end=0.75):
     else:
         page.drag(x, y, x + width * (end - 0.5), y)
     page.settle()
+
+
+def downloaded(folder):
+    end = time.time() + 20
+    while time.time() < end and "room.png" not in os.listdir(folder):
+        time.sleep(0.1)
+    return "room.png" in os.listdir(folder)
 
 
 def check_controls(page, touch):
@@ -173,6 +209,11 @@ def check_controls(page, touch):
         before = page.state()["textures"]["Floor"][key]
         set_slider(page, name, touch)
         result(page.state()["textures"]["Floor"][key] != before, f"{how}: {name}")
+    for name, value in (("repeat", "mirror"), ("tint", "#ff8040"), ("color", "#406080")):  # their pop-ups are the system's
+        page.run(f"(e => {{ e.value = '{value}'; e.dispatchEvent(new Event('input', {{bubbles: true}})); }})"
+                 f"({PART}('[data-set={name}]'))")
+        key = "source" if name == "color" else name
+        result(page.until(f"{ROOM}.getState().textures.Floor.{key} === '{value}'"), f"{how}: {name}")
     for name in ("exposure", "warmth"):
         set_slider(page, name, touch)
         result(page.state()["light"][name] > 0.2, f"{how}: {name}")
@@ -199,6 +240,15 @@ def check_controls(page, touch):
     page.settle()
     result(zoomed > 1.4 and page.room("zoom.x") != before, f"{how}: {'pinch' if touch else 'wheel'} and pan")
     page.room("panTo(0, 0, 1)")
+    if not touch:
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", x=wall[0], y=wall[1])
+        result(page.run(f"!{PART}('.name').hidden && {PART}('.name').textContent === 'Wall'"), "mouse: the wall's name is shown")
+        page.click(x, y, 2)
+        page.settle()
+        zoomed = page.room("zoom.times")
+        page.click(x, y, 2)
+        page.settle()
+        result(zoomed > 2 and page.room("zoom.times") == 1, "mouse: a double click zooms, and back")
     page.press("[data-do=compare]", touch)
     x, y = page.middle(".split")
     page.tap([(x, y), (x - 30, y), (x - 90, y)]) if touch else page.drag(x, y, x - 90, y)
@@ -215,10 +265,7 @@ def check_controls(page, touch):
     os.makedirs(downloads, exist_ok=True)
     page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=downloads)
     page.press("[data-do=download]", touch)
-    end = time.time() + 20
-    while time.time() < end and "room.png" not in os.listdir(downloads):
-        time.sleep(0.1)
-    result("room.png" in os.listdir(downloads), f"{how}: download")
+    result(downloaded(downloads), f"{how}: download")
     page.press("[data-do=link]", touch)
     result(page.until("location.hash.startsWith('#room=')", 5), f"{how}: a link")
     page.room("setLight({exposure: 0, warmth: 0})")
@@ -234,7 +281,7 @@ def check_keyboard(page):
         page.key("Tab", 9)
         seen.append(page.run(f"(e => e.dataset.do || e.dataset.set || e.className || e.textContent)({focused})"))
     wanted = {"stage", "compare", "out", "in", "full", "download", "link", "Floor", "Wall", "swatch", "file", "color",
-              "original", "size", "rotate", "right", "up", "tint", "exposure", "warmth"}
+              "original", "size", "rotate", "right", "up", "repeat", "tint", "exposure", "warmth"}
     result(wanted <= set(seen), f"keyboard: Tab reaches every control{' but ' if wanted - set(seen) else ''}"
            f"{', '.join(sorted(wanted - set(seen)))}")
 
@@ -252,6 +299,27 @@ def check_keyboard(page):
         before = json.dumps(page.state())
         on(f"[data-set={name}]", right, right)
         result(json.dumps(page.state()) != before, f"keyboard: {name}")
+    on("[data-set=repeat]", ("ArrowDown", 40))
+    result(page.state()["textures"]["Wall"]["repeat"] == "mirror", "keyboard: repeats")
+    on("[data-do=in]", enter)
+    zoomed = page.room("zoom.times")
+    on("[data-do=out]", space)
+    result(zoomed > 1.4 and page.room("zoom.times") == 1, "keyboard: zoom by buttons")
+    on("[data-do=full]", enter)
+    result(page.until("!!document.fullscreenElement", 5), "keyboard: full screen")
+    page.run("document.exitFullscreen().catch(() => 0)")
+    downloads = f"{work}/downloads-keyboard"
+    os.makedirs(downloads, exist_ok=True)
+    page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=downloads)
+    on("[data-do=download]", enter)
+    result(downloaded(downloads), "keyboard: download")
+    page.run("history.replaceState(null, '', '#')")
+    on("[data-do=link]", space)
+    result(page.until("location.hash.startsWith('#room=')", 5), "keyboard: a link")
+    rings = page.run(f"[...{ROOM}.shadowRoot.querySelectorAll('button, input, select, .stage')].filter(e => {{ e.focus(); "
+                     "return e.matches(':focus-visible') && e.dataset.set !== 'file' && !e.classList.contains('split') && "
+                     "getComputedStyle(e).outlineStyle === 'none'; }).map(e => e.outerHTML.slice(0, 60))")
+    result(not rings, f"keyboard: the focus is seen everywhere {rings or ''}")
     on(".stage", ("+", 187, "+"), ("+", 187, "+"), right)
     result(page.room("zoom.times") > 2 and page.room("zoom.x") < 0, "keyboard: zoom and pan")
     on(".stage", ("0", 48, "0"))
@@ -264,7 +332,7 @@ def check_keyboard(page):
     on("[data-do=original]", enter)
     result(page.until(f"!{ROOM}.getState().textures.Wall"), "keyboard: back to the original")
     tree = page.call("Accessibility.getFullAXTree")["nodes"]
-    bare = [n["role"]["value"] for n in tree if n.get("role", {}).get("value") in ("button", "slider", "ColorWell", "image")
+    bare = [n["role"]["value"] for n in tree if n.get("role", {}).get("value") in ("button", "slider", "ColorWell", "image", "combobox")
             and not n.get("ignored") and not n.get("name", {}).get("value")]
     result(not bare, f"screen readers: every control has a name {bare or ''}")
     spoken = page.run(f"{PART}('canvas').getAttribute('aria-label')")
@@ -296,6 +364,9 @@ def check_link(page):
     page.open(link)
     page.save(f"{work}/after.png")
     result(page.state() == state and psnr(f"{work}/before.png", f"{work}/after.png") > 60, "a link restores the room")
+    for junk in ('{"textures": {"Wall": {"source": "#ff0000", "offset": 5}}}', '{"textures": 7, "light": "x"}', "{"):
+        page.open(f"{url}page.html#room={urllib.parse.quote(junk)}")
+        result(page.run(f"{ROOM}.renderer.complete"), f"a link with {junk}: {page.message() or 'nothing changes'}")
 
 
 def check_stages(page):
@@ -344,6 +415,81 @@ def check_faults(page):
         fault(f"room.json with {after.decode()}", lambda d: write(d, "room.json", lambda x: x.replace(before, after)), "room.json")
     page.shot("broken")
 
+    def hostile(name, change):
+        """room.json with other numbers, all files having the checksums it says."""
+        def write_room(folder):
+            with open(f"{folder}/room.json", encoding="utf-8") as f:
+                room = json.load(f)
+            change(room, folder)
+            with open(f"{folder}/room.json", "w", encoding="utf-8") as f:
+                json.dump(room, f)
+        begin = time.time()
+        fault(name, write_room, "damaged")
+        result(time.time() - begin < 15, f"{name}: at once")
+
+    def put(*road):
+        def change(room, _):
+            for key in road[:-2]:
+                room = room[key]
+            room[road[-2]] = road[-1]
+        return change
+
+    def stream(data):
+        def change(room, folder):
+            entry = room["classes"][0]
+            with open(f"{folder}/{entry['file']}", "wb") as f:
+                f.write(data)
+            entry["bytes"], entry["crc32"] = len(data), zlib.crc32(data)
+        return change
+    for road in (("width", 10**9), ("height", 0.5), ("finest", 3), ("lights", 0, "levels", 0), ("lights", 0, "white", "x"),
+                 ("lights", [{}] * 1000), ("classes", 0, "records", 10**9), ("classes", 0, "spreads", 10**9),
+                 ("classes", 0, "width", 10**5), ("classes", 0, "footprints", 0, "per_octave", 0),
+                 ("classes", 0, "target", 0.5), ("classes", 0, "file", "../room.json"), ("targets", []),
+                 ("reduced", "tiles", 0, "x", 1e9), ("terms", [{"group": 0, "gain": -1, "factors": []}] * 10**5),
+                 ("groups", 0, "mixture", 10**9), ("mixtures", 0, [[0, 7]]), ("picture", None), ("targets", 0, "uv_min", None)):
+        hostile(f"{'.'.join(map(str, road[:-1]))} out of range", put(*road))
+    hostile("footprints that inflate for ever", stream(zlib.compress(bytes(2**28))))
+    hostile("footprints that end early", stream(zlib.compress(bytes(99))))
+    hostile("footprints of noise", stream(zlib.compress(random.Random(1).randbytes(400000))))
+
+
+def check_graphics(page):
+    """A graphics card that is taken away and comes back, has small textures, or no memory."""
+    page.open(url + "page.html")
+    page.put("Floor", "textures/brick.jpg", "{scale: [2, 2], rotate: 30}")
+    page.room("setTexture('Wall', new File([new Blob()], 'x')).catch(() => 0)")
+    page.room("setLight({exposure: 0.3})")
+    state = page.state()
+    page.save(f"{work}/before.png")
+    page.run(f"window.lost = {PART}('canvas').getContext('webgl2').getExtension('WEBGL_lose_context'), lost.loseContext()")
+    result(page.until(f"!{ROOM}.renderer") and "graphics card" in page.message() and
+           page.run(f"!{PART}('img').hidden && !{PART}('canvas').classList.contains('shown')"),
+           f"a lost graphics card: {page.message()}")
+    page.shot("lost")
+    page.run("lost.restoreContext()")
+    back = page.until(f"{ROOM}.renderer && {ROOM}.renderer.complete")
+    page.save(f"{work}/after.png")
+    result(back and not page.message() and page.state() == state and psnr(f"{work}/before.png", f"{work}/after.png") > 60,
+           "it comes back, and the textures with it")
+    for name, stub, least in (("textures of 2048 texels at most", "getParameter: n => n === 0x0D33 ? 2048 : 0", 30),
+                              ("textures of 100 texels at most", "getParameter: n => n === 0x0D33 ? 100 : 0", 0),
+                              ("no memory", "getError: () => 0x0505", 0)):
+        script = page.call("Page.addScriptToEvaluateOnNewDocument", source=f"""{{
+            const stubs = {{{stub}}}, proto = WebGL2RenderingContext.prototype;
+            for (const key in stubs) {{ const own = proto[key]; proto[key] = function(x) {{ return stubs[key](x) || own.call(this, x); }}; }}
+        }}""")["identifier"]
+        page.open(url + "page.html")
+        said = page.message()
+        if least:
+            page.put("Floor", "large.jpg")
+            page.save(f"{work}/canvas.png")
+            reference(f"{work}/combined.png", "--texture", f"Floor={work}/large.jpg")
+            decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+            result(decibels > least, f"{name}: a larger one is made smaller, {decibels:.1f} dB {said}")
+        else:
+            result("device" in said or "memory" in said, f"{name}: {said}")
+        page.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
 
 def check_no_webgl():
     page = Page("--disable-3d-apis")
@@ -364,6 +510,7 @@ def main():
         page.size(1280, 800)
         page.open(url + "page.html")
         check_pictures(page)
+        check_placing(page)
         page.shot("desktop")
         check_controls(page, False)
         check_keyboard(page)
@@ -380,6 +527,7 @@ def main():
         bad = [e for e in page.events if e.get("method") == "Runtime.exceptionThrown"]
         result(not bad, f"no script fails {bad or ''}")
         check_faults(page)
+        check_graphics(page)
     finally:
         page.close()
     check_no_webgl()

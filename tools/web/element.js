@@ -41,7 +41,7 @@ class RetexRoom extends HTMLElement {
 
   /* Put a texture on a target: a File or Blob, the URL of a picture, "#rrggbb", "rgb(r,g,b)" with linear numbers, or null
    * for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
-   * degrees, offset [u, v], tint "#rrggbb", label. Resolves when it is drawn. */
+   * degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine. Resolves when it is drawn. */
   async setTexture(name, source, options = {}) {
     const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
     let image = null, label = "Original", kept = null;
@@ -59,19 +59,30 @@ class RetexRoom extends HTMLElement {
       }
     }
     if (order !== this.textures[index].order) return; // another one has been chosen since
-    const most = Math.min(this.renderer?.most || 4096, 4096);
-    if (image && !Array.isArray(image) && Math.max(image.naturalWidth, image.naturalHeight) > most) image = smaller(image, most);
+    placing(plainTexture(), options);
     Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order });
-    this.renderer?.putTexture(index, image);
     this.place(name, options);
     this.say(`${name}: ${this.textures[index].label}`);
   }
 
-  /* Change scale, rotate, offset or tint of a target's texture. */
+  /* Change how a target's texture lies: the options of setTexture. */
   place(name, options) {
-    const texture = this.textures[this.indexOf(name)];
-    for (const key of ["scale", "rotate", "offset", "tint", "label"]) if (options[key] !== undefined) texture[key] = options[key];
+    const index = this.indexOf(name), texture = this.textures[index];
+    Object.assign(texture, placing(texture, options));
+    this.put(index);
     this.update();
+  }
+
+  /* Give the renderer a target's texture, if it has another one. */
+  put(index) {
+    const { renderer } = this, texture = this.textures[index], { image, repeat, put } = texture;
+    const shifted = image && !Array.isArray(image) && isShifted(repeat) ? repeat : "";
+    if (!renderer || (put.image === image && put.shifted === shifted)) return;
+    texture.put = { image, shifted };
+    const most = Math.min(renderer.most, 4096) / (shifted ? 2 : 1);
+    let shown = image;
+    if (image?.naturalWidth && Math.max(image.naturalWidth, image.naturalHeight) > most) shown = smaller(image, most);
+    renderer.putTexture(index, shifted ? shiftedRepeats(shown, repeat) : shown);
   }
 
   /* Brightness in stops, warmth from -1 to 1. */
@@ -82,8 +93,9 @@ class RetexRoom extends HTMLElement {
 
   getState() {
     const textures = {};
-    this.textures.forEach(({ source, scale, rotate, offset, tint }, i) => {
-      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint };
+    this.textures.forEach((t, i) => {
+      const { source, scale, rotate, offset, tint, flip, wrap, repeat } = t;
+      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat };
     });
     return { textures, light: { ...this.light } };
   }
@@ -117,19 +129,20 @@ class RetexRoom extends HTMLElement {
 
   // ---- loading ----
 
-  async load() {
+  /* kept: textures that come back with the room, after the graphics card was lost. */
+  async load(kept) {
     this.started = true;
     this.abort?.abort();
     const abort = (this.abort = new AbortController());
     this.renderer = this.room = null;
     this.textures = [];
     this.fail(null);
-    this.whenComplete = this.run(abort.signal).catch((error) => {
+    this.whenComplete = this.run(abort.signal, kept).catch((error) => {
       if (!abort.signal.aborted) this.fail(error.message);
     });
   }
 
-  async run(signal) {
+  async run(signal, kept) {
     const base = new URL(this.getAttribute("src").replace(/\/?$/, "/"), document.baseURI);
     const text = new TextDecoder().decode(await fetchBytes(new URL("room.json", base), signal, "no-cache"));
     let room;
@@ -145,8 +158,8 @@ class RetexRoom extends HTMLElement {
     }
     if (signal.aborted) return;
     this.room = room;
-    this.textures = room.targets.map(plainTexture);
-    this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
+    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
+    if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
     const view = this.$(".view");
     view.style.aspectRatio = `${room.width} / ${room.height}`;
     view.style.maxWidth = `calc(100cqh * ${room.width / room.height})`;
@@ -170,17 +183,17 @@ class RetexRoom extends HTMLElement {
       throw error.message === "no WebGL 2" || typeof DecompressionStream === "undefined" ? new Error(NO_WEBGL) : error;
     }
     this.renderer.putStill(still);
-    await this.stream(get, signal);
+    await this.stream(get, signal, kept);
   }
 
   /* The target that shows most, then the others, then light that no target changes. */
-  async stream(get, signal) {
+  async stream(get, signal, kept) {
     const { room, renderer } = this;
     const order = room.targets.map((_, i) => i).sort((a, b) => room.targets[b].share - room.targets[a].share);
     const jobs = [];
     const light = (l) => jobs.push(async () => renderer.putLight(l, await decodeJpeg(await get(room.lights[l]), room.lights[l].file)));
     const footprints = (c) => jobs.push(async () => {
-      const data = await inflate(await get(c), c.file);
+      const data = await inflate(await get(c), c.file, mostBytes(c));
       await new Promise((resolve) => setTimeout(resolve));
       renderer.putClass(c, decodeClass(c, data, c.base));
     });
@@ -198,7 +211,7 @@ class RetexRoom extends HTMLElement {
       await Promise.all(jobs.slice(i, end).map((job) => job()));
       if (signal.aborted) return;
       i = end;
-      if (step++ === 0) await this.begin();
+      if (step++ === 0) await this.begin(kept);
       this.refresh();
       this.draw(true);
     }
@@ -208,11 +221,12 @@ class RetexRoom extends HTMLElement {
   }
 
   /* The first target can be changed. */
-  async begin() {
+  async begin(kept) {
     this.$("canvas").classList.add("shown");
+    this.textures.forEach((_, i) => this.put(i));
     this.emit("retex-ready", { targets: this.targets });
     const hash = /[#&]room=([^&]*)/.exec(location.hash);
-    if (!hash || this.hasAttribute("no-link")) return;
+    if (!hash || kept || this.hasAttribute("no-link")) return;
     try {
       await this.setState(JSON.parse(decodeURIComponent(hash[1])));
     } catch (error) {
@@ -230,7 +244,10 @@ class RetexRoom extends HTMLElement {
         const wide = image && !Array.isArray(image) ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
         scale = [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
       }
-      return { scale, rotate: t.rotate, offset: t.offset, tint: parseColor(t.tint) || [1, 1, 1] };
+      const modes = (Array.isArray(image) ? "repeat" : t.wrap).split(",");
+      const wrap = [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && t.repeat === "mirror" ? m = "mirror" : m));
+      const share = [t.put.shifted === "half-drop" ? 0.5 : 1, t.put.shifted === "brick" ? 0.5 : 1];
+      return { ...t, scale, wrap, share, tint: parseColor(t.tint) };
     });
   }
 
@@ -327,6 +344,7 @@ class RetexRoom extends HTMLElement {
     show("right", texture.offset[0], texture.offset[0].toFixed(2));
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
     show("tint", texture.tint, "");
+    show("repeat", texture.repeat, "");
     show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
     show("warmth", this.light.warmth, (this.light.warmth > 0 ? "+" : "") + this.light.warmth.toFixed(2));
     this.$("canvas").setAttribute("aria-label", `The room. ${this.targets.map((n, i) => `${n}: ${this.textures[i].label}`).join(", ")}.`);
@@ -359,7 +377,8 @@ class RetexRoom extends HTMLElement {
       case "rotate": return this.place(name, { rotate: value });
       case "right": return this.place(name, { offset: [value, texture.offset[1]] });
       case "up": return this.place(name, { offset: [texture.offset[0], value] });
-      case "tint": return this.place(name, { tint: input.value });
+      case "tint":
+      case "repeat": return this.try(() => this.place(name, { [input.dataset.set]: input.value }));
       default: return this.setLight({ [input.dataset.set]: value });
     }
   }
@@ -519,10 +538,13 @@ class RetexRoom extends HTMLElement {
     });
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
+      this.abort?.abort();
       this.renderer = null;
       canvas.classList.remove("shown");
-      this.fail("The graphics card was needed elsewhere. Please reload the page.");
+      this.refresh();
+      this.fail("The graphics card was needed elsewhere. The room comes back when it is free; reload the page if it does not.");
     });
+    canvas.addEventListener("webglcontextrestored", () => this.isConnected && this.load(this.textures));
     new ResizeObserver(() => this.panTo(this.zoom.x, this.zoom.y)).observe(stage);
   }
 
@@ -532,6 +554,26 @@ class RetexRoom extends HTMLElement {
     if (target >= 0) label.textContent = this.targets[target];
     clearTimeout(this.noting);
   }
+}
+
+
+/* Two repeats as one picture: side by side, the right one moved down, or one above the other, the upper one moved right. */
+function shiftedRepeats(image, repeat) {
+  const w = image.naturalWidth || image.width, h = image.naturalHeight || image.height, across = repeat === "half-drop";
+  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+  canvas.width = across ? 2 * w : w;
+  canvas.height = across ? h : 2 * h;
+  for (const [x, y] of across ? [[0, 0], [w, h >> 1], [w, (h >> 1) - h]] : [[0, h], [w >> 1, 0], [(w >> 1) - w, 0]])
+    context.drawImage(image, x, y);
+  return canvas;
+}
+
+/* Whether a picture may show what lies below it. */
+function isClear(image) {
+  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
+  canvas.width = canvas.height = 64;
+  context.drawImage(image, 0, 0, 64, 64);
+  return context.getImageData(0, 0, 64, 64).data.some((x, i) => i % 4 === 3 && x < 255);
 }
 
 /* A large picture in a canvas whose longer side has so many pixels. */

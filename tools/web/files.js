@@ -51,14 +51,20 @@ async function decodeImage(blob, name) {
 
 const decodeJpeg = (bytes, name) => decodeImage(new Blob([bytes], { type: "image/jpeg" }), name);
 
-async function inflate(bytes, name) {
+/* most: more bytes than a whole file has. */
+async function inflate(bytes, name, most) {
+  const parts = [];
   try {
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
+    const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
+    for (let part; !(part = await reader.read()).done && most > 0; most -= part.value.length) parts.push(part.value);
+    if (most <= 0) throw reader.cancel();
   } catch {
     throw new Error(`${name} is damaged.`);
   }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
+
+const mostBytes = (c) => 1 + c.footprints.length * (16 + c.height * (((c.width + 7) >> 3) + c.width * (c.spreads + 8 + 2)));
 
 // ---- footprints ----
 

@@ -13,7 +13,37 @@ function parseColor(text) {
 
 const toHex = (linear) => "#" + linear.map((x) => Math.round(255 * srgbEncode(Math.min(Math.max(x, 0), 1))).toString(16).padStart(2, "0")).join("");
 
-const plainTexture = () => ({ source: null, label: "Original", scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff" });
+const plainTexture = () => ({
+  source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff", flip: "", wrap: "repeat", repeat: "straight",
+});
+const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
+const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
+
+/* What the options of a texture may be. */
+const isPair = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite);
+const PLACING = {
+  scale: (x) => (Number.isFinite(x) || isPair(x)) && ![x].flat().includes(0),
+  rotate: Number.isFinite,
+  offset: isPair,
+  tint: (x) => !!parseColor(x),
+  flip: (x) => /^(u|v|uv|)$/.test(x),
+  wrap: (x) => { const modes = String(x).split(","); return modes.length < 3 && modes.every((m) => WRAPS.includes(m)); },
+  repeat: (x) => REPEATS.includes(x),
+  label: (x) => typeof x === "string",
+};
+
+/* What `options` change about how a texture lies. */
+function placing(texture, options) {
+  const placed = {};
+  for (const key in PLACING) {
+    placed[key] = options[key] ?? texture[key];
+    if (!PLACING[key](placed[key])) throw new Error(`A texture's ${key} cannot be ${JSON.stringify(placed[key])}.`);
+  }
+  if (isShifted(placed.repeat) && placed.wrap.split(",").some((m) => m !== "repeat"))
+    throw new Error(`A texture's repeat ${placed.repeat} needs wrap repeat.`);
+  return placed;
+}
+
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 // ---- the element ----
@@ -58,7 +88,8 @@ button { font: inherit; color: inherit; cursor: pointer; }
 label.slider { display: grid; grid-template-columns: 86px 1fr 48px; align-items: center; gap: 8px; min-height: 40px; }
 label.slider output { text-align: right; font-variant-numeric: tabular-nums; color: #555; }
 input[type=range] { width: 100%; height: 30px; accent-color: var(--accent); margin: 0; }
-input[type=color] { width: 44px; height: 40px; padding: 2px; border: 1px solid var(--line); border-radius: 10px; background: #fff; }
+input[type=color], select { width: 44px; height: 40px; padding: 2px; border: 1px solid var(--line); border-radius: 10px; background: #fff; }
+select { font: inherit; color: inherit; width: 130px; padding: 2px 8px; }
 .drop { outline: 3px dashed var(--accent); outline-offset: -8px; }
 .quiet { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 @media (max-width: 760px), (max-aspect-ratio: 1/1) {
@@ -70,7 +101,7 @@ input[type=color] { width: 44px; height: 40px; padding: 2px; border: 1px solid v
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 @media (prefers-color-scheme: dark) {
   :host { color: #eee; background: #1b1b1a; --line: #fff3; --accent: #8fc7b5; }
-  .stage { background: #111; } .panel, .panel button, .file, input[type=color], .message { background: #222221; }
+  .stage { background: #111; } .panel, .panel button, .file, input[type=color], select, .message { background: #222221; }
   .tools, .name { background: #222d; } h2, label.slider output { color: #bbb; } .tools button:hover { background: #fff2; }
 }`;
 
@@ -94,7 +125,7 @@ const BODY = `
     <input class="split" type="range" min="0" max="100" step="1" value="50" aria-label="Before and after" hidden>
     <progress class="bar" max="1" value="0" aria-label="Loading"></progress>
     <div class="message" role="alert" hidden></div>
-    <div class="tools" role="toolbar" aria-label="View">
+    <div class="tools" role="group" aria-label="View">
 ${TOOLS}
     </div>
   </div>
@@ -111,6 +142,7 @@ ${TOOLS}
     <div class="placing">
       ${slider("size", "Size", -3, 3, 0.01)}${slider("rotate", "Turn", -180, 180, 1)}
       ${slider("right", "Shift right", -1, 1, 0.01)}${slider("up", "Shift up", -1, 1, 0.01)}
+      <label class="slider"><span>Repeats</span><select data-set="repeat">${REPEATS.map((x) => `<option value="${x}">${x[0].toUpperCase() + x.slice(1)}</option>`).join("")}</select></label>
       <label class="slider"><span>Tint</span><input type="color" data-set="tint"><output></output></label>
     </div>
     <h2>Light</h2>

@@ -1,36 +1,73 @@
 // ---- the room on the graphics card ----
 
-/* Numbers go into shaders, so they must be numbers. */
+/* Numbers go into shaders and sizes into memory, so all are what retex-pack can have written. */
 function checkManifest(room) {
-  const bad = () => { throw new Error("room.json is damaged."); };
-  if (!room || typeof room !== "object") bad();
-  if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room.");
-  const list = (value, keys) => {
-    if (!Array.isArray(value) || value.some((x) => keys.split(" ").some((k) => typeof x[k] !== "number"))) bad();
-    return value;
+  const check = (good) => { if (!good) throw new Error("room.json is damaged."); };
+  const number = (x, low = 0, high = 1e30) => check(Number.isFinite(x) && x >= low && x <= high);
+  const whole = (x, low, high) => check(Number.isInteger(x) && x >= low && x <= high);
+  const list = (value, most, each) => {
+    check(Array.isArray(value) && value.length <= most);
+    value.forEach(each);
   };
-  const inside = (index, array, least = 0) => Number.isInteger(index) && index >= least && index < array.length || bad();
-  for (const key of ["width", "height", "finest"]) if (!Number.isInteger(room[key]) || room[key] < 1) bad();
-  list(room.targets, "share");
-  list(room.lights, "bytes crc32 white levels target");
-  list(room.classes, "bytes crc32 target scale width height albedo spreads records");
-  list(room.groups, "light mixture target");
-  list(room.terms, "group gain");
-  const tiles = room.reduced ? list(room.reduced.tiles, "x y width height scale white levels") : [];
-  if (!Array.isArray(room.mixtures)) bad();
-  for (const t of room.targets) for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) if (t[key]?.length !== 2) bad();
-  for (const c of room.classes) {
+  const inside = (index, array, least = 0) => whole(index, least, array.length - 1);
+  const file = (f) => {
+    check(typeof f.file === "string" && !/[\/\\:]/.test(f.file));
+    whole(f.bytes, 0, 2 ** 31);
+    whole(f.crc32, 0, 2 ** 32 - 1);
+  };
+  const levels = (c) => (number(c.white, 1e-30), number(c.levels, 1, 255));
+  const scaled = (c) => {
+    check([1, 2, 4, 8].includes(c.scale));
+    check(c.width === Math.ceil(room.width / c.scale) && c.height === Math.ceil(room.height / c.scale));
+  };
+  check(room && typeof room === "object");
+  if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room.");
+  whole(room.width, 1, 32768);
+  whole(room.height, 1, 32768);
+  check([1, 2, 4, 8].includes(room.finest));
+  file(room.picture);
+  list(room.targets, 8, (t) => {
+    check(typeof t.name === "string");
+    number(t.share);
+    for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) check(isPair(t[key]));
+  });
+  check(room.targets.length);
+  list(room.lights, 256, (l) => (file(l), levels(l), whole(l.target, -1, 8)));
+  if (room.reduced) file(room.reduced);
+  const tiles = room.reduced?.tiles || [];
+  list(tiles, 256, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
+  list(room.classes, 24, (c) => {
+    file(c);
+    scaled(c);
     inside(c.target, room.targets);
     inside(c.albedo, c.scale === 1 ? room.lights : tiles);
-    list(c.footprints, "first per_octave sigma_first angle_steps");
-  }
-  for (const m of room.mixtures) if (!m.length || m.some(([c, slot]) => inside(c, room.classes) !== true || !(slot in [0, 1]))) bad();
-  for (const g of room.groups) inside(g.light, room.lights), inside(g.mixture, room.mixtures, -1);
-  for (const t of room.terms) {
+    whole(c.spreads, 2, 3);
+    list(c.footprints, 16, (f) => {
+      number(f.first);
+      number(f.per_octave, 1e-3);
+      number(f.sigma_first, -1e9);
+      number(f.angle_steps);
+      list(f.weights, 2, (w) => w === null || w === "one" || number(w));
+    });
+    whole(c.records, 0, c.width * c.height * c.footprints.length);
+  });
+  list(room.mixtures, 96, (m) => {
+    check(m.length);
+    list(m, 24, ([c, slot]) => (inside(c, room.classes), whole(slot, 0, 1)));
+    check(m.every(([c]) => room.classes[c].scale === room.classes[m[0][0]].scale));
+  });
+  const scaleOf = (m) => room.classes[room.mixtures[m][0][0]].scale;
+  list(room.groups, 64, (g) => {
+    inside(g.light, room.lights);
+    inside(g.mixture, room.mixtures, -1);
+    whole(g.target, -1, 8);
+    check(g.mixture < 0 || scaleOf(g.mixture) === 1);
+  });
+  list(room.terms, 1024, (t) => {
     inside(t.group, room.groups);
     inside(t.gain, tiles, -1);
-    for (const m of t.factors) inside(m, room.mixtures);
-  }
+    list(t.factors, 12, (m) => (inside(m, room.mixtures), check(scaleOf(m) >= room.finest && scaleOf(m) > 1)));
+  });
 }
 
 class Renderer {
@@ -38,7 +75,7 @@ class Renderer {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL 2");
     if (!gl.getExtension("EXT_color_buffer_float") && !gl.getExtension("EXT_color_buffer_half_float")) throw new Error("no WebGL 2");
-    Object.assign(this, { gl, room, loaded: new Set(), lights: new Set(), textures: [], most: gl.getParameter(gl.MAX_TEXTURE_SIZE) });
+    Object.assign(this, { gl, room, loaded: new Set(), lights: new Set(), most: gl.getParameter(gl.MAX_TEXTURE_SIZE) });
     if (Math.max(room.width, room.height) > this.most) throw new Error("The room is too large for this device.");
     canvas.width = room.width;
     canvas.height = room.height;
@@ -65,16 +102,17 @@ class Renderer {
     this.factors = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
     this.originals = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
     this.none = this.texture(gl.TEXTURE_2D, gl.RGBA8, 1, 1, 0, gl.NEAREST);
+    this.checkMemory();
     this.frame = gl.createFramebuffer();
-    this.programs = [mixtureShader(room), factorShader(room), pictureShader(room)].map((text) => this.program(text));
-    for (const target of room.targets) this.textures.push(null), (target.image = this.none);
+    this.programs = [mixtureShader(room), factorShader(room), pictureShader(room), PREMULTIPLY].map((text) => this.program(text));
+    for (const target of room.targets) target.image = this.none, (target.hasImage = false);
   }
 
-  texture(kind, format, width, height, layers, filter) {
+  texture(kind, format, width, height, layers, filter, levels = 1) {
     const { gl } = this, texture = gl.createTexture();
     gl.bindTexture(kind, texture);
-    if (layers) gl.texStorage3D(kind, 1, format, width, height, layers);
-    else gl.texStorage2D(kind, 1, format, width, height);
+    if (layers) gl.texStorage3D(kind, levels, format, width, height, layers);
+    else gl.texStorage2D(kind, levels, format, width, height);
     for (const [key, value] of [["MIN_FILTER", filter], ["MAG_FILTER", filter], ["WRAP_S", gl.CLAMP_TO_EDGE], ["WRAP_T", gl.CLAMP_TO_EDGE]])
       gl.texParameteri(kind, gl[`TEXTURE_${key}`], value);
     return texture;
@@ -149,18 +187,35 @@ class Renderer {
     target.hasImage = !!source;
     if (!source) return;
     const width = source.naturalWidth || source.width || 1, height = source.naturalHeight || source.height || 1;
-    target.image = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, target.image);
     if (Array.isArray(source)) {
-      gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA16F, 1, 1);
+      target.image = this.texture(gl.TEXTURE_2D, gl.RGBA16F, 1, 1, 0, gl.NEAREST);
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array([...source, 1]));
-    } else {
-      gl.texStorage2D(gl.TEXTURE_2D, Math.floor(Math.log2(Math.max(width, height))) + 1, gl.SRGB8_ALPHA8, width, height);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, source);
-      gl.generateMipmap(gl.TEXTURE_2D);
+      return;
     }
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, Array.isArray(source) ? gl.NEAREST : gl.LINEAR_MIPMAP_LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, Array.isArray(source) ? gl.NEAREST : gl.LINEAR);
+    const levels = Math.floor(Math.log2(Math.max(width, height))) + 1;
+    target.image = this.texture(gl.TEXTURE_2D, gl.SRGB8_ALPHA8, width, height, 0, gl.LINEAR, levels);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, source);
+    if (isClear(source)) this.premultiply(target, width, height, levels);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    this.checkMemory();
+  }
+
+  /* Colours are averaged by how much they cover. */
+  premultiply(target, width, height, levels) {
+    const { gl } = this, straight = target.image;
+    target.image = this.texture(gl.TEXTURE_2D, gl.SRGB8_ALPHA8, width, height, 0, gl.LINEAR, levels);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.imageFrame ||= gl.createFramebuffer());
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target.image, 0);
+    gl.viewport(0, 0, width, height);
+    this.draw(this.programs[3], { straight });
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
+    gl.deleteTexture(straight);
+    gl.bindTexture(gl.TEXTURE_2D, target.image);
+  }
+
+  checkMemory() {
+    if (this.gl.getError() === this.gl.OUT_OF_MEMORY) throw new Error("The graphics card has not enough memory for this room.");
   }
 
   /* Draw with one program; values by name: numbers, arrays, or [kind, texture]. */
@@ -224,14 +279,22 @@ class Renderer {
     return this.room.groups.every((g, i) => g.target !== target || this.isReady(i));
   }
 
-  /* settings: by target {scale, rotate, offset, tint}; split: pixels from the left that stay as they were. */
+  /* settings: by target how its texture lies, scale and tint as numbers; wrap: modes in u and v; share: of the image that
+   * one repeat takes; split: pixels from the left that stay as they were. */
   render(settings, split, lamp) {
     const { gl, room } = this, count = room.targets.length;
-    const values = { records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edited: [] };
+    const values = { records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [] };
     for (let t = 0; t < count; t++) {
       const s = settings[t], angle = s.rotate * Math.PI / 180, [c, d] = [Math.cos(angle), Math.sin(angle)];
-      values.turn.push(c * s.scale[0], d * s.scale[0], -d * s.scale[1], c * s.scale[1]);
-      values.offset.push(...s.offset);
+      const [u, v] = s.share.map((share, k) => (s.flip.includes("uv"[k]) ? -share : share));
+      values.turn.push(c * s.scale[0] * u, d * s.scale[0] * v, -d * s.scale[1] * u, c * s.scale[1] * v);
+      values.offset.push(...[u, v].map((share, k) => (share < 0 ? share * (s.offset[k] - 1) : share * s.offset[k])));
+      values.edge.push(...s.wrap.map((mode) => ({ black: 1, clamp: -1 })[mode] || 0));
+      if (room.targets[t].hasImage) {
+        gl.bindTexture(gl.TEXTURE_2D, room.targets[t].image);
+        s.wrap.forEach((mode, k) => gl.texParameteri(gl.TEXTURE_2D, k ? gl.TEXTURE_WRAP_T : gl.TEXTURE_WRAP_S,
+          { repeat: gl.REPEAT, mirror: gl.MIRRORED_REPEAT }[mode] || gl.CLAMP_TO_EDGE));
+      }
       values.tint.push(...s.tint);
       values.edited.push(room.targets[t].hasImage ? 1 : 0);
       values[`image${t}`] = room.targets[t].image;

@@ -17,7 +17,19 @@ vec3 light(vec3 code, float white, float levels) {
 }
 `;
 
-/* The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
+const PREMULTIPLY = `#version 300 es
+precision highp float;
+uniform sampler2D straight;
+out vec4 result;
+void main() {
+  result = texelFetch(straight, ivec2(gl_FragCoord.xy), 0);
+  result.rgb *= result.a;
+}`;
+
+/* Colours of textures are multiplied by what they cover. ends: in u and v 1 if nothing lies beyond the image, -1 if its
+ * border continues, so that the finest level has it.
+ *
+ * The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
  * Three rows across the shorter axis; along the longer axis as many samples as its length needs. Each sample is a
  * trilinear look-up with a part of the footprint's variance, the rows and samples have the rest. */
 const FILTER = `
@@ -25,8 +37,15 @@ uniform usampler2D records;
 uniform mat2 turn[TARGETS];
 uniform vec2 offset[TARGETS];
 uniform vec3 tint[TARGETS];
+uniform vec2 edge[TARGETS];
 uniform bool edited[TARGETS];
-vec4 filtered(sampler2D image, mat2 turned, vec2 moved, vec4 bounds, uvec4 record, bool disc) {
+vec4 look(sampler2D image, vec2 size, vec2 place, float lod, vec2 ends) {
+  vec2 beyond = clamp((abs(place - 0.5) - 0.5) * max(size * exp2(-lod), 1.0) + 0.5, 0.0, 1.0);
+  vec2 inside = 1.0 - beyond * max(ends, 0.0);
+  beyond *= max(-ends, 0.0);
+  return textureLod(image, vec2(place.x, 1.0 - place.y), lod * (1.0 - max(beyond.x, beyond.y))) * (inside.x * inside.y);
+}
+vec4 filtered(sampler2D image, mat2 turned, vec2 moved, vec2 ends, vec4 bounds, uvec4 record, bool disc) {
   const float along = 32.0;
   vec2 size = vec2(textureSize(image, 0)), uv = vec2(uintBitsToFloat(record.x), uintBitsToFloat(record.y));
   vec2 codes = vec2(float(record.z & 65535u), float(record.z >> 16));
@@ -64,11 +83,11 @@ vec4 filtered(sampler2D image, mat2 turned, vec2 moved, vec4 bounds, uvec4 recor
         if (any(lessThan(at, bounds.xy)) || any(greaterThan(at, bounds.zw))) continue;
       }
       vec2 place = mean + step / size;
-      sum += w * textureLod(image, vec2(place.x, 1.0 - place.y), lod);
+      sum += w * look(image, size, place, lod, ends);
       total += w;
     }
   }
-  return total > 0.0 ? sum / total : textureLod(image, vec2(mean.x, 1.0 - mean.y), lod);
+  return total > 0.0 ? sum / total : look(image, size, mean, lod, ends);
 }
 vec2 shares(uvec4 r) { return vec2(float((r.w >> 8) & 4095u), float(r.w >> 20)); }
 uvec4 recordAt(int at) { return texelFetch(records, ivec2(at & ${RECORD_COLUMNS - 1}, at / ${RECORD_COLUMNS}), 0); }
@@ -92,8 +111,8 @@ function classCode(room, c, albedo, slots) {
       vec2 w = shares(r);
       vec3 color = own;
       if (edited[${t}]${slots.original ? " && !original" : ""}) {
-        vec4 found = filtered(image${t}, turn[${t}], offset[${t}], ${bounds}, r, ${disc});
-        color = mix(own, found.rgb * tint[${t}], found.a);
+        vec4 found = filtered(image${t}, turn[${t}], offset[${t}], edge[${t}], ${bounds}, r, ${disc});
+        color = own * (1.0 - found.a) + found.rgb * tint[${t}];
       }
       ${slots.add}
     }
