@@ -222,6 +222,7 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_SHARD:
         numbers(cli, o, '/', 2, size);
         r->shard = size[0], r->nshards = size[1];
+        r->resume = 1;
         if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
             cli_die(cli, "--shard: expected I/N, I from 1 to N, not `%s`", cli->value);
         break;
@@ -317,7 +318,7 @@ static void check_noise(const Arguments *a)
 static void check_pieces(const Arguments *a)
 {
     const RenderParams *r = &a->render;
-    const char *option = r->resume ? "resume" : r->nshards ? "shard" : a->nmerged ? "merge" : NULL;
+    const char *option = r->nshards ? "shard" : r->resume ? "resume" : a->nmerged ? "merge" : NULL;
     if (!option)
         return;
     if (a->list || a->tracing || a->variants || a->control || r->control_data)

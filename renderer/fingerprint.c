@@ -1,9 +1,37 @@
 /* The fingerprint of a render: a digest of all that its rows depend on. --resume and --merge accept only rows with the
  * same fingerprint. */
+#include <elf.h>
+#include <link.h>
 #include <stdio.h>
 #include <string.h>
 #include "base/digest.h"
 #include "retex-render.h"
+
+/* Add the build ID, which the linker computes from all that the program consists of. */
+static void digest_build_id(uint64_t *digest, const unsigned char *note, size_t bytes)
+{
+    ElfW(Nhdr) header;
+    while (bytes >= sizeof header) {
+        memcpy(&header, note, sizeof header);
+        const size_t name = (header.n_namesz + 3) & ~(size_t)3, id = (header.n_descsz + 3) & ~(size_t)3;
+        if (name + id > bytes - sizeof header)
+            return;
+        if (header.n_type == NT_GNU_BUILD_ID && name == 4 && !memcmp(note + sizeof header, "GNU", 4))
+            *digest = digest_bytes(*digest, note + sizeof header + name, header.n_descsz);
+        note += sizeof header + name + id, bytes -= sizeof header + name + id;
+    }
+}
+
+static int digest_program(struct dl_phdr_info *program, size_t size, void *digest)
+{
+    (void)size;
+    for (int k = 0; k < program->dlpi_phnum; k++) {
+        const ElfW(Phdr) *part = &program->dlpi_phdr[k];
+        if (part->p_type == PT_NOTE)
+            digest_build_id(digest, (const unsigned char *)(program->dlpi_addr + part->p_vaddr), part->p_memsz);
+    }
+    return 1; /* the program itself is the first; no libraries */
+}
 
 static uint64_t digest_file(uint64_t digest, const char *path)
 {
@@ -35,12 +63,13 @@ static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
 uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
 {
     const RenderParams *r = &a->render;
-    const int numbers[] = {
-        r->width,  r->height,    r->crop[0],   r->crop[1],      r->crop[2],      r->crop[3],     r->spp,
-        r->plain,  r->gaussian,  r->paper,     r->orders,       r->sharp,        r->broad,       r->clusters,
-        r->stored, r->max_depth, (int)r->seed, r->strict_paper, r->denoise_data, a->sdl.ambient, r->caustics_guide,
-        a->sdl.caustics};
+    const int numbers[] = {r->width,          r->height,      r->crop[0],      r->crop[1],      r->crop[2],
+                           r->crop[3],        r->spp,         r->plain,        r->gaussian,     r->paper,
+                           r->orders,         r->sharp,       r->broad,        r->clusters,     r->stored,
+                           r->max_depth,      (int)r->seed,   r->strict_paper, r->denoise_data, a->sdl.ambient,
+                           r->caustics_guide, a->sdl.caustics};
     uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
+    dl_iterate_phdr(digest_program, &d);
     d = digest_bytes(d, &r->noise, sizeof r->noise);
     d = digest_number(d, scene->digest);
     d = digest_bytes(d, numbers, sizeof numbers);

@@ -109,6 +109,6 @@ int for_each_frame(Arguments *a, int (*action)(Arguments *frame))
 int frame_is_there(const Arguments *a)
 {
     struct stat info;
-    return a->frames.step && a->render.resume && a->output && !stat(a->output, &info) && S_ISREG(info.st_mode) &&
-           stat(a->checkpoint, &info) != 0;
+    return a->frames.step && a->render.resume && !a->render.nshards && a->output && !stat(a->output, &info) &&
+           S_ISREG(info.st_mode) && stat(a->checkpoint, &info) != 0;
 }

@@ -56,8 +56,11 @@ static void name_checkpoint(Arguments *a)
     RenderParams *r = &a->render;
     const char *output = a->output;
     if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
-        (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->control_data)
+        (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->control_data) {
+        if (r->resume)
+            cli_die(a->cli, "--%s needs an output file, which %s is not", r->nshards ? "shard" : "resume", output);
         return;
+    }
     if (snprintf(a->checkpoint, sizeof a->checkpoint, "%s.partial", output) >= (int)sizeof a->checkpoint)
         cli_die(a->cli, "the output's name is too long");
     r->checkpoint = a->checkpoint, r->output = output;

@@ -34,7 +34,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 	$(SAY)$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
 
 # A tool is tools/retex-NAME.c, the common command line and the library. It loads the bridge from beside it at run time.
-LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
+LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table batch batch_check \
 	batch_report frames kept_textures output_folder json_text)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)

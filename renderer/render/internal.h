@@ -22,6 +22,7 @@ typedef struct Render {
     Accel *accel;
     Lights *lights;
     Caustics *caustics; /* or NULL */
+    RetexBandStore *store; /* for the film, which then owns it; or NULL */
     Film *film;
     FilmPixel **pixels;            /* by thread */
     ControlFilm *control;          /* of several variants, or NULL */

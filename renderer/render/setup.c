@@ -102,6 +102,7 @@ void render_close_films(Render *r)
 void render_close(Render *r)
 {
     render_close_films(r);
+    retex_band_store_close(&r->store);
     caustics_close(&r->caustics);
     lights_close(&r->lights);
     accel_close(&r->accel);
@@ -123,6 +124,8 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
     int code = check_params(&r->params, err);
     if (!code)
         code = set_window(r, err);
+    if (!code)
+        code = checkpoint_open(&r->store, &r->params, r->w, r->h, err);
     if (!code)
         code = accel_create_within(&r->accel, scene, r->params.nthreads, r->params.budget, err);
     if (!code)
@@ -198,7 +201,7 @@ int render_is_stopped(const Render *r)
 
 int render_is_wanted(const Render *r, int band)
 {
-    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->resumed[band];
+    return checkpoint_is_in_shard(&r->params, band) && !r->resumed[band];
 }
 
 /* Read the bands that earlier renders have finished. The film must have all its images by then. */
@@ -263,9 +266,9 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
     r->workers = calloc((size_t)threads, sizeof *r->workers);
     if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = checkpoint_open(&film.store, &r->params, r->w, r->h, err);
-    if (!code)
-        code = film_create(&r->film, r->scene, &film, err);
+    film.store = r->store;
+    r->store = NULL;
+    int code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
     if (!code && keeps_denoise_data(&r->params))

@@ -63,10 +63,10 @@ $ for n in 50 200 9000 30000; do (head -c $n s2; printf x; tail -c +$((n + 2)) s
 ! ls: cannot access 'm.exr': No such file or directory
 = 2
 $ ./render --merge s2 --merge s1 --merge s2 --merge s3 -o m.exr
-! retex-render: error: s2 has rows that another file of --merge has too
+! retex-render: error: s2 and s2 have the same rows: is a shard given twice?
 = 2
 $ ./render --merge s1 --merge s2 --merge s3 --spp 17 -o m.exr
-! retex-render: error: s1 is of another render: other options, another scene or version
+! retex-render: error: s1 is of another render: other options, another scene or build
 = 2
 $ ./render --merge s1 --merge s2 --merge ref.exr -o m.exr
 ! retex-render: error: ref.exr is no unfinished render
@@ -82,8 +82,33 @@ $ retex-combine s1 -o x.png
 = 2
 $ for k in 1 2; do ./render --plain --shard $k/2 -o t$k; ./render --denoise --shard $k/2 -o u$k; done; ./render --plain -o ref.png; ./render --plain --merge t1 --merge t2 -o t.png; cmp t.png ref.png; ./render --denoise -o v.exr; ./render --denoise --merge u1 --merge u2 -o u.exr; cmp u.exr v.exr
 
+# A shard goes on from what it has, and is refused at once where its output is of another render or another shard.
+$ cp s1 again; ./render --shard 1/3 -o again; head -c 9000 s1 >again; ./render --shard 1/3 -o again; ./render --merge again --merge s2 --merge s3 -o m.exr; cmp m.exr ref.exr; cp s1 again; ./render --shard 2/3 -o again; ./render --shard 1/3 --spp 17 -o again; cmp again s1; cp s1 left.partial; ./render --shard 2/3 -o left; cp ref.exr text; ./render --shard 1/3 -o text; cmp text ref.exr; ls again* left* text*; rm again left* text m.exr
+> again
+> left.partial
+> text
+! retex-render: error: again has rows of another shard: each shard needs an output of its own
+! retex-render: error: --shard replaces only an earlier output of the same shard: again is of another render: other options, another scene or build
+! retex-render: error: left.partial has rows of another shard: each shard needs an output of its own
+! retex-render: error: --shard replaces only an earlier output of the same shard: text is no unfinished render
+# Two at once with the same output; the first is then killed, which costs the bands in progress only.
+$ ./long --shard 1/2 -o one & until [ -s one.partial ] && [ "$(stat -c %s one.partial)" -gt 9000 ]; do sleep .02; done; ./long --shard 2/2 -o one; ./long --shard 1/2 -o one; kill -KILL $!; wait $! 2>/dev/null; ./long --shard 2/2 -o one; ./long --shard 1/2 -o one; ./long --shard 2/2 -o two; ./long --merge one --merge two -o m.exr; cmp m.exr long.exr; ls one* two*; rm one two m.exr
+> one
+> two
+! retex-render: error: one.partial is in use by another render
+! retex-render: error: one.partial is in use by another render
+! retex-render: error: one.partial has rows of another shard: each shard needs an output of its own
+# Another build, told by its build ID.
+$ objcopy --dump-section .note.gnu.build-id=id "$(command -v retex-render)" other; printf x | dd of=id bs=1 seek=20 conv=notrunc 2>/dev/null; objcopy --update-section .note.gnu.build-id=id other 2>/dev/null; sed "s,exec retex-render,exec ./other," render >other-render; sh other-render --merge s1 --merge s2 --merge s3 -o m.exr; sh other-render --shard 1/3 -o s1; rm id other other-render
+! retex-render: error: s1 is of another render: other options, another scene or build
+! retex-render: error: --shard replaces only an earlier output of the same shard: s1 is of another render: other options, another scene or build
+# All files are checked before pixels of any are read, so the second wrong one is told of while the first is damaged.
+$ (head -c 9000 s2; printf x; tail -c +9002 s2) >bad; ./render --merge s1 --merge bad --merge ref.exr -o m.exr; ./render --merge s1 --merge bad --merge s1 -o m.exr; rm bad
+! retex-render: error: ref.exr is no unfinished render
+! retex-render: error: s1 and s1 have the same rows: is a shard given twice?
+
 # Layout paper. With several targets, paths make the images of their terms, and no shard has all of them.
-$ echo 'exec retex-render -q --layout paper --size 64x112 --spp 4 "$@"' >paper; chmod +x paper; printf 'camera{location<0,0,-5> look_at 0}\nlight_source{<4,6,-6>,1}\n#declare F=texture{pigment{rgb<.7,.6,.5>}finish{#ifdef(Retex) roughness .1 specular .3 #end}}\n#declare G=texture{pigment{rgb<.5,.8,.4>}}\nplane{y,-1 texture{F}}\nplane{z,3 texture{G}}\nsphere{<1,0,0>,1 pigment{rgb .8} finish{reflection .8}}' >two.pov; for s in "-t floor cornell-box/cornell-box.pov" "-t floor -t white cornell-box/cornell-box.pov" "-t F -t G two.pov" "-t F -t G --strict-paper two.pov" "-t F -t G --denoise two.pov"; do ./paper $s -o w.exr; for k in 1 2 3; do ./paper $s --shard $k/3 -o p$k; done; ./paper $s --merge p3 --merge p1 --merge p2 -o m.exr; cmp w.exr m.exr; for k in 1 3; do cp p$k r.exr.partial; rm -f r.exr; ./paper $s --resume --threads 1 -o r.exr; cmp w.exr r.exr; done; retex-info --json w.exr | grep -o '"radiance":"[a-z0-9_]*"' | wc -l; done; retex-info --check m.exr
+$ echo 'exec retex-render -q --layout paper --size 64x112 --spp 4 "$@"' >paper; chmod +x paper; printf 'camera{location<0,0,-5> look_at 0}\nlight_source{<4,6,-6>,1}\n#declare F=texture{pigment{rgb<.7,.6,.5>}finish{#ifdef(Retex) roughness .1 specular .3 #end}}\n#declare G=texture{pigment{rgb<.5,.8,.4>}}\nplane{y,-1 texture{F}}\nplane{z,3 texture{G}}\nsphere{<1,0,0>,1 pigment{rgb .8} finish{reflection .8}}' >two.pov; for s in "-t floor cornell-box/cornell-box.pov" "-t floor -t white cornell-box/cornell-box.pov" "-t F -t G two.pov" "-t F -t G --strict-paper two.pov" "-t F -t G --denoise two.pov"; do ./paper $s -o w.exr; rm -f p?; for k in 1 2 3; do ./paper $s --shard $k/3 -o p$k; done; ./paper $s --merge p3 --merge p1 --merge p2 -o m.exr; cmp w.exr m.exr; for k in 1 3; do cp p$k r.exr.partial; rm -f r.exr; ./paper $s --resume --threads 1 -o r.exr; cmp w.exr r.exr; done; retex-info --json w.exr | grep -o '"radiance":"[a-z0-9_]*"' | wc -l; done; retex-info --check m.exr
 > 21
 > 44
 > 41
@@ -91,10 +116,10 @@ $ echo 'exec retex-render -q --layout paper --size 64x112 --spp 4 "$@"' >paper; 
 > 41
 > m.exr: ok
 $ rm m.exr; for s in "-t F" "-t F -t G --strict-paper" "-t F -t G --orders 5" "-t F -t G --layout footprints"; do ./paper $s two.pov --merge p1 --merge p2 -o m.exr; done; ls m.exr; ./paper -t F -t G --denoise two.pov --merge p1 --merge p2 -o none.exr; ls none.exr
-! retex-render: error: p1 is of another render: other options, another scene or version
-! retex-render: error: p1 is of another render: other options, another scene or version
-! retex-render: error: p1 is of another render: other options, another scene or version
-! retex-render: error: p1 is of another render: other options, another scene or version
+! retex-render: error: p1 is of another render: other options, another scene or build
+! retex-render: error: p1 is of another render: other options, another scene or build
+! retex-render: error: p1 is of another render: other options, another scene or build
+! retex-render: error: p1 is of another render: other options, another scene or build
 ! ls: cannot access 'm.exr': No such file or directory
 ! retex-render: error: --merge: 2 of 7 bands are in none of the files: a shard is missing or damaged
 ! ls: cannot access 'none.exr': No such file or directory
@@ -116,9 +141,9 @@ $ for n in 50 200 9000 30000; do (head -c $n s2; printf x; tail -c +$((n + 2)) s
 
 # That of another render is not touched.
 $ cp s1 y.exr.partial; ./render --resume --spp 4 -o y.exr; cmp s1 y.exr.partial
-! retex-render: error: y.exr.partial is of another render: other options, another scene or version
+! retex-render: error: y.exr.partial is of another render: other options, another scene or build
 $ sed 's/0.73/0.74/' cornell-box/cornell-box.pov >cornell-box/other.pov; cmp -s cornell-box/cornell-box.pov cornell-box/other.pov || retex-render -q --size 64x120 --spp 16 -t floor cornell-box/other.pov --resume -o y.exr; cmp s1 y.exr.partial
-! retex-render: error: y.exr.partial is of another render: other options, another scene or version
+! retex-render: error: y.exr.partial is of another render: other options, another scene or build
 $ echo text >z.exr.partial; ./render --resume -o z.exr; cat z.exr.partial; ./render -o z.exr; cmp z.exr ref.exr
 > text
 ! retex-render: error: z.exr.partial is no unfinished render
@@ -145,4 +170,8 @@ $ ./render --shard 1/2 --aov depth -o x
 = 2
 $ ./render --shard 1/2 -o nowhere/x
 ! retex-render: error: cannot write nowhere/x: No such file or directory
+= 2
+$ for o in '--shard 1/2' --resume; do ./render $o -o /dev/null; done
+! retex-render: error: --shard needs an output file, which /dev/null is not
+! retex-render: error: --resume needs an output file, which /dev/null is not
 = 2

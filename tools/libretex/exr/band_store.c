@@ -66,19 +66,37 @@ int retex_band_store_create(RetexBandStore **result, int width, int height, uint
     return status;
 }
 
-int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path, int make,
-                          RetexError *err)
+static int open_checkpoint(RetexBandStore **result, int width, int height, uint64_t key, const char *path,
+                           BandStoreAccess access, RetexError *err)
 {
     RetexBandStore *store = *result = band_store_new(width, height, key);
+    const int make = access == BAND_STORE_MAKE;
 
     if (!store)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
     snprintf(store->shown, sizeof store->shown, "%s", path);
     store->descriptor = open(path, (make ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC, 0666);
     int status = store->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
-                                       : retex_band_store_recover(store, make, err);
+                                       : retex_band_store_recover(store, access, err);
     if (status)
         retex_band_store_close(result);
+    return status;
+}
+
+int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path, int make,
+                          RetexError *err)
+{
+    return open_checkpoint(result, width, height, key, path, make ? BAND_STORE_MAKE : BAND_STORE_READ, err);
+}
+
+int retex_band_store_index(char *committed, int width, int height, uint64_t key, const char *path, RetexError *err)
+{
+    RetexBandStore *store = NULL;
+    const int status = open_checkpoint(&store, width, height, key, path, BAND_STORE_INDEX, err);
+
+    if (!status)
+        memcpy(committed, store->committed, (size_t)store->nbands);
+    retex_band_store_close(&store);
     return status;
 }
 

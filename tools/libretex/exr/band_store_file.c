@@ -231,9 +231,19 @@ static int apply_record(RetexBandStore *store, const RetexBandStoreRecord *recor
     }
 }
 
+/* Reads the bytes of a record, and compares their checksum; 0 where they are not complete. Of chunks, the index needs
+ * none. */
+static int read_bytes(const RetexBandStore *store, const RetexBandStoreRecord *record, BandStoreAccess access,
+                      unsigned char *bytes, uint64_t at)
+{
+    if (access == BAND_STORE_INDEX && (record->kind == BAND_STORE_CHUNK || record->kind == BAND_STORE_PXR24))
+        return 1;
+    return read_at(store->descriptor, bytes, record->bytes, at) && crc_of(bytes, record->bytes) == record->bytes_crc;
+}
+
 /* Reads records up to the first that is not complete. The band store continues at the end of the last commit; *images:
  * the number of images at that point. */
-static void read_records(RetexBandStore *store, const Header *header, int *images)
+static void read_records(RetexBandStore *store, const Header *header, BandStoreAccess access, int *images)
 {
     uint32_t last = crc_of(header, sizeof *header);
     uint64_t at = sizeof *header;
@@ -250,8 +260,8 @@ static void read_records(RetexBandStore *store, const Header *header, int *image
             capacity = (size_t)record.bytes + 1;
             bytes = malloc(capacity);
         }
-        if (!bytes || !read_at(store->descriptor, bytes, record.bytes, at + sizeof record) ||
-            crc_of(bytes, record.bytes) != record.bytes_crc || !apply_record(store, &record, bytes, at + sizeof record))
+        if (!bytes || !read_bytes(store, &record, access, bytes, at + sizeof record) ||
+            !apply_record(store, &record, bytes, at + sizeof record))
             break;
         at += sizeof record + record.bytes;
         last = record.record_crc;
@@ -289,7 +299,7 @@ static int check_header(const RetexBandStore *store, const Header *header, Retex
         header->stats_bytes != own.stats_bytes)
         return retex_fail(err, RETEX_EFORMAT, "%s is of another kind of machine or version", store->shown);
     if (memcmp(header, &own, sizeof own) != 0)
-        return retex_fail(err, RETEX_EINVAL, "%s is of another render: other options, another scene or version",
+        return retex_fail(err, RETEX_EINVAL, "%s is of another render: other options, another scene or build",
                           store->shown);
     return 0;
 }
@@ -305,8 +315,9 @@ static int has_header_only(const RetexBandStore *store)
            memcmp(&header, &own, (size_t)size) == 0;
 }
 
-int retex_band_store_recover(RetexBandStore *store, int make, RetexError *err)
+int retex_band_store_recover(RetexBandStore *store, BandStoreAccess access, RetexError *err)
 {
+    const int make = access == BAND_STORE_MAKE;
     Header header;
     int images, status;
 
@@ -319,7 +330,7 @@ int retex_band_store_recover(RetexBandStore *store, int make, RetexError *err)
     status = check_header(store, &header, err);
     if (status)
         return status;
-    read_records(store, &header, &images);
+    read_records(store, &header, access, &images);
     discard_uncommitted(store, images);
     if (make && ftruncate(store->descriptor, (off_t)store->end) != 0)
         return fail_write(store, errno, err);

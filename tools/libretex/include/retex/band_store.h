@@ -30,6 +30,9 @@ int retex_band_store_create(RetexBandStore **store, int width, int height, uint6
  * refused. */
 int retex_band_store_open(RetexBandStore **store, int width, int height, uint64_t key, const char *path, int make,
                           RetexError *err);
+/* Which bands the checkpoint at path has, by its index alone: committed[band] is 1 or 0. Their bytes are not read, so
+ * bands that are damaged count. */
+int retex_band_store_index(char *committed, int width, int height, uint64_t key, const char *path, RetexError *err);
 /* Do not compress bands from now on, for a file that is not compressed either: faster, and larger. */
 void retex_band_store_set_plain(RetexBandStore *store);
 void retex_band_store_close(RetexBandStore **store); /* NULL and pointers to NULL are fine */
