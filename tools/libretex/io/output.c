@@ -261,6 +261,12 @@ int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_
 
     if (status)
         return status;
+    if (output->memory) {
+        if (fflush(output->memory) != 0 || at > output->bytes || bytes > output->bytes - at)
+            return fail_system(output, ENOMEM, err);
+        memcpy(output->data + at, data, bytes);
+        return 0;
+    }
     while (bytes) {
         const ssize_t written = pwrite(output->descriptor, from, bytes, (off_t)at);
         if (written < 0 && errno == EINTR)

@@ -28,7 +28,7 @@ int retex_output_write(RetexOutput *output, const void *data, size_t bytes, Rete
 
 /* 1 if path is, or will be, a regular file, which retex_output_patch needs. */
 int retex_output_is_file(const char *path);
-/* Overwrite bytes that have been written already; of a regular file. */
+/* Overwrite bytes that have been written already; of a regular file, or in memory. */
 int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err);
 
 /* Flush, close, and put the file at its path. Nulls *output whatever happens; on failure nothing partial is left. */

@@ -1,5 +1,6 @@
 /* Pictures that are written band by band: choice of the format, and bands from any thread. See <retex/picture.h>;
  * formats are in files of their own, see format.h. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -164,24 +165,23 @@ static void begin_loading(RetexPicture *picture)
         load_plan(picture);
 }
 
-int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
-                       const RetexWriteParams *given, RetexError *err)
+/* output: where the picture goes, which it takes over; NULL = the file at path, opened with the first bytes. */
+static int open_picture(RetexPicture **result, const char *path, RetexOutput *output, int width, int height,
+                        int channels, const RetexWriteParams *params, RetexError *err)
 {
-    const RetexWriteParams complete_params = complete(given), *params = &complete_params;
-
-    *result = NULL;
     int status = check_params(path, params, err);
     if (!status && (channels < 1 || channels > 4 || channels == 2))
         status = retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", channels);
     if (!status && (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE))
         status = retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is out of bounds", width, height);
-    if (!status)
+    if (!status && !output)
         status = retex_output_check(path, err);
-    if (status)
-        return status;
-    RetexPicture *picture = new_picture(path, width, height, channels, params);
-    if (!picture)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
+    RetexPicture *picture = status ? NULL : new_picture(path, width, height, channels, params);
+    if (!picture) {
+        retex_output_abandon(&output);
+        return status ? status : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
+    }
+    picture->output = output;
     const RetexPictureFormat *own = is_exr(path, params) ? &retex_picture_exr : own_format(path);
     picture->format = own ? own : &retex_picture_stored;
     if (own == &retex_picture_exr ? !is_linear_exr(path, params) : !own || !has_own_colors(params))
@@ -192,6 +192,28 @@ int retex_picture_open(RetexPicture **result, const char *path, int width, int h
     else
         *result = picture;
     return status;
+}
+
+int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
+                       const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams params = complete(given);
+
+    *result = NULL;
+    return open_picture(result, path, NULL, width, height, channels, &params, err);
+}
+
+int retex_picture_open_memory(RetexPicture **result, const char *format, int width, int height, int channels,
+                              const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams params = complete(given);
+    RetexOutput *output = NULL;
+    char name[64];
+
+    *result = NULL;
+    snprintf(name, sizeof name, "picture.%s", format);
+    const int status = retex_output_open_memory(&output, err);
+    return status ? status : open_picture(result, name, output, width, height, channels, &params, err);
 }
 
 /* --- bands --- */
@@ -236,7 +258,8 @@ int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows,
     return status;
 }
 
-static int finish(RetexPicture *picture, RetexError *err)
+/* Writes what follows the bands. */
+static int finish_format(RetexPicture *picture, RetexError *err)
 {
     if (picture->error.code) {
         if (err)
@@ -246,8 +269,27 @@ static int finish(RetexPicture *picture, RetexError *err)
     if (picture->next < picture->nbands)
         return retex_fail(err, RETEX_EINVAL, "%s is not complete: rows from %d on are missing", picture->path,
                           picture->next * RETEX_PICTURE_BAND);
-    const int status = picture->format->finish(picture, err);
+    return picture->format->finish(picture, err);
+}
+
+static int finish(RetexPicture *picture, RetexError *err)
+{
+    const int status = finish_format(picture, err);
     return status || !picture->output ? status : retex_output_commit(&picture->output, err);
+}
+
+int retex_picture_take(RetexPicture **result, void **data, size_t *bytes, RetexError *err)
+{
+    RetexPicture *picture = *result;
+    int status = finish_format(picture, err);
+
+    *data = NULL;
+    *bytes = 0;
+    if (!status)
+        status = retex_output_take(&picture->output, data, bytes, err);
+    free_picture(picture);
+    *result = NULL;
+    return status;
 }
 
 int retex_picture_close(RetexPicture **result, int keep, RetexError *err)

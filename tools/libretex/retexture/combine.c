@@ -103,7 +103,10 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
     if (code)
         return code;
-    code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
+    const int some = params && params->size >= sizeof *params && params->y1 > params->y0;
+    const int y0 = some && params->y0 > 0 ? params->y0 : 0;
+    const int y1 = some && params->y1 < set->height ? params->y1 : set->height;
+    code = combine(&polynomial, y0, y1, sink, context, nthreads, err);
     retex_polynomial_close(&polynomial);
     return code;
 }
@@ -120,7 +123,7 @@ static RetexSet without_picture(const RetexSet *set)
 
 static int open_original(RetexPolynomial *polynomial, const RetexSet *set, RetexError *err)
 {
-    const RetexCombineParams all = {sizeof all, 3};
+    const RetexCombineParams all = RETEX_COMBINE_INIT;
     return retex_polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
 }
 

@@ -132,6 +132,18 @@ int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, 
     return retex_texture_set_surface(texture, &surface, err);
 }
 
+int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, const RetexSet *set,
+                         const RetexTextureSpec *spec, RetexError *err)
+{
+    const int target = retex_set_find_target(set, spec->target);
+    RetexTextureSpec own = *spec;
+    *placed = NULL;
+    if (target < 0)
+        return unknown_target(set, spec->target, err);
+    describe_surface(&own, &set->targets[target]);
+    return retex_texture_place(placed, texture, &own, err);
+}
+
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
 {
     for (int i = 0; i < RETEX_MAX_TARGETS; i++)

@@ -33,6 +33,7 @@ typedef struct RetexTextureLevel {
 struct RetexTexture {
     RetexTextureSpec spec; /* with wrap = mirror for repeat = mirror */
     uint64_t charged;      /* bytes charged to the spec's budget */
+    int shared;            /* 1: the texels are another texture's */
     int repeats[2];        /* repeats that the image holds along u and v: 2 where every second one is shifted */
     /* uv' = matrix uv + offset, from the surface's UV to that of the image with all its repeats: all of the spec. */
     double matrix[2][2];

@@ -273,7 +273,7 @@ void retex_texture_close(RetexTexture **texture)
 {
     if (!texture || !*texture)
         return;
-    for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
+    for (int i = 0; i < TEXTURE_MAX_LEVELS && !(*texture)->shared; i++) {
         RetexTextureLevel *level = &(*texture)->levels[i];
         free(level->texels);
         free(level->padded);
@@ -378,6 +378,43 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     retex_texture_size(texture, &width, &height);
     if (!spec.constant)
         set_transform(texture, width, height);
+    return RETEX_OK;
+}
+
+static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *spec)
+{
+    const RetexTextureSpec *own = &texture->spec;
+    return texture->nlevels > 0 && !spec->constant && strcmp(spec->image, own->image) == 0 &&
+           strcmp(spec->colorspace, own->colorspace) == 0 && spec->repeat == own->repeat &&
+           spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1];
+}
+
+int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
+{
+    RetexError why = {0};
+    int width, height;
+    *out = NULL;
+    RetexTexture *placed = new_texture(spec, spec->constant, &why);
+    int code = why.code;
+    if (!code && !has_texels_of(texture, &placed->spec))
+        code = retex_fail(&why, RETEX_EINVAL, "%s is not loaded as this placement needs it", texture->spec.image);
+    if (code) {
+        retex_texture_close(&placed);
+        if (err)
+            *err = why;
+        return code;
+    }
+    const RetexTextureSpec own = placed->spec;
+    *placed = *texture;
+    placed->spec = own;
+    placed->spec.access = NULL;
+    placed->spec.warn = NULL;
+    placed->shared = 1;
+    placed->charged = 0;
+    placed->color_warning = NULL;
+    retex_texture_size(texture, &width, &height);
+    set_transform(placed, width, height);
+    *out = placed;
     return RETEX_OK;
 }
 

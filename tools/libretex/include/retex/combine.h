@@ -12,11 +12,12 @@ extern "C" {
 /* Begin with RETEX_COMBINE_INIT. */
 typedef struct RetexCombineParams {
     size_t size;
-    int cross; /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
+    int cross;  /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
+    int y0, y1; /* retex_retexture makes only rows y0 <= y < y1; default 0, 0 = all */
 } RetexCombineParams;
 #define RETEX_COMBINE_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCombineParams), 3                                                                                  \
+        sizeof(RetexCombineParams), 3, 0, 0                                                                            \
     }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
@@ -31,10 +32,15 @@ int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSe
                         int nspecs, int nthreads, RetexError *err);
 /* Put a texture that was loaded for a target of another set on this target, without reading it again. */
 int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, RetexError *err);
+/* Put the image of a texture on a target in another way: *placed has the placement of spec, whose target it names, and
+ * shares the texels of `texture`, which must be closed later. RETEX_EINVAL where spec needs other texels: another image
+ * or colour space, another wrap mode, another kind of repeats. */
+int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, const RetexSet *set,
+                         const RetexTextureSpec *spec, RetexError *err);
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
 
 /* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or
- * the picture's height. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
+ * the picture's height; of params with rows, also the first and the last of these. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
 
 /* Sampling and recombination in one pass, band by band. The rows are those that retex_sample, retex_samples_merge into

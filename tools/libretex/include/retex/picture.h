@@ -31,6 +31,13 @@ int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows,
  * before the process exits, while no other thread uses the picture. */
 int retex_picture_close(RetexPicture **picture, int keep, RetexError *err);
 
+/* The same in memory: `format` is the ending of a file's name without the dot, such as "jpg". retex_picture_take
+ * completes the picture and gives its bytes, those of the file; the caller frees them with free(). It fails as
+ * retex_picture_close does, and nulls *picture in every case. */
+int retex_picture_open_memory(RetexPicture **picture, const char *format, int width, int height, int channels,
+                              const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
+int retex_picture_take(RetexPicture **picture, void **data, size_t *bytes, RetexError *err);
+
 #ifdef __cplusplus
 }
 #endif

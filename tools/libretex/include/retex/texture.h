@@ -94,6 +94,11 @@ int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int
 /* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
 int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
+/* A texture with the placement, surface included, of another spec. It shares the texels of `texture`, which must be
+ * closed later. RETEX_EINVAL where spec needs other texels: another image or colour space, another wrap mode, another
+ * kind of repeats. Both must have an image. */
+int retex_texture_place(RetexTexture **placed, const RetexTexture *texture, const RetexTextureSpec *spec,
+                        RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
