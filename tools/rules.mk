@@ -76,5 +76,15 @@ $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
+# retex-serve alone uses libmicrohttpd.
+SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c))
+$(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)
+
+$(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(SERVE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
+
 all: $(LIBRETEX) $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

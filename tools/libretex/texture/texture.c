@@ -492,6 +492,11 @@ void retex_texture_size(const RetexTexture *texture, int *width, int *height)
     *height = texture->nlevels ? texture->levels[0].height / texture->repeats[1] : 1;
 }
 
+uint64_t retex_texture_bytes(const RetexTexture *texture)
+{
+    return texture->charged;
+}
+
 /* ---- from surface UV to texels ---- */
 
 /* The mean of a footprint in texture UV. 0 where it is not finite. */

@@ -40,7 +40,8 @@ int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, con
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
 
 /* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or
- * the picture's height; of params with rows, also the first and the last of these. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
+ * the picture's height; where only some rows are made, also the first and the last of these. Called from several
+ * threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
 
 /* Sampling and recombination in one pass, band by band. The rows are those that retex_sample, retex_samples_merge into

@@ -109,6 +109,9 @@ void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
 void retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
+/* Bytes of its texels, all levels; 0 for a constant, and where they are another texture's. */
+uint64_t retex_texture_bytes(const RetexTexture *texture);
+
 /* 1: nothing shows through it anywhere. */
 int retex_texture_is_opaque(const RetexTexture *texture);
 

@@ -1,0 +1,232 @@
+/* retex-serve: pictures of rooms by URL. See retex-serve(1). */
+#include <limits.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <retex/retex.h>
+
+#include "cli.h"
+#include "serve/http.h"
+#include "serve/picture.h"
+#include "watchdog.h"
+
+static const CliOption options[] = {
+    {"port", 0, "N", "listen on this port; 0: a free one, which is printed; default 8080", 0},
+    {"listen", 0, "ADDRESS", "listen on this address; default 127.0.0.1", 0},
+    {"textures", 0, "FOLDER", "images that a URL may name; without it there are only colours", 0},
+    {"quality", 0, "N", "quality of JPEG, WebP and AVIF if the URL has none, 1 to 100; default 95", 0},
+    {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0},
+    {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0},
+    {"picture-memory", 0, "SIZE", "keep finished pictures of at most SIZE in memory; default 128 MB", 0},
+    {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 128", 0},
+    {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 30", 0},
+    {"connections", 0, "N", "accept at most N connections; default 1000", 0},
+    {"per-client", 0, "N", "accept at most N connections of one address; default 0, any number", 0},
+    {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
+    {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0},
+    {"base-url", 0, "URL", "the server's URL as clients know it; default by the header Host", 0},
+    {0},
+};
+
+typedef struct Job {
+    const char *folder, *textures;
+    long memory, texture_memory, picture_memory; /* megabytes */
+    int queue, quality;
+    HttpParams http;
+} Job;
+
+static int parse_number(const Cli *cli, const CliOption *option, Job *job)
+{
+    HttpParams *http = &job->http;
+    const char *name = option->name;
+    if (strcmp(name, "port") == 0)
+        http->port = (int)cli_integer(cli, option, 0, 65535);
+    else if (strcmp(name, "quality") == 0)
+        job->quality = (int)cli_integer(cli, option, 1, 100);
+    else if (strcmp(name, "queue") == 0)
+        job->queue = (int)cli_integer(cli, option, 0, 100000);
+    else if (strcmp(name, "deadline") == 0)
+        http->deadline = cli_number(cli, option, 0.001, 3600);
+    else if (strcmp(name, "connections") == 0)
+        http->connections = (int)cli_integer(cli, option, 1, 100000);
+    else if (strcmp(name, "per-client") == 0)
+        http->per_client = (int)cli_integer(cli, option, 0, 100000);
+    else if (strcmp(name, "timeout") == 0)
+        http->timeout = cli_number(cli, option, 0.1, 3600);
+    else if (strcmp(name, "max-age") == 0)
+        http->max_age = (int)cli_integer(cli, option, 0, 31536000);
+    else
+        return 0;
+    return 1;
+}
+
+static void check_base(const Cli *cli)
+{
+    const size_t length = strlen(cli->value);
+    if (length >= 256 || (strncmp(cli->value, "http://", 7) != 0 && strncmp(cli->value, "https://", 8) != 0) ||
+        cli->value[length - 1] == '/' || strpbrk(cli->value, " \"<>\\\n"))
+        cli_die(cli, "--base-url: expected a URL such as https://example.org, without a slash at its end, not '%s'",
+                cli->value);
+}
+
+static void parse(Cli *cli, Job *job)
+{
+    for (const CliOption *option; (option = cli_next(cli));) {
+        if (option == &cli_positional) {
+            if (job->folder)
+                cli_surplus(cli, "one folder of rooms is enough");
+            job->folder = cli->value;
+        } else if (strcmp(option->name, "listen") == 0) {
+            job->http.address = cli->value;
+        } else if (strcmp(option->name, "textures") == 0) {
+            job->textures = cli->value;
+        } else if (strcmp(option->name, "base-url") == 0) {
+            check_base(cli);
+            job->http.base = cli->value;
+        } else if (strcmp(option->name, "memory") == 0) {
+            job->memory = cli_megabytes(cli, option);
+        } else if (strcmp(option->name, "texture-memory") == 0) {
+            job->texture_memory = cli_megabytes(cli, option);
+        } else if (strcmp(option->name, "picture-memory") == 0) {
+            job->picture_memory = cli_megabytes(cli, option);
+        } else {
+            parse_number(cli, option, job);
+        }
+    }
+    if (!job->folder)
+        cli_die(cli, "no folder of rooms given");
+}
+
+/* ---- start ---- */
+
+/* Images come from the folder alone, wherever links lead, and in the formats of safe access. */
+static void allow_textures(const Cli *cli, const Job *job, RetexAccess *access, const char *roots[1])
+{
+    *access = (RetexAccess)RETEX_ACCESS_INIT;
+    access->safe = 1;
+    access->roots = roots;
+    if (!job->textures)
+        return;
+    if (!(roots[0] = realpath(job->textures, NULL)))
+        cli_die(cli, "--textures: there is no folder %s", job->textures);
+    access->nroots = 1;
+}
+
+static void open_site(const Cli *cli, const Job *job, Site *site, const RetexAccess *access, RetexBudget *budget)
+{
+    RetexError err = {0};
+    const RoomsParams rooms = {job->folder, (uint64_t)job->memory << 20, cli->limits.pixels, cli->threads};
+    const ImagesParams images = {access->nroots ? access->roots[0] : NULL, (uint64_t)job->texture_memory << 20, access,
+                                 budget, cli->threads};
+    if (rooms_open(&site->rooms, &rooms, &err) || images_open(&site->images, &images, &err))
+        cli_fail(cli, &err);
+    if (!(site->pictures = cache_open((size_t)job->picture_memory << 20)))
+        cli_die(cli, "not enough memory");
+    site->quality = job->quality;
+    site->formats = picture_formats();
+}
+
+/* Print the address, or write it to the file of -o, when the server can be reached. */
+static void tell_address(const Cli *cli, const Http *http, const char *address)
+{
+    RetexError err = {0};
+    char text[512];
+    snprintf(text, sizeof text, strchr(address, ':') ? "http://[%s]:%d\n" : "http://%s:%d\n", address, http_port(http));
+    if (retex_file_write(cli->output ? cli->output : "-", text, strlen(text), &err))
+        cli_fail(cli, &err);
+}
+
+/* ---- until the end ---- */
+
+static void sleep_milliseconds(long milliseconds)
+{
+    const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000};
+    nanosleep(&time, NULL);
+}
+
+static void serve(const Cli *cli, Http *http, Work *work)
+{
+    enum { LOOK_MILLISECONDS = 50, LAST_SECONDS = 5 };
+    while (!retex_budget_is_stopped(cli->budget)) {
+        sleep_milliseconds(LOOK_MILLISECONDS);
+        http_sweep(http);
+    }
+    retex_budget_hold(cli->budget);
+    http_refuse(http);
+    work_refuse(work);
+    /* what was accepted is finished; then clients have some time to take it */
+    for (double until = 0; http_pending(http) && (!until || retex_clock_seconds() < until);) {
+        const WorkCount count = work_count(work);
+        if (!until && !count.waiting && !count.running)
+            until = retex_clock_seconds() + LAST_SECONDS;
+        sleep_milliseconds(LOOK_MILLISECONDS);
+        http_sweep(http);
+    }
+}
+
+/* Keep freed memory in the process, as retex-combine does, but in few places. */
+static void keep_memory(int threads)
+{
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, INT_MAX);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_ARENA_MAX, threads + 1);
+#else
+    (void)threads;
+#endif
+}
+
+int main(int argc, char **argv)
+{
+    static Job job = {
+        .memory = CLI_MEMORY_DEFAULT,
+        .texture_memory = 512,
+        .picture_memory = 128,
+        .queue = 128,
+        .quality = 95,
+        .http = {
+            .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 30, .max_age = 60}};
+    Cli cli = {.tool = "retex-serve",
+               .usage = "FOLDER [--port N] [--textures FOLDER]",
+               .about = "Serve pictures of the rooms in a folder, sets and packs, with textures that URLs name.",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
+    RetexError err = {0};
+    RetexAccess access;
+    const char *roots[1] = {NULL};
+    RetexBudget *budget = NULL; /* of textures; that of cli is stopped while requests are still being answered */
+    Site site = {0};
+    Http *http = NULL;
+    parse(&cli, &job);
+    watchdog_let_keep(1);
+    keep_memory(retex_threads(cli.threads));
+    allow_textures(&cli, &job, &access, roots);
+    if (retex_budget_create(&budget, &err))
+        cli_fail(&cli, &err);
+    retex_budget_set_memory(budget, retex_budget_memory(cli.budget));
+    retex_budget_set_pixels(budget, cli.limits.pixels);
+    open_site(&cli, &job, &site, &access, budget);
+    const WorkParams work = {site_make, &site, cli.threads, job.queue};
+    if (work_open(&job.http.work, &work, &err))
+        cli_fail(&cli, &err);
+    job.http.site = &site;
+    job.http.is_quiet = cli.quiet;
+    if (http_open(&http, &job.http, &err))
+        cli_fail(&cli, &err);
+    tell_address(&cli, http, job.http.address);
+    serve(&cli, http, job.http.work);
+    work_close(job.http.work);
+    http_close(http);
+    cache_close(site.pictures);
+    images_close(site.images);
+    rooms_close(site.rooms);
+    retex_budget_close(&budget);
+    free((char *)roots[0]);
+    return cli_close(&cli, CLI_OK);
+}

@@ -1,0 +1,28 @@
+/* The connections of the server, and since when each is waited for: who sends a request, or takes an answer, byte by
+ * byte is cut off. Any thread may call. */
+#ifndef RETEX_SERVE_CLIENTS_H
+#define RETEX_SERVE_CLIENTS_H
+
+typedef struct Clients Clients;
+typedef struct Client Client;
+
+/* What the server waits for. */
+typedef enum ClientState {
+    CLIENT_SENDS, /* a request, or its rest */
+    CLIENT_WAITS, /* nothing: the client waits for its answer */
+    CLIENT_TAKES  /* that the answer is taken */
+} ClientState;
+
+Clients *clients_open(void); /* NULL: no memory */
+void clients_close(Clients *clients);
+
+Client *clients_add(Clients *clients, int socket); /* NULL: no memory */
+void clients_remove(Clients *clients, Client *client);
+void clients_set(Clients *clients, Client *client, ClientState state);
+
+/* Shut down the sockets of those that take longer than `seconds` to send a request, or ten times as long to take an
+ * answer. */
+void clients_sweep(Clients *clients, double seconds);
+int clients_count(Clients *clients);
+
+#endif

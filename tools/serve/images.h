@@ -1,0 +1,43 @@
+/* Images of textures: the files of a folder, by name. An image is read once, and stays in memory as long as all
+ * together keep within a limit, those that were used last first; pictures place it on their targets without copying it.
+ * Any thread may call. */
+#ifndef RETEX_SERVE_IMAGES_H
+#define RETEX_SERVE_IMAGES_H
+
+#include <limits.h>
+#include <retex/combine.h>
+
+#include "file_id.h"
+
+typedef struct Images Images;
+typedef struct OpenImage OpenImage;
+
+typedef struct ImagesParams {
+    const char *folder;      /* NULL: there are only colours */
+    uint64_t memory;         /* bytes of images that are kept */
+    const RetexAccess *access; /* must allow this folder alone */
+    RetexBudget *budget;
+    int threads; /* that decode an image */
+} ImagesParams;
+
+int images_open(Images **images, const ImagesParams *params, RetexError *err);
+void images_close(Images *images); /* when no image is in use */
+
+/* The file of a name, with or without its ending, and its identity: 0, or -1 if there is no such file. */
+int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id);
+
+/* A texture as spec says, of a target of the set: its image is the path that images_find gave. To be closed before
+ * *image is returned, which is NULL for a colour. */
+int images_take(Images *images, const RetexTextureSpec *spec, const RetexSet *set, OpenImage **image,
+                RetexTexture **texture, RetexError *err);
+void images_return(Images *images, OpenImage *image); /* NULL is fine */
+
+int images_list(const Images *images, void (*tell)(void *context, const char *name), void *context);
+
+typedef struct ImagesCount {
+    int open;
+    uint64_t bytes, read, failed; /* read and failed: since the start */
+} ImagesCount;
+ImagesCount images_count(Images *images);
+
+#endif

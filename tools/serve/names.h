@@ -1,0 +1,11 @@
+/* Files of a folder by their names without ending. */
+#ifndef RETEX_SERVE_NAMES_H
+#define RETEX_SERVE_NAMES_H
+
+/* Call for each different name, sorted, of the regular files with one of these endings ("exr"; the list ends with NULL)
+ * that a URL can name. Not 0: the folder cannot be read, or there is no memory. with_ending: 1: tell the whole name of
+ * the file. */
+int names_list(const char *folder, const char *const *endings, int with_ending,
+               void (*tell)(void *context, const char *name), void *context);
+
+#endif

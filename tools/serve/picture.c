@@ -1,0 +1,216 @@
+/* See picture.h. A whole picture is encoded band by band while it is made. Of a part, or a smaller picture, rows are
+ * scaled to their width when they are made, so that never all of a large picture is in memory; then columns are scaled,
+ * then it is mirrored, turned and encoded. */
+#include "picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/clock.h>
+#include <retex/color.h>
+#include <retex/parallel.h>
+
+#include "shrink.h"
+
+static int check_time(double deadline, RetexError *err)
+{
+    if (retex_clock_seconds() < deadline)
+        return RETEX_OK;
+    return retex_fail(err, RETEX_ELIMIT, "the picture takes longer than a request may");
+}
+
+static int open_picture(RetexPicture **picture, const PicturePlan *plan, int width, int height, RetexError *err)
+{
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    params.quality = plan->quality;
+    return retex_picture_open_memory(picture, serve_format_extension(plan->format), width, height, 3, &params, err);
+}
+
+/* Complete the picture, or give it up after a failure. */
+static int take_picture(RetexPicture **picture, int code, void **data, size_t *bytes, RetexError *err)
+{
+    if (!code)
+        return retex_picture_take(picture, data, bytes, err);
+    retex_picture_close(picture, 0, NULL);
+    return code;
+}
+
+/* ---- a whole picture ---- */
+
+typedef struct Whole {
+    const PicturePlan *plan;
+    RetexPicture *picture;
+} Whole;
+
+static int write_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    const Whole *whole = context;
+    int code = check_time(whole->plan->deadline, err);
+    return code ? code : retex_picture_rows(whole->picture, y0, y1, rows, err);
+}
+
+static int is_whole(const PicturePlan *plan)
+{
+    const ServePlace *p = &plan->place;
+    return p->width == plan->set->width && p->height == plan->set->height && p->scaled_width == p->width &&
+           p->scaled_height == p->height && !plan->quarter_turns && !plan->mirror && !plan->gray;
+}
+
+static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
+{
+    Whole whole = {plan, NULL};
+    int code = open_picture(&whole.picture, plan, plan->set->width, plan->set->height, err);
+    if (!code)
+        code = retex_retexture(plan->set, NULL, plan->textures, NULL, write_rows, &whole, nthreads, err);
+    return take_picture(&whole.picture, code, data, bytes, err);
+}
+
+/* ---- a part ---- */
+
+typedef struct Part {
+    const PicturePlan *plan;
+    RetexImage *image; /* rows of the part, scaled to their width */
+} Part;
+
+static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    const Part *part = context;
+    const ServePlace *place = &part->plan->place;
+    const size_t length = 3 * (size_t)part->plan->set->width;
+    int code = check_time(part->plan->deadline, err);
+    for (int y = y0; y < y1 && !code; y++, rows += length)
+        shrink_row(part->image->pixels + retex_image_index(part->image, 0, y - place->y), place->scaled_width, rows,
+                   place->x, place->x + place->width);
+    return code;
+}
+
+/* The part at its size. */
+static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads, RetexError *err)
+{
+    const ServePlace *place = &plan->place;
+    RetexImage tall = {0};
+    Part part = {plan, &tall};
+    RetexCombineParams params = RETEX_COMBINE_INIT;
+    params.y0 = place->y;
+    params.y1 = place->y + place->height;
+    int code = retex_image_alloc(&tall, place->scaled_width, place->height, 3, err);
+    if (!code)
+        code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);
+    if (!code && place->scaled_height == place->height) {
+        *scaled = tall;
+        return RETEX_OK;
+    }
+    if (!code)
+        code = retex_image_alloc(scaled, place->scaled_width, place->scaled_height, 3, err);
+    if (!code)
+        shrink_rows(scaled, &tall, nthreads);
+    retex_image_free(&tall);
+    return code;
+}
+
+static void make_gray(RetexImage *image)
+{
+    float *p = image->pixels;
+    for (size_t i = (size_t)image->width * (size_t)image->height; i > 0; i--, p += 3)
+        p[0] = p[1] = p[2] = retex_luminancef(p[0], p[1], p[2]);
+}
+
+static void mirror(RetexImage *image)
+{
+    for (int y = 0; y < image->height; y++) {
+        float *left = image->pixels + retex_image_index(image, 0, y);
+        for (float *right = left + 3 * (size_t)(image->width - 1); left < right; left += 3, right -= 3)
+            for (int c = 0; c < 3; c++) {
+                const float value = left[c];
+                left[c] = right[c];
+                right[c] = value;
+            }
+    }
+}
+
+/* Turn clockwise. */
+static int turn(RetexImage *image, int quarters, RetexError *err)
+{
+    RetexImage turned = {0};
+    const int width = quarters % 2 ? image->height : image->width, height = quarters % 2 ? image->width : image->height;
+    int code = quarters ? retex_image_alloc(&turned, width, height, 3, err) : RETEX_OK;
+    if (code || !quarters)
+        return code;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            const int from_x = quarters == 1 ? y : quarters == 2 ? image->width - 1 - x : image->width - 1 - y;
+            const int from_y = quarters == 1 ? image->height - 1 - x : quarters == 2 ? image->height - 1 - y : x;
+            memcpy(turned.pixels + retex_image_index(&turned, x, y),
+                   image->pixels + retex_image_index(image, from_x, from_y), 3 * sizeof(float));
+        }
+    retex_image_free(image);
+    *image = turned;
+    return RETEX_OK;
+}
+
+typedef struct Encoding {
+    RetexPicture *picture;
+    const RetexImage *image;
+} Encoding;
+
+static void encode_band(void *context, int index, int thread)
+{
+    const Encoding *encoding = context;
+    const RetexImage *image = encoding->image;
+    const int y0 = index * RETEX_PICTURE_BAND, end = y0 + RETEX_PICTURE_BAND;
+    (void)thread;
+    (void)retex_picture_rows(encoding->picture, y0, end < image->height ? end : image->height,
+                             image->pixels + retex_image_index(image, 0, y0), NULL); /* the picture keeps the error */
+}
+
+static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
+{
+    RetexImage image = {0};
+    Encoding encoding = {NULL, &image};
+    int code = make_scaled(&image, plan, nthreads, err);
+    if (!code && plan->gray)
+        make_gray(&image);
+    if (!code && plan->mirror)
+        mirror(&image);
+    if (!code)
+        code = turn(&image, plan->quarter_turns, err);
+    if (!code)
+        code = open_picture(&encoding.picture, plan, image.width, image.height, err);
+    if (!code)
+        retex_parallel(nthreads, (image.height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND, encode_band, &encoding);
+    code = take_picture(&encoding.picture, code, data, bytes, err);
+    retex_image_free(&image);
+    return code;
+}
+
+int picture_make(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
+{
+    *data = NULL;
+    *bytes = 0;
+    return is_whole(plan) ? make_whole(plan, nthreads, data, bytes, err) : make_part(plan, nthreads, data, bytes, err);
+}
+
+/* ---- formats ---- */
+
+static int can_write(ServeFormat format)
+{
+    static const float pixels[3 * 8 * 8];
+    const PicturePlan plan = {.format = format, .quality = 80};
+    RetexPicture *picture = NULL;
+    void *data = NULL;
+    size_t bytes = 0;
+    int code = open_picture(&picture, &plan, 8, 8, NULL);
+    if (!code)
+        code = retex_picture_rows(picture, 0, 8, pixels, NULL);
+    code = take_picture(&picture, code, &data, &bytes, NULL);
+    free(data);
+    return !code && bytes > 0;
+}
+
+unsigned picture_formats(void)
+{
+    unsigned formats = 0;
+    for (int format = 0; format < SERVE_FORMATS; format++)
+        formats |= can_write((ServeFormat)format) ? 1u << format : 0;
+    return formats;
+}

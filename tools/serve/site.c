@@ -1,0 +1,294 @@
+/* See site.h. */
+#include "site.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/version.h>
+
+#include "json_text.h"
+#include "picture.h"
+
+/* ---- what a request is of ---- */
+
+typedef struct Text {
+    char *text;
+    size_t used, size;
+} Text;
+
+static RETEX_PRINTF(2, 3) void append(Text *to, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    const int length = vsnprintf(to->text + to->used, to->size - to->used, fmt, args);
+    va_end(args);
+    if (length > 0)
+        to->used += (size_t)length < to->size - to->used ? (size_t)length : to->size - to->used - 1;
+}
+
+static int is_picture(ServeRoute route)
+{
+    return route == SERVE_PICTURE || route == SERVE_THUMBNAIL || route == SERVE_IIIF_IMAGE;
+}
+
+static int quality_of(const Site *site, const ServeRequest *request)
+{
+    return request->quality ? request->quality : site->quality;
+}
+
+/* The files of the textures; their specs get the paths. */
+static Answer *key_of_images(const Site *site, ServeRequest *request, Text *key)
+{
+    for (int i = 0; i < request->nspecs; i++) {
+        RetexTextureSpec *spec = &request->specs[i];
+        char path[sizeof spec->image], text[FILE_ID_TEXT];
+        FileId id;
+        if (spec->constant)
+            continue;
+        if (images_find(site->images, spec->image, path, sizeof path, &id))
+            return answer_error(404, "there is no texture '%s'", spec->image);
+        strcpy(spec->image, path);
+        append(key, "\n%s", file_id_text(&id, text));
+    }
+    return NULL;
+}
+
+Answer *site_key(const Site *site, ServeRequest *request, const char *base, char text[SITE_KEY_MAX])
+{
+    Text key = {text, 0, SITE_KEY_MAX};
+    char path[PATH_MAX], id_text[FILE_ID_TEXT];
+    FileId id;
+    append(&key, "%d", is_picture(request->route) ? SERVE_PICTURE : request->route);
+    if (request->route == SERVE_ROOMS)
+        return NULL;
+    if (rooms_find(site->rooms, request->room, path, &id))
+        return answer_error(404, "there is no room '%s'", request->room);
+    append(&key, "\n%s\n%s\n%s", request->room, file_id_text(&id, id_text), request->edits);
+    Answer *error = key_of_images(site, request, &key);
+    if (is_picture(request->route)) {
+        const ServeRegion *r = &request->region;
+        const ServeSize *s = &request->size;
+        append(&key, "\n%d %.17g %.17g %.17g %.17g\n%d %d %d %.17g %d\n%d %d %d %d %d", r->kind, r->x, r->y, r->width,
+               r->height, s->kind, s->width, s->height, s->percent, s->may_enlarge, request->quarter_turns,
+               request->mirror, request->gray, request->format, quality_of(site, request));
+    } else {
+        append(&key, "\n%s", base);
+    }
+    return error;
+}
+
+/* The tag says what the picture is made of: the build, the colours that a display needs, the content of the room, the
+ * edits with the size and time of their images, and the pixels. It is the same on all machines that have copies of the
+ * files with their times. */
+static int make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
+                     char etag[ETAG_SIZE])
+{
+    static const Hash128 begin = HASH128_BEGIN;
+    const char *config = getenv("OCIO");
+    char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * 64 + 1024];
+    Text all = {text, 0, sizeof text};
+    append(&all, RETEX_VERSION "\n%.256s\n%016llx%016llx\n%s", config ? config : "",
+           (unsigned long long)room->content.high, (unsigned long long)room->content.low, request->edits);
+    for (int i = 0; i < request->nspecs; i++) {
+        FileId id;
+        if (request->specs[i].constant)
+            continue;
+        if (file_id_of(&id, request->specs[i].image))
+            return -1;
+        append(&all, "\n%llx %llx.%llx", id.size, (unsigned long long)id.seconds, (unsigned long long)id.nanoseconds);
+    }
+    append(&all, "\n%d %d %d %d %d %d %d %d %d %d %d", place->x, place->y, place->width, place->height,
+           place->scaled_width, place->scaled_height, request->quarter_turns, request->mirror, request->gray,
+           request->format, quality_of(site, request));
+    const Hash128 hash = hash128_text(begin, text);
+    snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
+    return 0;
+}
+
+int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETAG_SIZE])
+{
+    char path[PATH_MAX];
+    FileId id;
+    ServePlace place;
+    if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
+        return 0;
+    const Room *room = rooms_peek(site->rooms, request->room, &id);
+    ServeRequest copy = *request; /* iiif_place may put an error into it */
+    const int is_known = room && !iiif_place(&copy, room->set->width, room->set->height, &place) &&
+                         !make_etag(site, request, &place, room, etag);
+    rooms_return(site->rooms, room);
+    return is_known;
+}
+
+/* ---- pictures ---- */
+
+typedef struct Textures {
+    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
+    OpenImage *images[RETEX_MAX_TARGETS];      /* by spec */
+} Textures;
+
+static void close_textures(const Site *site, Textures *textures)
+{
+    retex_textures_close(textures->textures);
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++)
+        images_return(site->images, textures->images[i]);
+}
+
+/* Load what a request puts on its targets. With a colour for each image all are checked first. */
+static int open_textures(const Site *site, const ServeRequest *request, const RetexSet *set, Textures *textures,
+                         RetexError *err)
+{
+    RetexTextureSpec colors[RETEX_MAX_TARGETS];
+    for (int i = 0; i < request->nspecs; i++) {
+        colors[i] = request->specs[i];
+        colors[i].constant = 1;
+    }
+    int code = retex_textures_load(textures->textures, set, colors, request->nspecs, 1, err);
+    for (int i = 0; i < request->nspecs && !code; i++) {
+        const RetexTextureSpec *spec = &request->specs[i];
+        RetexTexture **texture = &textures->textures[retex_set_find_target(set, spec->target)];
+        if (spec->constant)
+            continue;
+        retex_texture_close(texture);
+        code = images_take(site->images, spec, set, &textures->images[i], texture, err);
+    }
+    return code;
+}
+
+static Answer *make_picture(const Site *site, const WorkItem *item, const Room *room, int nthreads)
+{
+    ServeRequest request = item->request;
+    PicturePlan plan = {.set = room->set,
+                        .quarter_turns = request.quarter_turns,
+                        .mirror = request.mirror,
+                        .gray = request.gray,
+                        .format = request.format,
+                        .quality = quality_of(site, &request),
+                        .deadline = item->deadline};
+    Textures textures = {0};
+    RetexError err = {0};
+    char etag[ETAG_SIZE];
+    void *data = NULL;
+    size_t bytes = 0;
+    if (iiif_place(&request, room->set->width, room->set->height, &plan.place))
+        return answer_error(request.status, "%s", request.reason);
+    plan.textures = textures.textures;
+    int code = make_etag(site, &request, &plan.place, room, etag)
+                   ? retex_fail(&err, RETEX_ENOTFOUND, "a texture is gone")
+                   : open_textures(site, &request, room->set, &textures, &err);
+    if (!code)
+        code = picture_make(&plan, nthreads, &data, &bytes, &err);
+    close_textures(site, &textures);
+    if (code)
+        return answer_of_error(&err);
+    Answer *answer = answer_new(200, serve_format_type(request.format), data, bytes);
+    if (!answer)
+        return NULL;
+    strcpy(answer->etag, etag);
+    answer->width = room->set->width;
+    answer->height = room->set->height;
+    cache_add(site->pictures, item->key, answer);
+    return answer;
+}
+
+/* ---- texts ---- */
+
+typedef struct List {
+    FILE *file;
+    int count;
+} List;
+
+static void tell_name(void *context, const char *name)
+{
+    List *list = context;
+    fputs(list->count++ ? ", " : "", list->file);
+    json_text(list->file, name);
+}
+
+static int write_rooms(const Site *site, FILE *file)
+{
+    List rooms = {file, 0}, images = {file, 0};
+    fputs("{\"rooms\": [", file);
+    int failed = rooms_list(site->rooms, tell_name, &rooms);
+    fputs("], \"textures\": [", file);
+    failed |= images_list(site->images, tell_name, &images);
+    fputs("], \"formats\": [", file);
+    for (int format = 0, count = 0; format < SERVE_FORMATS; format++)
+        if (site->formats & 1u << format)
+            fprintf(file, "%s\"%s\"", count++ ? ", " : "", serve_format_extension((ServeFormat)format));
+    fputs("]}\n", file);
+    return failed;
+}
+
+static void write_target(FILE *file, const RetexTarget *target)
+{
+    fputs("{\"name\": ", file);
+    json_text(file, target->name);
+    fprintf(file, ", \"share\": %.6g, \"mean_albedo\": [%.6g, %.6g, %.6g], \"uv_min\": [%.6g, %.6g]", target->share,
+            (double)target->mean_albedo[0], (double)target->mean_albedo[1], (double)target->mean_albedo[2],
+            target->uv_min[0], target->uv_min[1]);
+    fprintf(file, ", \"uv_max\": [%.6g, %.6g]", target->uv_max[0], target->uv_max[1]);
+    if (target->uv_scale[0] > 0)
+        fprintf(file, ", \"uv_scale\": [%.6g, %.6g]", target->uv_scale[0], target->uv_scale[1]);
+    fprintf(file, ", \"periodic\": [%s, %s]}", target->periodic[0] ? "true" : "false",
+            target->periodic[1] ? "true" : "false");
+}
+
+static void write_room(FILE *file, const ServeRequest *request, const RetexSet *set)
+{
+    fputs("{\"room\": ", file);
+    json_text(file, request->room);
+    fprintf(file, ", \"width\": %d, \"height\": %d, \"layout\": \"%s\", \"spp\": %d, \"denoised\": %s, \"targets\": [",
+            set->width, set->height, set->layout, set->spp, set->denoised ? "true" : "false");
+    for (int t = 0; t < set->ntargets; t++) {
+        fputs(t ? ", " : "", file);
+        write_target(file, &set->targets[t]);
+    }
+    fputs("]}\n", file);
+}
+
+/* Collects what is printed into *file; NULL: no memory. */
+static Answer *take_text(FILE *file, char **text, const size_t *bytes, const char *type)
+{
+    const int failed = ferror(file);
+    if (fclose(file) != 0 || failed) {
+        free(*text);
+        return NULL;
+    }
+    return answer_new(200, type, *text, *bytes);
+}
+
+static Answer *make_text(const Site *site, const WorkItem *item, const Room *room)
+{
+    char *text = NULL;
+    size_t bytes = 0;
+    FILE *file = open_memstream(&text, &bytes);
+    int failed = 0;
+    if (!file)
+        return NULL;
+    if (item->request.route == SERVE_ROOMS)
+        failed = write_rooms(site, file);
+    else if (item->request.route == SERVE_ROOM)
+        write_room(file, &item->request, room->set);
+    else
+        iiif_info_write(file, &item->request, item->base, room->set->width, room->set->height, site->formats);
+    Answer *answer = take_text(file, &text, &bytes, "application/json");
+    if (!failed)
+        return answer;
+    answer_release(answer);
+    return answer_error(500, "a folder cannot be read");
+}
+
+Answer *site_make(void *context, const WorkItem *item, int nthreads)
+{
+    const Site *site = context;
+    const Room *room = NULL;
+    RetexError err = {0};
+    if (item->request.route != SERVE_ROOMS && rooms_take(site->rooms, item->request.room, &room, &err))
+        return answer_of_error(&err);
+    Answer *answer =
+        is_picture(item->request.route) ? make_picture(site, item, room, nthreads) : make_text(site, item, room);
+    rooms_return(site->rooms, room);
+    return answer;
+}

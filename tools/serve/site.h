@@ -1,0 +1,30 @@
+/* What the server has: rooms, images, finished pictures; and the answers that are made of them. */
+#ifndef RETEX_SERVE_SITE_H
+#define RETEX_SERVE_SITE_H
+
+#include "cache.h"
+#include "images.h"
+#include "rooms.h"
+#include "work.h"
+
+typedef struct Site {
+    Rooms *rooms;
+    Images *images;
+    Cache *pictures;
+    unsigned formats; /* that can be written, see request.h */
+    int quality;      /* of pictures that ask for none */
+} Site;
+
+enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
+
+/* What a request is of, by the files as they are now: two requests with the same key have the same answer. The images
+ * of request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */
+Answer *site_key(const Site *site, ServeRequest *request, const char *base, char key[SITE_KEY_MAX]);
+
+/* The entity tag of a picture, if its room is open, so that it is known without waiting: 1, or 0. */
+int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETAG_SIZE]);
+
+/* Make the answer: a WorkMake whose context is a Site. */
+Answer *site_make(void *site, const WorkItem *item, int nthreads);
+
+#endif
