@@ -8,9 +8,9 @@
  * A run with a fault must end in exit 2 with one line of error, the old files whole, nothing left over; or, where the
  * fault does no harm, as the run without a fault did, to the bit. Of a batch a file may be either. */
 #define _GNU_SOURCE
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -45,6 +45,7 @@ typedef struct Bytes {
 typedef struct Road {
     char name[NAME], line[PATH], *words[WORDS], *input;
     int nfiles, status;
+    int makes_folder;        /* which must not be there before */
     char files[FILES][NAME]; /* in out/, as the run without a fault leaves them */
     Bytes contents[FILES], output;
     long counts[KINDS][2];
@@ -90,24 +91,37 @@ static void write_text(const char *path, const char *text)
         die("cannot write", path);
 }
 
-static int visible(const struct dirent *entry)
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
 {
-    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    (void)info, (void)kind;
+    return where->level > 0 && remove(path) != 0;
 }
 
 static void empty_folder(const char *path)
 {
-    struct dirent **list;
-    char name[PATH];
-    int count = scandir(path, &list, visible, alphasort);
+    nftw(path, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+}
 
-    for (int i = 0; i < count; i++) {
-        snprintf(name, sizeof name, "%s/%s", path, list[i]->d_name);
-        unlink(name);
-        free(list[i]);
-    }
-    if (count >= 0)
-        free(list);
+/* The files below a folder, by their names in it. */
+typedef struct Listing {
+    char names[2 * FILES][NAME];
+    int count;
+} Listing;
+static Listing listing; /* of the last list_folder */
+
+static int list_entry(const char *path, const struct stat *info, int kind, struct FTW *where)
+{
+    (void)info;
+    const char *name = strchr(path, '/'); /* the folder's own name has none */
+    if (where->level > 0 && kind == FTW_F && listing.count < 2 * FILES)
+        snprintf(listing.names[listing.count++], NAME, "%.60s", name + 1);
+    return 0;
+}
+
+static void list_folder(const char *path)
+{
+    listing.count = 0;
+    nftw(path, list_entry, 8, FTW_PHYS);
 }
 
 static void read_roads(const char *path)
@@ -130,6 +144,7 @@ static void read_roads(const char *path)
             count -= 2;
         }
         road->words[count] = NULL;
+        road->makes_folder = strcmp(name, "import") == 0;
         snprintf(road->name, sizeof road->name, "%s", name);
         nroads++;
     }
@@ -153,6 +168,16 @@ static void become(const Road *road, const char *fault)
     _exit(127);
 }
 
+/* Those that a file is in. */
+static void make_folders(char *path)
+{
+    for (char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0777);
+        *slash = '/';
+    }
+}
+
 /* Returns what waitpid says. */
 static int run(const Road *road, const char *fault)
 {
@@ -162,9 +187,10 @@ static int run(const Road *road, const char *fault)
     empty_folder("out");
     empty_folder("tmp");
     empty_folder("log");
-    for (int k = 0; k < road->nfiles; k++) {
+    for (int k = 0; k < road->nfiles && !road->makes_folder; k++) {
         char path[PATH];
         snprintf(path, sizeof path, "out/%s", road->files[k]);
+        make_folders(path);
         write_text(path, old_content);
     }
     fflush(NULL);
@@ -178,12 +204,10 @@ static int run(const Road *road, const char *fault)
 
 static void list_files(Road *road)
 {
-    struct dirent **list;
-    int count = scandir("out", &list, visible, alphasort);
-
-    for (int i = 0; i < count && i < FILES; i++) {
+    list_folder("out");
+    for (int i = 0; i < listing.count && i < FILES; i++) {
         char path[PATH];
-        snprintf(road->files[i], NAME, "%.60s", list[i]->d_name);
+        memcpy(road->files[i], listing.names[i], NAME);
         snprintf(path, sizeof path, "out/%s", road->files[i]);
         road->contents[i] = read_all(path);
         road->nfiles++;
@@ -235,31 +259,33 @@ static const char *judge_message(void)
 /* The files in a folder: those of the road and no others. */
 static const char *judge_folder(const Road *road, const char *folder)
 {
-    struct dirent **list;
     const char *what = NULL;
-    int count = scandir(folder, &list, visible, alphasort);
 
-    for (int i = 0; i < count; i++) {
+    list_folder(folder);
+    for (int i = 0; i < listing.count; i++) {
         int known = 0;
         for (int k = 0; k < road->nfiles; k++)
-            known |= strcmp(road->files[k], list[i]->d_name) == 0 && strcmp(folder, "out") == 0;
+            known |= strcmp(road->files[k], listing.names[i]) == 0 && strcmp(folder, "out") == 0;
         /* --resume promises to keep that. */
-        if (!known && !(strncmp(road->name, "render-resume", 13) == 0 && strstr(list[i]->d_name, ".partial")))
+        if (!known && !(strncmp(road->name, "render-resume", 13) == 0 && strstr(listing.names[i], ".partial")))
             what = "a file is left";
-        free(list[i]);
     }
-    if (count >= 0)
-        free(list);
     return what;
 }
 
 static const char *judge_files(const Road *road, int failed)
 {
-    int batch = strcmp(road->name, "batch") == 0;
+    /* files that are made one by one, or put in place so */
+    int batch = strcmp(road->name, "batch") == 0 || strcmp(road->name, "import-again") == 0;
 
     for (int k = 0; k < road->nfiles; k++) {
         char path[PATH];
         snprintf(path, sizeof path, "out/%s", road->files[k]);
+        if (failed && road->makes_folder) {
+            if (!access(path, F_OK))
+                return "a file is left";
+            continue;
+        }
         if (access(path, R_OK))
             return failed ? "the old file is gone" : "no output";
         Bytes now = read_all(path);

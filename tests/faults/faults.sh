@@ -5,7 +5,7 @@
 set -u
 . tests/lib/tap.sh
 mkdir -p "$work/run/out" "$work/run/log" "$work/run/tmp"
-cp tests/faults/good.pov tests/faults/image.pov tests/faults/t.png "$work/run"
+cp tests/faults/good.pov tests/faults/image.pov tests/faults/t.png tests/faults/model.gltf "$work/run"
 most=3 libraries=0
 [ "${RETEX_FAULTS:-}" != all ] || { most=2000 libraries=500; }
 (

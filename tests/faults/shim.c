@@ -7,9 +7,10 @@
  *   FAULT_REPORT=FILE    what failed, and at the end the number of calls: lines `fired FUNCTION MODULE+OFFSET [dlopen]`
  *                        and `count KIND WHOSE N`.
  *
- * Calls are counted from main on. What fails leaves what the real call would leave: errno, and files as they were; a
- * file that is closed or flushed is so, but says that the disk is full. */
+ * Calls are counted from main on, those of child processes too. What fails leaves what the real call would leave:
+ * errno, and files as they were; a file that is closed or flushed is so, but says that the disk is full. */
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
@@ -38,7 +39,7 @@ static struct Range {
     uintptr_t low, high;
 } own_code[RANGES];
 static atomic_int nown, started;
-static atomic_long counts[KINDS][OWNERS];
+static atomic_long (*counts)[OWNERS]; /* by kind; shared with child processes */
 static int chosen_kind = -1, chosen_owner, halves;
 static long chosen;
 static const char *report;
@@ -168,6 +169,9 @@ static int counted_main(int argc, char **argv, char **environment)
     if (getenv("FAULT"))
         choose(getenv("FAULT"));
     find_own_code();
+    counts = mmap(NULL, KINDS * sizeof *counts, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (counts == MAP_FAILED)
+        _exit(127);
     started = 1;
     return real_main(argc, argv, environment);
 }
@@ -184,7 +188,7 @@ int __libc_start_main(int (*main)(int, char **, char **), int argc, char **argv,
 __attribute__((destructor)) static void tell_counts(void)
 {
     started = 0;
-    for (int k = 0; k < KINDS; k++)
+    for (int k = 0; counts && k < KINDS; k++)
         for (int o = 0; o < OWNERS; o++)
             tell("count %s %s %ld\n", kind_names[k], owner_names[o], (long)counts[k][o]);
 }
@@ -282,6 +286,12 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 {
     REAL(pthread_create);
     return fails(THREAD, "pthread_create", CALLER) ? EAGAIN : real(thread, attributes, start, argument);
+}
+
+pid_t fork(void)
+{
+    REAL(fork);
+    return fails(THREAD, "fork", CALLER) ? -1 : real();
 }
 
 /* ---- files ---- */
@@ -420,6 +430,24 @@ int mkstemps(char *path, int suffix)
     return fails(OPEN, "mkstemps", CALLER) ? -1 : real(path, suffix);
 }
 
+char *mkdtemp(char *path)
+{
+    REAL(mkdtemp);
+    return fails(OPEN, "mkdtemp", CALLER) ? NULL : real(path);
+}
+
+DIR *opendir(const char *path)
+{
+    REAL(opendir);
+    return fails(OPEN, "opendir", CALLER) ? NULL : real(path);
+}
+
+int pipe2(int ends[2], int flags)
+{
+    REAL(pipe2);
+    return fails(OPEN, "pipe2", CALLER) ? -1 : real(ends, flags);
+}
+
 int memfd_create(const char *name, unsigned flags)
 {
     REAL(memfd_create);
@@ -430,6 +458,12 @@ int dup(int file)
 {
     REAL(dup);
     return fails(OPEN, "dup", CALLER) ? -1 : real(file);
+}
+
+int dup2(int file, int as)
+{
+    REAL(dup2);
+    return fails(OPEN, "dup2", CALLER) ? -1 : real(file, as);
 }
 
 int rename(const char *from, const char *to)

@@ -218,7 +218,7 @@ static int decode(Import *import, const Bytes *bytes, int is_data, RetexImage *i
     if (bytes->texels)
         return texels_to_image(bytes->texels, is_data, image, err);
     access.safe = import->options->safe;
-    params.colorspace = is_data ? "raw" : NULL;
+    params.colorspace = is_data ? "linear" : NULL; /* either is read without OpenImageIO */
     params.access = &access;
     params.budget = import->options->budget;
     params.max_pixels = import->options->max_pixels;
@@ -333,7 +333,8 @@ static int is_missing(Import *import, ImageFile *image, const char *source, cons
 
 static int is_fatal(int code)
 {
-    return code == RETEX_ENOMEM || code == RETEX_ELIMIT || code == RETEX_ESTOPPED || code == RETEX_EACCESS;
+    return code == RETEX_ENOMEM || code == RETEX_ELIMIT || code == RETEX_ESTOPPED || code == RETEX_EACCESS ||
+           code == RETEX_EIO;
 }
 
 static int make_image(Import *import, const ImageUse *use, ImageFile *image, Bytes *bytes, RetexError *err)
