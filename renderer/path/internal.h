@@ -172,9 +172,25 @@ float path_pdf_of_light(const PathContext *context, const Ray *ray, RayKind kind
 
 LightSampleContext light_sample_context(const Shading *s);
 /* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */
-int light_factors(PathWorker *worker, const Path *path, int lane, LightSample *light, Factor *factors);
+int emitter_factors(PathWorker *worker, const Path *path, int lane, LightSample *light, Factor *factors);
+static inline int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
+{
+    return light->kind == LIGHT_SAMPLE_EMITTER ? emitter_factors(w, path, lane, light, factors) : 0;
+}
 /* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
-double shadow_ray_end(Vec3 position, const LightSample *light);
+static inline double shadow_ray_end(Vec3 position, const LightSample *light)
+{
+    double distance = light->kind == LIGHT_SAMPLE_SOURCE ? light->shadow_distance : light->distance;
+    if (!isfinite(distance))
+        return INFINITY;
+    double margin = accel_margin(position), end = distance * (1 - 1e-6) - margin;
+    if (light->kind == LIGHT_SAMPLE_EMITTER) {
+        /* The flatter the angle, the earlier the ray meets the emitter's surface. */
+        double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
+        end -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
+    }
+    return end > 0 ? end : 0; /* Embree takes an end below 0 for a ray that is blocked */
+}
 /* Emitted radiance over albedo: only the opaque share of a surface emits. */
 Split surface_emission(const Shading *s);
 const CausticsCell *guide_cell(const PathContext *context, const Shading *s);
@@ -237,8 +253,8 @@ static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s,
 static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)
 {
     path->pdf = pdf;
-    path->sharp &= bsdf_pdf == 0 || bsdf_pdf > SHARP_PDF;
-    path->delta &= bsdf_pdf == 0;
+    if (bsdf_pdf > 0)
+        path->sharp &= bsdf_pdf > SHARP_PDF, path->delta = 0;
     path->segments++;
 }
 int survives_roulette(PathWorker *worker, Path *path, float u);

@@ -187,7 +187,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
     Vertex *v = &p->vertices[lane];
     p->matte[lane] = -1;
     w->segments++;
-    p->scatters[lane] = !w->context->has_air || path_pass_air(w, path, ray, hit);
+    const int goes_on = !w->context->has_air || path_pass_air(w, path, ray, hit);
     if (hit->primitive >= 0) {
         find_colors(w, path, v, ray, hit, &p->numbers[path->half], lane);
         if (!add_matte(w, p, lane)) {
@@ -199,7 +199,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
         }
     }
     observe_first_hit(w, path, v, ray, hit);
-    p->scatters[lane] = add_emission(w, path, v, ray, hit) && p->scatters[lane];
+    p->scatters[lane] = add_emission(w, path, v, ray, hit) & goes_on;
 }
 
 static void shade(PathWorker *w, Packet *p, const Hit *hits, int step)

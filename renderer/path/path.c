@@ -35,7 +35,7 @@ void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit
 /* Make it a white diffuse surface, of the same bumps. */
 static void whiten(Vertex *v, const Ray *ray)
 {
-    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40};
+    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40, .lambert = 1};
     Shading *s = &v->s;
     v->white = (Texture){.finish = &finish, .normal = s->surface.texture->normal};
     s->surface.texture = &v->white;

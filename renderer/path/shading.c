@@ -12,12 +12,12 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
     return rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
-/* The colours of a surface whose pigment's is known, and, of a target, its UV. */
-static void set_colors(Shading *s, Rgbft c, float opacity, const RenderVariant *variants, int nvariants)
+/* The colours, but for the opacity, of a surface whose pigment's is known. */
+static void set_colors(Shading *s, const Rgbft *c, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
-    s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
-    s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit), s->opacity = opacity;
+    s->albedo = rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b));
+    s->filter = not_negative(c->filter), s->transmit = not_negative(c->transmit);
     s->replaced = s->is_leaf = s->is_layer = 0;
     if (surface->target < 0)
         return;
@@ -34,7 +34,8 @@ static void set_colors(Shading *s, Rgbft c, float opacity, const RenderVariant *
 void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
 {
     const Rgbft c = surface_color(&s->surface, place, &s->uv);
-    set_colors(s, c, pigment_opacity(s->surface.texture->pigment, c), variants, nvariants);
+    set_colors(s, &c, variants, nvariants);
+    s->opacity = pigment_opacity(s->surface.texture->pigment, c);
 }
 
 void shading_bsdf(Shading *s, Vec3 wo)
@@ -42,12 +43,6 @@ void shading_bsdf(Shading *s, Vec3 wo)
     bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit, s->opacity);
     if (s->is_layer)
         bsdf_stop_passing(&s->bsdf);
-}
-
-int shading_disperses(const Shading *s)
-{
-    return interior_disperses(s->surface.primitive->interior) && !s->is_layer &&
-           (s->filter + s->transmit > 0 || finish_transmits(s->surface.texture->finish));
 }
 
 void shading_bsdf_wavelength(Shading *s, Vec3 wo, double wavelength)
@@ -62,7 +57,8 @@ void shading_leaf(Shading *s, const Surface *whole, const Leaf *leaf, const Rend
     s->surface = leaf_surface(whole, leaf->texture, leaf->target);
     if (leaf->target >= 0)
         s->uv = surface_target_uv(&s->surface);
-    set_colors(s, leaf->color, leaf->opacity, variants, nvariants);
+    set_colors(s, &leaf->color, variants, nvariants);
+    s->opacity = leaf->opacity;
     s->is_leaf = 1;
     s->is_layer = leaf->is_layer;
 }

@@ -19,7 +19,7 @@ typedef struct Shading {
     int replaced; /* some variant has another one: by variant */
     Rgb albedos[VARIANTS_MAX];
     float filter, transmit, opacity; /* see pigment_opacity */
-    Vec2 uv; /* of a target: where a replacement is looked up */
+    Vec2 uv;                         /* of a target: where a replacement is looked up */
     Bsdf bsdf;
 } Shading;
 
@@ -37,7 +37,11 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
 /* The BSDF, once the rest is known. */
 void shading_bsdf(Shading *shading, Vec3 wo);
 /* Whether it lets light through, which it refracts by wavelength; the BSDF for light of one wavelength. */
-int shading_disperses(const Shading *shading);
+static inline int shading_disperses(const Shading *s)
+{
+    return interior_disperses(s->surface.primitive->interior) && !s->is_layer &&
+           (s->filter + s->transmit > 0 || finish_transmits(s->surface.texture->finish));
+}
 void shading_bsdf_wavelength(Shading *shading, Vec3 wo, double wavelength);
 
 /* ---- trees of textures, see leaves.h ---- */

@@ -145,15 +145,23 @@ static int pass_surface(PathWorker *w, const Path *path, const Surface *surface,
     return 1;
 }
 
-/* What is between surfaces, over a distance up to one of them or NULL. */
-static void dim(PathWorker *w, const Path *path, const Media *media, const Ray *ray, double distance,
-                const Surface *met, const Light *source, Rgb *light)
+static void dim_by_air(PathWorker *w, const Path *path, const Media *media, const Ray *ray, double distance,
+                       const Surface *met, const Light *source, Rgb *light)
 {
     const Scene *scene = w->context->scene;
     if ((media->count > 0 || met) && isfinite(distance))
         *light = rgb_mul(*light, media_fade(media, distance, met));
     if (scene->fogs || scene->has_media)
         *light = rgb_mul(*light, air_transmittance(w, path, media, ray, distance, source));
+}
+
+/* What is between surfaces, over a distance up to one of them or NULL. In most scenes that is nothing. */
+static inline void dim(PathWorker *w, const Path *path, const Media *media, const Ray *ray, double distance,
+                       const Surface *met, const Light *source, Rgb *light)
+{
+    const PathContext *c = w->context;
+    if (media->count > 0 || met || c->has_air || c->scene->has_media)
+        dim_by_air(w, path, media, ray, distance, met, source, light);
 }
 
 /* Follow a shadow ray through transparent surfaces, one after the other. */
@@ -180,6 +188,20 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
     return -1;
 }
 
+/* Of a shadow ray that is not blocked, and may leave on the other side of the surface. */
+static int trace_through_media(PathWorker *w, const Path *path, const Surface *from, const DirectLightSample *t,
+                               ShadowFactors *to)
+{
+    const Light *source = t->light.kind == LIGHT_SAMPLE_SOURCE ? t->light.source : NULL;
+    Media media = path->media;
+    if (t->transmitted)
+        media_cross(&media, from);
+    if (t->visibility == VISIBILITY_TRANSPARENT)
+        return trace_through_surfaces(w, path, t->ray, source, &media, to);
+    dim(w, path, &media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, to->light);
+    return 0;
+}
+
 int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, DirectLightSample *t, Factor *factors,
                      int most_factors)
 {
@@ -193,13 +215,9 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     }
     if (t->visibility == VISIBILITY_BLOCKED)
         return -1;
-    Media media = path->media;
-    if (t->transmitted)
-        media_cross(&media, from);
-    if (t->visibility == VISIBILITY_TRANSPARENT)
-        return trace_through_surfaces(w, path, t->ray, source, &media,
-                                      &(ShadowFactors){factors, 0, most_factors, light});
-    dim(w, path, &media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
+    if (t->visibility == VISIBILITY_TRANSPARENT || t->transmitted)
+        return trace_through_media(w, path, from, t, &(ShadowFactors){factors, 0, most_factors, light});
+    dim(w, path, &path->media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);
     return 0;
 }
 

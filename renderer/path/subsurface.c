@@ -133,7 +133,8 @@ void walk_below_surface(PathWorker *w, Path *path, const Vertex *v, Vec3 directi
 /* It scatters once more, evenly, and outwards. */
 void leave_surface(Vertex *v)
 {
-    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40};
+    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40,
+                                  .lambert = 1};
     Shading *s = &v->s;
     v->white = (Texture){.finish = &finish};
     s->surface.texture = &v->white;

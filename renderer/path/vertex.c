@@ -13,14 +13,12 @@ Split surface_emission(const Shading *s)
     return (Split){{0, 0, 0}, rgb_mul(emission, rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b)))};
 }
 
-int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
+int emitter_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
 {
     const PathContext *c = w->context;
     Rgb(*storage)[VARIANTS_MAX] = w->light_albedos[lane];
     Shading s;
     int n = 0;
-    if (light->kind != LIGHT_SAMPLE_EMITTER)
-        return 0;
     s.surface = light->surface;
     light->radiance = rgb_grey(1);
     if (!s.surface.texture->tree)
@@ -108,20 +106,6 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
         return 0;
     *pdf = sample->pdf > 0 ? guided_density(v, sample->wi, sample->pdf) : 0;
     return 1;
-}
-
-double shadow_ray_end(Vec3 position, const LightSample *light)
-{
-    double distance = light->kind == LIGHT_SAMPLE_SOURCE ? light->shadow_distance : light->distance;
-    if (!isfinite(distance))
-        return INFINITY;
-    double margin = accel_margin(position), end = distance * (1 - 1e-6) - margin;
-    if (light->kind == LIGHT_SAMPLE_EMITTER) {
-        /* The flatter the angle, the earlier the ray meets the emitter's surface. */
-        double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
-        end -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
-    }
-    return end > 0 ? end : 0; /* Embree takes an end below 0 for a ray that is blocked */
 }
 
 void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)

@@ -213,7 +213,7 @@ typedef struct Finish {
         const Pigment *metallic_map, *roughness_map, *transmission_map;
         const Pigment *emission_map; /* at the shape's UV; multiplies emission in place of the pigment. Or NULL */
     } retex;
-    int matte;               /* finish_is_matte; set at the end of reading; 0 is only slower */
+    int lambert, matte;      /* finish_is_lambert, finish_is_matte; set at the end of reading; 0 is only slower */
 } Finish;
 
 static inline int finish_is_mirror(const Finish *f)
@@ -233,6 +233,11 @@ static inline int finish_is_lambert(const Finish *f)
 static inline int finish_is_matte(const Finish *f)
 {
     return finish_is_lambert(f) && f->diffuse_back <= 0 && f->diffuse > 0;
+}
+/* Whether the extension lets light through, whatever the pigment says. */
+static inline int finish_transmits(const Finish *f)
+{
+    return f->retex.present && f->retex.transmission > 0 && (f->retex.metallic < 1 || f->retex.metallic_map);
 }
 
 /* Whether direct-light samples look for the light of an emitter. What `ambient` below 1 gives fills shadows: paths find

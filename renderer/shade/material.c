@@ -15,12 +15,6 @@ static float clamp01(double x)
     return (float)(x < 0 ? 0 : x > 1 ? 1 : x);
 }
 
-int finish_transmits(const Finish *finish)
-{
-    return finish->retex.present && finish->retex.transmission > 0 &&
-           (finish->retex.metallic < 1 || finish->retex.metallic_map);
-}
-
 /* At most `left` of the light is reflected by them. Their amounts, times share, are the peaks in POV-Ray's pictures. */
 static void setup_highlights(Bsdf *b, const Finish *f, double share, float left)
 {
@@ -179,8 +173,8 @@ static float glossy_estimate(const Bsdf *b)
     if (b->alpha <= 0)
         return 0;
     float m = b->metallic, f = fresnel_dielectric((float)b->cos_o, b->coat_eta);
-    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission) *
-           b->coverage;
+    const float reflectance = (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f;
+    return (reflectance > 0.02f ? reflectance : 0.02f) * (1 - b->transmission) * b->coverage;
 }
 
 static void setup_choice(Bsdf *b)
@@ -188,9 +182,8 @@ static void setup_choice(Bsdf *b)
     float glossy = b->disney ? glossy_estimate(b) : b->highlight_lights_only ? 0 : b->highlights;
     if (b->disney && !b->smooth && b->eta != 1)
         glossy += b->transmission;
-    float w[6] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO,
-                  glossy,                      split_neutral(b->mirror),
-                  split_neutral(b->passing),   b->subsurface * NEUTRAL_ALBEDO};
+    float w[6] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy,
+                  split_neutral(b->mirror),    split_neutral(b->passing),        b->subsurface * NEUTRAL_ALBEDO};
     float sum = w[0] + w[1] + w[2] + w[3] + w[4] + w[5];
     if (!(sum > 0))
         return;
@@ -252,12 +245,9 @@ static void setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float 
 {
     const Finish *finish = surface->texture->finish;
     const Interior *interior = surface->primitive->interior;
-    const double ior = (finish_transmits(finish)   ? finish->retex.ior
-                        : interior_bends(interior) ? interior->ior
-                                                   : 1) *
-                       ior_scale;
-    int transparent = filter + transmit > 0 || finish_transmits(finish);
-    int lambert = !transparent && finish_is_lambert(finish) && !surface->texture->normal;
+    const int transmits = finish_transmits(finish), transparent = filter + transmit > 0 || transmits;
+    const double ior = (transmits ? finish->retex.ior : interior_bends(interior) ? interior->ior : 1) * ior_scale;
+    int lambert = !transparent && finish->lambert && !surface->texture->normal;
     if (!lambert)
         *b = (Bsdf){.brilliance = 1};
     set_side(b, surface, wo);

@@ -14,7 +14,5 @@ void bsdf_setup_wavelength(Bsdf *bsdf, const Surface *surface, Vec3 wo, float fi
 void bsdf_stop_passing(Bsdf *bsdf);
 /* The normals on wo's side: for shading, and the shape's own. */
 void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
-/* 1 where the extension lets light through, whatever the pigment says. */
-int finish_transmits(const Finish *finish);
 
 #endif

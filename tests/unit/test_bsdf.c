@@ -49,6 +49,7 @@ static Bsdf make(Case *c, double theta, float filter, float transmit)
     Vec3 wo = direction(theta, 0.3);
     if (c->surface.backside)
         wo = vec_neg(wo);
+    c->finish.lambert = finish_is_lambert(&c->finish);
     bsdf_setup(&b, &c->surface, wo, filter, transmit, fmaxf(0, 1 - filter - transmit));
     return b;
 }

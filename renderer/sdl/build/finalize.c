@@ -130,6 +130,7 @@ static void complete_finishes(Sdl *sdl)
         const float path = (float)(2 * PI * f->finish.irid_thickness);
         if (builder_of(sdl)->has_subsurface)
             f->finish.mean_free_path = rgb_scale(f->finish.translucency, (float)(1 / builder_of(sdl)->mm_per_unit));
+        f->finish.lambert = finish_is_lambert(&f->finish);
         f->finish.matte = finish_is_matte(&f->finish);
         f->finish.irid_noise = sdl_scene(sdl)->noise_generator;
         f->finish.irid_phase = rgb(w.r > 0 ? path / w.r : 0, w.g > 0 ? path / w.g : 0, w.b > 0 ? path / w.b : 0);
