@@ -352,6 +352,8 @@ void leaves_at(Leaves *leaves, const Surface *surface, Vec3 wo, int merge)
     leaves->count = leaves->nabove = 0;
     add_texture(leaves, &at, surface->texture,
                 (Leaf){.weight = 1, .tint = {1, 1, 1}, .working_tint = {1, 1, 1}, .neutral = 1, .above = -1});
+    if (leaves->count == 0) /* filters and weights beyond all numbers: black */
+        add_leaf(leaves, &(Leaf){.texture = texture_leaf(surface->texture, 0), .target = -1, .above = -1});
     if (leaves->count > 1 && !working_is_linear(at.space))
         blend_in_working_space(leaves, at.space);
     if (merge)

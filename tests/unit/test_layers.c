@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 #include "lib_scene_text.h"
+#include "path/leaves.h"
 #include "path/shading.h"
 
 static Scene *plane(const char *head, const char *texture)
@@ -139,12 +140,33 @@ static void filters_hide_by_version(void **state)
     }
 }
 
+/* A filter beyond all numbers hides everything and shows nothing; still there is a leaf. */
+static void infinite_filters_are_black(void **state)
+{
+    (void)state;
+    const Ray ray = {vec3(0, 0, -5), {0, 0, 1}, 0, INFINITY};
+    const Hit hit = {.t = 5, .primitive = 0};
+    Scene *scene = plane("#version 3.7; global_settings { assumed_gamma 1 }",
+                         "texture { pigment { rgb .5 } } texture { pigment { rgbf <1,1,1,1e308> } }");
+    Surface surface;
+    Leaves leaves;
+    memset(&leaves, 0xff, sizeof leaves);
+    surface_at(&surface, scene, &ray, &hit);
+    leaves_at(&leaves, &surface, vec3(0, 0, -1), 1);
+    float weight;
+    const Leaf *leaf = leaves_choose(&leaves, 0.5, &weight);
+    assert_int_equal(leaves.count, 1);
+    assert_true(leaf->texture && leaf->target == -1 && leaf->above == -1 && weight == 0);
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layers_are_povray),
         cmocka_unit_test(targets_count_by_geometry),
         cmocka_unit_test(filters_hide_by_version),
+        cmocka_unit_test(infinite_filters_are_black),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);
