@@ -2,80 +2,22 @@
 #include "pattern/pavement.h"
 #include "pattern/pattern.h"
 
-/* Which edges of its squares a pavement has: measured in POV-Ray's pictures. Of each square of a period, bit 0: it has
- * its edge of least x, bit 1: that of least z. A period has rows of `width` squares, as many as `height`; the next
- * period in z is moved by `shift` in x. */
-typedef struct Period {
-    int width, shift, height;
-    const char *edges; /* digits, row by row */
-} Period;
-
-/* clang-format off */
-static const Period periods[] = {
-    {1, 0, 1, "3"}, {1, 0, 2, "31"}, {3, 0, 1, "322"}, {3, 0, 2, "332121"}, {4, 0, 1, "3222"}, {4, 0, 2, "33221221"},
-    {4, 2, 1, "3221"}, {2, 0, 2, "3210"}, {2, 1, 2, "2330"}, {5, 0, 1, "32222"}, {5, 0, 2, "3322212221"},
-    {5, 2, 2, "2323230010"}, {5, 3, 1, "32221"}, {5, 3, 1, "30213"}, {10, 9, 1, "3112232211"},
-    {10, 9, 1, "1312123212"}, {10, 7, 1, "3221313120"}, {5, 4, 1, "31221"}, {5, 2, 2, "3302112213"},
-    {5, 1, 2, "2322330320"}, {10, 2, 1, "3223021131"}, {6, 0, 1, "322222"}, {6, 0, 2, "322223132220"},
-    {6, 0, 2, "322223213220"}, {6, 0, 2, "322223221320"}, {6, 1, 1, "303222"}, {6, 0, 2, "322232103200"},
-    {6, 0, 2, "232322300210"}, {6, 1, 1, "320322"}, {3, 0, 2, "232300"}, {3, 0, 2, "322100"},
-    {4, 0, 3, "332212101021"}, {6, 5, 1, "322121"}, {4, 0, 3, "322231311202"}, {3, 0, 4, "322213112023"},
-    {3, 1, 2, "320310"}, {6, 4, 1, "330210"}, {6, 5, 2, "302231313202"}, {6, 5, 2, "313220122231"},
-    {6, 5, 1, "312211"}, {6, 1, 1, "132203"}, {6, 1, 1, "113222"}, {4, 0, 3, "322213312012"},
-    {4, 0, 3, "130212213131"}, {6, 2, 2, "323201312212"}, {2, 0, 3, "322112"}, {2, 0, 3, "321021"},
-    {2, 0, 3, "320312"}, {6, 5, 1, "312212"}, {6, 2, 2, "321312212032"}, {6, 3, 2, "231221302132"},
-    {6, 3, 2, "320231132203"}, {6, 2, 1, "313202"}, {3, 0, 4, "322321130122"}, {12, 5, 1, "302231313220"},
-    {4, 2, 3, "132012211331"},
-};
-/* clang-format on */
-
-static const int counts[PAVEMENT_SQUARES + 1] = {0, 1, 1, 2, 5, 12, 35};
-
-int pavement_count(int tiles)
-{
-    return counts[tiles];
-}
-
-static const Period *period_of(const Pavement *pavement)
-{
-    const Period *period = periods + pavement->pattern - 1;
-    for (int k = 1; k < pavement->tiles; k++)
-        period += counts[k];
-    return period;
-}
-
-/* ---- edges ---- */
+/* ---- squares ---- */
 
 typedef struct Square {
-    const Period *period;
+    const Pavement *pavement;
     double x, z; /* its corner of least x and z */
 } Square;
 
-static int modulo(double i, int n)
-{
-    const int rest = (int)fmod(i, n);
-    return rest < 0 ? rest + n : rest;
-}
-
-static int edges_at(const Square *square, int dx, int dz)
-{
-    const Period *period = square->period;
-    const double z = square->z + dz, repeats = floor(z / period->height);
-    const int column = modulo(square->x + dx - period->shift * fmod(repeats, period->width), period->width);
-    return period->edges[modulo(z, period->height) * period->width + column] - '0';
-}
-
 static int edge_x(const Square *square, int dx, int dz)
 {
-    return edges_at(square, dx, dz) & 1;
+    return pavement_edges(square->pavement, square->x + dx, square->z + dz) & 1;
 }
 
 static int edge_z(const Square *square, int dx, int dz)
 {
-    return edges_at(square, dx, dz) >> 1;
+    return pavement_edges(square->pavement, square->x + dx, square->z + dz) >> 1;
 }
-
-/* ---- the value ---- */
 
 /* 0 in the middle of a corner, 1 half a side away. */
 static double look_at_corner(int look, double a, double b)
@@ -91,11 +33,10 @@ static double bend(int look, double a, double b)
 }
 
 /* 1 on the edges of tiles, 0 half a side inside. */
-static double value(const Pattern *pattern, const PatternPoint *point)
+static double square_value(const Pavement *pavement, Vec3 p)
 {
-    const Pavement *pavement = pattern->data;
-    const Square square = {period_of(pavement), floor(point->p.x), floor(point->p.z)};
-    const double u = point->p.x - square.x, v = point->p.z - square.z, a = fabs(u - 0.5), b = fabs(v - 0.5);
+    const Square square = {pavement, floor(p.x), floor(p.z)};
+    const double u = p.x - square.x, v = p.z - square.z, a = fabs(u - 0.5), b = fabs(v - 0.5);
     const int along_x[2] = {edge_x(&square, 0, 0), edge_x(&square, 1, 0)}; /* least and greatest x */
     const int along_z[2] = {edge_z(&square, 0, 0), edge_z(&square, 0, 1)};
     const int right = u > 0.5, up = v > 0.5, bends = along_x[0] != along_x[1] && along_z[0] != along_z[1];
@@ -110,7 +51,89 @@ static double value(const Pattern *pattern, const PatternPoint *point)
     return concave && i == right && j == up ? fmax(0, 1 - look_at_corner(pavement->interior, 0.5 - a, 0.5 - b)) : 0;
 }
 
-const PatternOps pattern_pavement = {.keyword = "pavement",
-                                     .arguments = ARGUMENTS_PAVEMENT,
-                                     .value = value,
-                                     .name = "pavement of triangles or hexagons"};
+/* ---- triangles, and hexagons of six triangles each ---- */
+
+#define SQRT3 1.7320508075688772
+
+/* Steps from a corner to its neighbours, against the clock, where x points right and z up. */
+static const signed char steps[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+
+typedef struct Corner {
+    double i, j;
+    int direction; /* along the triangle's edge on its right; the other edge is the next direction */
+    double share;  /* barycentric */
+} Corner;
+
+static int has_edge(const Pavement *pavement, const Corner *corner, int direction)
+{
+    const int d = (direction + 6) % 6, back = d > 2;
+    return pavement_edges(pavement, corner->i + back * steps[d][0], corner->j + back * steps[d][1]) >> d % 3 & 1;
+}
+
+/* The distance in the triangle's plane between two points, given the differences of two barycentric numbers. */
+static double distance(double a, double b)
+{
+    return sqrt(a * a + a * b + b * b);
+}
+
+/* A tile's end, of one triangle: a is the corner's number, the others are b and c. */
+static double end(int look, double a, double b, double c)
+{
+    if (look == 1)
+        return 3 * a - 1;
+    return look == 2 && a >= b && a >= c ? 2 * SQRT3 * distance(b - 1.0 / 3, c - 1.0 / 3) : 0;
+}
+
+/* Where a tile turns round a corner of two triangles. The edge leads from there to the corner of b; c is opposite. */
+static double turn(int look, double a, double b)
+{
+    if (look == 1)
+        return 4 * a + 2 * b - 2;
+    return look == 2 && a >= b ? 2 * SQRT3 * distance(a, b) - 2 : 0;
+}
+
+/* A corner that is reached by edges of other triangles only. */
+static double inner(int look, double b, double c)
+{
+    return 1 - 3 * (look == 0 ? b + c : look == 1 ? fmax(b, c) + 0.5 * fmin(b, c) : distance(b, c));
+}
+
+/* 1 on the edges of tiles, 0 in the middle of a triangle of three edges. */
+static double triangle_value(const Pavement *pavement, Vec3 p)
+{
+    const double row = p.z / (SQRT3 / 2), column = p.x - row / 2;
+    const double i = floor(column), j = floor(row), g = column - i, h = row - j;
+    const Corner upward[3] = {{i, j, 0, 1 - g - h}, {i + 1, j, 2, g}, {i, j + 1, 4, h}};
+    const Corner downward[3] = {{i + 1, j + 1, 3, g + h - 1}, {i, j + 1, 5, 1 - g}, {i + 1, j, 1, 1 - h}};
+    const Corner *corners = g + h < 1 ? upward : downward;
+    double most = 0;
+    for (int k = 0; k < 3; k++) {
+        const Corner *corner = corners + k;
+        const int right = has_edge(pavement, corner, corner->direction);
+        const int left = has_edge(pavement, corner, corner->direction + 1);
+        const double a = corner->share, b = corners[(k + 1) % 3].share, c = corners[(k + 2) % 3].share;
+        if (right)
+            most = fmax(most, 1 - 3 * c);
+        if (right && left)
+            most = fmax(most, end(pavement->exterior, a, b, c));
+        else if (right && has_edge(pavement, corner, corner->direction + 2))
+            most = fmax(most, turn(pavement->form, a, b));
+        else if (left && has_edge(pavement, corner, corner->direction - 1))
+            most = fmax(most, turn(pavement->form, a, c));
+        else if (!right && !left) {
+            int edges = 0;
+            for (int d = 0; d < 6; d++)
+                edges += has_edge(pavement, corner, d);
+            most = fmax(most, edges ? inner(pavement->interior, b, c) : 0);
+        }
+    }
+    return fmin(1, most);
+}
+
+static double value(const Pattern *pattern, const PatternPoint *point)
+{
+    const Pavement *pavement = pattern->data;
+    return pavement->sides == 4 ? square_value(pavement, point->p) : triangle_value(pavement, point->p);
+}
+
+const PatternOps pattern_pavement = {.keyword = "pavement", .arguments = ARGUMENTS_PAVEMENT, .value = value};

@@ -148,6 +148,12 @@ PIGMENTS += [f'tiling 22 scale {s} translate <.123,0,.077>' for s in (.07, .13, 
 PIGMENTS += [f'pavement number_of_sides 4 number_of_tiles {tiles} pattern {k} exterior {(k + 1) % 3} '
              f'interior {k // 3 % 3} form {(k + tiles) % 4} scale .4 translate <.123,0,.077>'
              for tiles, count in ((1, 1), (2, 1), (3, 2), (4, 5), (5, 12), (6, 35)) for k in range(1, count + 1)]
+PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles {tiles} pattern {k} exterior {(k + 1) % 3} '
+             f'interior {(k + tiles) % 3} form {(k // 2 + tiles) % 4} scale .4 translate <.123,0,.077>'
+             for sides, counts in ((3, (1, 1, 1, 3, 4, 12)), (6, (1, 1, 3, 7, 22)))
+             for tiles, count in enumerate(counts, 1) for k in range(1, count + 1)]
+PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles 5 pattern 4 exterior {n % 3} interior {n // 3 % 3} '
+             f'form {n // 9}' for sides in (3, 6) for n in range(0, 36, 5)]
 
 
 def main():

@@ -109,11 +109,13 @@ static void density_files_are_checked(void **state)
     expect_error(V37 "sphere { 0, 1 pigment { density_file df3 \"tests/data/palette.png\" } }", "ends early");
     expect_error(V37 "sphere { 0, 1 pigment { density_file df3 \"none.df3\" } }", "none.df3");
     expect_error(V37 "sphere { 0, 1 pigment { pavement number_of_sides 4 number_of_tiles 3 pattern 3 } }",
-                 "of 3 squares: there are 1 to 2");
+                 "pattern 3 of a pavement of 3 polygons of 4 sides: it has 2");
     expect_error(V37 "sphere { 0, 1 pigment { pavement number_of_tiles 7 } }", "number_of_tiles 7");
-    Scene *triangles = parse(V37 "sphere { 0, 1 pigment { pavement pattern 35 form 2 } }");
-    assert_non_null(strstr(messages, "pavement of triangles or hexagons"));
-    scene_close(&triangles);
+    expect_error(V37 "sphere { 0, 1 pigment { pavement number_of_tiles 6 pattern 13 } }",
+                 "pattern 13 of a pavement of 6 polygons of 3 sides: it has 12");
+    expect_error(V37 "sphere { 0, 1 pigment { pavement number_of_sides 6 number_of_tiles 6 } }",
+                 "pattern 1 of a pavement of 6 polygons of 6 sides: it has 0");
+    expect_error(V37 "sphere { 0, 1 pigment { pavement number_of_sides 5 } }", "it is 3, 4 or 6");
 }
 
 /* Half of black and white is .5 of whatever the scene computes in. */

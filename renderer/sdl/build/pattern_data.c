@@ -249,7 +249,7 @@ static int accept_pavement_number(Sdl *sdl, Pavement *pavement)
         const char *word;
         int *number, low, high;
     } numbers[] = {
-        {"number_of_sides", &pavement->sides, 3, 6}, {"number_of_tiles", &pavement->tiles, 1, PAVEMENT_SQUARES},
+        {"number_of_sides", &pavement->sides, 3, 6}, {"number_of_tiles", &pavement->tiles, 1, PAVEMENT_POLYGONS},
         {"pattern", &pavement->pattern, 1, 35},      {"exterior", &pavement->exterior, 0, 2},
         {"interior", &pavement->interior, 0, 2},     {"form", &pavement->form, 0, 3},
     };
@@ -265,22 +265,19 @@ static int accept_pavement_number(Sdl *sdl, Pavement *pavement)
     return 0;
 }
 
-static void parse_pavement(Sdl *sdl, ParsedPigment *pigment)
+static void parse_pavement(Sdl *sdl, Pattern *pattern)
 {
-    Pattern *pattern = &pigment->pigment.pattern;
     Pavement *pavement = sdl_alloc(sdl, sizeof *pavement);
     *pavement = (Pavement){.sides = 3, .tiles = 1, .pattern = 1};
     while (accept_pavement_number(sdl, pavement))
         ;
     pattern->data = pavement;
-    if (pavement->sides != 4) {
-        gaps_add_pattern(&pigment->gaps, pattern_find(pattern->ops->keyword));
-        pigment->averaged = 1;
-        *pavement = (Pavement){.sides = 4, .tiles = 1, .pattern = 1};
-    }
-    if (pavement->pattern > pavement_count(pavement->tiles))
-        sdl_error(sdl, "pattern %d of a pavement of %d squares: there are 1 to %d", pavement->pattern, pavement->tiles,
-                  pavement_count(pavement->tiles));
+    if (pavement->sides == 5)
+        sdl_error(sdl, "number_of_sides 5 of a pavement: it is 3, 4 or 6");
+    const int count = pavement_count(pavement->sides, pavement->tiles);
+    if (pavement->pattern > count)
+        sdl_error(sdl, "pattern %d of a pavement of %d polygons of %d sides: it has %d", pavement->pattern,
+                  pavement->tiles, pavement->sides, count);
 }
 
 /* ---- brick ---- */
@@ -327,7 +324,7 @@ void parse_pattern_data(Sdl *sdl, ParsedPigment *pigment)
         parse_fractal(sdl, pattern);
         break;
     case ARGUMENTS_PAVEMENT:
-        parse_pavement(sdl, pigment);
+        parse_pavement(sdl, pattern);
         break;
     case ARGUMENTS_TILING:
         parse_tiling(sdl, pigment);
