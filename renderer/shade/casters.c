@@ -2,6 +2,7 @@
 #include <math.h>
 #include "shade/casters.h"
 #include "shade/material.h"
+#include "shape/csg.h"
 #include "shape/shape.h"
 #include "shape/surface.h"
 
@@ -46,10 +47,22 @@ static int is_caster(const Primitive *p, const Instance *instance, CasterKind ki
     return kind != CASTERS_OF_SOURCES && primitive_casts_caustics(p, instance);
 }
 
+/* Of an operand of CSG, the bounds of what can be seen of it: a plane that cuts glass throws caustics too. */
+static int primitive_bounds(const Primitive *p, Vec3 *low, Vec3 *high)
+{
+    Bounds bounds = bounds_everywhere();
+    if (!p->csg)
+        return shape_bounds(p, low, high);
+    for (const CsgNode *node = p->csg; node; node = node->parent)
+        bounds = bounds_meet(bounds, node->surface);
+    *low = bounds.low, *high = bounds.high;
+    return bounds_is_finite(&bounds) && !bounds_is_empty(&bounds);
+}
+
 static void find_bounds(Caster *caster, const Primitive *p)
 {
     Vec3 low, high;
-    caster->is_bounded = shape_bounds(p, &low, &high);
+    caster->is_bounded = primitive_bounds(p, &low, &high);
     caster->low = low, caster->high = high;
     if (!caster->is_bounded || !caster->instance)
         return;

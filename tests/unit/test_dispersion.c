@@ -91,6 +91,55 @@ static void prism_follows_snell(void **state)
     retex_set_close(&set);
 }
 
+/* Parallel light through a slit and the same wedge, on a wall: each wavelength is shifted by Snell's law, and keeps its
+ * light. Bounds of the wedge are far from the slit. */
+static void caustics_of_a_prism_are_a_spectrum(void **state)
+{
+    enum { STEPS = 4000, WIDTH = 24 };
+    const double slope = 0.4, dispersion = 1.25, ior = 1.4, wall = 6, slit = 0.2, left = 0.4, right = 1.6;
+    double wanted[WIDTH][3] = {{0}};
+    char text[2048];
+    (void)state;
+    for (int k = 0; k < STEPS; k++) {
+        const double t = (k % 400 + 0.5) / 400, x = ((k / 400 + 0.5) / 10 - 0.5) * slit, in = atan(slope);
+        const double out = asin(ior * pow(dispersion, t - 0.5) * sin(in));
+        const double z = sqrt(1 + slope * slope) + slope * x, at = x + (wall - z) * tan(out - in);
+        const int column = (int)floor((at - left) / (right - left) * WIDTH);
+        const Rgb c = dispersion_color(t);
+        assert_true(column >= 0 && column < WIDTH);
+        const float part = (float)(0.5 * slit / STEPS * WIDTH / (right - left)); /* of light 1 and albedo .5 */
+        wanted[column][0] += (double)(c.r * part), wanted[column][1] += (double)(c.g * part),
+            wanted[column][2] += (double)(c.b * part);
+    }
+    snprintf(text, sizeof text,
+             "#version 3.7; global_settings { assumed_gamma 1 photons { count 1 } }\n"
+             "camera { orthographic location <%g,0,4> direction z right %g*x up .05*y }\n"
+             "light_source { -20*z, 1 parallel point_at 0 retex { radius .4 } }\n"
+             "#declare Black = texture { pigment { rgb 0 } finish { ambient 0 diffuse 0 } }\n"
+             "box { <-30,-30,-1>, <%g,30,-.9> texture { Black } } box { <%g,-30,-1>, <30,30,-.9> texture { Black } }\n"
+             "plane { -z, -%g pigment { rgb .5 } finish { ambient 0 diffuse 1 } }\n"
+             "intersection { plane { -z, 0 } plane { <%g,0,1>, 1 } box { <-.5,-1.5,-.5>, <.5,1.5,2> }\n"
+             "  photons { target refraction on } " CLEAR "interior { ior %g dispersion %g } }",
+             (left + right) / 2, right - left, -slit / 2, slit / 2, wall, -slope, ior, dispersion);
+    RetexSet *set = render_text(text, WIDTH, 2, 16384, 1, 16);
+    const RetexImage *image = &set->parts[0].image;
+    for (int c = 0; c < 3; c++) {
+        double sums[2] = {0}, places[2] = {0}, off = 0;
+        for (int x = 0; x < WIDTH; x++) {
+            const double got = (double)(image->pixels[retex_image_index(image, x, 0) + (size_t)c] +
+                                        image->pixels[retex_image_index(image, x, 1) + (size_t)c]) /
+                               2;
+            sums[0] += got, places[0] += got * x, sums[1] += wanted[x][c], places[1] += wanted[x][c] * x;
+            off += fabs(got - wanted[x][c]);
+        }
+        expect(sums[0] / sums[1], 1, 0.04, "light on the wall");
+        expect(places[0] / sums[0], places[1] / sums[1], 0.1,
+               "its place");                                /* of columns, of which red and blue are 8 apart */
+        expect(off / sums[1], 0, 0.25, "its distribution"); /* the light source is no point, so lines are blurred */
+    }
+    retex_set_close(&set);
+}
+
 /* An object without an ior has no dispersion, as in POV-Ray. */
 static void no_ior_no_dispersion(void **state)
 {
@@ -189,6 +238,7 @@ int main(void)
         cmocka_unit_test(spectrum_is_white),
         cmocka_unit_test(index_rises_to_violet),
         cmocka_unit_test(prism_follows_snell),
+        cmocka_unit_test(caustics_of_a_prism_are_a_spectrum),
         cmocka_unit_test(no_ior_no_dispersion),
         cmocka_unit_test(furnace_is_white),
         cmocka_unit_test(light_samples_have_the_wavelength),
