@@ -8,6 +8,7 @@
 #define STEPS_MAX 2048   /* tentative collisions on a segment: what is denser is taken as that dense */
 #define STEPS_LEAST 4    /* for smoothness, where there are few */
 #define ROULETTE_BELOW 0.1f
+#define PARTS 16 /* of a segment, for an expected transmittance */
 
 float media_draw(PathWorker *w, const Path *path)
 {
@@ -104,4 +105,20 @@ Rgb media_transmittance(PathWorker *w, const Path *path, const Media *media, con
         return rgb_grey(1);
     return rgb_of4(media_set_transmittance(w, path, &set, vec_mad(ray->origin, ray->direction, ray->tmin),
                                            ray->direction, media_distance(w->context, &set, distance)));
+}
+
+Rgb media_expected_transmittance(const Scene *scene, const Media *media, const Ray *ray, double distance, int with_air)
+{
+    MediumSet set;
+    MediumSums here;
+    Float4 depth = splat(0);
+    media_find(scene, media, with_air, &set);
+    if (set.count == 0 || set.majorant == 0)
+        return rgb_grey(1);
+    const int parts = set.varies ? PARTS : 1;
+    for (int k = 0; k < parts; k++) {
+        medium_at(&set, vec_mad(ray->origin, ray->direction, ray->tmin + (k + 0.5) * distance / parts), 0, &here);
+        depth += here.extinction * splat((float)(distance / parts));
+    }
+    return rgb_of4(exp4(-depth));
 }

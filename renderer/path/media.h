@@ -1,4 +1,4 @@
-/* The media that a ray is in, and tracking through them; private to media.c, media_path.c and path.c. */
+/* The media that a ray is in, and tracking through them; private to media.c, media_path.c, path.c and photons.c. */
 #ifndef RENDERER_PATH_MEDIA_H
 #define RENDERER_PATH_MEDIA_H
 
@@ -21,6 +21,8 @@ float media_tracking_rate(const MediumSet *set, double distance);
 double media_free_distance(PathWorker *worker, const Path *path, float rate);
 /* Russian roulette of a low weight. Returns 0 where it is given up. */
 int media_weight_survives(PathWorker *worker, const Path *path, Float4 *weight);
+/* About what passes a segment, without random numbers. */
+Rgb media_expected_transmittance(const Scene *scene, const Media *media, const Ray *ray, double distance, int with_air);
 Float4 media_set_transmittance(PathWorker *worker, const Path *path, const MediumSet *set, Vec3 from, Vec3 direction,
                                double distance);
 

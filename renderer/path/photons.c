@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
+#include "medium/fog.h"
+#include "path/media.h"
 #include "path/sampler.h"
 #include "path/shading.h"
 #include "shade/casters.h"
@@ -242,10 +244,49 @@ static double first_irradiance(const Start *start, Vec3 position)
     return rgb_luminance(e) * (start->beam ? 1 : vec_dot(d, d));
 }
 
+/* The share of its power that fog, media and fading interiors let pass up to what it hits. in: what it is in; it starts
+ * in the open, as a guess. */
+static double passing_power(const Tracing *m, const Media *in, const Ray *ray, double distance, const Start *start)
+{
+    const int with_air = !start || !start->source || start->source->dimmed_by_air;
+    Rgb passing = media_fade(in, distance, NULL), own;
+    if (m->scene->has_media)
+        passing = rgb_mul(passing, media_expected_transmittance(m->scene, in, ray, distance, with_air));
+    if (m->scene->fogs && with_air && in->solids <= 0)
+        passing = rgb_mul(passing, fog_transmittance(m->scene, ray, distance, &own));
+    return rgb_luminance(passing);
+}
+
+/* To the caster that a photon was aimed at, straight through what is clear. Returns 0 where something else is in the
+ * way; a photon that meets another caster first is counted there. */
+static int reach_caster(const Tracing *m, const Start *start, Ray *ray, Media *in, Hit *hit, double *power)
+{
+    const Aim *aimed = &m->casters[start->caster];
+    const RayKind kind = start->source ? RAY_SHADOW : RAY_BOUNCE; /* light sources shine through their looks_like */
+    for (int k = 0; k<STRAIGHT_MAX && * power> 0; k++) {
+        Shading s;
+        if (!accel_intersect(m->accel, ray, kind, hit))
+            return 0;
+        *power *= passing_power(m, in, ray, hit->t - ray->tmin, start);
+        if (hit->instance == aimed->instance && hit->primitive == aimed->primitive)
+            return 1;
+        if (!accel_is_transparent(m->accel, hit) || m->scene->primitives[hit->primitive].caustics)
+            return 0;
+        shading_at(&s, m->scene, NULL, 1, ray, hit);
+        if (s.bsdf.refracts)
+            return 0;
+        *power *= split_neutral(s.bsdf.passing);
+        media_cross(in, &s.surface);
+        ray->tmin = hit->t;
+    }
+    return 0;
+}
+
 /* Follow a photon while it is refracted or mirrored. Returns 1 where it lands after that. */
 static int trace_photon(const Tracing *m, uint32_t photon, Landing *landing)
 {
     Start start;
+    Media in = {.count = 0};
     int bent = 0;
     start_photon(m, photon, &start);
     Ray ray = start.ray;
@@ -254,14 +295,12 @@ static int trace_photon(const Tracing *m, uint32_t photon, Landing *landing)
         Hit hit;
         Shading s;
         BsdfSample next;
-        /* light sources shine through their looks_like */
-        if (!accel_intersect(m->accel, &ray, k == 0 && start.source ? RAY_SHADOW : RAY_BOUNCE, &hit))
-            return 0;
-        /* a photon that meets another caster first is counted there */
-        const Aim *aimed = &m->casters[start.caster];
-        if (k == 0 && (hit.instance != aimed->instance || hit.primitive != aimed->primitive))
+        if (k == 0 ? !reach_caster(m, &start, &ray, &in, &hit, &power)
+                   : !accel_intersect(m->accel, &ray, RAY_BOUNCE, &hit))
             return 0;
         shading_at(&s, m->scene, NULL, 1, &ray, &hit);
+        if (k > 0)
+            power *= passing_power(m, &in, &ray, hit.t - ray.tmin, NULL);
         if (shading_disperses(&s)) /* each photon has one wavelength */
             shading_bsdf_wavelength(&s, vec_neg(ray.direction), photon_number(photon, WAVELENGTH_NUMBER));
         if (k == 0)
@@ -283,6 +322,8 @@ static int trace_photon(const Tracing *m, uint32_t photon, Landing *landing)
             return 0;
         power *= split_neutral(next.weight) * straight;
         power *= mirrors ? mirrored / chosen : (1 - mirrored) / (1 - chosen);
+        if (next.transmitted)
+            media_cross(&in, &s.surface);
         if (next.straight) {
             ray.tmin = hit.t;
             continue;

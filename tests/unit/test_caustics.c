@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "path/caustics.h"
+#include "path/photons.h"
 #include "render/render.h"
 #include "path/sampler.h"
 
@@ -316,6 +317,59 @@ static void sheet_keeps_the_light(void **state)
         fail_msg("mean %.5f straight through, %.5f refracted", means[0], means[1]);
 }
 
+/* What is on the way dims caustics by Beer's law, and the photons that guide to them too. */
+static void media_dim_caustics(void **state)
+{
+    (void)state;
+    static const char SHEET[] =
+        "#version 3.7; global_settings { assumed_gamma 1 photons { count 1 } }"
+        "camera { location <0, .9, -3> look_at <0, 0, .5> angle 20 }"
+        "#default { finish { ambient 0 diffuse 1 } } plane { y, 0 pigment { rgb .5 } hollow }"
+        "#declare Smoke = media { absorption .4 } #declare Clear = box { <-30, 0, -30>, <30, 1, 30> pigment { rgbt 1 }"
+        " finish { diffuse 0 } hollow }"
+        "light_source { <0, 9, 0>, 1 parallel point_at 0 }"
+        "box { <-30, 3, -30>, <30, 4, 30> pigment { rgbt 1 } finish { diffuse 0 } hollow no_image"
+        " photons { target refraction on } interior { ior 1.4 %s } } %s";
+    static const struct {
+        const char *within, *beside;
+        double depth;
+    } cases[] = {{"", "", 0},
+                 {"", "object { Clear interior { media { Smoke } } translate 1.5*y }", 0.4},
+                 {"", "object { Clear interior { media { Smoke } } translate 5*y }", 0.4},
+                 {"media { Smoke }", "", 0.4},
+                 {"media { Smoke density { gradient y translate 3*y } }", "", 0.2},
+                 {"media { Smoke }", "object { Clear interior { media { Smoke } } translate 5*y }", 0.8}};
+    double mean = 0, power = 0;
+    for (int k = 0; k < 6; k++) {
+        char text[1024];
+        Accel *accel;
+        Lights *lights;
+        Photons photons;
+        double landed = 0;
+        snprintf(text, sizeof text, SHEET, cases[k].within, cases[k].beside);
+        Scene *scene = test_scene(text);
+        RetexSet *set = render(scene, 64, 0, 0);
+        assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        const PhotonSources sources = {.scene = scene, .accel = accel, .lights = lights, .paths = 1};
+        assert_int_equal(photons_trace(&photons, &sources, 1, NULL), 0);
+        for (int i = 0; i < photons.count; i++)
+            landed += (double)photons.landings[i].power;
+        if (k == 0)
+            mean = mean_of(set), power = landed;
+        const double passing = exp(-cases[k].depth);
+        if (fabs(mean_of(set) / mean - passing) > 0.02 * passing)
+            fail_msg("case %d: mean %.5f of %.5f, should be %.5f", k, mean_of(set) / mean, mean, passing);
+        if (fabs(landed / power - passing) > 0.02 * passing)
+            fail_msg("case %d: photons have %.5f of %.5f, should be %.5f", k, landed / power, power, passing);
+        free(photons.landings);
+        lights_close(&lights);
+        accel_close(&accel);
+        retex_set_close(&set);
+        scene_close(&scene);
+    }
+}
+
 /* Round the image of a lamp in a flat mirror, which moves over the mirror as the point moves, lobes are narrow. */
 static void lobes_follow_a_mirror(void **state)
 {
@@ -369,6 +423,7 @@ int main(void)
         cmocka_unit_test(mean_stays),
         cmocka_unit_test(switches_itself_on),
         cmocka_unit_test(source_is_a_small_lamp),
+        cmocka_unit_test(media_dim_caustics),
         cmocka_unit_test(lobes_follow_a_mirror),
         cmocka_unit_test(source_stays_invisible),
         cmocka_unit_test(source_needs_no_guide),
