@@ -170,7 +170,7 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
 
 void check_table(Arguments *a)
 {
-    a->batch.tool = (BatchTool){a, NULL, describe_row};
+    a->batch.tool = (BatchTool){.context = a, .describe = describe_row};
     batch_check(&a->batch, NULL);
     batch_refuse_mistakes(&a->batch);
 }

@@ -106,6 +106,7 @@ void batch_open(Batch *batch, const Cli *cli, const char *path)
     batch->rows = calloc((size_t)batch->table.nrows + 1, sizeof *batch->rows);
     if (!batch->rows)
         cli_die(cli, "not enough memory for the table");
+    batch_select(batch);
 }
 
 static void close_batch(Batch *batch)
@@ -115,6 +116,8 @@ static void close_batch(Batch *batch)
         free(batch->rows[row].error);
     free(batch->rows);
     free(batch->error);
+    batch_manifest_close(&batch->manifest);
+    batch_sources_close(&batch->sources);
     texture_table_close(&batch->table);
     batch->rows = NULL;
     batch->error = NULL;
@@ -137,7 +140,9 @@ void batch_print(const Batch *batch)
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     BatchTexture textures[RETEX_MAX_TARGETS];
     char output[PATH_MAX];
-    for (int row = 0; row < batch->table.nrows && !batch->cli->quiet; row++) {
+    for (int row = batch->first; row < batch->end && !batch->cli->quiet; row++) {
+        if (!batch_is_wanted(batch, row))
+            continue;
         int count = texture_table_textures(&batch->table, row, specs);
         count = batch->tool.describe(batch->tool.context, specs, count, textures);
         snprintf(output, sizeof output, "%s", texture_table_output(&batch->table, row));
@@ -182,8 +187,10 @@ static void note_row(Batch *batch, BatchRow *row, double seconds, const char *er
 
 int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
 {
-    RetexError told = {0};
+    RetexError told = {0}, unrecorded = {0};
     char message[sizeof err->file + sizeof err->message + 32];
+    if (!err && batch_record(batch, row, seconds, &unrecorded))
+        err = &unrecorded;
     if (err) {
         cli_error_text(err, message, sizeof message);
         retex_fail_at(&told, err->code, batch->table.name, batch->table.rows[row].line, 0, "%s", message);
@@ -197,7 +204,7 @@ int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
 
 int batch_finish(Batch *batch, const RetexError *err)
 {
-    const int total = batch->table.nrows;
+    const int total = batch->end - batch->first;
     RetexError told = {0};
     if (err) {
         char message[sizeof err->file + sizeof err->message + 32];
@@ -209,9 +216,13 @@ int batch_finish(Batch *batch, const RetexError *err)
     } else if (batch->failed && batch->keep_going) {
         retex_fail(&told, RETEX_EIO, "%d of %d picture%s failed", batch->failed, total, total == 1 ? "" : "s");
         cli_error(batch->cli, &told);
-    } else if (!batch->failed && !batch->dry_run && !batch->cli->json_progress) {
-        cli_info(batch->cli, "%d picture%s, %.2f s", total, total == 1 ? "" : "s",
-                 retex_clock_seconds() - batch->began);
+    } else if (batch->made + batch->kept == total && !batch->dry_run && !batch->plan && !batch->cli->json_progress) {
+        const double seconds = retex_clock_seconds() - batch->began;
+        if (batch->resume)
+            cli_info(batch->cli, "%d picture%s, %d kept, %.2f s", batch->made, batch->made == 1 ? "" : "s", batch->kept,
+                     seconds);
+        else
+            cli_info(batch->cli, "%d picture%s, %.2f s", total, total == 1 ? "" : "s", seconds);
     }
     if (batch->cli->json_progress)
         batch_report_end(batch);

@@ -7,6 +7,8 @@
 #include <limits.h>
 #include <retex/image_file.h>
 
+#include "batch_manifest.h"
+#include "batch_sources.h"
 #include "texture_table.h"
 
 /* The options of batches, as rows of the tool's option table. */
@@ -17,6 +19,17 @@
         {"batch-root", 0, "DIR", "write pictures only below DIR", 0},                                                  \
     {                                                                                                                  \
         "report", 0, "FILE.json", "write the result of each picture; - is standard output", 0                          \
+    }
+
+/* The options of large batches, which share their work among processes and compare pictures with a manifest. */
+#define BATCH_CATALOGUE_OPTIONS                                                                                        \
+    {"rows", 0, "A-B", "with --batch: only the rows A to B of the table", 0},                                          \
+        {"shard", 0, "I/N", "with --batch: only the Ith of N parts of these rows", 0},                                 \
+        {"manifest", 0, "FILE", "append the sources and the checksum of each picture", 0},                             \
+        {"resume", 0, NULL, "make only pictures that are missing or differ from the manifest", 0},                     \
+        {"verify", 0, NULL, "compare pictures and sources with the manifest; make nothing without --resume", 0},       \
+    {                                                                                                                  \
+        "plan", 0, NULL, "print how many pictures it would make, their size and time, and stop", 0                     \
     }
 
 /* The texture of one target in one picture, in readable form: a file name or rgb(r,g,b). */
@@ -30,14 +43,18 @@ typedef struct BatchTool {
     void *context;
     /* Check that the textures fit their targets, without loading them; NULL = no check. */
     int (*check)(void *context, const RetexTextureSpec *specs, int count, RetexError *err);
+    /* Add the textures of the command line to those of a row; return their number. NULL = there are none. */
+    int (*complete)(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count);
     /* List all new textures of the picture; return their number. */
     int (*describe)(void *context, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS]);
 } BatchTool;
 
-typedef enum BatchStatus { BATCH_NOT_MADE, BATCH_MADE, BATCH_FAILED } BatchStatus;
+/* BATCH_KEPT: the picture of an earlier run, with --resume */
+typedef enum BatchStatus { BATCH_NOT_MADE, BATCH_MADE, BATCH_FAILED, BATCH_KEPT } BatchStatus;
 
 typedef struct BatchRow {
     BatchStatus status;
+    PictureState state; /* with a manifest: before the batch */
     double seconds;
     char *error; /* the reason if it failed, or NULL */
 } BatchRow;
@@ -46,12 +63,19 @@ typedef struct Batch {
     /* the command line */
     const char *root, *report;
     int dry_run, keep_going, make_folders;
+    const char *manifest_path;
+    int resume, verify, plan;
+    int rows_asked[2], shard[2]; /* 0, 0 = all */
     /* set by the functions below */
     const Cli *cli;
     BatchTool tool;
     TextureTable table;
     BatchRow *rows;
-    int made, failed;
+    int first, end; /* the rows of this process, from 0; end: after the last */
+    int made, failed, kept;
+    int states[PICTURE_STATES]; /* number of pictures */
+    BatchManifest manifest;
+    BatchSources sources; /* set by the tool, except for the sums */
     double began;
     char root_path[PATH_MAX]; /* root with links resolved; "" = no root */
     char *error;              /* the error that ended the batch, if not that of a single picture; or NULL */
@@ -81,6 +105,8 @@ void batch_print(const Batch *batch);
 int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *err);
 /* Record and report that a row's picture was made, or failed with err. Return 0 if the batch ends here. */
 int batch_done(Batch *batch, int row, double seconds, const RetexError *err /* NULL = made */);
+/* Whether a row is one of this process, and not kept. */
+int batch_is_wanted(const Batch *batch, int row);
 /* End the batch, successfully or with err: print a summary, write the report, close the batch. Return the exit
  * status. */
 int batch_finish(Batch *batch, const RetexError *err /* or NULL */);
@@ -91,6 +117,26 @@ int batch_finish(Batch *batch, const RetexError *err /* or NULL */);
 int batch_check_root(const Batch *batch, const char *real, const char *output, RetexError *err);
 /* The path of a row's picture, from the table and the root. */
 int batch_path(const Batch *batch, int row, char path[PATH_MAX], RetexError *err);
+
+/* ---- batch_catalogue.c: BATCH_CATALOGUE_OPTIONS ---- */
+
+/* Handle an option of BATCH_CATALOGUE_OPTIONS. Return 0 if it is not one of these. */
+int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option);
+/* Fail if they contradict each other, or lack a table or files for their checksums. */
+void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_table, int sources_are_piped);
+/* Find the rows of this process. */
+void batch_select(Batch *batch);
+/* --verify without --resume: nothing is made. */
+int batch_only_verifies(const Batch *batch);
+/* After a successful check: claim the rows of this process in the manifest, and find the state of each picture.
+ * --verify prints those that are not good. */
+int batch_prepare(Batch *batch, RetexError *err);
+/* Append a picture that was made to the manifest, if there is one. */
+int batch_record(Batch *batch, int row, double seconds, RetexError *err);
+/* Print how many pictures are good; return the exit status. */
+int batch_print_verdict(const Batch *batch);
+/* Print what is to be made; with the total size and time of some trial pictures, if there are any, also how much. */
+void batch_print_plan(const Batch *batch, int trials, double bytes, double seconds);
 
 /* ---- batch_report.c ---- */
 

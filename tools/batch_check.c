@@ -195,10 +195,13 @@ void batch_check(Batch *batch, const RetexWriteParams *params)
     RetexError err = {0};
     if (batch->root)
         find_root(batch);
-    check_images(batch);
-    check_rows(batch, params);
-    if (batch->dry_run)
-        cli_writes(batch->cli, "--dry-run", "-");
+    if (!batch_only_verifies(batch)) {
+        check_images(batch);
+        check_rows(batch, params);
+        cli_writes(batch->cli, "--manifest", batch->manifest_path);
+    }
+    if (batch->dry_run || batch->plan || batch_only_verifies(batch))
+        cli_writes(batch->cli, batch->dry_run ? "--dry-run" : batch->plan ? "--plan" : "--verify", "-");
     cli_writes(batch->cli, "--report",
                batch->report); /* last, so that a report that is one of the files above is refused */
     if (batch->report && retex_set_write_check(batch->report, &err))

@@ -14,6 +14,8 @@ static const char *status_name(const Batch *batch, const BatchRow *row)
 {
     return row->status == BATCH_MADE     ? "made"
            : row->status == BATCH_FAILED ? "failed"
+           : row->status == BATCH_KEPT   ? "kept"
+           : batch_only_verifies(batch)  ? picture_state_names[row->state]
            : batch->dry_run              ? "checked"
                                          : "not made";
 }
@@ -48,15 +50,19 @@ void batch_report_row(const Batch *batch, int row)
         return;
     fprintf(file, "{");
     print_row(file, batch, row);
-    fprintf(file, ", \"done\": %d, \"total\": %d}\n", batch->made + batch->failed, batch->table.nrows);
+    fprintf(file, ", \"done\": %d, \"total\": %d}\n", batch->kept + batch->made + batch->failed,
+            batch->end - batch->first);
     print_line(file, &text);
 }
 
 /* The keys of the whole batch. */
 static void print_totals(FILE *file, const Batch *batch)
 {
-    fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, \"seconds\": %.4f", batch->table.nrows, batch->made,
-            batch->failed, retex_clock_seconds() - batch->began);
+    fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, ", batch->end - batch->first, batch->made,
+            batch->failed);
+    if (batch->resume)
+        fprintf(file, "\"kept\": %d, ", batch->kept);
+    fprintf(file, "\"seconds\": %.4f", retex_clock_seconds() - batch->began);
     if (batch->error) {
         fprintf(file, ", \"error\": ");
         json_text(file, batch->error);
@@ -122,23 +128,24 @@ static void print_mistakes(FILE *file, const TextureTable *table)
 static void print_report(FILE *file, const Batch *batch)
 {
     const TextureTable *table = &batch->table;
-    const int wrong = table->nmistakes || batch->error || batch->failed;
+    const int good = !batch_only_verifies(batch) || batch->states[PICTURE_GOOD] == batch->end - batch->first;
+    const int wrong = table->nmistakes || batch->error || batch->failed || !good;
     fprintf(file, REPORT_BEGIN "%s\", \"version\": \"%s\", \"table\": ", batch->cli->tool + strlen("retex-"),
             RETEX_VERSION);
     json_text(file, table->name);
-    fprintf(file, ",\n  \"status\": \"%s\", ", wrong ? "failed" : batch->dry_run ? "checked" : "made");
+    fprintf(file, ",\n  \"status\": \"%s\", ", wrong ? "failed" : batch->dry_run || batch->plan ? "checked" : "made");
     print_totals(file, batch);
     fprintf(file, ",\n");
     print_mistakes(file, table);
     fprintf(file, "  \"rows\": [");
-    for (int row = 0; row < table->nrows; row++) {
-        fprintf(file, "%s\n    {", row ? "," : "");
+    for (int row = batch->first; row < batch->end; row++) {
+        fprintf(file, "%s\n    {", row > batch->first ? "," : "");
         print_row(file, batch, row);
         if (!table->nmistakes) /* with mistakes, target names may be wrong */
             print_textures(file, batch, row);
         fprintf(file, "}");
     }
-    fprintf(file, "%s]\n}\n", table->nrows ? "\n  " : "");
+    fprintf(file, "%s]\n}\n", batch->end > batch->first ? "\n  " : "");
 }
 
 int batch_report_write(const Batch *batch, RetexError *err)

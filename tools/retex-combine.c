@@ -30,6 +30,7 @@ static const CliOption options[] = {
      0},
     FRAMES_OPTION,
     BATCH_OPTIONS,
+    BATCH_CATALOGUE_OPTIONS,
     CLI_PROGRESS_OPTION,
     {0},
 };
@@ -76,7 +77,7 @@ static void parse(Cli *cli, Job *job)
             job->table = cli->value;
         } else if (strcmp(option->name, "frames") == 0) {
             frames_take(cli, option, &job->frames);
-        } else if (!batch_option(&job->batch, cli, option)) {
+        } else if (!batch_option(&job->batch, cli, option) && !batch_catalogue_option(&job->batch, cli, option)) {
             cli_take_progress(cli);
         }
     }
@@ -89,6 +90,9 @@ static void parse(Cli *cli, Job *job)
     if (!job->table)
         batch_check_options(&job->batch, cli, "batch");
     job->batch.keep_going = keep_going;
+    batch_check_catalogue_options(&job->batch, cli, job->table != NULL,
+                                  !strcmp(job->set_path, "-") ||
+                                      (job->samples_path && !strcmp(job->samples_path, "-")));
     if (job->table && cli->output)
         cli_die(cli, "the table of --batch names the outputs: no -o");
     if (job->error && job->table)
@@ -390,7 +394,13 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
     return describe_targets(job, all, complete_row(job, all, count), textures);
 }
 
-static int make_row(const Cli *cli, Job *job, int number, KeptTextures *kept, RetexError *err)
+static int complete(void *job, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count)
+{
+    return complete_row(job, specs, count);
+}
+
+/* trial: a file to write instead of the row's output, or NULL. */
+static int make_row(const Cli *cli, Job *job, int number, KeptTextures *kept, const char *trial, RetexError *err)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     char path[PATH_MAX];
@@ -398,9 +408,66 @@ static int make_row(const Cli *cli, Job *job, int number, KeptTextures *kept, Re
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
     const Row row = {kept->specs, count, kept->textures};
     int code = kept_textures_load(kept, job->set, specs, count, cli->threads, err);
-    if (!code)
+    if (!code && !trial)
         code = batch_output(&job->batch, number, path, err);
-    return code ? code : make_picture(cli, job, &row, path, began, err);
+    return code ? code : make_picture(cli, job, &row, trial ? trial : path, began, err);
+}
+
+/* Make the picture of a row, look at its size and time, and remove it. */
+static int try_row(const Cli *cli, Job *job, int number, KeptTextures *kept, double *bytes, double *seconds,
+                   RetexError *err)
+{
+    Cli silent = *cli;
+    char path[PATH_MAX];
+    const char *folder = getenv("TMPDIR"), *ending = strrchr(texture_table_output(&job->batch.table, number), '.');
+    const double began = retex_clock_seconds();
+    silent.quiet = 1;
+    snprintf(path, sizeof path, "%s/retex-plan-%ld%s", folder && *folder ? folder : "/tmp", (long)getpid(),
+             ending ? ending : "");
+    int code = make_row(&silent, job, number, kept, path, err);
+    *seconds += retex_clock_seconds() - began;
+    *bytes += cli_file_size(path);
+    if (!code)
+        unlink(path);
+    return code;
+}
+
+/* --plan: make trial pictures from all over the table. The first one is made twice, because it also takes the time to
+ * load libraries. */
+static int plan(const Cli *cli, Job *job, KeptTextures *kept)
+{
+    enum { TRIALS = 4 };
+    Batch *batch = &job->batch;
+    RetexError err = {0};
+    double bytes = 0, seconds = 0, ignored = 0;
+    const int wanted = batch->end - batch->first - batch->kept, trials = wanted < TRIALS ? wanted : TRIALS;
+    int code = RETEX_OK, made = 0, at = 0;
+    for (int row = batch->first; row < batch->end && made < trials && !code; row++) {
+        if (!batch_is_wanted(batch, row) || at++ < (int)((long)made * wanted / trials))
+            continue;
+        code = made ? RETEX_OK : try_row(cli, job, row, kept, &ignored, &ignored, &err);
+        if (!code)
+            code = try_row(cli, job, row, kept, &bytes, &seconds, &err);
+        made++;
+    }
+    if (!code)
+        batch_print_plan(batch, made, bytes, seconds);
+    return batch_finish(batch, code ? &err : NULL);
+}
+
+/* The options that change pictures, in words, for the manifest. */
+static const char *describe_options(const Job *job, char *text, size_t size)
+{
+    const RetexWriteParams *write = &job->write;
+    const char *config = getenv("OCIO");
+    RetexFileSum sum = {0};
+    RetexError err = {0};
+    if (config && *config)
+        (void)retex_file_sum(&sum, config, NULL, &err); /* one that cannot be read is an error of the pictures */
+    snprintf(text, size, "quality=%d cross=%d display=%s view=%s colorspace=%s ocio=%08x", write->quality,
+             job->combine.cross, write->display ? write->display : "", write->view ? write->view : "",
+             write->colorspace ? write->colorspace : "", (unsigned)sum.crc);
+    return text;
 }
 
 /* Add the targets whose corrections a picture with these textures uses. */
@@ -425,6 +492,8 @@ static void find_corrected(const Job *job, int corrected[RETEX_MAX_TARGETS])
 {
     for (int number = 0; number < job->batch.table.nrows; number++) {
         RetexTextureSpec specs[RETEX_MAX_TARGETS];
+        if (!batch_is_wanted(&job->batch, number))
+            continue;
         const int nspecs = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
         add_corrected(job, specs, nspecs, corrected);
     }
@@ -436,21 +505,38 @@ static int run_batch(const Cli *cli, Job *job)
     Batch *batch = &job->batch;
     RetexError err = {0};
     KeptTextures kept = {.count = 0};
+    char options_text[1024];
     batch_open(batch, cli, job->table);
-    batch->tool = (BatchTool){job, find_columns(&batch->table, job->set) ? check_row : NULL, describe_row};
+    batch->tool = (BatchTool){job, find_columns(&batch->table, job->set) ? check_row : NULL, complete, describe_row};
+    batch->sources.set = job->set_path, batch->sources.samples = job->samples_path;
+    batch->sources.options = describe_options(job, options_text, sizeof options_text);
     batch->inputs_known = 1;
     batch_check(batch, &job->write);
     batch_refuse_mistakes(batch);
+    if (batch_prepare(batch, &err))
+        return batch_finish(batch, &err);
+    if (batch_only_verifies(batch)) {
+        const int status = batch_print_verdict(batch), failed = batch_finish(batch, NULL);
+        return failed ? failed : status;
+    }
     if (batch->dry_run) {
         batch_print(batch);
         return batch_finish(batch, NULL);
     }
     find_corrected(job, corrected);
-    if (retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, &err))
+    if (batch->kept < batch->end - batch->first &&
+        retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, &err))
         return batch_finish(batch, &err);
-    for (int number = 0; number < batch->table.nrows; number++) {
+    if (batch->plan) {
+        const int status = plan(cli, job, &kept);
+        kept_textures_close(&kept);
+        return status;
+    }
+    for (int number = batch->first; number < batch->end; number++) {
         const double began = retex_clock_seconds();
-        int failed = make_row(cli, job, number, &kept, &err);
+        if (!batch_is_wanted(batch, number))
+            continue;
+        int failed = make_row(cli, job, number, &kept, NULL, &err);
         if (!batch_done(batch, number, retex_clock_seconds() - began, failed ? &err : NULL))
             break;
     }

@@ -36,7 +36,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 # A tool is tools/retex-NAME.c, the common command line and the library. It loads the bridge from beside it at run time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table batch batch_check \
-	batch_report frames kept_textures output_folder json_text)
+	batch_report batch_catalogue batch_manifest batch_sources frames kept_textures output_folder json_text)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)

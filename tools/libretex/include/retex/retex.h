@@ -16,6 +16,7 @@
 #include <retex/denoise_data.h>
 #include <retex/diff.h>
 #include <retex/error.h>
+#include <retex/file_sum.h>
 #include <retex/image.h>
 #include <retex/image_file.h>
 #include <retex/metrics.h>

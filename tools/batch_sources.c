@@ -1,0 +1,166 @@
+/* See batch_sources.h. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/file_sum.h>
+#include <retex/version.h>
+
+#include "batch_sources.h"
+#include "json_text.h"
+
+/* ---- checksums of files ---- */
+
+static struct SourceSum *find_slot(const SourceSums *sums, const char *path)
+{
+    size_t at = retex_bytes_sum(0, path, strlen(path)) & (sums->capacity - 1);
+    while (sums->slots[at].path && strcmp(sums->slots[at].path, path) != 0)
+        at = (at + 1) & (sums->capacity - 1);
+    return &sums->slots[at];
+}
+
+/* Double the table when it is half full. */
+static int grow_sums(SourceSums *sums)
+{
+    SourceSums more = {.count = sums->count, .capacity = sums->capacity ? 2 * sums->capacity : 256};
+    if (2 * sums->count < sums->capacity)
+        return 1;
+    more.slots = calloc(more.capacity, sizeof *more.slots);
+    if (!more.slots)
+        return 0;
+    for (size_t i = 0; i < sums->capacity; i++)
+        if (sums->slots[i].path)
+            *find_slot(&more, sums->slots[i].path) = sums->slots[i];
+    free(sums->slots);
+    *sums = more;
+    return 1;
+}
+
+/* The checksum of a file; it is read only once. */
+static int sum_file(const char **text, SourceSums *sums, const char *path, const RetexAccess *access, RetexError *err)
+{
+    RetexFileSum sum;
+    if (!grow_sums(sums))
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for checksums");
+    struct SourceSum *slot = find_slot(sums, path);
+    *text = slot->text;
+    if (slot->path)
+        return RETEX_OK;
+    int code = retex_file_sum(&sum, path, access, err);
+    if (code)
+        return code;
+    slot->path = strdup(path);
+    if (!slot->path)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for checksums");
+    snprintf(slot->text, sizeof slot->text, "%08" PRIx32 " %" PRIu64, sum.crc, sum.bytes);
+    sums->count++;
+    return RETEX_OK;
+}
+
+/* ---- the text ---- */
+
+/* The placement, as far as it is not the default. */
+static void print_placement(FILE *file, const RetexTextureSpec *s)
+{
+    const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    if (memcmp(s->scale, plain.scale, sizeof s->scale) != 0)
+        fprintf(file, " scale=%.9g,%.9g", s->scale[0], s->scale[1]);
+    if (memcmp(&s->rotate, &plain.rotate, sizeof s->rotate) != 0)
+        fprintf(file, " rotate=%.9g", s->rotate);
+    if (memcmp(s->offset, plain.offset, sizeof s->offset) != 0)
+        fprintf(file, " offset=%.9g,%.9g", s->offset[0], s->offset[1]);
+    if (s->wrap[0] != plain.wrap[0] || s->wrap[1] != plain.wrap[1])
+        fprintf(file, " wrap=%d,%d", (int)s->wrap[0], (int)s->wrap[1]);
+    if (s->flip[0] || s->flip[1])
+        fprintf(file, " flip=%d,%d", s->flip[0], s->flip[1]);
+    if (s->repeat != plain.repeat)
+        fprintf(file, " repeat=%d", (int)s->repeat);
+    if (memcmp(s->width, plain.width, sizeof s->width) != 0)
+        fprintf(file, " width=%.9g,%.9g", s->width[0], s->width[1]);
+    if (s->colorspace[0])
+        fprintf(file, " colorspace=%s", s->colorspace);
+}
+
+/* The name and placement of a texture, and the checksum of its file. The name may have options: `room.retex?…`. */
+static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s, RetexError *err)
+{
+    char *text = NULL, name[sizeof s->image];
+    const char *sum = "";
+    size_t bytes;
+    int code = RETEX_OK;
+    snprintf(name, sizeof name, "%s", s->image);
+    if (strchr(name, '?') && access(name, F_OK) != 0)
+        *strchr(name, '?') = '\0';
+    if (!s->constant)
+        code = sum_file(&sum, sums, name, s->access, err);
+    FILE *file = code ? NULL : open_memstream(&text, &bytes);
+    if (!file)
+        return code ? code : retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture's name");
+    if (s->constant)
+        fprintf(file, "rgb(%.9g,%.9g,%.9g)", (double)s->color[0], (double)s->color[1], (double)s->color[2]);
+    else
+        fputs(s->image, file), print_placement(file, s), fprintf(file, " %s", sum);
+    if (fclose(file) == 0)
+        json_text(out, text);
+    free(text);
+    return RETEX_OK;
+}
+
+static int compare_targets(const void *a, const void *b)
+{
+    return strcmp(((const RetexTextureSpec *)a)->target, ((const RetexTextureSpec *)b)->target);
+}
+
+static int print_sources(FILE *file, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
+                         RetexError *err)
+{
+    const char *set = "", *samples = "";
+    int code = sum_file(&set, &sources->sums, sources->set, NULL, err);
+    char set_text[sizeof((struct SourceSum *)0)->text];
+    snprintf(set_text, sizeof set_text, "%s", set); /* the table may move */
+    if (!code && sources->samples)
+        code = sum_file(&samples, &sources->sums, sources->samples, NULL, err);
+    if (code)
+        return code;
+    fprintf(file, "{\"output\": ");
+    json_text(file, output);
+    fprintf(file, ", \"version\": \"%s\", \"set\": \"%s\", \"samples\": \"%s\", \"options\": ", RETEX_VERSION, set_text,
+            samples);
+    json_text(file, sources->options);
+    fprintf(file, ", \"textures\": {");
+    qsort(specs, (size_t)count, sizeof *specs, compare_targets);
+    for (int i = 0; i < count && !code; i++) {
+        fprintf(file, i ? ", " : "");
+        json_text(file, specs[i].target);
+        fprintf(file, ": ");
+        code = print_texture(file, &sources->sums, &specs[i], err);
+    }
+    fprintf(file, "}");
+    return code;
+}
+
+int batch_sources_text(char **text, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
+                       RetexError *err)
+{
+    size_t bytes;
+    *text = NULL;
+    FILE *file = open_memstream(text, &bytes);
+    int code = file ? print_sources(file, sources, output, specs, count, err) : RETEX_ENOMEM;
+    if (!file || fclose(file) != 0 || code == RETEX_ENOMEM)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for a line of the manifest");
+    if (code) {
+        free(*text);
+        *text = NULL;
+    }
+    return code;
+}
+
+void batch_sources_close(BatchSources *sources)
+{
+    for (size_t i = 0; i < sources->sums.capacity; i++)
+        free(sources->sums.slots[i].path);
+    free(sources->sums.slots);
+    sources->sums = (SourceSums){0};
+}
