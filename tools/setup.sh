@@ -40,6 +40,7 @@ needs_test='
 pkg libzip libzip-dev
 pkg cmocka libcmocka-dev
 command mandoc mandoc
+command curl curl
 command oiiotool openimageio-tools
 command transicc liblcms2-utils
 python OpenImageIO python3-openimageio

@@ -166,6 +166,49 @@ static void test_any_order_and_threads(void **state)
             }
 }
 
+/* In memory there are the bytes of the file. */
+static void test_memory_is_the_file(void **state)
+{
+    static const char *const formats[] = {"jpg", "png", "exr", "webp", "tif"};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    RetexImage im = {0};
+    (void)state;
+    params.quality = 80;
+    paint(&im, 150, 200, 3);
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        RetexError err = {0};
+        Job job = {.image = &im, .nbands = 4, .stride = 3};
+        char name[64];
+        void *data;
+        size_t bytes;
+        snprintf(name, sizeof name, "file.%s", formats[i]);
+        const char *path = test_in_folder(name);
+        test_must(retex_image_write(&im, path, &params, 1, &err), &err);
+        test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
+        for (int band = 0; band < job.nbands; band++)
+            write_band(&job, band, 0);
+        test_must(retex_picture_take(&job.picture, &data, &bytes, &err), &err);
+        assert_null(job.picture);
+        Bytes file = load(path);
+        assert_int_equal(file.count, bytes);
+        assert_memory_equal(file.data, data, bytes);
+        free(file.data);
+        free(data);
+        unlink(path);
+        /* rows are missing */
+        test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
+        write_band(&job, 0, 0);
+        assert_int_equal(retex_picture_take(&job.picture, &data, &bytes, &err), RETEX_EINVAL);
+        assert_null(data);
+        test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
+        test_must(retex_picture_close(&job.picture, 0, &err), &err);
+    }
+    RetexPicture *none;
+    assert_int_not_equal(retex_picture_open_memory(&none, "jpg", 70000, 2, 3, &params, NULL), 0);
+    assert_null(none);
+    retex_image_free(&im);
+}
+
 static void test_pixels_are_those_of_one_go(void **state)
 {
     (void)state;
@@ -563,6 +606,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_bridge_is_needed), /* first: nothing has loaded the bridge yet */
         cmocka_unit_test(test_any_order_and_threads),
+        cmocka_unit_test(test_memory_is_the_file),
         cmocka_unit_test(test_pixels_are_those_of_one_go),
         cmocka_unit_test(test_exr_is_that_of_sets),
         cmocka_unit_test(test_exr_of_any_light),

@@ -260,6 +260,42 @@ static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
     unlink("open.exr");
 }
 
+typedef struct Some {
+    RetexImage *picture;
+    int y0, y1, count; /* rows that may come, and how many came */
+} Some;
+
+static int keep_some(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    Some *some = context;
+    assert_true(y0 >= some->y0 && y0 < y1 && y1 <= some->y1);
+    some->count += y1 - y0;
+    memcpy(some->picture->pixels + retex_image_index(some->picture, 0, y0), rows,
+           sizeof *rows * 3 * WIDTH * (size_t)(y1 - y0));
+    (void)err;
+    return 0;
+}
+
+/* Some rows are those of the whole picture. */
+static void expect_rows(const RetexSet *set, RetexTexture *const *textures, const RetexImage *picture)
+{
+    static const int parts[][2] = {
+        {0, 1}, {0, HEIGHT}, {HEIGHT - 1, HEIGHT}, {3, HEIGHT / 2}, {HEIGHT / 2, HEIGHT - 2}};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        RetexImage other = {0};
+        RetexError err = {0};
+        RetexCombineParams params = RETEX_COMBINE_INIT;
+        Some some = {&other, params.y0 = parts[i][0], params.y1 = parts[i][1], 0};
+        const size_t first = retex_image_index(picture, 0, some.y0),
+                     floats = retex_image_index(picture, 0, some.y1) - first;
+        test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
+        test_must(retex_retexture(set, NULL, textures, &params, keep_some, &some, 1, &err), &err);
+        assert_int_equal(some.count, some.y1 - some.y0);
+        assert_memory_equal(other.pixels + first, picture->pixels + first, floats * sizeof(float));
+        retex_image_free(&other);
+    }
+}
+
 /* In one pass, and by samples that went through a file or a stream, comes the same picture. */
 static void test_doors(void **state)
 {
@@ -281,6 +317,7 @@ static void test_doors(void **state)
         test_must(retex_retexture(set, NULL, textures, NULL, keep_rows, &other, threads, &err), &err);
         assert_memory_equal(other.pixels, picture.pixels, bytes);
     }
+    expect_rows(set, textures, &picture);
     retex_textures_close(textures);
     for (int stream = 0; stream < 2; stream++) {
         test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, 0, &err), &err);

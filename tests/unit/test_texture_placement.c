@@ -339,6 +339,62 @@ static void test_square(void **state)
     retex_texture_close(&a);
 }
 
+/* A texture placed anew is the one that is made for that placement, and outlives neither its texels nor the other. */
+static void test_placed_anew(void **state)
+{
+    (void)state;
+    RetexImage im = {0};
+    RetexTextureSpec specs[6];
+    uint32_t seed = 5;
+    test_random_image(&im, 13, 8, 4, 9, 0, 1);
+    for (int i = 0; i < 6; i++) {
+        specs[i] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+        specs[i].repeat = i < 4 ? (RetexRepeat)i : RETEX_REPEAT_STRAIGHT;
+        specs[i].wrap[0] = specs[i].wrap[1] = i == 4 ? RETEX_WRAP_CLAMP : i == 5 ? RETEX_WRAP_BLACK : RETEX_WRAP_REPEAT;
+    }
+    for (int i = 0; i < 6; i++) {
+        RetexTexture *base = create(&im, &specs[i]), *placed;
+        RetexTextureSpec spec = specs[i];
+        RetexError err = {0};
+        spec.scale[0] = 1.7;
+        spec.rotate = 31;
+        spec.offset[1] = 0.3;
+        spec.flip[0] = 1;
+        spec.width[0] = 0.6;
+        spec.uv_scale[0] = 2;
+        spec.uv_scale[1] = 3;
+        spec.uv_max[0] = spec.uv_max[1] = 1;
+        RetexTexture *wanted = create(&im, &spec);
+        test_must(retex_texture_place(&placed, base, &spec, &err), &err);
+        for (int k = 0; k < 100; k++) {
+            double u = 4 * test_random(&seed) - 2, v = 4 * test_random(&seed) - 2, cov[3];
+            float a[4], b[4];
+            test_turned_covariance(cov, 0.2 * test_random(&seed), 0.1, test_random(&seed));
+            retex_texture_gaussian(placed, u, v, cov, a);
+            retex_texture_gaussian(wanted, u, v, cov, b);
+            assert_colors(a, b, 0);
+            retex_texture_point(placed, u, v, a);
+            retex_texture_point(wanted, u, v, b);
+            assert_colors(a, b, 0);
+        }
+        assert_true(retex_texture_bytes(base) >= 13 * 8 * 16 && retex_texture_bytes(placed) == 0);
+        retex_texture_close(&placed);
+        for (int k = 0; k < 6; k++) /* others need other texels */
+            if (k != i) {
+                assert_int_equal(retex_texture_place(&placed, base, &specs[k], &err), RETEX_EINVAL);
+                assert_null(placed);
+            }
+        spec.scale[0] = 0;
+        assert_int_equal(retex_texture_place(&placed, base, &spec, &err), RETEX_EINVAL);
+        strcpy(spec.image, "another.png");
+        spec.scale[0] = 1;
+        assert_int_equal(retex_texture_place(&placed, base, &spec, &err), RETEX_EINVAL);
+        retex_texture_close(&wanted);
+        retex_texture_close(&base);
+    }
+    retex_image_free(&im);
+}
+
 static void must_fail(const RetexImage *im, const RetexTextureSpec *spec, const char *says)
 {
     RetexTexture *texture;
@@ -395,7 +451,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits),  cmocka_unit_test(test_closed_surfaces), cmocka_unit_test(test_planks),
         cmocka_unit_test(test_flips),  cmocka_unit_test(test_shifted_repeats), cmocka_unit_test(test_mirrored_repeats),
-        cmocka_unit_test(test_square), cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_square), cmocka_unit_test(test_placed_anew),     cmocka_unit_test(test_mistakes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,8 +40,8 @@ typedef struct Exchange {
     ServeRequest request;
     Answer *answer;
     CacheUse cache;
-    int is_begun, is_waiting;
-    int status; /* of what was sent; 0 = nothing */
+    int is_begun; /* 1: all headers have come */
+    int status;   /* of what was sent; 0 = nothing */
     unsigned long long bytes;
 } Exchange;
 
@@ -278,6 +278,7 @@ static void work_done(Waiter *waiter, Answer *answer)
 {
     Exchange *exchange = (Exchange *)(void *)waiter;
     exchange->answer = answer;
+    exchange->cache = waiter->has_joined ? CACHE_JOINED : CACHE_MISS;
     MHD_resume_connection(exchange->connection);
 }
 
@@ -310,12 +311,10 @@ static int wait_for_work(Exchange *exchange, const char *key, const char *base)
     item->deadline = retex_clock_seconds() + http->params.deadline;
     item->key = key;
     exchange->waiter.done = work_done;
-    exchange->is_waiting = 1;
-    exchange->cache = CACHE_MISS;
     MHD_suspend_connection(exchange->connection);
     const WorkResult result = work_add(http->params.work, item, &exchange->waiter);
     free(item);
-    if (result == WORK_REFUSED || result == WORK_NO_MEMORY)
+    if (result != WORK_ACCEPTED)
         work_done(&exchange->waiter, answer_error(503, "the server is busy"));
     return 1;
 }

@@ -133,10 +133,13 @@ static uint64_t bytes_in_memory(const RetexSet *set)
 static int identify(OpenRoom *room, RetexError *err)
 {
     const Hash128 begin = HASH128_BEGIN;
-    char *manifest = NULL;
+    const FileId *id = &room->id;
+    char *manifest = NULL, file[64];
     int code = retex_set_manifest(room->set, NULL, &manifest, err);
+    snprintf(file, sizeof file, "%llx %llx.%llx", id->size, (unsigned long long)id->seconds,
+             (unsigned long long)id->nanoseconds);
     if (!code)
-        room->room.content = hash128_text(begin, manifest);
+        room->room.content = hash128_text(hash128_text(begin, manifest), file);
     free(manifest);
     return code;
 }

@@ -14,7 +14,7 @@ typedef struct Rooms Rooms;
 
 typedef struct Room {
     const RetexSet *set;
-    Hash128 content; /* of the set's manifest, which has the checksums of all parts */
+    Hash128 content; /* of the set's manifest, with the size and the time of its file */
 } Room;
 
 typedef struct RoomsParams {

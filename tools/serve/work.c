@@ -60,14 +60,15 @@ static void append(Work *work, Piece *piece)
 
 WorkResult work_add(Work *work, const WorkItem *item, Waiter *waiter)
 {
-    WorkResult result = WORK_JOINED;
+    WorkResult result = WORK_ACCEPTED;
     pthread_mutex_lock(&work->lock);
     Piece *piece = find(work, item->key);
-    if (!piece && (work->nwaiting >= work->params.queue || work->is_refusing)) {
+    waiter->has_joined = piece != NULL;
+    if (!piece && (work->nwaiting + work->nrunning >= work->nthreads + work->params.queue || work->is_refusing)) {
         result = WORK_REFUSED;
     } else if (!piece) {
         piece = new_piece(item);
-        result = piece ? WORK_QUEUED : WORK_NO_MEMORY;
+        result = piece ? WORK_ACCEPTED : WORK_NO_MEMORY;
         if (piece)
             append(work, piece);
     }

@@ -13,6 +13,7 @@ typedef struct Work Work;
 typedef struct Waiter {
     struct Waiter *next;
     void (*done)(struct Waiter *waiter, Answer *answer);
+    int has_joined; /* 1: the work was that of an earlier request; known when done is called */
 } Waiter;
 
 /* What is to be made: the request, with the key that two requests for the same thing have in common. */
@@ -30,10 +31,10 @@ typedef struct WorkParams {
     WorkMake *make;
     void *context;
     int threads; /* of all work together, which is also the number of pieces of work at a time */
-    int queue;   /* pieces of work that wait, at most */
+    int queue;   /* pieces of work that wait, at most, while all threads are busy */
 } WorkParams;
 
-typedef enum WorkResult { WORK_QUEUED, WORK_JOINED, WORK_REFUSED, WORK_NO_MEMORY } WorkResult;
+typedef enum WorkResult { WORK_ACCEPTED, WORK_REFUSED, WORK_NO_MEMORY } WorkResult;
 
 int work_open(Work **work, const WorkParams *params, RetexError *err);
 /* Finish what was accepted, then end the threads. */

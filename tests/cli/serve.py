@@ -1,0 +1,285 @@
+# What serve.t asks of retex-serve: starts it at a port that the system chooses, runs the checks of one function of this
+# file, and ends it. Prints what differs, and at last the name of the function.
+import http.client, json, os, re, shutil, signal, socket, subprocess, sys, threading, time
+
+
+def start(*options, log='log'):
+    if os.path.exists('address'):
+        os.remove('address')
+    server = subprocess.Popen(['retex-serve', 'rooms', '--port', '0', '-o', 'address', '--threads', '2', *options],
+                              stderr=open(log, 'w'))
+    for _ in range(2000):
+        if os.path.exists('address'):
+            server.port = int(open('address').read().strip().rsplit(':', 1)[1])
+            return server
+        if server.poll() is not None:
+            break
+        time.sleep(.01)
+    sys.exit('no server: ' + open(log).read())
+
+
+def ask(server, path, method='GET', **headers):
+    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+    connection.request(method, path, headers={name.replace('_', '-'): value for name, value in headers.items()})
+    answer = connection.getresponse()
+    answer.body = answer.read()
+    connection.close()
+    return answer
+
+
+def expect(what, got, wanted):
+    if got != wanted:
+        print(f'{what}: {got!r}, not {wanted!r}')
+
+
+def metric(server, name):
+    found = re.search('^retex_serve_' + re.escape(name) + ' (.*)$', ask(server, '/metrics').body.decode(), re.M)
+    return float(found[1]) if found else 0
+
+
+def combine(output, *options):
+    subprocess.run(['retex-combine', '-q', *options, '-o', output], check=True)
+    return open(output, 'rb').read()
+
+
+# ---- pictures ----
+
+def pictures(server):
+    """The same bytes as retex-combine's, of packs and sets."""
+    for room, file in ('small', 'rooms/small.retex'), ('raw', 'rooms/raw.exr'):
+        for edits, textures in (('', []),
+                                ('Floor=oak;Wall=rgb(.2,.3,.4)/', ['--texture', 'Floor=textures/oak.jpg', '--texture',
+                                                                  'Wall=rgb(.2,.3,.4)']),
+                                ('Floor=oak.jpg;Floor.scale=2,3;Floor.rotate=30;Floor.wrap=mirror/',
+                                 ['--texture:scale=2,3:rotate=30:wrap=mirror', 'Floor=textures/oak.jpg']),
+                                ('Wall=oak;Wall.repeat=brick;Floor=oak/',
+                                 ['--texture:repeat=brick', 'Wall=textures/oak.jpg', '--texture',
+                                  'Floor=textures/oak.jpg'])):
+            for ending, quality in ('jpg', 95), ('png', 95), ('jpg', 70), ('webp', 95):
+                url = f'/v1/{room}/{edits}full.{ending}?quality={quality}'
+                answer = ask(server, url)
+                expect(url, answer.status, 200)
+                wanted = combine('a.' + ending, file, '--quality', str(quality), *textures)
+                if answer.body != wanted:
+                    print(f'{url}: not the bytes of retex-combine')
+    expect('type by Accept', ask(server, '/v1/small/full', Accept='image/png').getheader('Content-Type'), 'image/png')
+    expect('Vary', ask(server, '/v1/small/full', Accept='image/png').getheader('Vary'), 'Accept')
+
+
+def parts(server):
+    """A part, scaled, is the mean of the pixels it covers; mirrored and turned as it should be."""
+    import numpy
+    import OpenImageIO as oiio
+
+    def read(name):
+        file = oiio.ImageInput.open(name)
+        pixels = numpy.array(file.read_image('uint8'), dtype=float)[:, :, :3] / 255
+        file.close()
+        return numpy.where(pixels <= .04045, pixels / 12.92, ((pixels + .055) / 1.055) ** 2.4)
+
+    def cover(pixels, count):
+        """Rows of pixels as `count` rows, each the mean of what it covers."""
+        edges = numpy.arange(count + 1) * len(pixels) / count
+        sums = numpy.concatenate([numpy.zeros_like(pixels[:1]), numpy.cumsum(pixels, axis=0)])
+        at = numpy.minimum(edges.astype(int), len(pixels) - 1)
+        sums = sums[at] + (edges - at)[:, None, None] * pixels[at]
+        return (sums[1:] - sums[:-1]) * count / len(pixels)
+
+    combine('whole.png', 'rooms/small.retex', '--texture', 'Floor=textures/oak.jpg')
+    whole = read('whole.png')
+    for place, size, turn in (((0, 0, 64, 48), (32, 24), '0'), ((0, 0, 64, 48), (17, 11), '0'),
+                              ((5, 7, 40, 30), (40, 30), '0'), ((5, 7, 40, 30), (13, 29), '!0'),
+                              ((1, 2, 60, 40), (30, 20), '90'), ((1, 2, 60, 40), (30, 20), '!270'),
+                              ((0, 0, 64, 48), (64, 48), '180'), ((63, 47, 1, 1), (1, 1), '0')):
+        url = '/iiif/3/small;Floor=oak/%d,%d,%d,%d/%d,%d/%s/default.png' % (*place, *size, turn)
+        answer = ask(server, url)
+        expect(url, answer.status, 200)
+        open('part.png', 'wb').write(answer.body)
+        x, y, width, height = place
+        wanted = whole[y:y + height, x:x + width]
+        wanted = cover(cover(wanted, size[1]).transpose(1, 0, 2), size[0]).transpose(1, 0, 2)
+        wanted = wanted[:, ::-1] if turn[0] == '!' else wanted
+        wanted = numpy.rot90(wanted, -int(turn.strip('!')) // 90)
+        got = read('part.png')
+        expect(url + ' size', got.shape, wanted.shape)
+        # pictures of 8 bits differ by half a code, in the darkest codes by more in linear light
+        if numpy.abs(got - wanted).max() > .008:
+            print(url, 'differs by', numpy.abs(got - wanted).max())
+
+
+def conditions(server):
+    """Entity tags, HEAD, ranges."""
+    url = '/v1/small/Floor=oak/full.jpg'
+    first = ask(server, url)
+    etag = first.getheader('ETag')
+    expect('tag', bool(re.fullmatch('"[0-9a-f]{32}"', etag)), True)
+    again = ask(server, url)
+    expect('again', (again.body == first.body, again.getheader('ETag')), (True, etag))
+    expect('hits', metric(server, 'cache_total{cache="hit"}'), 1)
+    for match in etag, 'W/' + etag, '"x", ' + etag, '*':
+        answer = ask(server, url, If_None_Match=match)
+        expect('304 of ' + match, (answer.status, answer.body, answer.getheader('ETag')), (304, b'', etag))
+    expect('another tag', ask(server, url, If_None_Match='"x"').status, 200)
+    head = ask(server, url, 'HEAD')
+    expect('HEAD', (head.status, head.body, head.getheader('Content-Length'), head.getheader('ETag')),
+           (200, b'', str(len(first.body)), etag))
+    for wanted, part in (('bytes=0-9', slice(0, 10)), ('bytes=100-', slice(100, None)), ('bytes=-7', slice(-7, None))):
+        answer = ask(server, url, Range=wanted)
+        expect(wanted, (answer.status, answer.body == first.body[part]), (206, True))
+    expect('outside', ask(server, url, Range='bytes=99999999-').status, 416)
+    expect('two ranges', ask(server, url, Range='bytes=0-1,4-5').status, 200)
+    expect('If-Range', ask(server, url, Range='bytes=0-9', If_Range='"x"').status, 200)
+    expect('others', len({ask(server, path).getheader('ETag') for path in (
+        url, url + '?quality=80', '/v1/small/Floor=oak/full.png', '/v1/small/Floor=oak/32x24.jpg', '/v1/small/full.jpg',
+        '/v1/raw/Floor=oak/full.jpg', '/v1/small/Wall=oak/full.jpg', '/v1/small/Floor=oak;Floor.scale=2/full.jpg')}), 8)
+
+
+def replaced(server):
+    """A room or a texture that is replaced has another tag and another picture; a broken room does no harm."""
+    url = '/v1/other/Floor=t/full.png'
+    shutil.copy('rooms/small.retex', 'rooms/other.retex')
+    shutil.copy('textures/oak.jpg', 'textures/t.jpg')
+    before = ask(server, url)
+    expect('before', before.status, 200)
+    shutil.copy('textures/brick.jpg', 'textures/new'), os.rename('textures/new', 'textures/t.jpg')
+    texture = ask(server, url, If_None_Match=before.getheader('ETag'))
+    expect('texture', (texture.status, texture.body != before.body), (200, True))
+    shutil.copy('second.retex', 'rooms/new'), os.rename('rooms/new', 'rooms/other.retex')
+    room = ask(server, url, If_None_Match=texture.getheader('ETag'))
+    expect('room', (room.status, room.body not in (before.body, texture.body)), (200, True))
+    expect('rooms that are open', metric(server, 'rooms_open'), 1)
+    open('rooms/new', 'wb').write(open('second.retex', 'rb').read()[:5000]), os.rename('rooms/new', 'rooms/other.retex')
+    broken = ask(server, url)
+    expect('broken', (broken.status, b'rooms/' in broken.body), (500, False))
+    expect('the others', ask(server, '/v1/small/full.png').status, 200)
+    open('textures/t.jpg', 'w').write('no picture')
+    expect('broken texture', ask(server, '/v1/small/Floor=t/full.png').status, 500)
+    os.remove('rooms/other.retex'), os.remove('textures/t.jpg')
+    expect('gone', ask(server, url).status, 404)
+
+
+def refused(server):
+    """What cannot be is refused, with a reason and without a trace of the server's files."""
+    os.symlink('/etc/hostname', 'textures/link.png')
+    os.symlink(os.path.abspath('outside.jpg'), 'textures/outside.jpg')
+    for path, status in (('/', 404), ('/v2', 404), ('/v1/none/full.jpg', 404), ('/v1/small/Floor=none/full.jpg', 404),
+                         ('/v1/small/Flor=oak/full.jpg', 404), ('/v1/small/65x48.jpg', 400),
+                         ('/v1/small/full.jpg?crop=60,0,9,9', 200), ('/v1/small/full.jpg?crop=64,0,9,9', 400),
+                         ('/v1/small/Floor=..%2Foutside/full.jpg', 400), ('/v1/small/Floor=outside/full.jpg', 404),
+                         ('/v1/small/Floor=link/full.jpg', 404), ('/v1/..%2Frooms%2Fsmall/full.jpg', 400),
+                         ('/v1/small/full.gif', 400), ('/v1/small/Floor=oak;Floor.width=2/full.jpg', 400),
+                         ('/iiif/3/small/full/^999,/0/default.jpg', 501), ('/v1/' + 9000 * 'x', 414)):
+        answer = ask(server, path)
+        expect(path[:60], answer.status, status)
+        if os.getcwd().encode() in answer.body:
+            print(path, 'tells of a folder:', answer.body)
+    expect('POST', (ask(server, '/v1/small/full.jpg', 'POST').status), 405)
+    expect('Allow', ask(server, '/v1', 'DELETE').getheader('Allow'), 'GET, HEAD')
+    for text in b'GET\r\n\r\n', b'\x16\x03\x01\x02\x00\x01\x00\x01', b'GET / HTTP/9.9\r\n\r\n', b'\r\n' * 9 + b'\0\0':
+        with socket.create_connection(('127.0.0.1', server.port), 10) as plain:
+            plain.sendall(text), plain.shutdown(socket.SHUT_WR)
+            got = plain.recv(100)
+            if got and not got.startswith(b'HTTP/1.1 4') and not got.startswith(b'HTTP/1.1 5'):
+                print(text, got)
+    expect('afterwards', ask(server, '/health').body, b'ok\n')
+    os.remove('textures/link.png'), os.remove('textures/outside.jpg')
+
+
+def lists(server):
+    """What there is."""
+    site = json.loads(ask(server, '/v1').body)
+    expect('site', (site['rooms'], site['textures']), (['raw', 'small'], ['brick.jpg', 'oak.jpg']))
+    room = json.loads(ask(server, '/v1/small').body)
+    expect('room', (room['width'], room['height'], [target['name'] for target in room['targets']]),
+           (64, 48, ['Floor', 'Wall']))
+    info = ask(server, '/iiif/3/small%3BFloor=oak/info.json', Host='pictures.example', X_Forwarded_Proto='https')
+    expect('info', json.loads(info.body)['id'].startswith('https://pictures.example/iiif/3/small'), True)
+    expect('base', ask(server, '/iiif/3/small').status, 303)
+    expect('thumbnail', ask(server, '/v1/small/thumbnail').status, 200)
+
+
+# ---- load, and the end ----
+
+def together(server):
+    """Many who ask for the same at once are answered by one piece of work; connections are kept open."""
+    bodies = []
+    threads = [threading.Thread(target=lambda: bodies.append(ask(server, '/v1/raw/Floor=oak;Wall=brick/full.png').body))
+               for _ in range(12)]
+    [thread.start() for thread in threads], [thread.join() for thread in threads]
+    expect('bodies', (len(bodies), len(set(bodies))), (12, 1))
+    expect('images', metric(server, 'images_read_total'), 2)
+    expect('pictures', metric(server, 'cache_total{cache="miss"}'), 1)
+    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+    for _ in range(3):
+        connection.request('GET', '/v1/small/full.jpg')
+        kept = connection.sock
+        expect('kept', len(connection.getresponse().read()) > 500, True)
+        expect('the same connection', connection.sock is kept and kept is not None, True)
+
+
+def crowd(server):
+    """Beyond the queue there is 503, which says when to come again."""
+    answers = []
+    threads = [threading.Thread(target=lambda n=n: answers.append(ask(server, f'/v1/raw/Floor=rgb(0,0,.{n})/full.png')))
+               for n in range(10, 50)]
+    [thread.start() for thread in threads], [thread.join() for thread in threads]
+    statuses = {answer.status for answer in answers}
+    expect('statuses', statuses, {200, 503})
+    expect('Retry-After', {answer.getheader('Retry-After') for answer in answers if answer.status == 503}, {'2'})
+    expect('afterwards', ask(server, '/v1/raw/full.png').status, 200)
+
+
+def slow(server):
+    """Who sends a request byte by byte, or nothing, is cut off; others are not kept waiting."""
+    silent = socket.create_connection(('127.0.0.1', server.port), 10)
+    trickle = socket.create_connection(('127.0.0.1', server.port), 10)
+    began = time.time()
+    try:
+        for byte in b'GET /v1/small/full.jpg HTTP/1.1\r\nHost: slow\r\n' * 50:
+            trickle.sendall(bytes([byte]))
+            time.sleep(.05)
+            if time.time() - began > 8:
+                print('a slow sender is still heard')
+                break
+    except OSError:
+        pass
+    silent.settimeout(8)
+    expect('silent', silent.recv(10), b'')
+    expect('others', ask(server, '/v1/small/full.jpg').status, 200)
+
+
+def deadline(server):
+    """A picture that takes too long is given up."""
+    expect('deadline', ask(server, '/v1/raw/Floor=oak/full.png').status, 503)
+
+
+def end(server):
+    """What was asked for before the end is still answered, and the log has a line for each request."""
+    answers = []
+    threads = [threading.Thread(target=lambda n=n: answers.append(ask(server, f'/v1/raw/Floor=rgb(0,0,.{n})/full.png')))
+               for n in range(10, 20)]
+    [thread.start() for thread in threads]
+    while metric(server, 'queue_length') + metric(server, 'working') + len(answers) < 10:
+        time.sleep(.001)
+    server.send_signal(signal.SIGTERM)
+    [thread.join() for thread in threads]
+    expect('answers', [answer.status for answer in answers], 10 * [200])
+    expect('status', server.wait(20), -signal.SIGTERM)
+    lines = open('log').read().splitlines()
+    expect('last line', lines.pop(), 'retex-serve: error: ended by SIGTERM')
+    lines = [json.loads(line) for line in lines]
+    expect('log', [line['status'] for line in lines if 'rgb' in line['path']], 10 * [200])
+    expect('keys', list(lines[0])[:8], ['time', 'client', 'method', 'path', 'status', 'bytes', 'seconds', 'cache'])
+
+
+OPTIONS = {'refused': ['--timeout', '1'], 'crowd': ['--queue', '0', '--threads', '1'], 'slow': ['--timeout', '0.5'],
+           'deadline': ['--deadline', '0.001']}
+for name in sys.argv[1:]:
+    server = start('--textures', 'textures', *OPTIONS.get(name, []))
+    try:
+        globals()[name](server)
+        print(name)
+    finally:
+        if server.poll() is None:
+            server.terminate()
+            server.wait()

@@ -1,0 +1,35 @@
+# retex-serve: its answers beside retex-combine's pictures, and what it refuses; serve.py has the checks.
+$ mkdir rooms textures; make_set rooms/raw.exr 64 48 denoise; retex-pack -q rooms/raw.exr -o rooms/small.retex; make_set other.exr 64 48; retex-pack -q other.exr --quality 50 -o second.retex; cp "$SCENES/textures/brick.jpg" textures; cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg; cp textures/oak.jpg outside.jpg
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve pictures parts conditions
+> pictures
+> parts
+> conditions
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced refused lists
+> replaced
+> refused
+> lists
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together crowd slow deadline end
+> together
+> crowd
+> slow
+> deadline
+> end
+
+# What cannot start.
+$ retex-serve
+! retex-serve: error: no folder of rooms given
+= 2
+$ retex-serve none --port 0
+! retex-serve: error: cannot read none: No such file or directory
+= 2
+$ retex-serve rooms --textures none --port 0
+! retex-serve: error: --textures: there is no folder none
+= 2
+$ retex-serve rooms --listen nowhere.invalid --port 0 2>&1 | sed 's/invalid: .*/invalid/'
+> retex-serve: error: --listen nowhere.invalid
+$ retex-serve rooms --base-url example.org
+! retex-serve: error: --base-url: expected a URL such as https://example.org, without a slash at its end, not 'example.org'
+= 2
+$ retex-serve rooms rooms
+! retex-serve: error: one folder of rooms is enough; is -o rooms meant?
+= 2

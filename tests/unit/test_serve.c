@@ -1,0 +1,430 @@
+/* Parts of retex-serve that need no connection: the cache of pictures, the queue, headers, smaller pictures, images and
+ * rooms within their limits. */
+#include "lib_folder.h"
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/clock.h>
+
+#include "serve/cache.h"
+#include "serve/headers.h"
+#include "serve/images.h"
+#include "serve/rooms.h"
+#include "serve/shrink.h"
+#include "serve/work.h"
+
+/* ---- cache ---- */
+
+static Answer *some_bytes(size_t bytes, char fill)
+{
+    char *data = malloc(bytes);
+    memset(data, fill, bytes);
+    return answer_new(200, "image/png", data, bytes);
+}
+
+static void add(Cache *cache, int key, size_t bytes)
+{
+    char text[16];
+    Answer *answer = some_bytes(bytes, (char)key);
+    snprintf(text, sizeof text, "%d", key);
+    cache_add(cache, text, answer);
+    answer_release(answer);
+}
+
+static int has(Cache *cache, int key)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%d", key);
+    Answer *answer = cache_find(cache, text);
+    const int is_there = answer != NULL;
+    if (answer)
+        assert_int_equal(*(char *)answer->data, (char)key);
+    answer_release(answer);
+    return is_there;
+}
+
+static void test_cache(void **state)
+{
+    size_t entries, bytes;
+    Cache *cache = cache_open(20000);
+    (void)state;
+    for (int key = 0; key < 8; key++)
+        add(cache, key, 2000);
+    assert_true(has(cache, 0)); /* used now: 1 is the oldest */
+    add(cache, 8, 2000);
+    add(cache, 9, 2000);
+    cache_count(cache, &entries, &bytes);
+    assert_true(bytes <= 20000 && bytes > 16000);
+    assert_true(has(cache, 0) && has(cache, 9) && !has(cache, 1));
+    add(cache, 9, 1000); /* in place of the other */
+    cache_count(cache, &entries, &bytes);
+    assert_true(has(cache, 9));
+    add(cache, 10, 3000); /* more than an eighth */
+    assert_false(has(cache, 10));
+    Answer *kept = cache_find(cache, "9");
+    for (int key = 20; key < 5000; key++)
+        add(cache, key, 500);
+    cache_count(cache, &entries, &bytes);
+    assert_true(bytes <= 20000 && entries < 40 && !has(cache, 9));
+    assert_int_equal(kept->bytes, 1000); /* still there for who has it */
+    answer_release(kept);
+    cache_close(cache);
+}
+
+/* ---- queue ---- */
+
+typedef struct Client {
+    Waiter waiter; /* first member */
+    int status;
+    int *order; /* number of answers so far */
+    int place;
+} Client;
+
+static pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER, count_lock = PTHREAD_MUTEX_INITIALIZER;
+static int made;
+
+static Answer *make(void *context, const WorkItem *item, int nthreads)
+{
+    (void)context;
+    assert_int_equal(nthreads, 1);
+    pthread_mutex_lock(&gate);
+    made++;
+    pthread_mutex_unlock(&gate);
+    return answer_error(400 + item->request.quality, "%s", item->key);
+}
+
+static void done(Waiter *waiter, Answer *answer)
+{
+    Client *client = (Client *)(void *)waiter;
+    pthread_mutex_lock(&count_lock);
+    client->status = answer->status;
+    client->place = (*client->order)++;
+    pthread_mutex_unlock(&count_lock);
+    answer_release(answer);
+}
+
+static WorkResult submit(Work *work, Client *client, int number, double deadline)
+{
+    WorkItem *item = calloc(1, sizeof *item);
+    char key[16];
+    snprintf(key, sizeof key, "%d", number);
+    item->request.quality = number;
+    item->deadline = deadline;
+    item->key = key;
+    client->waiter.done = done;
+    const WorkResult result = work_add(work, item, &client->waiter);
+    free(item);
+    return result;
+}
+
+static void test_work(void **state)
+{
+    const WorkParams params = {make, NULL, 1, 3};
+    const double later = retex_clock_seconds() + 1000;
+    int order = 0;
+    Client clients[8] = {0};
+    Work *work;
+    RetexError err = {0};
+    (void)state;
+    made = 0;
+    for (int i = 0; i < 8; i++)
+        clients[i].order = &order;
+    test_must(work_open(&work, &params, &err), &err);
+    pthread_mutex_lock(&gate);
+    assert_int_equal(submit(work, &clients[0], 1, later), WORK_ACCEPTED);
+    while (!work_count(work).running)
+        usleep(100);
+    assert_int_equal(submit(work, &clients[1], 2, later), WORK_ACCEPTED);
+    assert_int_equal(submit(work, &clients[2], 3, 0), WORK_ACCEPTED); /* too late when its turn comes */
+    assert_int_equal(submit(work, &clients[3], 4, later), WORK_ACCEPTED);
+    assert_int_equal(submit(work, &clients[4], 5, later), WORK_REFUSED);
+    assert_int_equal(submit(work, &clients[5], 2, later), WORK_ACCEPTED); /* joins one that waits */
+    assert_int_equal(submit(work, &clients[6], 1, later), WORK_ACCEPTED); /* and one that is being done */
+    assert_true(clients[5].waiter.has_joined && clients[6].waiter.has_joined && !clients[3].waiter.has_joined);
+    assert_int_equal(work_count(work).waiting, 3);
+    work_refuse(work);
+    assert_int_equal(submit(work, &clients[7], 6, later), WORK_REFUSED);
+    pthread_mutex_unlock(&gate);
+    work_close(work); /* finishes what was accepted */
+    assert_int_equal(made, 3);
+    const int statuses[] = {401, 402, 503, 404, 0, 402, 401, 0};
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(clients[i].status, statuses[i]);
+    assert_true(clients[0].place < clients[1].place && clients[1].place < clients[2].place &&
+                clients[2].place < clients[3].place && order == 6);
+}
+
+/* ---- headers ---- */
+
+static void test_etags(void **state)
+{
+    (void)state;
+    assert_true(header_has_etag("\"ab\"", "\"ab\""));
+    assert_true(header_has_etag("W/\"ab\"", "\"ab\""));
+    assert_true(header_has_etag(" \"x\" ,\t\"a,b\",\"ab\"", "\"ab\""));
+    assert_true(header_has_etag("*", "\"ab\""));
+    const char *const others[] = {"", "ab", "\"ab", "\"abc\"", "\"a\"", "W/ \"ab\"", "\"x\" junk \"ab\"", ",,,"};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        assert_false(header_has_etag(others[i], "\"ab\""));
+    assert_false(header_has_etag(NULL, "\"ab\""));
+    assert_false(header_has_etag("*", "")); /* of what has no tag */
+}
+
+static void test_ranges(void **state)
+{
+    static const struct {
+        const char *text;
+        size_t bytes;
+        RangeKind kind;
+        size_t first, last;
+    } rows[] = {
+        {"bytes=0-0", 10, RANGE_SOME, 0, 0},
+        {"bytes=3-", 10, RANGE_SOME, 3, 9},
+        {"bytes=3-99", 10, RANGE_SOME, 3, 9},
+        {"bytes=-4", 10, RANGE_SOME, 6, 9},
+        {"bytes=-40", 10, RANGE_SOME, 0, 9},
+        {"bytes=10-", 10, RANGE_OUTSIDE, 0, 0},
+        {"bytes=-0", 10, RANGE_OUTSIDE, 0, 0},
+        {"bytes=0-", 0, RANGE_OUTSIDE, 0, 0},
+        {"bytes=5-4", 10, RANGE_NONE, 0, 0},
+        {"bytes=1-2,4-5", 10, RANGE_NONE, 0, 0},
+        {"bytes=-", 10, RANGE_NONE, 0, 0},
+        {"items=0-1", 10, RANGE_NONE, 0, 0},
+        {"bytes=a-b", 10, RANGE_NONE, 0, 0},
+        {"bytes=99999999999999999999999-", 10, RANGE_OUTSIDE, 0, 0},
+        {"bytes=1-99999999999999999999999", 10, RANGE_SOME, 1, 9},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        size_t first = 0, last = 0;
+        assert_int_equal(header_range(rows[i].text, rows[i].bytes, &first, &last), rows[i].kind);
+        if (rows[i].kind == RANGE_SOME)
+            assert_true(first == rows[i].first && last == rows[i].last);
+    }
+    assert_int_equal(header_range(NULL, 10, &(size_t){0}, &(size_t){0}), RANGE_NONE);
+}
+
+static void test_base(void **state)
+{
+    char text[256];
+    (void)state;
+    assert_string_equal(header_base(text, sizeof text, "a.example:80", NULL), "http://a.example:80");
+    assert_string_equal(header_base(text, sizeof text, "[::1]:80", "https"), "https://[::1]:80");
+    assert_string_equal(header_base(text, sizeof text, "a", "gopher"), "http://a");
+    assert_string_equal(header_base(text, sizeof text, "a/b", "https"), "");
+    assert_string_equal(header_base(text, sizeof text, "a\"b", "https"), "");
+    assert_string_equal(header_base(text, sizeof text, NULL, "https"), "");
+}
+
+/* ---- smaller pictures ---- */
+
+/* The mean of what pixel x, y of the smaller picture covers, by small steps. */
+static double mean(const RetexImage *im, double x0, double x1, double y0, double y1, int channel)
+{
+    double sum = 0, area = 0;
+    for (int y = 0; y < im->height; y++)
+        for (int x = 0; x < im->width; x++) {
+            const double w = (x + 1 < x1 ? x + 1 : x1) - (x > x0 ? x : x0),
+                         h = (y + 1 < y1 ? y + 1 : y1) - (y > y0 ? y : y0);
+            if (w > 0 && h > 0) {
+                sum += w * h * (double)im->pixels[retex_image_index(im, x, y) + (size_t)channel];
+                area += w * h;
+            }
+        }
+    return sum / area;
+}
+
+static void test_shrink(void **state)
+{
+    static const int sizes[][2] = {{31, 23}, {30, 22}, {16, 12}, {1, 1}, {7, 23}, {31, 5}};
+    enum { X0 = 4, X1 = 35 };
+    RetexImage im = {0};
+    RetexError err = {0};
+    (void)state;
+    test_random_image(&im, 40, 23, 3, 3, 0, 10);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const int width = sizes[i][0], height = sizes[i][1];
+        RetexImage tall = {0}, small = {0};
+        test_must(retex_image_alloc(&tall, width, im.height, 3, &err), &err);
+        test_must(retex_image_alloc(&small, width, height, 3, &err), &err);
+        for (int y = 0; y < im.height; y++)
+            shrink_row(tall.pixels + retex_image_index(&tall, 0, y), width, im.pixels + retex_image_index(&im, 0, y),
+                       X0, X1);
+        shrink_rows(&small, &tall, 2);
+        for (int y = 0; y < height; y++)
+            for (int x = 0; x < width; x++) {
+                const double step = (double)(X1 - X0) / width, down = (double)im.height / height;
+                assert_float_equal(small.pixels[retex_image_index(&small, x, y) + 1],
+                                   mean(&im, X0 + x * step, X0 + (x + 1) * step, y * down, (y + 1) * down, 1), 1e-4);
+            }
+        retex_image_free(&tall);
+        retex_image_free(&small);
+    }
+    retex_image_free(&im);
+}
+
+/* ---- rooms and images ---- */
+
+static void write_set(const char *path, int width, uint32_t seed)
+{
+    RetexError err = {0};
+    RetexSet *set = test_set(width, 24, seed);
+    test_must(retex_set_write(set, NULL, path, NULL, 1, &err), &err);
+    retex_set_close(&set);
+}
+
+static const Room *take_room(Rooms *rooms, const char *name)
+{
+    const Room *room;
+    RetexError err = {0};
+    test_must(rooms_take(rooms, name, &room, &err), &err);
+    return room;
+}
+
+static void join_names(void *text, const char *name)
+{
+    strcat(text, name);
+    strcat(text, " ");
+}
+
+/* Rooms beyond the limit are closed, the oldest first; those in use, and a replaced one that is in use, stay. */
+static void test_rooms(void **state)
+{
+    const RoomsParams params = {".", 0, 1L << 20, 1};
+    RoomsParams some = params;
+    RetexError err = {0};
+    Rooms *rooms;
+    char names[256] = "", path[PATH_MAX];
+    FileId id;
+    (void)state;
+    write_set("a.exr", 32, 1);
+    write_set("b.exr", 32, 2);
+    write_set("c.exr", 32, 3);
+    write_set(".hidden.exr", 32, 3);
+    test_must(rooms_open(&rooms, &params, &err), &err);
+    assert_int_equal(rooms_list(rooms, join_names, names), 0);
+    assert_string_equal(names, "a b c ");
+    rooms_return(rooms, take_room(rooms, "a"));
+    assert_int_equal(rooms_count(rooms).bytes, 0); /* none is kept in memory */
+    rooms_close(rooms);
+
+    const RetexSet *set;
+    some.memory = UINT64_MAX / 2;
+    test_must(rooms_open(&rooms, &some, &err), &err);
+    const Room *a = take_room(rooms, "a");
+    const uint64_t bytes = rooms_count(rooms).bytes;
+    assert_true(bytes > 32 * 24 * 12);
+    rooms_return(rooms, a);
+    rooms_close(rooms);
+
+    RetexSet *whole;
+    test_must(retex_set_open("a.exr", &whole, NULL, 1, &err), &err);
+    some.memory = 2 * retex_set_bytes(whole) + bytes / 2; /* of two, while a third is opened */
+    retex_set_close(&whole);
+    test_must(rooms_open(&rooms, &some, &err), &err);
+    a = take_room(rooms, "a");
+    const Room *b = take_room(rooms, "b");
+    rooms_return(rooms, b);
+    assert_ptr_equal(take_room(rooms, "a"), a);
+    rooms_return(rooms, a);
+    rooms_return(rooms, take_room(rooms, "c"));
+    assert_true(rooms_count(rooms).bytes <= some.memory && rooms_count(rooms).bytes > 0);
+    assert_int_equal(rooms_find(rooms, "b", path, &id), 0);
+    assert_null(rooms_peek(rooms, "b", &id)); /* was closed for c; a is in use */
+    assert_int_equal(rooms_find(rooms, "a", path, &id), 0);
+    assert_ptr_equal(rooms_peek(rooms, "a", &id), a);
+    rooms_return(rooms, a);
+
+    set = a->set;
+    write_set("new", 40, 1);
+    assert_int_equal(rename("new", "a.exr"), 0);
+    const Room *other = take_room(rooms, "a");
+    assert_true(other->set->width == 40 && set->width == 32 && a->set == set);
+    assert_true(other->content.low != a->content.low);
+    rooms_return(rooms, other);
+    rooms_return(rooms, a);
+    assert_int_equal(rooms_take(rooms, "none", &other, &err), RETEX_ENOTFOUND);
+    FILE *file = fopen("c.exr", "wb");
+    fputs("no set", file);
+    fclose(file);
+    assert_int_equal(rooms_take(rooms, "c", &other, &err), RETEX_EFORMAT);
+    assert_null(other);
+    assert_int_equal(rooms_count(rooms).failed, 1);
+    rooms_close(rooms);
+}
+
+static void test_images(void **state)
+{
+    RetexAccess access = RETEX_ACCESS_INIT;
+    const char *roots[1];
+    RetexError err = {0};
+    RetexImage im = {0};
+    RetexSet *set = test_set(16, 16, 1);
+    OpenImage *image, *other;
+    RetexTexture *texture, *moved;
+    Images *images;
+    FileId id;
+    (void)state;
+    roots[0] = realpath(".", NULL);
+    access.safe = 1;
+    access.roots = roots;
+    access.nroots = 1;
+    test_random_image(&im, 64, 64, 3, 3, 0, 1);
+    test_must(retex_image_write(&im, "one.png", NULL, 1, &err), &err);
+    test_must(retex_image_write(&im, "two.png", NULL, 1, &err), &err);
+    const ImagesParams params = {roots[0], 60000, &access, NULL, 1}; /* of one */
+    test_must(images_open(&images, &params, &err), &err);
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    strcpy(spec.target, "Floor");
+    assert_int_equal(images_find(images, "one", spec.image, sizeof spec.image, &id), 0);
+    assert_int_equal(images_find(images, "one.png", spec.image, sizeof spec.image, &id), 0);
+    assert_int_not_equal(images_find(images, "three", spec.image, sizeof spec.image, &id), 0);
+    assert_int_not_equal(images_find(images, "../one.png", spec.image, sizeof spec.image, &id), 0);
+    assert_int_equal(images_find(images, "one", spec.image, sizeof spec.image, &id), 0);
+    test_must(images_take(images, &spec, set, &image, &texture, &err), &err);
+    spec.scale[0] = 3;
+    strcpy(spec.target, "Wall");
+    test_must(images_take(images, &spec, set, &other, &moved, &err), &err);
+    assert_ptr_equal(image, other); /* is read once, and placed in two ways */
+    assert_int_equal(images_count(images).read, 1);
+    float a[4], b[4];
+    retex_texture_point(texture, 0.6, 0.3, a);
+    retex_texture_point(moved, 0.2, 0.3, b);
+    assert_float_equal(a[0], b[0], 1e-5);
+    retex_texture_close(&moved);
+    images_return(images, other);
+    assert_int_equal(images_find(images, "two", spec.image, sizeof spec.image, &id), 0);
+    test_must(images_take(images, &spec, set, &other, &moved, &err), &err);
+    assert_int_equal(images_count(images).open, 2); /* both are in use */
+    retex_texture_close(&moved);
+    images_return(images, other);
+    assert_int_equal(images_count(images).open, 1);
+    retex_texture_close(&texture);
+    images_return(images, image);
+    assert_true(images_count(images).bytes <= 60000 && images_count(images).open == 1);
+    images_close(images);
+    retex_set_close(&set);
+    retex_image_free(&im);
+    free((char *)roots[0]);
+}
+
+static int enter_folder(void **state)
+{
+    return test_make_folder(state) || chdir(test_folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),   cmocka_unit_test(test_etags),
+        cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),   cmocka_unit_test(test_shrink),
+        cmocka_unit_test(test_rooms),  cmocka_unit_test(test_images),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, test_remove_folder);
+}
