@@ -22,8 +22,20 @@ static double inset(const Tiling *tiling, const Vec2 *corners, int n, Vec2 p)
     return least;
 }
 
+/* POV-Ray's slopes, measured. */
+static double penrose_value(int number, const PatternPoint *point)
+{
+    const Vec2 p = {point->p.x, point->p.z};
+    int type;
+    const double slope = number == TILING_KITES ? 4.46 : 3.4300886;
+    const double inset = number == TILING_KITES ? penrose_kites(p, &type) : penrose_rhombs(p, &type);
+    return (type + fmax(0, 1 - slope * inset)) / 2;
+}
+
 static double value(const Pattern *pattern, const PatternPoint *point)
 {
+    if (pattern->number > TILINGS)
+        return penrose_value((int)pattern->number, point);
     const Tiling *tiling = &tilings[(int)pattern->number - 1];
     const Vec2 a = corner_at(tiling, tiling->lattice[0]), b = corner_at(tiling, tiling->lattice[1]);
     const double area = a.u * b.v - a.v * b.u;
@@ -51,4 +63,4 @@ static double value(const Pattern *pattern, const PatternPoint *point)
 }
 
 const PatternOps pattern_tiling = {
-    .keyword = "tiling", .arguments = ARGUMENTS_TILING, .value = value, .name = "tiling 25 to 27"};
+    .keyword = "tiling", .arguments = ARGUMENTS_TILING, .value = value, .name = "tiling 25"};

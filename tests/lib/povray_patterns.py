@@ -154,6 +154,7 @@ PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles {tiles} pattern 
              for tiles, count in enumerate(counts, 1) for k in range(1, count + 1)]
 PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles 5 pattern 4 exterior {n % 3} interior {n // 3 % 3} '
              f'form {n // 9}' for sides in (3, 6) for n in range(0, 36, 5)]
+PIGMENTS += [f'tiling {n} scale {s} translate <.123,0,.077>' for n in (26, 27) for s in (.01, .03, .1, .2, .3, .4, .5)]
 
 
 def main():

@@ -234,7 +234,7 @@ static void parse_tiling(Sdl *sdl, ParsedPigment *pigment)
     if (!(number >= 1 && number <= POVRAY_TILINGS))
         sdl_error(sdl, "tiling %g: there are 1 to %d", number, POVRAY_TILINGS);
     pattern->number = number;
-    if (number > TILINGS) {
+    if (number > TILINGS && number < TILING_KITES) {
         gaps_add_pattern(&pigment->gaps, pattern_find(pattern->ops->keyword));
         pigment->averaged = 1;
         pattern->number = 1;
