@@ -37,6 +37,9 @@ static void shadow_rays_obey_beer(void **state)
         {"box { <-1,1,-1>, <1,3,1> pigment { rgbt 1 } hollow interior { media { ABSORBING density {\n"
          "  gradient y scale 4 density_map { [.25 rgb 1] [.75 rgb .5] } } } } }",
          "", 1.5},
+        {"box { <-1,1,-1>, <1,3,1> pigment { rgbt 1 } hollow interior { media { ABSORBING density {\n"
+         "  gradient y scale 4 density_map { [.5 rgb 0] [.5 rgb 1] } } } } }",
+         "", 1},
         {"box { <-1,1,-1>, <1,3,1> pigment { rgbt 1 } hollow interior { media { ABSORBING } } }\n"
          "box { <-1,2,-1>, <1,4,1> pigment { rgbt 1 } hollow interior { media { ABSORBING } } }",
          "", 4},
