@@ -177,6 +177,36 @@ static int encode(Web *web, RetexError *err)
     return code;
 }
 
+static int all_zero(const RetexImage *im)
+{
+    size_t k = 0;
+    const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    while (k < count && im->pixels[k] == 0)
+        k++;
+    return k == count;
+}
+
+/* Give footprints the numbers that maps of packs are for. Means have so many bits before their fraction's: those of
+ * surfaces that reach farther, as planes do to the horizon, are moved by whole repeats. Where all standard deviations are
+ * 0, or no pixel sees the footprint, one value that nothing shows keeps the images from being left out. */
+static void prepare_footprints(RetexSet *set)
+{
+    const float farthest = 1 << (29 - RETEX_PACK_LATTICE_BITS), unseen = 0x1p-30F;
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        if (f->uv < 0 || f->spread < 0)
+            continue;
+        RetexImage *uv = &set->parts[f->uv].image, *spread = &set->parts[f->spread].image;
+        for (size_t k = 0; k < (size_t)uv->width * (size_t)uv->height * (size_t)uv->channels; k++)
+            if (k % (size_t)uv->channels < 2 && !(fabsf(uv->pixels[k]) < farthest))
+                uv->pixels[k] = remainderf(uv->pixels[k], farthest);
+        if (all_zero(uv))
+            uv->pixels[0] = unseen;
+        if (all_zero(spread))
+            spread->pixels[0] = unseen;
+    }
+}
+
 static int web_open(Web *web, const RetexSet *set, int quality, int scale, int nthreads, RetexError *err)
 {
     const RetexPackQuantizer quantizer = retex_pack_quantizer(retex_pack_quality_psnr(quality));
@@ -190,6 +220,7 @@ static int web_open(Web *web, const RetexSet *set, int quality, int scale, int n
         code = retex_web_model_open(&web->model, web->set, err);
     if (code)
         return code;
+    prepare_footprints(web->set);
     const size_t count = (size_t)web->set->nparts + 1;
     web->packed = calloc(count, sizeof *web->packed);
     web->lights = calloc(count, sizeof *web->lights);
