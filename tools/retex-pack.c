@@ -142,18 +142,33 @@ typedef struct PlayerFile {
 } PlayerFile;
 extern const PlayerFile retex_player_files[]; /* ends with {0} */
 
-static int write_player(const char *folder, RetexError *err)
+/* Sets bits of *added, by file: it was not there before. */
+static int write_player(const char *folder, unsigned *added, RetexError *err)
 {
     int code = 0;
-    for (const PlayerFile *file = retex_player_files; file->name && !code; file++) {
+    for (int i = 0; retex_player_files[i].name && !code; i++) {
+        const PlayerFile *file = &retex_player_files[i];
         char path[PATH_MAX];
         snprintf(path, sizeof path, "%s/%s", folder, file->name);
+        const int is_new = access(path, F_OK) != 0;
         code = retex_file_write(path, file->data, file->bytes, err);
+        *added |= (unsigned)(is_new && !code) << i;
     }
     return code;
 }
 
-/* A folder for browsers: the player, and the set as it reads it. */
+static void remove_player(const char *folder, unsigned added)
+{
+    for (int i = 0; retex_player_files[i].name; i++) {
+        char path[PATH_MAX];
+        snprintf(path, sizeof path, "%s/%s", folder, retex_player_files[i].name);
+        if (added >> i & 1)
+            unlink(path);
+    }
+}
+
+/* A folder for browsers: the player, and the set as it reads it. The manifest comes last, so an older room stays whole,
+ * at most with a newer player, until the new one is. */
 static int run_web(Cli *cli, const Job *job)
 {
     RetexWebParams params = RETEX_WEB_INIT;
@@ -173,11 +188,14 @@ static int run_web(Cli *cli, const Job *job)
         cli_check_pixels(cli, set, job->input);
         code = output_make_folders(manifest, &err);
     }
+    unsigned added = 0;
+    if (!code)
+        code = write_player(job->web, &added, &err);
     if (!code)
         code = retex_web_write(set, job->web, &params, &bytes, cli->threads, &err);
-    if (!code)
-        code = write_player(job->web, &err);
     retex_set_close(&set);
+    if (code)
+        remove_player(job->web, added);
     if (code && !existed)
         rmdir(job->web);
     if (code)

@@ -187,8 +187,8 @@ static int all_zero(const RetexImage *im)
 }
 
 /* Give footprints the numbers that maps of packs are for. Means have so many bits before their fraction's: those of
- * surfaces that reach farther, as planes do to the horizon, are moved by whole repeats. Where all standard deviations are
- * 0, or no pixel sees the footprint, one value that nothing shows keeps the images from being left out. */
+ * surfaces that reach farther, as planes do to the horizon, are moved by whole repeats. Where all standard deviations
+ * are 0, or no pixel sees the footprint, one value that nothing shows keeps the images from being left out. */
 static void prepare_footprints(RetexSet *set)
 {
     const float farthest = 1 << (29 - RETEX_PACK_LATTICE_BITS), unseen = 0x1p-30F;
