@@ -198,6 +198,33 @@ def lists(server):
     expect('thumbnail', ask(server, '/v1/small/thumbnail').status, 200)
 
 
+def metrics(server):
+    """The text format of Prometheus: every line is one, every name has its type, and the numbers are those of what was
+    asked for."""
+    for path in '/v1', '/v1/small/full.jpg', '/v1/small/full.jpg', '/v1/none/full.jpg', '/nothing':
+        ask(server, path)
+    types, values = {}, {}
+    for line in ask(server, '/metrics').body.decode().splitlines():
+        head = re.fullmatch(r'# (HELP|TYPE) ([a-z_]+) (.+)', line)
+        value = re.fullmatch(r'([a-z_]+)(\{[a-z]+="[^"]*"(?:,[a-z]+="[^"]*")*\})? ([-+0-9.e]+)', line)
+        if head and head[1] == 'TYPE':
+            types[head[2]] = head[3]
+        elif value:
+            values[value[1] + (value[2] or '')] = float(value[3])
+            if re.sub('_(bucket|sum|count)$', '', value[1]) not in types and value[1] not in types:
+                print('no type:', line)
+        elif not head:
+            print('no metric:', line)
+    name = 'retex_serve_requests_total{route="%s",status="%d"}'
+    expect('requests', [values.get(name % row) for row in (('rooms', 200), ('picture', 200), ('picture', 404),
+                                                           ('none', 404))], [1, 2, 1, 1])
+    buckets = [value for key, value in values.items() if key.startswith('retex_serve_request_seconds_bucket')]
+    expect('histogram', (buckets == sorted(buckets), buckets[-1], values['retex_serve_request_seconds_count']),
+           (True, 5, 5))
+    expect('caches', [values['retex_serve_cache_total{cache="%s"}' % use] for use in ('hit', 'joined')], [1, 0])
+    expect('memory', values['retex_serve_resident_bytes'] > 1e6 and values['retex_serve_rooms_bytes'] > 1e5, True)
+
+
 # ---- load, and the end ----
 
 def together(server):

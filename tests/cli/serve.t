@@ -4,10 +4,11 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve pictures parts con
 > pictures
 > parts
 > conditions
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced refused lists
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced refused lists metrics
 > replaced
 > refused
 > lists
+> metrics
 $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together crowd slow deadline end
 > together
 > crowd

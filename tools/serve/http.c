@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -234,6 +235,22 @@ static void write_counts(FILE *file, Http *http)
                         (double)picture_bytes);
 }
 
+static void write_process(FILE *file)
+{
+    FILE *status = fopen("/proc/self/statm", "re");
+    struct rusage usage = {0};
+    unsigned long long pages = 0;
+    if (status && fscanf(status, "%*u %llu", &pages) == 1)
+        metrics_write_value(file, "resident_bytes", "gauge", "Memory of the process.",
+                            (double)pages * (double)sysconf(_SC_PAGESIZE));
+    if (status)
+        fclose(status);
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        metrics_write_value(file, "processor_seconds_total", "counter", "Processor time of the process.",
+                            (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                                1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec));
+}
+
 static Answer *metrics_answer(Http *http)
 {
     char *text = NULL;
@@ -244,6 +261,7 @@ static Answer *metrics_answer(Http *http)
     atomic_store(&http->metrics.connections, clients_count(http->clients));
     metrics_write(file, &http->metrics);
     write_counts(file, http);
+    write_process(file);
     return text_answer(file, &text, &bytes, "text/plain; version=0.0.4; charset=utf-8");
 }
 
@@ -387,7 +405,7 @@ static void *begin_exchange(void *context, const char *url, struct MHD_Connectio
 {
     Http *http = context;
     Exchange *exchange = calloc(1, sizeof *exchange);
-    if (exchange && !(exchange->url = strdup(url))) {
+    if (exchange && !(exchange->url = strndup(url, SERVE_URL_MAX + 1))) { /* more is refused, whatever it is */
         free(exchange);
         exchange = NULL;
     }
