@@ -86,6 +86,10 @@ install: all
 	$(INSTALL) -m 755 $(PLUGINS) $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
 	for page in man/*.[1-9]; do [ ! -e $$page ] || $(INSTALL) -D -m 644 -t \
 	    $(DESTDIR)$(PREFIX)/share/man/man$${page##*.} $$page || exit 1; done
+	$(INSTALL) -d $(DESTDIR)$(PREFIX)/lib/systemd/system $(DESTDIR)$(PREFIX)/share/retex/serve
+	sed 's|/usr/local|$(PREFIX)|' tools/serve/retex-serve.service \
+	    >$(DESTDIR)$(PREFIX)/lib/systemd/system/retex-serve.service
+	$(INSTALL) -m 644 tools/serve/nginx.conf $(DESTDIR)$(PREFIX)/share/retex/serve
 	$(INSTALL) -d $(DESTDIR)$(PREFIX)/share/retex/blender
 	$(INSTALL) -m 644 tools/blender/retex_export.py $(DESTDIR)$(PREFIX)/share/retex/blender
 

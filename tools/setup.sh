@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`) or compared with
-# POV-Ray (`setup.sh parity`).
+# Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`; `setup.sh serve`
+# for retex-serve with nginx and many clients) or compared with POV-Ray (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
 # password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
@@ -49,6 +49,12 @@ python numpy python3-numpy
 needs_parity='
 command povray povray
 file /usr/share/doc/povray/examples povray-examples
+'
+needs_serve='
+command wrk wrk
+file /usr/sbin/nginx nginx-light
+python OpenImageIO python3-openimageio
+python numpy python3-numpy
 '
 
 CC=${CC:-gcc}
@@ -144,9 +150,10 @@ case ${1-} in
 build) install_missing "$needs_build" ;;
 test) install_missing "$needs_test" ;;
 parity) install_missing "$needs_parity" ;;
+serve) install_missing "$needs_serve" ;;
 config) config ;;
 *)
-    echo "usage: $0 build | test | parity | config" >&2
+    echo "usage: $0 build | test | parity | serve | config" >&2
     exit 2
     ;;
 esac

@@ -1,0 +1,42 @@
+"""Checks of retex-serve, as TAP: check.py ROOMS TEXTURES REFERENCE.png WORK SECONDS PART…
+
+ROOMS has small.retex, of 480x270 with the targets Floor and Wall, and large.retex, of 1920x1080. REFERENCE.png is the
+small room with the texture `brick` on Floor. SECONDS is the time of long parts. PART: iiif, abuse, load, nginx,
+unit."""
+import os
+import sys
+
+import abuse
+import iiif
+import load
+import proxy
+import unit_file
+from serving import Server, Tap
+
+
+def main():
+    rooms, textures, reference, work, seconds, *parts = sys.argv[1:]
+    seconds, log = int(seconds), os.path.join(work, "server.log")
+    if "iiif" in parts:
+        server = Server(rooms, textures, log=log)
+        iiif.check(server.port, "small;Floor=brick", reference, work)
+        server.stop()
+    if "abuse" in parts:
+        server = Server(rooms, textures, "--timeout", "2", "-q", log=log)
+        abuse.check(server, 10000)
+        server.stop()
+    if "load" in parts:
+        server = Server(rooms, textures, "--picture-memory", "16", "-q", log=log)
+        load.check_clients(server, seconds, work)
+        server.stop()
+        load.check_queue(rooms, textures, log)
+        load.check_kills(rooms, textures, log, 5)
+        load.check_throughput(rooms, textures, work, log, 12)
+    if "nginx" in parts:
+        proxy.check(rooms, textures, work, log)
+    if "unit" in parts:
+        unit_file.check(work)
+    Tap.finish()
+
+
+main()
