@@ -370,7 +370,9 @@ void parse_arguments(Arguments *a)
         a->render.sharp = defaults.sharp;
     if (a->variants)
         batch_open(&a->batch, cli, a->variants);
-    else
+    else if (a->frames.step || a->animation.last_frame >= 0)
+        a->keep_going = a->batch.keep_going, a->batch.keep_going = 0;
+    if (!a->variants)
         batch_check_options(&a->batch, cli, "variants");
     if ((a->nreplacements || a->variants) && !a->ntargets) { /* --replace and --variants name the targets */
         for (int k = 0; k < a->nreplacements; k++)

@@ -90,19 +90,23 @@ static void close_frame(Frame *f)
 
 int for_each_frame(Arguments *a, int (*action)(Arguments *frame))
 {
-    int status = CLI_OK;
+    int status = CLI_OK, failed = 0;
     if (!a->frames.step)
         return action(a);
     FOR_FRAMES(number, a->frames)
     {
         Frame *f = open_frame(a, number);
         cli_set_frame(a->cli, number);
-        status = action(&f->arguments);
+        const int answer = action(&f->arguments);
         close_frame(f);
-        if (status != CLI_OK)
+        failed += answer != CLI_OK;
+        status = status == CLI_OK ? answer : status;
+        if (failed && !a->keep_going)
             break;
     }
     cli_set_frame(a->cli, -1);
+    if (failed && a->keep_going)
+        frames_tell_failed(a->cli, failed, frames_count(&a->frames));
     return status;
 }
 

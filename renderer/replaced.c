@@ -41,22 +41,24 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
     return retex_texture_load(texture, spec, a->cli->threads, err);
 }
 
-void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)
+int replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded, RetexError *err)
 {
-    RetexError err;
     char meant[RETEX_MEANT_SIZE];
     for (int k = 0; k < a->nreplacements; k++) {
         const char *name = a->replacements[k].target;
         int t = find_target(scene, name);
         if (t < 0)
-            cli_die(a->cli, "--replace: `%s` is no target%s", name, target_meant(scene, name, meant));
+            return retex_fail(err, RETEX_EINVAL, "--replace: `%s` is no target%s", name,
+                              target_meant(scene, name, meant));
         if (a->replaced.textures[t])
-            cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
-        if (load_texture(a, scene, t, &a->replacements[k], &loaded[k], &err))
-            cli_fail(a->cli, &err);
+            return retex_fail(err, RETEX_EINVAL, "--replace: `%s` is replaced twice", a->replacements[k].target);
+        const int code = load_texture(a, scene, t, &a->replacements[k], &loaded[k], err);
+        if (code)
+            return code;
         a->replaced.textures[t] = loaded[k];
         a->render.variants = &a->replaced, a->render.nvariants = 1;
     }
+    return RETEX_OK;
 }
 
 /* ---- --variants ---- */
@@ -214,49 +216,51 @@ int make_variants(Arguments *a, const Scene *scene)
 
 /* ---- --control ---- */
 
-void read_control(Arguments *a)
+int read_control(Arguments *a, RetexError *err)
 {
-    RetexError err;
     RetexSet *set = NULL;
     cli_input(a->cli, a->control, "a set, as from retex-render");
-    if (retex_set_read(a->control, &set, NULL, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
+    const int code = retex_set_read(a->control, &set, NULL, a->cli->threads, err);
+    if (code)
+        return code;
     if (!set)
-        cli_die(a->cli, "%s holds samples but no set", a->control);
+        return retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", a->control);
     a->control_set = set;
     for (int k = 0; k < a->nreplacements; k++)
         if (set->ntargets && !a->named && retex_set_find_target(set, a->replacements[k].target) < 0)
-            cli_die(a->cli, "--control %s: the set has no target `%s`", a->control, a->replacements[k].target);
+            return retex_fail(err, RETEX_EINVAL, "--control %s: the set has no target `%s`", a->control,
+                              a->replacements[k].target);
     for (int t = 0; t < set->ntargets && !a->named; t++) {
         snprintf(a->set_targets[t], sizeof a->set_targets[t], "%s=%s", set->targets[t].name, set->targets[t].idents);
         a->targets[t] = a->set_targets[t];
         a->ntargets = t + 1;
     }
+    return RETEX_OK;
 }
 
-void render_controlled(Arguments *a, const Scene *scene, const char *output)
+int render_controlled(Arguments *a, const Scene *scene, const char *output, RetexError *err)
 {
-    RetexError err;
+    RetexError why;
     RetexSet *set = a->control_set;
     RetexImage picture = {0};
     RenderStats stats;
     double distance;
     if (!a->seeded)
         a->render.seed = set->seed + 1;
-    if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &err))
-        cli_die(a->cli, "--control %s: %s", a->control, err.message);
+    if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &why))
+        return retex_fail(err, why.code, "--control %s: %s", a->control, why.message);
     if (distance > 8)
         cli_warn(a->cli,
                  "--control %s: its picture does not match this scene with its original textures, %.0f standard "
                  "deviations off",
                  a->control, distance);
-    if (retex_image_write(&picture, output, NULL, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
-    cli_info(a->cli, "%dx%d, %d samples: %.2f s", picture.width, picture.height, a->render.spp, stats.render_seconds);
+    const int code = retex_image_write(&picture, output, NULL, a->cli->threads, err);
+    const int width = picture.width, height = picture.height;
+    retex_image_free(&picture);
+    if (code)
+        return code;
+    cli_info(a->cli, "%dx%d, %d samples: %.2f s", width, height, a->render.spp, stats.render_seconds);
     if (stats.dropped)
         cli_warn(a->cli, "%ld contributions were not finite and were left out", stats.dropped);
-    if (a->stats)
-        write_stats(a, &stats, set, 0);
-    retex_image_free(&picture);
-    retex_set_close(&a->control_set);
+    return a->stats ? write_stats(a, &stats, set, 0, err) : RETEX_OK;
 }

@@ -31,11 +31,14 @@ static void announce_files(Arguments *a)
         cli_writes(a->cli, "the file of --aov-dir", path);
 }
 
-static void announce_files_of_scene(Arguments *a, const Scene *scene)
+static int announce_files_of_scene(Arguments *a, const Scene *scene, RetexError *err)
 {
-    for (const SceneFile *file = scene->files; file; file = file->next)
-        cli_reads(a->cli, strcmp(file->path, a->scene) ? "a file that the scene reads" : "the scene", file->path);
-    a->batch.inputs_known = 1;
+    int code = RETEX_OK;
+    for (const SceneFile *file = scene->files; file && !code; file = file->next)
+        code =
+            cli_add_input(strcmp(file->path, a->scene) ? "a file that the scene reads" : "the scene", file->path, err);
+    a->batch.inputs_known = !code;
+    return code;
 }
 
 /* The kind of output by its name: a pack, a set if it is EXR and a set is rendered, otherwise a picture. */
@@ -127,45 +130,35 @@ static void denoise_progress(void *context, double done)
     cli_progress(context, "denoise", done);
 }
 
-static void denoise(Arguments *a, RetexSet *set)
+static int denoise(Arguments *a, RetexSet *set, RetexError *err)
 {
-    RetexError err;
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     params.progress = denoise_progress, params.progress_context = a->cli;
     params.budget = a->cli->budget;
     params.full_precision = a->full_precision;
-    if (retex_denoise(set, &params, NULL, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
+    return retex_denoise(set, &params, NULL, a->cli->threads, err);
 }
 
 /* What is written has the numbers that it will be read with, whether it is denoised here or later. */
-static void round_set(const Arguments *a, RetexSet *set, const char *output)
+static int round_set(const Arguments *a, RetexSet *set, const char *output, RetexError *err)
 {
-    RetexError err;
-    if (!a->full_precision && retex_set_round(set, output, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
+    return a->full_precision ? RETEX_OK : retex_set_round(set, output, a->cli->threads, err);
 }
 
-static void write_result(Arguments *a, RetexSet *set, const char *output)
+static int write_result(Arguments *a, RetexSet *set, const char *output, RetexError *err)
 {
-    RetexError err;
     RetexStoreParams store = RETEX_STORE_INIT;
     RetexPackParams pack = RETEX_PACK_INIT;
     const int threads = a->cli->threads;
-    int code = 0;
     switch (output_kind(a, output)) {
     case OUTPUT_PACK:
-        code = retex_pack_write(set, output, &pack, NULL, threads, &err);
-        break;
+        return retex_pack_write(set, output, &pack, NULL, threads, err);
     case OUTPUT_SET:
-        code = retex_set_write(set, NULL, output, &store, threads, &err);
-        break;
+        return retex_set_write(set, NULL, output, &store, threads, err);
     case OUTPUT_PICTURE:
-        code = retex_image_write(&set->parts[0].image, output, NULL, threads, &err);
         break;
     }
-    if (code)
-        cli_fail(a->cli, &err);
+    return retex_image_write(&set->parts[0].image, output, NULL, threads, err);
 }
 
 static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)
@@ -189,12 +182,15 @@ static void check_targets(const Arguments *a, const Scene *scene)
                      t ? ": its surfaces belong to targets named before it" : "");
 }
 
-/* Fail. A batch also writes the error to its report. */
-static _Noreturn void fail(Arguments *a, const RetexError *err)
+/* End with an error, or go on with the next frame. A batch also writes the error to its report. */
+static int fail(Arguments *a, const RetexError *err)
 {
-    if (!a->variants)
+    if (a->variants)
+        return batch_finish(&a->batch, err);
+    if (!a->keep_going || retex_budget_is_stopped(a->cli->budget))
         cli_fail(a->cli, err);
-    exit(cli_close(a->cli, batch_finish(&a->batch, err)));
+    cli_error(a->cli, err);
+    return CLI_FAIL;
 }
 
 /* Before anything is rendered: check a frame's files. */
@@ -213,79 +209,89 @@ static int check_files(Arguments *a)
 }
 
 /* What rendering leaves: a set, or a picture as one. */
-static void finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, double parse_seconds)
+static int finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, double parse_seconds, RetexError *err)
 {
-    RetexError err;
-    round_set(a, set, a->output);
-    if (a->denoise)
-        denoise(a, set);
+    int code = round_set(a, set, a->output, err);
+    if (!code && a->denoise)
+        code = denoise(a, set, err);
     else if (a->no_denoise_data)
         retex_denoise_drop_data(set);
-    if (a->aov_dir && aov_files_write(set, a->aov_dir, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
-    if (a->output)
-        write_result(a, set, a->output);
+    if (!code && a->aov_dir)
+        code = aov_files_write(set, a->aov_dir, a->cli->threads, err);
+    if (!code && a->output)
+        code = write_result(a, set, a->output, err);
+    if (code)
+        return code;
     if (a->render.resume)
         unlink(a->checkpoint);
     report(a, set, stats);
-    if (a->stats)
-        write_stats(a, stats, set, parse_seconds);
+    return a->stats ? write_stats(a, stats, set, parse_seconds, err) : RETEX_OK;
 }
 
-static Scene *open_scene(Arguments *a)
+static int open_scene(Arguments *a, Scene **scene, RetexError *err)
 {
-    RetexError err = {0};
-    Scene *scene = NULL;
-    if (job_open_scene(&scene, a->scene, &a->sdl, &a->render, a->targets, a->ntargets, &err))
-        fail(a, &err);
-    announce_files_of_scene(a, scene);
-    if (a->aov_dir && aov_files_check(a->aov_dir, &err))
-        cli_die(a->cli, "--aov-dir: %s", err.message);
+    RetexError why;
+    int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, a->targets, a->ntargets, err);
+    if (!code)
+        code = announce_files_of_scene(a, *scene, err);
+    if (!code && a->aov_dir && aov_files_check(a->aov_dir, &why))
+        code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
+    if (code)
+        return code;
     if (!a->list)
-        job_warn_dark(scene, &a->sdl);
-    check_targets(a, scene);
-    if ((!a->list || lists_pixels(a)) && job_check_size(scene, &a->render, &err))
-        fail(a, &err);
-    return scene;
+        job_warn_dark(*scene, &a->sdl);
+    check_targets(a, *scene);
+    return !a->list || lists_pixels(a) ? job_check_size(*scene, &a->render, err) : RETEX_OK;
 }
 
-/* Render a frame, or the only picture. Return the exit status; most errors end the tool. */
+/* What is asked for of a scene. *status: the answer, where there is no error. */
+static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *status, RetexError *err)
+{
+    RetexSet *set = NULL;
+    RenderStats stats;
+    int code = RETEX_OK;
+    if (a->list)
+        list_targets(a, scene);
+    else if (a->variants)
+        *status = make_variants(a, scene);
+    else if (a->control)
+        code = render_controlled(a, scene, a->output, err);
+    else if (a->tracing)
+        code = render_trace(scene, &a->render, a->trace[0], a->trace[1], a->trace[2], stdout, err);
+    else
+        code = render(a, scene, &set, &stats, err);
+    if (!code && set)
+        code = finish_set(a, set, &stats, parse_seconds, err);
+    retex_set_close(&set);
+    return code;
+}
+
+/* Render a frame, or the only picture. Return the exit status. */
 static int make_frame(Arguments *a)
 {
     RetexError err = {0};
-    RetexSet *set = NULL;
     RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
-    RenderStats stats;
+    Scene *scene = NULL;
+    int status = CLI_OK;
     name_checkpoint(a);
     if (frame_is_there(a)) {
         cli_info(a->cli, "%s is there", a->output);
         return CLI_OK;
     }
-    if (a->control)
-        read_control(a);
+    int code = a->control ? read_control(a, &err) : RETEX_OK;
     const int keeps = keeps_data(a, a->output);
     a->render.denoise_data = a->denoise || keeps;
     a->render.stored = keeps && !a->denoise;
-    double started = retex_clock_seconds();
-    Scene *scene = open_scene(a);
-    replace_textures(a, scene, loaded);
-    double parse_seconds = retex_clock_seconds() - started;
-    int failed = 0, status = CLI_OK;
-    if (a->list)
-        list_targets(a, scene);
-    else if (a->variants)
-        status = make_variants(a, scene);
-    else if (a->control)
-        render_controlled(a, scene, a->output);
-    else if (a->tracing)
-        failed = render_trace(scene, &a->render, a->trace[0], a->trace[1], a->trace[2], stdout, &err);
-    else
-        failed = render(a, scene, &set, &stats, &err);
-    if (failed)
-        cli_fail(a->cli, &err);
-    if (set)
-        finish_set(a, set, &stats, parse_seconds);
-    retex_set_close(&set);
+    const double started = retex_clock_seconds();
+    if (!code)
+        code = open_scene(a, &scene, &err);
+    if (!code)
+        code = replace_textures(a, scene, loaded, &err);
+    if (!code)
+        code = make_picture(a, scene, retex_clock_seconds() - started, &status, &err);
+    if (code)
+        status = fail(a, &err);
+    retex_set_close(&a->control_set);
     scene_close(&scene);
     for (int k = 0; k < a->nreplacements; k++)
         retex_texture_close(&loaded[k]);

@@ -1,5 +1,5 @@
-/* The files of retex-render: the command line and its actions. Every function prints one line about an error and exits
- * with CLI_FAIL. */
+/* The files of retex-render: the command line and its actions. Functions without a RetexError print one line about an
+ * error and exit with CLI_FAIL. */
 #ifndef RENDERER_RETEX_RENDER_H
 #define RENDERER_RETEX_RENDER_H
 
@@ -31,6 +31,7 @@ typedef struct Arguments {
     RetexSet *control_set;
     char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* the set's targets, as arguments of -t */
     int named;                                                 /* -t was given */
+    int keep_going;                                            /* of frames */
     int denoise, no_denoise_data, full_precision;
     const char *merged[LIST_MAX];
     int nmerged;
@@ -58,8 +59,8 @@ void take_ini_options(Arguments *arguments);
 
 /* After parse_arguments: find the frames, and check that each has files of its own. */
 void plan_frames(Arguments *arguments);
-/* Call action for each frame, with names and numbers of that frame, or once if there are no frames. Ends at the first
- * status that is not CLI_OK, and returns it. */
+/* Call action for each frame, with names and numbers of that frame, or once if there are no frames. Returns the first
+ * status that is not CLI_OK; ends there, unless --keep-going. */
 int for_each_frame(Arguments *arguments, int (*action)(Arguments *frame));
 /* Whether --resume finds this frame finished: its file is there, and no finished rows beside it. */
 int frame_is_there(const Arguments *frame);
@@ -71,11 +72,11 @@ void check_table(Arguments *arguments);
 /* Make its pictures, or with --dry-run list them. Return the exit status. */
 int make_variants(Arguments *arguments, const Scene *scene);
 /* Open the set of --control. Without -t, its targets become those of the render, which reduces noise the most. */
-void read_control(Arguments *arguments);
+int read_control(Arguments *arguments, RetexError *err);
 /* Render a picture with that set as control variate. */
-void render_controlled(Arguments *arguments, const Scene *scene, const char *output);
+int render_controlled(Arguments *arguments, const Scene *scene, const char *output, RetexError *err);
 /* Load replacement textures onto their targets. */
-void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded);
+int replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded, RetexError *err);
 
 /* ---- list_targets.c ---- */
 
@@ -94,6 +95,7 @@ uint64_t render_fingerprint(const Arguments *arguments, const Scene *scene);
 
 /* Before the render: check that the statistics can be written. */
 void check_stats(const Arguments *arguments);
-void write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds);
+int write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds,
+                RetexError *err);
 
 #endif

@@ -14,7 +14,7 @@ void check_stats(const Arguments *a)
         cli_die(a->cli, "--stats: %s", err.message);
 }
 
-void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double parse_seconds)
+int write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double parse_seconds, RetexError *err)
 {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
@@ -25,14 +25,13 @@ void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double
         "lights", (json_int_t)s->lights, "primitives", (json_int_t)s->primitives, "triangles", (json_int_t)s->triangles,
         "peak_memory_bytes", (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
     char *text = j ? json_dumps(j, JSON_INDENT(2)) : NULL;
-    RetexError err;
+    RetexError why;
     json_decref(j);
     if (!text)
-        cli_die(a->cli, "out of memory for the statistics");
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the statistics");
     size_t length = strlen(text);
     text[length++] = '\n'; /* replaces the terminating zero */
-    int failed = retex_file_write(a->stats, text, length, &err);
+    const int failed = retex_file_write(a->stats, text, length, &why);
     free(text);
-    if (failed)
-        cli_die(a->cli, "--stats: %s", err.message);
+    return failed ? retex_fail(err, failed, "--stats: %s", why.message) : RETEX_OK;
 }

@@ -104,3 +104,10 @@ char *frames_name(const Cli *cli, const char *name, int frame)
     *out = '\0';
     return path;
 }
+
+void frames_tell_failed(const Cli *cli, int failed, int total)
+{
+    RetexError err;
+    retex_fail(&err, RETEX_EIO, "%d of %d frames failed", failed, total);
+    cli_error(cli, &err);
+}

@@ -31,6 +31,8 @@ void frames_check_count(const Cli *cli, const FrameRange *range);
 void frames_check_name(const Cli *cli, const FrameRange *range, const char *what, const char *name, int written);
 /* Whether a name has a number: the file differs from frame to frame. */
 int frames_has_number(const char *name);
+/* The last line after --keep-going: how many frames failed. */
+void frames_tell_failed(const Cli *cli, int failed, int total);
 /* The name of a frame's file, after frames_check_name; the caller frees it. Exits where memory is short. NULL gives
  * NULL. */
 char *frames_name(const Cli *cli, const char *name, int frame);

@@ -641,10 +641,8 @@ static int run_frames(Cli *cli, Job *job)
     cli_set_frame(cli, -1);
     kept_textures_close(&kept);
     unload(job);
-    if (failed && job->batch.keep_going) {
-        retex_fail_at(&err, RETEX_EIO, "", 0, 0, "%d of %d frames failed", failed, total);
-        cli_error(cli, &err);
-    }
+    if (failed && job->batch.keep_going)
+        frames_tell_failed(cli, failed, total);
     if (!failed && !cli->json_progress)
         cli_info(cli, "%d frame%s, %.2f s", total, total == 1 ? "" : "s", retex_clock_seconds() - began);
     return failed ? CLI_FAIL : CLI_OK;

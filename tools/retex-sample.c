@@ -9,6 +9,7 @@ static const CliOption options[] = {
      "colorspace=NAME",
      1},
     FRAMES_OPTION,
+    {"keep-going", 0, NULL, "continue after a frame that fails", 0},
     {0},
 };
 
@@ -16,6 +17,7 @@ typedef struct Job {
     const char *set, *output;
     TextureArgs textures;
     FrameRange frames;
+    int keep_going;
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -23,6 +25,8 @@ static void parse(Cli *cli, Job *job)
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option != &cli_positional && strcmp(option->name, "frames") == 0)
             frames_take(cli, option, &job->frames);
+        else if (option != &cli_positional && strcmp(option->name, "keep-going") == 0)
+            job->keep_going = 1;
         else if (option != &cli_positional)
             texture_args_add(cli, &job->textures);
         else if (job->set)
@@ -34,6 +38,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "no set given; - is standard input");
     if (!job->textures.count)
         cli_die(cli, "no texture given; expected --texture NAME=IMAGE");
+    if (job->keep_going && !job->frames.step)
+        cli_die(cli, "--keep-going needs --frames");
 }
 
 /* Samples are always OpenEXR. Refuse names of other formats, which suggest that retex-combine is meant. */
@@ -58,42 +64,60 @@ static void check_files(const Cli *cli, const Job *job)
         cli_fail(cli, &err);
 }
 
-static void make_samples(const Cli *cli, const Job *job, KeptTextures *kept)
+/* *set and *samples are the caller's to close. */
+static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, RetexSet **set, RetexSamples **samples,
+                        RetexError *err)
 {
-    RetexSet *set = NULL;
-    RetexSamples *samples = NULL, *earlier = NULL;
-    RetexError err = {0};
+    RetexSamples *earlier = NULL;
     const RetexTextureSpec *specs = job->textures.specs;
     const int count = job->textures.count;
     double began = retex_clock_seconds();
-    if (retex_set_open(job->set, &set, &earlier, cli->threads, &err))
-        cli_fail(cli, &err);
-    if (!set)
-        cli_die(cli, "%s holds samples but no set", job->set);
-    cli_check_pixels(cli, set, job->set);
+    int code = retex_set_open(job->set, set, &earlier, cli->threads, err);
+    if (!code && !*set)
+        code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set);
+    if (!code)
+        cli_check_pixels(cli, *set, job->set);
     double read = retex_clock_seconds();
-    if (kept_textures_load(kept, set, specs, count, cli->threads, &err) ||
-        retex_sample_textures(&samples, set, kept->textures, specs, count, job->output, cli->threads, &err))
-        cli_fail(cli, &err);
-    if (earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
-        if (retex_samples_merge(earlier, samples, cli->threads, &err))
-            cli_fail(cli, &err);
-        retex_samples_close(&samples);
-        samples = earlier;
+    if (!code)
+        code = kept_textures_load(kept, *set, specs, count, cli->threads, err);
+    if (!code)
+        code = retex_sample_textures(samples, *set, kept->textures, specs, count, job->output, cli->threads, err);
+    if (!code && earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
+        code = retex_samples_merge(earlier, *samples, cli->threads, err);
+        retex_samples_close(samples);
+        *samples = earlier, earlier = NULL;
     }
+    retex_samples_close(&earlier);
     double sampled = retex_clock_seconds();
     RetexStoreParams store = RETEX_STORE_INIT;
     int to_pipe = strcmp(job->output, "-") == 0;
-    if (retex_set_write(to_pipe ? set : NULL, samples, job->output, &store, cli->threads, &err))
-        cli_fail(cli, &err);
+    if (!code)
+        code = retex_set_write(to_pipe ? *set : NULL, *samples, job->output, &store, cli->threads, err);
+    if (code)
+        return code;
     double written = retex_clock_seconds();
 
     char text[2048];
-    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(samples, text, sizeof text), set->width, set->height,
-             written - began);
+    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(*samples, text, sizeof text), (*set)->width,
+             (*set)->height, written - began);
     cli_detail(cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
+    return RETEX_OK;
+}
+
+/* Returns 0 where it failed and the next frame is to be made. */
+static int make_file(const Cli *cli, const Job *job, KeptTextures *kept)
+{
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL;
+    RetexError err = {0};
+    const int code = make_samples(cli, job, kept, &set, &samples, &err);
     retex_samples_close(&samples);
     retex_set_close(&set);
+    if (code && (!job->keep_going || retex_budget_is_stopped(cli->budget)))
+        cli_fail(cli, &err);
+    if (code)
+        cli_error(cli, &err);
+    return !code;
 }
 
 static void check_frame_names(const Cli *cli, const Job *job)
@@ -104,9 +128,10 @@ static void check_frame_names(const Cli *cli, const Job *job)
     texture_args_check_frames(cli, &job->frames, "--texture", job->textures.specs, job->textures.count);
 }
 
-/* Check all frames, or make them. */
-static void each_frame(Cli *cli, const Job *all, KeptTextures *kept /* NULL = check */)
+/* Check all frames, or make them. Returns how many failed. */
+static int each_frame(Cli *cli, const Job *all, KeptTextures *kept /* NULL = check */)
 {
+    int failed = 0;
     FOR_FRAMES(number, all->frames)
     {
         char *set = frames_name(cli, all->set, number), *output = frames_name(cli, all->output, number);
@@ -115,13 +140,16 @@ static void each_frame(Cli *cli, const Job *all, KeptTextures *kept /* NULL = ch
         texture_args_set_frame(cli, number, job.textures.specs, job.textures.count);
         cli_set_frame(cli, number);
         if (kept)
-            make_samples(cli, &job, kept);
+            failed += !make_file(cli, &job, kept);
         else
             check_files(cli, &job);
         free(set);
         free(output);
     }
     cli_set_frame(cli, -1);
+    if (failed)
+        frames_tell_failed(cli, failed, frames_count(&all->frames));
+    return failed;
 }
 
 int main(int argc, char **argv)
@@ -135,16 +163,17 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
+    int failed = 0;
     parse(&cli, &job);
     job.output = cli_output(&cli);
     if (job.frames.step) {
         check_frame_names(&cli, &job);
         each_frame(&cli, &job, NULL);
-        each_frame(&cli, &job, &kept);
+        failed = each_frame(&cli, &job, &kept);
     } else {
         check_files(&cli, &job);
-        make_samples(&cli, &job, &kept);
+        make_file(&cli, &job, &kept);
     }
     kept_textures_close(&kept);
-    return cli_close(&cli, CLI_OK);
+    return cli_close(&cli, failed ? CLI_FAIL : CLI_OK);
 }

@@ -308,7 +308,7 @@ $ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; e
 > A
 > {
 >   "tool": "retex-render", "version": "0.1.0", "table": "../t",
->   "status": "failed", "total": 1, "made": 0, "failed": 0, "seconds": S, "error": "the batch was not begun",
+>   "status": "failed", "total": 1, "made": 0, "failed": 0, "seconds": S, "error": "cannot read none.jpg: No such file or directory",
 >   "mistakes": [],
 >   ]
 > }

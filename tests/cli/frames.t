@@ -214,3 +214,38 @@ $ cd c; for k in 1 3; do retex-sample -q set-0$k.exr --texture:width=.7 x=t-1.pn
 ! retex-sample: error: frame 1: t-1.png: the output would replace the texture
 ! retex-sample: error: frame 1: set-01.exr: the output would replace the set
 = 2
+
+# With --keep-going, a frame that fails does not end the others.
+$ echo '#if (frame_number = 2) #error "no second\n" #end #include "s.pov" #if (frame_number = 4) sphere { 0, 1 pigment { image_map { png "none.png" } } } #end' >bad.pov; retex-render -q --size 8x6 --spp 2 bad.pov -t x=#1 --frames 1-5 -o k-%d.exr; ls k-*; rm k-*
+> k-1.exr
+! retex-render: error: frame 2: bad.pov:1:31: no second
+$ retex-render -q --size 8x6 --spp 2 bad.pov -t x=#1 --frames 1-5 --keep-going -o k-%d.exr; echo $?; ls k-*
+> 2
+> k-1.exr
+> k-3.exr
+> k-5.exr
+! retex-render: error: frame 2: bad.pov:1:31: no second
+! retex-render: error: frame 4: bad.pov:2:88: cannot find the image `none.png` in the scene's folder or the include path
+! retex-render: error: 2 of 5 frames failed
+$ retex-sample -q k-%d.exr --texture 'x=rgb(1,.5,.2)' --frames 1-5 -o y-%d.exr; ls y-*; rm y-*
+> y-1.exr
+! retex-sample: error: frame 2: cannot read k-2.exr: No such file or directory
+$ retex-sample -q k-%d.exr --texture 'x=rgb(1,.5,.2)' --frames 1-5 --keep-going -o y-%d.exr; echo $?; ls y-*
+> 2
+> y-1.exr
+> y-3.exr
+> y-5.exr
+! retex-sample: error: frame 2: cannot read k-2.exr: No such file or directory
+! retex-sample: error: frame 4: cannot read k-4.exr: No such file or directory
+! retex-sample: error: 2 of 5 frames failed
+$ retex-sample -q k-1.exr --texture 'x=rgb(1,.5,.2)' --keep-going -o y.exr
+! retex-sample: error: --keep-going needs --frames
+= 2
+$ retex-render -q --size 8x6 --spp 2 s.pov --keep-going -o y.exr
+! retex-render: error: --keep-going needs a table of pictures: --variants
+= 2
+$ retex-render -q --size 8x6 --spp 2 s.pov -t x=#1 --replace x=t-%d.png --frames 1-3 --keep-going -o r-%d.exr; retex-render -q --size 8x6 --spp 2 --max-memory 64M s.pov +KFF2 --keep-going -o e-%d.exr && ls e-*
+> e-1.exr
+> e-2.exr
+! retex-render: error: frame 3: cannot read t-3.png: No such file or directory
+! retex-render: error: 1 of 3 frames failed
