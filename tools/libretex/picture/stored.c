@@ -1,6 +1,7 @@
 /* All other formats, which OpenImageIO writes: the samples of the file, 1 to 4 bytes each, are kept in memory until all
  * are there. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "picture/format.h"
 #include "picture/srgb_codes.h"
@@ -10,6 +11,10 @@ static size_t row_samples(const RetexPicture *picture)
     return (size_t)picture->width * (size_t)picture->stored.channels;
 }
 
+/* Writing AVIF and HEIC, OpenImageIO 2.4 reads rows as long as those of libheif, which are padded: beyond the last row
+ * of a narrow picture too. */
+enum { BYTES_READ_BEYOND = 1024 };
+
 /* Allocates the samples, when the bridge has told how many there are. */
 static int need_samples(RetexPicture *picture, RetexError *err)
 {
@@ -17,9 +22,10 @@ static int need_samples(RetexPicture *picture, RetexError *err)
 
     if (status)
         return status;
+    const size_t bytes = row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8);
     pthread_mutex_lock(&picture->lock);
-    if (!picture->state)
-        picture->state = malloc(row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8));
+    if (!picture->state && (picture->state = malloc(bytes + BYTES_READ_BEYOND)))
+        memset((char *)picture->state + bytes, 0, BYTES_READ_BEYOND);
     if (!picture->state)
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     pthread_mutex_unlock(&picture->lock);
