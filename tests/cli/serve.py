@@ -62,6 +62,10 @@ def pictures(server):
                 wanted = combine('a.' + ending, file, '--quality', str(quality), *textures)
                 if answer.body != wanted:
                     print(f'{url}: not the bytes of retex-combine')
+    for ending, at, signature in ('jpg', 0, b'\xff\xd8'), ('png', 0, b'\x89PNG'), ('webp', 8, b'WEBP'), ('avif', 8, b'avif'):
+        answer = ask(server, '/v1/small/full.' + ending)
+        if answer.status != 400 or ending in json.loads(ask(server, '/v1').body)['formats']:
+            expect('a file of ' + ending, answer.body[at:at + len(signature)], signature)
     expect('type by Accept', ask(server, '/v1/small/full', Accept='image/png').getheader('Content-Type'), 'image/png')
     expect('Vary', ask(server, '/v1/small/full', Accept='image/png').getheader('Vary'), 'Accept')
 

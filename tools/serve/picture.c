@@ -192,6 +192,17 @@ int picture_make(const PicturePlan *plan, int nthreads, void **data, size_t *byt
 
 /* ---- formats ---- */
 
+/* Whether a file is what its ending says: OpenImageIO 2.4 writes HEIC by the name of AVIF. */
+static int has_signature(ServeFormat format, const char *data, size_t bytes)
+{
+    static const struct {
+        size_t at;
+        const char *text;
+    } signatures[SERVE_FORMATS] = {{0, "\xff\xd8"}, {0, "\x89PNG"}, {8, "WEBP"}, {8, "avif"}};
+    const size_t at = signatures[format].at, length = strlen(signatures[format].text);
+    return bytes >= at + length && memcmp(data + at, signatures[format].text, length) == 0;
+}
+
 static int can_write(ServeFormat format)
 {
     static const float pixels[3 * 8 * 8];
@@ -203,8 +214,9 @@ static int can_write(ServeFormat format)
     if (!code)
         code = retex_picture_rows(picture, 0, 8, pixels, NULL);
     code = take_picture(&picture, code, &data, &bytes, NULL);
+    const int is_right = !code && has_signature(format, data, bytes);
     free(data);
-    return !code && bytes > 0;
+    return is_right;
 }
 
 unsigned picture_formats(void)

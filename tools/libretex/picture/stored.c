@@ -11,7 +11,7 @@ static size_t row_samples(const RetexPicture *picture)
     return (size_t)picture->width * (size_t)picture->stored.channels;
 }
 
-/* Writing AVIF and HEIC, OpenImageIO 2.4 reads rows as long as those of libheif, which are padded: beyond the last row
+/* Writing HEIC, OpenImageIO 2.4 reads rows as long as those of libheif, which are padded: beyond the last row
  * of a narrow picture too. */
 enum { BYTES_READ_BEYOND = 1024 };
 
