@@ -9,7 +9,7 @@ Split surface_emission(const Shading *s)
     const Rgb emission = rgb_scale(finish->emission, s->opacity);
     if (!map)
         return (Split){emission, {0, 0, 0}};
-    const Rgbft c = pigment_eval(map, surface_texture_point(&s->surface), surface_uv(&s->surface).uv);
+    const Rgbft c = pigment_eval_on(map, &s->surface);
     return (Split){{0, 0, 0}, rgb_mul(emission, rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b)))};
 }
 
@@ -44,15 +44,9 @@ LightSampleContext light_sample_context(const Shading *s)
 
 /* ---- directions by the guide to caustics ---- */
 
-/* Probability of the lobes that are no deltas: the guide takes a share of their choice. */
-static float wide_probability(const Bsdf *b)
-{
-    return b->p_diffuse + b->p_back + b->p_glossy;
-}
-
 const CausticsCell *guide_cell(const PathContext *c, const Shading *s)
 {
-    return c->caustics && wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
+    return c->caustics && bsdf_wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
 }
 
 /* Density of a direction by BSDF and guide together, given the BSDF's own. The guide only samples wo's side. */
@@ -64,7 +58,8 @@ static float guided_density(const Vertex *v, Vec3 wi, float pdf)
     pdf *= 1 - v->cell->share;
     if (vec_dot(wi, b->normal) <= 0 || vec_dot(wi, b->geometric) <= 0)
         return pdf;
-    return pdf + v->cell->share * wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
+    /* the guide takes a share of the choice of lobes that are no deltas */
+    return pdf + v->cell->share * bsdf_wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
 }
 
 /* Sample a direction by the guide; weight and density are those of the BSDF for it. */
@@ -94,7 +89,7 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
         *pdf = sample->pdf;
         return found;
     }
-    float share = v->cell->share, wide = wide_probability(b), delta = 1 - wide, rest = (u_lobe - delta) / wide;
+    float share = v->cell->share, wide = bsdf_wide_probability(b), delta = 1 - wide, rest = (u_lobe - delta) / wide;
     if (rest >= 0 && rest < share) {
         found = sample_guide(v, rest / share, sample);
     } else {

@@ -122,13 +122,15 @@ enum { PATTERN_COLORS = 6 }; /* the longest list of colours */
 
 typedef struct Pigment {
     PigmentKind kind;
-    Rgbft color;             /* PIGMENT_COLOR, scene-linear */
+    Rgbft color;             /* PIGMENT_COLOR, or is_tinted: scene-linear */
     Pattern pattern;         /* PIGMENT_PATTERN */
     ColorMap map;            /* by the pattern's value; empty = black to white. Of patterns that choose among colours,
                                 colour i is entry i, with the value i */
     const WorkingSpace *space; /* of the map's colours; NULL: linear */
     ImageMap *image;         /* PIGMENT_IMAGE */
+    int is_tinted;           /* PIGMENT_IMAGE: the image's colours times `color` */
     int uv_mapping;
+    int second_uv;           /* of maps of our extension: they take the mesh's second set of UV */
     Transform transform;     /* pattern space to world; inverse takes a world point to where the pattern is evaluated.
                                 With uv_mapping it takes (u, v, 0) instead of the point */
     const IdentList *idents;
@@ -209,8 +211,13 @@ typedef struct Finish {
         double ior;          /* eta of the dielectric coat and of transmission; default 1.5 */
         double specular_tint; /* t, scalar, 0..1; default 1 (F0 as it is) */
         double transmission; /* 0..1: share of the base that is a (rough) dielectric and lets light through */
+        double clearcoat, clearcoat_roughness; /* weight, 0..1; GGX alpha is the square of the roughness */
+        Rgb sheen;           /* of fibres; black: there is none */
+        double sheen_roughness;
         /* At the shape's UV; their luminance is a factor. NULL = 1. */
-        const Pigment *metallic_map, *roughness_map, *transmission_map;
+        const Pigment *metallic_map, *roughness_map, *transmission_map, *clearcoat_map, *clearcoat_roughness_map;
+        const Pigment *sheen_map;    /* multiplies its colour. Or NULL */
+        const Normal *clearcoat_normal; /* NORMAL_TANGENT, or NULL: the coat is flat */
         const Pigment *emission_map; /* at the shape's UV; multiplies emission in place of the pigment. Or NULL */
     } retex;
     int lambert, matte;      /* finish_is_lambert, finish_is_matte; set at the end of reading; 0 is only slower */
@@ -352,6 +359,7 @@ typedef struct Mesh {
     int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
     const struct Bvh *tree;  /* over the faces, or NULL: see mesh_index */
     const MeshTangents *tangents; /* or NULL: each face has its own */
+    const struct Mesh *second;    /* the same mesh with its second set of UV, or NULL */
 } Mesh;
 
 static inline int mesh_face_has_normals(const MeshFace *f)

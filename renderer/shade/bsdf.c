@@ -226,11 +226,13 @@ static Split eval_bumped(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
     return sum;
 }
 
-Split bsdf_eval(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+static Split split_scale(Split s, float k)
 {
-    if (b->lambert)
-        return eval_lambert(b, wi, pdf);
-    *pdf = 0;
+    return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)};
+}
+
+static Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+{
     if (b->bumped)
         return eval_bumped(b, wi, light, pdf);
     double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
@@ -239,6 +241,22 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
     if (cos_i < 0 && side < 0)
         return eval_transmission(b, wi, cos_i, pdf);
     return (Split){{0, 0, 0}, {0, 0, 0}};
+}
+
+static Split eval_coating(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+{
+    Split sum = split_scale(eval_base(b, wi, light, pdf), b->coating.under);
+    if (vec_dot(wi, b->geometric) > 0)
+        sum.i = rgb_add(sum.i, coating_eval(&b->coating, bsdf_surface_normal(b), b->wo, wi, pdf));
+    return sum;
+}
+
+Split bsdf_eval(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+{
+    if (b->lambert)
+        return eval_lambert(b, wi, pdf);
+    *pdf = 0;
+    return b->coating.present ? eval_coating(b, wi, light, pdf) : eval_base(b, wi, light, pdf);
 }
 
 /* About an axis, where the cosine of the angle to it and the sine are known. */
@@ -312,11 +330,6 @@ static int sample_highlight(const Bsdf *b, float choice, float u1, float u2, Vec
     return vec_dot(*wi, b->normal) > 0;
 }
 
-static Split split_scale(Split s, float k)
-{
-    return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)};
-}
-
 /* An interpolated normal may send a mirrored or refracted ray to the wrong side of the surface, which would look black
  * along its edges: the surface's own normal takes over, by which such a refracted ray is reflected totally. */
 static int sample_mirror(const Bsdf *b, BsdfSample *sample)
@@ -356,6 +369,33 @@ Vec3 bsdf_enter(const Bsdf *b, float u1, float u2)
     return vec_dot(wi, b->geometric) < 0 ? wi : mirrored(wi, b->geometric);
 }
 
+/* Value and density of all lobes along the direction that one of them has chosen. */
+static int take_direction(const Bsdf *b, BsdfSample *sample)
+{
+    const Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
+    if (sample->pdf <= 0)
+        return 0;
+    sample->weight = split_scale(f, 1 / sample->pdf);
+    return 1;
+}
+
+static int sample_coat(const Bsdf *b, float u1, float u2, BsdfSample *sample)
+{
+    sample->wi = coating_sample_coat(&b->coating, b->wo, u1, u2);
+    if (vec_dot(sample->wi, b->geometric) <= 0)
+        return 0;
+    if (b->coating.coat.alpha > 0)
+        return take_direction(b, sample);
+    sample->weight.i = rgb_grey(coating_mirrored(&b->coating, b->wo) / b->coating.coat.p);
+    return 1;
+}
+
+static int sample_sheen(const Bsdf *b, float u1, float u2, BsdfSample *sample)
+{
+    sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
+    return vec_dot(sample->wi, b->geometric) > 0 && take_direction(b, sample);
+}
+
 int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
 {
     if (b->lambert)
@@ -372,6 +412,10 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
         sample->subsurface = 1;
         return 1;
     }
+    if (b->coating.present && (u -= b->coating.coat.p) < 0)
+        return sample_coat(b, u1, u2, sample);
+    if (b->coating.present && (u -= b->coating.sheen.p) < 0)
+        return sample_sheen(b, u1, u2, sample);
     if ((u -= b->p_diffuse) < 0) {
         sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
     } else if ((u -= b->p_back) < 0) {
@@ -388,9 +432,5 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
     }
     if (b->bumped && (vec_dot(sample->wi, b->geometric) < 0) != sample->transmitted)
         sample->wi = mirrored(sample->wi, b->geometric);
-    Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
-    if (sample->pdf <= 0)
-        return 0;
-    sample->weight = split_scale(f, 1 / sample->pdf);
-    return 1;
+    return take_direction(b, sample);
 }

@@ -3,8 +3,9 @@
  *     f = d * albedo + i        (supplement 4.1; d, i >= 0)
  *
  * Lobes: Lambertian or Disney diffuse and retro-reflection, a GGX microfacet reflection, POV-Ray's highlights, a
- * mirror, smooth or rough transmission, and straight passage through a surface that does not refract. Directions point
- * away from the surface; wo is where the path came from. Cosines are about the shading normal.
+ * mirror, smooth or rough transmission, and straight passage through a surface that does not refract; over these a
+ * clear coat and sheen. Directions point away from the surface; wo is where the path came from. Cosines are about the
+ * shading normal.
  *
  * Where a `normal` of the scene tilts the surface (`bumped`), lobes are about the tilted normal, and what they would
  * send to the wrong side of the surface is mirrored at the surface, as it would go on from one side of a groove to the
@@ -18,6 +19,7 @@
 #define RENDERER_SHADE_BSDF_H
 
 #include "base/vec.h"
+#include "shade/coating.h"
 #include "shade/split.h"
 
 /* One of POV-Ray's highlights: amount (cosine)^exponent, of what a light source of colour 1 is seen as. */
@@ -39,7 +41,8 @@ typedef struct Bsdf {
     int bumped;              /* normal is that of bumps; then lambert is 0 */
     int hidden;              /* bumps face away from wo: normal is that of the opposite slope, which wo sees */
     Vec3 diffuse_normal;     /* where hidden: of the diffuse lobes, for which it does not matter who looks */
-    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; sum 1, or 0: nothing scatters */
+    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; with those below and of the coating
+                                                             * the sum is 1, or 0: nothing scatters */
 
     float diffuse, diffuse_back;
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
@@ -62,6 +65,7 @@ typedef struct Bsdf {
     Rgb irid_phase;
     int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
     Split mirror;            /* weight of the mirror lobe, already at cos_o */
+    Coating coating;           /* disney: coat and sheen; what they let through multiplies the weights above */
 } Bsdf;
 
 typedef struct BsdfSample {
@@ -98,6 +102,15 @@ Rgb bsdf_irid(const Bsdf *bsdf, float cos_i);
 static inline Vec3 bsdf_surface_normal(const Bsdf *b)
 {
     return b->bumped && b->hidden ? b->diffuse_normal : b->normal;
+}
+
+/* Probability of the lobes that are no deltas. */
+static inline float bsdf_wide_probability(const Bsdf *b)
+{
+    const float p = b->p_diffuse + b->p_back + b->p_glossy;
+    if (b->lambert || !b->coating.present)
+        return p;
+    return p + b->coating.sheen.p + (b->coating.coat.alpha > 0 ? b->coating.coat.p : 0);
 }
 
 /* No lobe but a delta sends light through. */

@@ -125,7 +125,7 @@ static void setup_povray(Bsdf *b, const Surface *surface, float filter, float tr
 /* A number of the extension block: the same everywhere, or varied over the surface by a map. */
 static float map_value(double value, const Pigment *map, const Surface *surface)
 {
-    const Rgbft c = pigment_eval(map, surface_texture_point(surface), surface_uv(surface).uv);
+    const Rgbft c = pigment_eval_on(map, surface);
     return clamp01(value * (double)rgb_luminance(rgb(c.r, c.g, c.b)));
 }
 
@@ -177,16 +177,68 @@ static float glossy_estimate(const Bsdf *b)
     return (reflectance > 0.02f ? reflectance : 0.02f) * (1 - b->transmission) * b->coverage;
 }
 
-static void setup_choice(Bsdf *b)
+/* The colours of the extension's sheen: the same everywhere, or times a map. */
+static Rgb sheen_color(const Finish *f, const Surface *surface)
+{
+    Rgb color = f->retex.sheen;
+    if (f->retex.sheen_map) {
+        const Rgbft c = pigment_eval_on(f->retex.sheen_map, surface);
+        color = rgb_mul(color, rgb(c.r, c.g, c.b));
+    }
+    return rgb(clamp01(color.r), clamp01(color.g), clamp01(color.b));
+}
+
+/* The normal of the coat is not that of the bumps below it. Towards one that faces away nothing is reflected. */
+static Vec3 coat_normal(const Finish *f, const Surface *surface, Vec3 wo)
+{
+    Vec3 normal, geometric;
+    bsdf_normals(surface, wo, &normal, &geometric);
+    if (!f->retex.clearcoat_normal)
+        return normal;
+    const Vec3 tilted = normal_tilted(f->retex.clearcoat_normal, surface, normal, vec_neg(wo));
+    return vec_dot(wo, tilted) > LEAST_COSINE ? tilted : normal;
+}
+
+static int finish_has_coating(const Finish *f)
+{
+    return f->retex.clearcoat > 0 || !rgb_is_black(f->retex.sheen);
+}
+
+/* of_coat, of_sheen: what they reflect. Glass has them on its outside. */
+static void setup_coating(Bsdf *b, const Finish *f, const Surface *surface, float *of_coat, float *of_sheen)
+{
+    const CoatingNumbers numbers = {
+        .clearcoat = mapped(f->retex.clearcoat, f->retex.clearcoat_map, surface),
+        .clearcoat_roughness = mapped(f->retex.clearcoat_roughness, f->retex.clearcoat_roughness_map, surface),
+        .sheen = sheen_color(f, surface),
+        .sheen_roughness = clamp01(f->retex.sheen_roughness),
+        .coverage = b->coverage,
+        .coat_normal = coat_normal(f, surface, b->wo),
+        .normal = bsdf_surface_normal(b),
+        .wo = b->wo,
+    };
+    if (surface->backside && finish_transmits(f))
+        return;
+    coating_set(&b->coating, &numbers, of_coat, of_sheen);
+    const float under = b->coating.under;
+    b->mirror = (Split){rgb_scale(b->mirror.d, under), rgb_scale(b->mirror.i, under)};
+    if (b->transmission > 0) /* else it passes by holes, where no coat is */
+        b->passing = (Split){rgb_scale(b->passing.d, under), rgb_scale(b->passing.i, under)};
+}
+
+static void setup_choice(Bsdf *b, float of_coat, float of_sheen)
 {
     float glossy = b->disney ? glossy_estimate(b) : b->highlight_lights_only ? 0 : b->highlights;
     if (b->disney && !b->smooth && b->eta != 1)
         glossy += b->transmission;
     float w[6] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy,
                   split_neutral(b->mirror),    split_neutral(b->passing),        b->subsurface * NEUTRAL_ALBEDO};
-    float sum = w[0] + w[1] + w[2] + w[3] + w[4] + w[5];
+    if (b->coating.present) /* mirror and passing are scaled already */
+        w[0] *= b->coating.under, w[1] *= b->coating.under, w[2] *= b->coating.under;
+    float sum = w[0] + w[1] + w[2] + w[3] + w[4] + w[5] + of_coat + of_sheen;
     if (!(sum > 0))
         return;
+    b->coating.coat.p = of_coat / sum, b->coating.sheen.p = of_sheen / sum;
     b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum, b->p_subsurface = w[5] / sum;
 }
@@ -262,7 +314,10 @@ static void setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float 
         setup_disney(b, finish, surface, filter, transmit, opacity);
     else
         setup_povray(b, surface, filter, transmit, opacity);
-    setup_choice(b);
+    float of_coat = 0, of_sheen = 0;
+    if (finish->retex.present && finish_has_coating(finish))
+        setup_coating(b, finish, surface, &of_coat, &of_sheen);
+    setup_choice(b, of_coat, of_sheen);
     if (b->alpha > 0)
         vec_frame(b->normal, &b->s, &b->t);
 }
@@ -286,4 +341,5 @@ void bsdf_stop_passing(Bsdf *b)
     b->p_passing = 0;
     b->p_diffuse *= scale, b->p_back *= scale, b->p_glossy *= scale, b->p_mirror *= scale;
     b->p_subsurface *= scale;
+    b->coating.coat.p *= scale, b->coating.sheen.p *= scale;
 }

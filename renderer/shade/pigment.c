@@ -134,6 +134,11 @@ Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv)
     return pigment_pattern(pigment, &point, uv);
 }
 
+Rgbft pigment_eval_on(const Pigment *map, const Surface *surface)
+{
+    return pigment_eval(map, surface_texture_point(surface), surface_uv_of_set(surface, map->second_uv));
+}
+
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
 {
     const Vec2 at = pigment_image_uv(pigment->image, p);

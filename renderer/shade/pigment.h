@@ -3,9 +3,12 @@
 #define RENDERER_SHADE_PIGMENT_H
 
 #include "pattern/pattern.h"
+#include "shape/surface.h"
 
 /* World point p; uv is the shape's UV (used with uv_mapping). Thread-safe. */
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* Of a map of the extension `retex`, which is on the shape's UV. */
+Rgbft pigment_eval_on(const Pigment *map, const Surface *surface);
 /* The same of a surface whose normal patterns may ask for; at->p is in the world. */
 Rgbft pigment_eval_at(const Pigment *pigment, const PatternPoint *at, Vec2 uv);
 /* The same as numbers of the scene's working space; a plain colour as it is kept in the pigment. */

@@ -163,7 +163,7 @@ static Rgbft interpolate(const Pigment *pigment, Vec2 uv)
     }
 }
 
-Rgbft image_lookup(const Pigment *pigment, Vec2 uv)
+static Rgbft untinted(const Pigment *pigment, Vec2 uv)
 {
     const ImageMap *image = pigment->image;
     const int blends = image->interpolate && !working_is_linear(pigment->space);
@@ -178,4 +178,12 @@ Rgbft image_lookup(const Pigment *pigment, Vec2 uv)
     else
         retex_texture_nearest(image->texture, uv.u, uv.v, rgba);
     return with_transparency(image, rgba, image->filter_all, image->transmit_all);
+}
+
+Rgbft image_lookup(const Pigment *pigment, Vec2 uv)
+{
+    Rgbft c = untinted(pigment, uv);
+    if (pigment->is_tinted)
+        c.r *= pigment->color.r, c.g *= pigment->color.g, c.b *= pigment->color.b;
+    return c;
 }

@@ -8,9 +8,9 @@ Vec3 tangent_normal(const Normal *bumps, const Surface *surface, Vec3 normal)
 {
     const Vec3 outward = surface->backside ? vec_neg(normal) : normal;
     Vec3 of_u, of_v;
-    if (!surface->primitive || !surface_tangents(surface, outward, &of_u, &of_v))
+    if (!surface->primitive || !surface_tangents(surface, bumps->vectors->second_uv, outward, &of_u, &of_v))
         return normal;
-    const Rgbft c = pigment_eval(bumps->vectors, surface_texture_point(surface), surface_uv(surface).uv);
+    const Rgbft c = pigment_eval_on(bumps->vectors, surface);
     /* The picture may be turned or mirrored on the UV. */
     const double(*m)[4] = bumps->vectors->transform.m;
     const Vec3 x = vec_normalize(vec_add(vec_scale(of_u, m[0][0]), vec_scale(of_v, m[1][0])));

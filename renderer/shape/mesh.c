@@ -71,19 +71,23 @@ Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2)
     return mesh_face_has_normals(f) ? interpolate(mesh->normals, f->normal, 1 - b1 - b2, b1, b2) : vec3(0, 0, 0);
 }
 
-static void uv(const Surface *surface, ShapeUv *out)
+int mesh_uv(const Mesh *mesh, const Surface *surface, Vec2 *uv)
 {
-    const Mesh *mesh = surface->primitive->shape.mesh;
     const MeshFace *f = &mesh->faces[surface->face];
     double b1 = surface->b1, b2 = surface->b2, b0 = 1 - b1 - b2;
 
-    out->has_uv = out->has_natural = mesh_face_has_uvs(f);
-    if (out->has_uv) {
-        const Vec2 *a = &mesh->uvs[f->uv[0]], *b = &mesh->uvs[f->uv[1]], *c = &mesh->uvs[f->uv[2]];
-        out->uv.u = b0 * a->u + b1 * b->u + b2 * c->u;
-        out->uv.v = b0 * a->v + b1 * b->v + b2 * c->v;
-        out->natural = out->uv;
-    }
+    if (!mesh_face_has_uvs(f))
+        return 0;
+    const Vec2 *a = &mesh->uvs[f->uv[0]], *b = &mesh->uvs[f->uv[1]], *c = &mesh->uvs[f->uv[2]];
+    uv->u = b0 * a->u + b1 * b->u + b2 * c->u;
+    uv->v = b0 * a->v + b1 * b->v + b2 * c->v;
+    return 1;
+}
+
+static void uv(const Surface *surface, ShapeUv *out)
+{
+    out->has_uv = out->has_natural = mesh_uv(surface->primitive->shape.mesh, surface, &out->uv);
+    out->natural = out->uv;
 }
 
 static int texture(const Surface *surface)

@@ -134,3 +134,13 @@ SurfaceUv surface_uv(const Surface *surface)
         of.uv = (Vec2){surface->position.x, surface->position.y};
     return (SurfaceUv){of.uv, of.natural, of.has_natural};
 }
+
+Vec2 surface_uv_of_set(const Surface *surface, int second)
+{
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    Vec2 uv;
+
+    if (second && mesh && mesh->second && mesh_uv(mesh->second, surface, &uv))
+        return uv;
+    return surface_uv(surface).uv;
+}

@@ -72,9 +72,11 @@ static inline Vec3 surface_texture_normal(const Surface *surface)
     return vec_normalize(transform_inverse_normal(&surface->instance->transform, surface->geometric_normal));
 }
 SurfaceUv surface_uv(const Surface *surface); /* not part of surface_at, for most surfaces have one colour */
+/* Its `uv`, or that of a mesh's second set, if it has one. */
+Vec2 surface_uv_of_set(const Surface *surface, int second);
 /* Unit vectors perpendicular to a unit normal, in the space of the surface's texture: where u grows, and where v does.
- * 0 where UV do not span the surface. normal: on the outward side, in that space. */
-int surface_tangents(const Surface *surface, Vec3 normal, Vec3 *tangent, Vec3 *bitangent);
+ * 0 where UV do not span the surface. normal: on the outward side, in that space. second: as of surface_uv_of_set. */
+int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tangent, Vec3 *bitangent);
 /* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */
 void surface_turn(Surface *surface, int backside);
 
@@ -101,6 +103,8 @@ double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of
 /* ---- meshes ---- */
 
 double mesh_face_area(const Primitive *primitive, int face);
+/* UV of the surface's point by the mesh's set, which need not be its own one. 0 where the face has none. */
+int mesh_uv(const Mesh *mesh, const Surface *surface, Vec2 *uv);
 /* The interpolated normal, of any length; 0 where the face has none. */
 Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2);
 /* Makes the tree that goes with intersecting it in double, if it is not there: without it each face is tested. 0

@@ -120,9 +120,8 @@ int mesh_add_tangents(Arena *arena, Mesh *mesh)
 /* ---- at a point ---- */
 
 /* Directions in canonical space. */
-static int mesh_directions(const Surface *surface, Vec3 *along_u, Vec3 *along_v)
+static int mesh_directions(const Mesh *mesh, const Surface *surface, Vec3 *along_u, Vec3 *along_v)
 {
-    const Mesh *mesh = surface->primitive->shape.mesh;
     const MeshFace *f = &mesh->faces[surface->face];
     if (!mesh_face_has_uvs(f) || !face_directions(mesh, f, along_u, along_v))
         return 0;
@@ -173,12 +172,13 @@ static int shape_directions(const Surface *surface, Vec3 normal, Vec3 *along_u, 
     return 1;
 }
 
-int surface_tangents(const Surface *surface, Vec3 normal, Vec3 *tangent, Vec3 *bitangent)
+int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tangent, Vec3 *bitangent)
 {
     const Primitive *primitive = surface->primitive;
+    const Mesh *mesh = primitive->shape.mesh;
     Vec3 along_u, along_v;
-    if (primitive->shape.mesh) {
-        if (!mesh_directions(surface, &along_u, &along_v))
+    if (mesh) {
+        if (!mesh_directions(second && mesh->second ? mesh->second : mesh, surface, &along_u, &along_v))
             return 0;
         along_u = transform_vector(&primitive->transform, along_u);
         along_v = transform_vector(&primitive->transform, along_v);

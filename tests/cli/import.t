@@ -95,6 +95,32 @@ $ retex-import -q varying.gltf -o varying && grep -A8 declare.Steel varying/vary
 > }
 $ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic varying/varying.pov -o varying.exr && /usr/bin/python3 $TESTS/import_finish.py varying.exr
 
+# Maps and normals on a second set of UV are what they are on the first.
+$ retex-import -q varying_second.gltf -o second && grep -c second_uv second/second.pov second/second-meshes.inc
+> second/second.pov:2
+> second/second-meshes.inc:1
+$ retex-render -q --plain --spp 1 --size 96x72 --aov uv,roughness,metallic second/second.pov -o second.exr && for part in roughness metallic; do retex-diff -q --part $part --fail-abs 0.0005 second.exr varying.exr; done
+$ for m in bumpy bumpy_second; do retex-import -q -f $m.gltf -o bumps && retex-render -q --plain --spp 1 --size 96x72 --aov normal bumps/bumps.pov -o $m.exr; done; retex-diff -q --part normal --fail-abs 0.0005 bumpy.exr bumpy_second.exr
+
+# Colours of vertices multiply an image, as a factor of its colours does.
+$ sh look colored.gltf && retex-diff -q --part albedo --fail-abs 0.01 colored.exr tinted.exr
+
+# Clear coat and sheen.
+$ retex-import -q coated.gltf -o coated && grep -A9 declare.Silk coated/coated.pov
+> #declare Silk = texture {
+>   pigment { rgb 1 }
+>   finish {
+>     diffuse 0.96 specular albedo 0.04 roughness 1
+>     #ifdef (Retex) retex { metallic 0 roughness 1 ior 1.5
+>       clearcoat 0.5 clearcoat_roughness 0.25
+>       clearcoat_map { image_map { png "textures/Image_clearcoat.png" gamma 1 interpolate 2 } }
+>       clearcoat_normal_map { image_map { png "textures/Image_2.png" gamma 1 interpolate 2 } } 0.5
+>       sheen rgb <0.5, 0.25, 0.125> sheen_roughness 0.75 } #end
+>   }
+
+# Retexturing keeps them: with the original colour it is the plain picture, with another one that of a new render.
+$ for m in coated:Silk colored:Wood second:Steel; do n=${m%:*} t=${m#*:}; [ -d $n ] || retex-import -q $n.gltf -o $n; for o in "--plain -o plain.exr" "-t $t -o set.exr" "--plain --replace $t=rgb(.2,.5,.1) -o again.exr"; do retex-render -q --spp 4 --size 64x48 $n/$n.pov $o; done; retex-combine -q set.exr -o same.exr; retex-combine -q set.exr --texture "$t=rgb(.2,.5,.1)" -o green.exr; retex-diff -q --fail-abs 0.0001 same.exr plain.exr; retex-diff -q --fail-psnr 55 green.exr again.exr; done
+
 # Normal maps: of glTF, with their scale; of OBJ, where the picture tells that it has normals or heights. Heights that
 # rise by 1 over the picture's width, a hundredth of it high, 30 times: a slope of .3.
 $ for m in bumpy.gltf bumpy.obj ramp.obj; do retex-import -q -f $m -o bumpy && grep retex_normal_map bumpy/bumpy.pov; cat camera.inc >>bumpy/bumpy.pov; retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr; oiiotool -q bumpy.exr --subimage normal -o bumpy.exr; make_values bumpy.exr 0,0 | awk '{ printf "%.2f %.2f %.2f\n", $1, $2, $3 }'; done

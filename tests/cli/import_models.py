@@ -186,6 +186,29 @@ for name, image in (('bumpy', 'leaning.png'), ('ramp', '-bm 30 ramp.png')):
     write(name + '.obj', obj.replace('card.mtl', name + '.mtl'))
     write(name + '.mtl', 'newmtl wood\nKd 0.3 0.3 0.3\nmap_Bump %s\n' % image)
 
+# The same numbers and normals, on the second set of UV, and the colours' image on the first.
+both = {'baseColorTexture': {'index': 0}, 'metallicRoughnessTexture': {'index': 0, 'texCoord': 1}, 'roughnessFactor': .75}
+write('varying_second.gltf', json.dumps(gltf({'name': 'steel', 'pbrMetallicRoughness': both}, numbers, second_uv=True)))
+write('bumpy_second.gltf', json.dumps(gltf({
+    'name': 'bumpy', 'normalTexture': {'index': 0, 'scale': .5, 'texCoord': 1},
+    'pbrMetallicRoughness': {'baseColorTexture': {'index': 0}, 'metallicFactor': 0}},
+    {'uri': 'leaning.png'}, second_uv=True)))
+
+# Colours of vertices over an image.
+colored = gltf(MATERIAL, buffer=buffer + struct.pack('<12f', *(.5, 1, .25) * 4))
+colored['accessors'].append({'bufferView': 3, 'componentType': 5126, 'count': 4, 'type': 'VEC3'})
+colored['bufferViews'].append({'buffer': 0, 'byteOffset': 92, 'byteLength': 48})
+colored['meshes'][0]['primitives'][0]['attributes']['COLOR_0'] = 4
+write('colored.gltf', json.dumps(colored))
+
+# A coat whose weight varies with its image's red, and sheen.
+write('coated.gltf', json.dumps(dict(gltf({'name': 'silk', 'pbrMetallicRoughness': {'metallicFactor': 0}, 'extensions': {
+    'KHR_materials_clearcoat': {
+        'clearcoatFactor': .5, 'clearcoatTexture': {'index': 0}, 'clearcoatRoughnessFactor': .25,
+        'clearcoatNormalTexture': {'index': 0, 'scale': .5}},
+    'KHR_materials_sheen': {'sheenColorFactor': [.5, .25, .125], 'sheenRoughnessFactor': .75}}}),
+    extensionsUsed=['KHR_materials_clearcoat', 'KHR_materials_sheen'])))
+
 # An image that ends too early, and one that is none.
 write('torn.gltf', json.dumps(gltf(MATERIAL, F[:-30])))
 write('no_image.gltf', json.dumps(gltf(MATERIAL, F[:8] + b'no')))

@@ -50,7 +50,7 @@ static double worst_of_sphere(const char *object)
             continue;
         const Surface s = seen(scene, vec_scale(p, 4), vec_neg(p));
         Vec3 t, b;
-        assert_int_equal(surface_tangents(&s, s.shading_normal, &t, &b), 1);
+        assert_int_equal(surface_tangents(&s, 0, s.shading_normal, &t, &b), 1);
         assert_true(fabs(vec_dot(t, s.shading_normal)) < 1e-9 && fabs(vec_length(t) - 1) < 1e-9);
         assert_true(fabs(vec_dot(b, s.shading_normal)) < 1e-9 && fabs(vec_length(b) - 1) < 1e-9);
         const Vec3 east = vec3(-sin(a), 0, cos(a)), north = vec3(-y * cos(a), r, -y * sin(a));

@@ -31,14 +31,12 @@ void import_tell(const Import *import, char kind, const char *fmt, ...)
 void import_leave_out(Import *import, LeftOut what)
 {
     static const char *const texts[] = {
-        [LEFT_NORMAL_MAP] = "normal maps with another UV than the colour's are left out",
-        [LEFT_FINISH_MAP] = "of images of metallic, roughness and transmission with another UV than the colour's, "
-                            "the mean is taken",
-        [LEFT_EMISSION_MAP] = "images of emission with another UV than the colour's are left out",
+        [LEFT_NORMAL_MAP] = "normal maps with a third set of UV are left out",
+        [LEFT_FINISH_MAP] = "of images of the finish with a third set of UV, the mean is taken",
+        [LEFT_EMISSION_MAP] = "images of emission with a third set of UV are left out",
         [LEFT_SPECULAR_MAP] = "specular maps are left out",
-        [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface has an image",
-        [LEFT_CLEARCOAT] = "clear coats are left out",
-        [LEFT_SHEEN] = "sheen is left out",
+        [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface transmits light",
+        [LEFT_SHEEN_ROUGHNESS_MAP] = "images of the roughness of sheen are left out",
         [LEFT_ANIMATION] = "animations are left out",
         [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
         [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",

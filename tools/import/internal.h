@@ -66,7 +66,9 @@ typedef struct ImageUse {
 typedef struct ImportMaterial {
     char name[NAME_SIZE];
     int uv_set;    /* of the meshes, which the image uses */
-    int has_image; /* the meshes need uv_set */
+    int second_uv; /* the set that maps use which do not use the first; -1: none */
+    int has_image;
+    float vertex_factor[3]; /* of colours of vertices, where there is no image */
     int is_solid;  /* declared as a material, with an interior */
     int is_used;
 } ImportMaterial;
@@ -126,9 +128,8 @@ typedef enum LeftOut {
     LEFT_FINISH_MAP,
     LEFT_EMISSION_MAP,
     LEFT_SPECULAR_MAP,
+    LEFT_SHEEN_ROUGHNESS_MAP,
     LEFT_VERTEX_COLORS,
-    LEFT_CLEARCOAT,
-    LEFT_SHEEN,
     LEFT_ANIMATION,
     LEFT_SKIN,
     LEFT_AMBIENT_LIGHT,

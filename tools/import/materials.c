@@ -46,41 +46,83 @@ static void print_pigment(FILE *out, const Surface *s, const char *file)
     fprintf(out, " }\n");
 }
 
+typedef char File[NAME_SIZE + 32]; /* "" = none */
+
 typedef struct MapFiles {
-    char metallic[NAME_SIZE + 32], roughness[NAME_SIZE + 32], transmission[NAME_SIZE + 32]; /* "" = none */
-    char emission[NAME_SIZE + 32], normal[NAME_SIZE + 32];
-    float mean_metallic, mean_roughness, mean_transmission;
+    File metallic, roughness, transmission, clearcoat, clearcoat_roughness, sheen, emission, normal, clearcoat_normal;
+    float mean_metallic, mean_roughness, mean_transmission, mean_clearcoat, mean_clearcoat_roughness;
 } MapFiles;
 
-/* An image of numbers. */
-static void print_numbers(FILE *out, const char *what, const char *file, const Map *map)
+/* An image that varies a finish, after its word. options: of the image. */
+static void print_map(FILE *out, const char *word, const char *file, const char *options, const Map *map, int uv_set)
 {
-    fprintf(out, "%s { image_map { %s \"%s\" gamma 1 interpolate 2 }", what, images_keyword(file), file);
+    fprintf(out, "%s%s { image_map { %s \"%s\" %sinterpolate 2 }", word, map->uv_set != uv_set ? " second_uv" : "",
+            images_keyword(file), file, options);
     print_place(out, &map->place);
     fprintf(out, " }");
 }
 
-static void print_finish_map(FILE *out, const char *what, const char *file, const Map *map)
+/* On a line of its own, if there is one. */
+static void print_finish_map(FILE *out, const char *word, const char *file, const char *options, const Map *map,
+                             int uv_set)
 {
     if (!file[0])
         return;
     fprintf(out, "\n      ");
-    print_numbers(out, what, file, map);
+    print_map(out, word, file, options, map, uv_set);
 }
 
-static void print_normal(FILE *out, const Surface *s, const MapFiles *files)
+static void print_normal(FILE *out, const Surface *s, const MapFiles *files, int uv_set)
 {
     if (!files->normal[0])
         return;
     fprintf(out, "  #ifdef (Retex) normal { ");
-    print_numbers(out, "retex_normal_map", files->normal, &s->normal_map);
+    print_map(out, "retex_normal_map", files->normal, "gamma 1 ", &s->normal_map, uv_set);
     if (s->normal_scale != 1)
         fprintf(out, " %.4g", (double)s->normal_scale);
     fprintf(out, " } #end\n");
 }
 
+static void print_coating(FILE *out, const Surface *s, const MapFiles *files, int uv_set)
+{
+    if (s->clearcoat > 0)
+        fprintf(out, "\n      clearcoat %.4g clearcoat_roughness %.4g", (double)s->clearcoat,
+                (double)s->clearcoat_roughness);
+    print_finish_map(out, "clearcoat_map", files->clearcoat, "gamma 1 ", &s->clearcoat_map, uv_set);
+    print_finish_map(out, "clearcoat_roughness_map", files->clearcoat_roughness, "gamma 1 ",
+                     &s->clearcoat_roughness_map, uv_set);
+    print_finish_map(out, "clearcoat_normal_map", files->clearcoat_normal, "gamma 1 ", &s->clearcoat_normal_map,
+                     uv_set);
+    if (files->clearcoat_normal[0] && s->clearcoat_normal_scale != 1)
+        fprintf(out, " %.4g", (double)s->clearcoat_normal_scale);
+    if (largest(s->sheen) > 0) {
+        fprintf(out, "\n      sheen ");
+        print_color(out, s->sheen);
+        fprintf(out, " sheen_roughness %.4g", (double)s->sheen_roughness);
+    }
+    print_finish_map(out, "sheen_map", files->sheen, "", &s->sheen_map, uv_set);
+}
+
+/* The block of our extension. */
+static void print_block(FILE *out, const Surface *s, const MapFiles *files, int uv_set)
+{
+    fprintf(out, "\n    #ifdef (Retex) retex { metallic %.4g roughness %.4g ior %.4g", (double)s->metallic,
+            (double)s->roughness, (double)s->ior);
+    if (s->tint != 1)
+        fprintf(out, " specular_tint %.4g", (double)s->tint);
+    if (s->transmission > 0)
+        fprintf(out, " transmission %.4g", (double)s->transmission);
+    print_finish_map(out, "metallic_map", files->metallic, "gamma 1 ", &s->metallic_map, uv_set);
+    print_finish_map(out, "roughness_map", files->roughness, "gamma 1 ", &s->roughness_map, uv_set);
+    print_finish_map(out, "transmission_map", files->transmission, "gamma 1 ", &s->transmission_map, uv_set);
+    print_finish_map(out, "emission_map", files->emission, "", &s->emission_map, uv_set);
+    print_coating(out, s, files, uv_set);
+    fprintf(out, " } #end");
+}
+
 /* For POV-Ray the nearest finish; for this renderer the surface itself. */
-static void print_finish(FILE *out, const Surface *s, const float emission[3], int has_diffuse, const MapFiles *files)
+static void print_finish(FILE *out, const Surface *s, const float emission[3], int has_diffuse, const MapFiles *files,
+                         int uv_set)
 {
     const double m = (double)files->mean_metallic, rough = (double)files->mean_roughness, ior = (double)s->ior;
     const double f0 = (double)s->tint * pow((ior - 1) / (ior + 1), 2), alpha = fmax(rough * rough, 0.01);
@@ -106,22 +148,8 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
         if (files->emission[0])
             fprintf(out, " #end");
     }
-    fprintf(out, "\n    #ifdef (Retex) retex { metallic %.4g roughness %.4g ior %.4g", (double)s->metallic,
-            (double)s->roughness, ior);
-    if (s->tint != 1)
-        fprintf(out, " specular_tint %.4g", (double)s->tint);
-    if (s->transmission > 0)
-        fprintf(out, " transmission %.4g", (double)s->transmission);
-    print_finish_map(out, "metallic_map", files->metallic, &s->metallic_map);
-    print_finish_map(out, "roughness_map", files->roughness, &s->roughness_map);
-    print_finish_map(out, "transmission_map", files->transmission, &s->transmission_map);
-    if (files->emission[0]) {
-        fprintf(out, "\n      emission_map { image_map { %s \"%s\" interpolate 2 }", images_keyword(files->emission),
-                files->emission);
-        print_place(out, &s->emission_map.place);
-        fprintf(out, " }");
-    }
-    fprintf(out, " } #end\n  }\n");
+    print_block(out, s, files, uv_set);
+    fprintf(out, "\n  }\n");
 }
 
 /* Light that is absorbed: POV-Ray's fade_power 1001 is exp((fade_color - 1) x / fade_distance). */
@@ -178,126 +206,171 @@ static int place_emission(Surface *s, float emission[3])
     return 1;
 }
 
-/* The image of a finish's number, as a file of its own. A mesh has one set of UV: where the colour uses another one,
- * the mean is taken. */
-static int write_finish_map(Import *import, const Map *map, int channel, const char *what, int uv_set, float *number,
-                            float *mean, char file[NAME_SIZE + 32], RetexError *err)
+/* What is written of a material. */
+typedef struct Writing {
+    Import *import;
+    ImportMaterial *material;
+    Surface surface;
+    MapFiles files;
+} Writing;
+
+/* Meshes have two sets of UV: that of the colour's image, or else of the first map, and one more. */
+static void choose_uv_sets(ImportMaterial *to, const Surface *s)
+{
+    const Map *const maps[] = {&s->roughness_map,
+                               &s->metallic_map,
+                               &s->normal_map,
+                               &s->emission_map,
+                               &s->transmission_map,
+                               &s->clearcoat_map,
+                               &s->clearcoat_roughness_map,
+                               &s->clearcoat_normal_map,
+                               &s->sheen_map};
+    const size_t count = sizeof maps / sizeof *maps;
+    int first = to->has_image ? s->base_map.uv_set : -1;
+    to->second_uv = -1;
+    for (size_t i = 0; i < count; i++) {
+        if (!maps[i]->source[0])
+            continue;
+        if (first < 0)
+            first = maps[i]->uv_set;
+        else if (maps[i]->uv_set != first && to->second_uv < 0)
+            to->second_uv = maps[i]->uv_set;
+    }
+    to->uv_set = first < 0 ? 0 : first;
+}
+
+static int has_uv_of(const Writing *w, const Map *map)
+{
+    return map->uv_set == w->material->uv_set || map->uv_set == w->material->second_uv;
+}
+
+/* The image of a finish's number, as a file of its own; the mean where the mesh has not its UV. */
+static int write_numbers(Writing *w, const Map *map, int channel, const char *what, float *number, float *mean,
+                         File file, RetexError *err)
 {
     ChannelStats stats;
     int found;
-    *mean = *number;
-    file[0] = '\0';
+    if (mean)
+        *mean = *number;
     if (!map->source[0])
         return RETEX_OK;
-    int code = images_stats(import, map->source, &stats, &found, err);
+    const int code = images_stats(w->import, map->source, &stats, &found, err);
     if (code)
         return code;
-    *mean = *number * stats.mean[channel];
-    if (map->uv_set != uv_set) {
-        import_leave_out(import, LEFT_FINISH_MAP);
-        *number = *mean;
-        return RETEX_OK;
-    }
-    return images_channel(import, map->source, channel, what, file, err);
+    if (mean)
+        *mean = *number * stats.mean[channel];
+    if (has_uv_of(w, map))
+        return images_channel(w->import, map->source, channel, what, file, err);
+    import_leave_out(w->import, LEFT_FINISH_MAP);
+    *number *= stats.mean[channel];
+    return RETEX_OK;
 }
 
-static int write_finish_maps(Import *import, Surface *s, int uv_set, MapFiles *files, RetexError *err)
+static int write_all_numbers(Writing *w, RetexError *err)
 {
-    int code = write_finish_map(import, &s->metallic_map, s->metallic_channel, "metallic", uv_set, &s->metallic,
-                                &files->mean_metallic, files->metallic, err);
+    Surface *s = &w->surface;
+    MapFiles *files = &w->files;
+    int code = write_numbers(w, &s->metallic_map, s->metallic_channel, "metallic", &s->metallic, &files->mean_metallic,
+                             files->metallic, err);
     if (!code)
-        code = write_finish_map(import, &s->roughness_map, s->roughness_channel, "roughness", uv_set, &s->roughness,
-                                &files->mean_roughness, files->roughness, err);
+        code = write_numbers(w, &s->roughness_map, s->roughness_channel, "roughness", &s->roughness,
+                             &files->mean_roughness, files->roughness, err);
+    if (!code)
+        code = write_numbers(w, &s->transmission_map, 0, "transmission", &s->transmission, &files->mean_transmission,
+                             files->transmission, err);
+    if (!code)
+        code = write_numbers(w, &s->clearcoat_map, 0, "clearcoat", &s->clearcoat, NULL, files->clearcoat, err);
     return code ? code
-                : write_finish_map(import, &s->transmission_map, 0, "transmission", uv_set, &s->transmission,
-                                   &files->mean_transmission, files->transmission, err);
+                : write_numbers(w, &s->clearcoat_roughness_map, 1, "clearcoat_roughness", &s->clearcoat_roughness, NULL,
+                                files->clearcoat_roughness, err);
+}
+
+/* An image as it is. `left` is told where the mesh has not its UV. */
+static int write_image(const Writing *w, const Map *map, LeftOut left, File file, RetexError *err)
+{
+    const ImageUse use = {.source = map->source, .factor = {1, 1, 1}, .opacity_factor = 1};
+    if (!map->source[0])
+        return RETEX_OK;
+    if (has_uv_of(w, map))
+        return images_use(w->import, &use, file, err);
+    import_leave_out(w->import, left);
+    return RETEX_OK;
 }
 
 /* The image of emission, if the pigment is not that already. Where it is not to be had the surface does not shine. */
-static int write_emission_map(Import *import, const Surface *s, int uv_set, float emission[3],
-                              char file[NAME_SIZE + 32], RetexError *err)
+static int write_emission_map(Writing *w, float emission[3], RetexError *err)
 {
-    const ImageUse use = {.source = s->emission_map.source, .factor = {1, 1, 1}, .opacity_factor = 1};
-    file[0] = '\0';
-    if (!s->emission_map.source[0])
-        return RETEX_OK;
-    const int is_there = s->emission_map.uv_set == uv_set;
-    if (!is_there)
-        import_leave_out(import, LEFT_EMISSION_MAP);
-    const int code = is_there ? images_use(import, &use, file, err) : RETEX_OK;
-    if (!file[0])
+    const Map *map = &w->surface.emission_map;
+    const int code = write_image(w, map, LEFT_EMISSION_MAP, w->files.emission, err);
+    if (map->source[0] && !w->files.emission[0])
         emission[0] = emission[1] = emission[2] = 0;
     return code;
 }
 
 /* A normal map, made of heights where it has these. */
-static int write_normal_map(Import *import, Surface *s, int uv_set, char file[NAME_SIZE + 32], RetexError *err)
+static int write_normal_map(Writing *w, RetexError *err)
 {
-    const ImageUse use = {.source = s->normal_map.source, .factor = {1, 1, 1}, .opacity_factor = 1};
-    file[0] = '\0';
-    if (!s->normal_map.source[0] || s->normal_scale == 0)
+    Surface *s = &w->surface;
+    if (s->normal_scale == 0)
         return RETEX_OK;
-    if (s->normal_map.uv_set != uv_set) {
-        import_leave_out(import, LEFT_NORMAL_MAP);
-        return RETEX_OK;
-    }
-    if (!s->has_heights)
-        return images_use(import, &use, file, err);
+    if (!s->normal_map.source[0] || !s->has_heights || !has_uv_of(w, &s->normal_map))
+        return write_image(w, &s->normal_map, LEFT_NORMAL_MAP, w->files.normal, err);
     const float scale = s->normal_scale;
     s->normal_scale = 1;
-    return images_normals(import, use.source, scale, file, err);
+    return images_normals(w->import, s->normal_map.source, scale, w->files.normal, err);
 }
 
-/* That of the first map there is. */
-static int first_uv_set(const Surface *s)
+static int write_maps(Writing *w, float emission[3], RetexError *err)
 {
-    const Map *const maps[] = {&s->roughness_map, &s->metallic_map, &s->normal_map, &s->emission_map,
-                               &s->transmission_map};
-    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
-        if (maps[i]->source[0])
-            return maps[i]->uv_set;
-    return 0;
+    const Surface *s = &w->surface;
+    int code = write_all_numbers(w, err);
+    if (!code)
+        code = write_emission_map(w, emission, err);
+    if (!code)
+        code = write_normal_map(w, err);
+    if (!code && s->clearcoat_normal_scale != 0)
+        code = write_image(w, &s->clearcoat_normal_map, LEFT_NORMAL_MAP, w->files.clearcoat_normal, err);
+    return code ? code : write_image(w, &s->sheen_map, LEFT_FINISH_MAP, w->files.sheen, err);
 }
 
 static int write_material(Import *import, int index, ImportMaterial *to, FILE *out, RetexError *err)
 {
-    Surface s;
-    char file[NAME_SIZE + 32] = "";
+    Writing w = {.import = import, .material = to};
+    Surface *s = &w.surface;
+    File file = "";
     float emission[3];
-    int code = surface_read(import, index, &s, err);
+    int code = surface_read(import, index, s, err);
     if (code)
         return code;
-    const int has_diffuse = place_emission(&s, emission);
-    if (s.base_map.source[0]) {
-        const ImageUse use = {.source = s.base_map.source,
-                              .opacity = s.opacity_map.source[0] ? s.opacity_map.source : NULL,
-                              .factor = {s.base[0], s.base[1], s.base[2]},
-                              .opacity_factor = s.opacity,
-                              .alpha = s.alpha,
-                              .cutoff = s.cutoff};
+    const int has_diffuse = place_emission(s, emission);
+    if (s->base_map.source[0]) {
+        const ImageUse use = {.source = s->base_map.source,
+                              .opacity = s->opacity_map.source[0] ? s->opacity_map.source : NULL,
+                              .factor = {s->base[0], s->base[1], s->base[2]},
+                              .opacity_factor = s->opacity,
+                              .alpha = s->alpha,
+                              .cutoff = s->cutoff};
         code = images_use(import, &use, file, err);
         if (code)
             return code;
     }
-    MapFiles files = {0};
     to->has_image = file[0] != '\0';
-    to->uv_set = to->has_image ? s.base_map.uv_set : first_uv_set(&s);
-    code = write_finish_maps(import, &s, to->uv_set, &files, err);
-    if (!code)
-        code = write_emission_map(import, &s, to->uv_set, emission, files.emission, err);
-    if (!code)
-        code = write_normal_map(import, &s, to->uv_set, files.normal, err);
+    for (int k = 0; k < 3; k++) /* glTF multiplies them; other formats have them in place of the material's colour */
+        to->vertex_factor[k] = import->is_gltf ? s->base[k] : 1;
+    choose_uv_sets(to, s);
+    code = write_maps(&w, emission, err);
     if (code)
         return code;
-    import->emits |= !s.unlit && largest(emission) > 0;
-    to->is_solid = s.transmission > 0;
+    import->emits |= !s->unlit && largest(emission) > 0;
+    to->is_solid = s->transmission > 0;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
-    print_pigment(out, &s, file);
-    print_normal(out, &s, &files);
-    print_finish(out, &s, emission, has_diffuse, &files);
+    print_pigment(out, s, file);
+    print_normal(out, s, &w.files, to->uv_set);
+    print_finish(out, s, emission, has_diffuse, &w.files, to->uv_set);
     if (to->is_solid) {
         fprintf(out, "  }\n");
-        print_interior(out, &s);
+        print_interior(out, s);
     }
     fprintf(out, "}\n");
     return RETEX_OK;

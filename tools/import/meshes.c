@@ -74,14 +74,14 @@ static void write_vectors(FILE *out, const char *what, const struct aiVector3D *
     fprintf(out, "\n  }\n");
 }
 
-static void write_uvs(FILE *out, const struct aiVector3D *v, unsigned count)
+static void write_uvs(FILE *out, const char *what, const struct aiVector3D *v, unsigned count)
 {
-    fprintf(out, "  uv_vectors { %u", count);
+    fprintf(out, "  %s { %u", what, count);
     for (unsigned i = 0; i < count; i++) {
         const int good = isfinite(v[i].x) && isfinite(v[i].y);
         fprintf(out, ",\n<%.7g,%.7g>", good ? (double)v[i].x : 0, good ? (double)v[i].y : 0);
     }
-    fprintf(out, "\n  }\n");
+    fprintf(out, "\n  }");
 }
 
 /* ---- colours of vertices: a texture for each, of so few that POV-Ray can hold them ---- */
@@ -135,14 +135,21 @@ static int find_colors(const Import *import, const struct aiMesh *mesh, Colors *
     return code;
 }
 
-static void write_colors(FILE *out, const Colors *colors, const char *material)
+/* They multiply an image, which POV-Ray cannot do. */
+static void write_colors(FILE *out, const Colors *colors, const ImportMaterial *material)
 {
+    const char *before = material->has_image ? "#ifdef (Retex) retex_tint " : "";
+    const char *after = material->has_image ? " #end" : "";
+    const float one[3] = {1, 1, 1}, *factor = material->has_image ? one : material->vertex_factor;
     const double most = (1 << colors->bits) - 1;
     fprintf(out, "  texture_list { %d", colors->count);
     for (int i = 0; i < colors->count; i++) {
         const int *level = colors->levels[i];
-        fprintf(out, ",\ntexture { %s pigment { rgb <%.4g,%.4g,%.4g> } }", material, retex_srgb_decode(level[0] / most),
-                retex_srgb_decode(level[1] / most), retex_srgb_decode(level[2] / most));
+        double c[3];
+        for (int k = 0; k < 3; k++)
+            c[k] = retex_srgb_decode(level[k] / most) * (double)factor[k];
+        fprintf(out, ",\ntexture { %s pigment { %srgb <%.4g,%.4g,%.4g>%s } }", material->name, before, c[0], c[1], c[2],
+                after);
     }
     fprintf(out, "\n  }\n");
 }
@@ -179,11 +186,21 @@ static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const 
     fprintf(out, "\n  }\n");
 }
 
-static const struct aiVector3D *uvs_of(const struct aiMesh *mesh, const ImportMaterial *material)
+static void write_both_uvs(FILE *out, const struct aiMesh *mesh, const ImportMaterial *material)
 {
-    if (mesh->mTextureCoords[material->uv_set])
-        return mesh->mTextureCoords[material->uv_set];
-    return mesh->mTextureCoords[0];
+    const struct aiVector3D *first = mesh->mTextureCoords[material->uv_set],
+                            *second = material->second_uv >= 0 ? mesh->mTextureCoords[material->second_uv] : NULL;
+    if (!first)
+        first = mesh->mTextureCoords[0];
+    if (!first)
+        return;
+    write_uvs(out, "uv_vectors", first, mesh->mNumVertices);
+    fprintf(out, "\n");
+    if (!second || second == first)
+        return;
+    fprintf(out, "  #ifdef (Retex)\n");
+    write_uvs(out, "retex_second_uv_vectors", second, mesh->mNumVertices);
+    fprintf(out, " #end\n");
 }
 
 static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err)
@@ -201,7 +218,7 @@ static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err
     snprintf(name, sizeof name, "Mesh_%s", mesh->mName.data);
     if (!names_make(&import->names, name, "Mesh", import->meshes[index]))
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    if (has_colors(mesh) && material->has_image)
+    if (has_colors(mesh) && material->is_solid)
         import_leave_out(import, LEFT_VERTEX_COLORS);
     else if (has_colors(mesh)) {
         const int code = find_colors(import, mesh, &colors, err);
@@ -213,10 +230,9 @@ static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err
     write_vectors(out, "vertex_vectors", mesh->mVertices, mesh->mNumVertices, 0);
     if (mesh->mNormals)
         write_vectors(out, "normal_vectors", mesh->mNormals, mesh->mNumVertices, 1);
-    if (uvs_of(mesh, material))
-        write_uvs(out, uvs_of(mesh, material), mesh->mNumVertices);
+    write_both_uvs(out, mesh, material);
     if (colors.of_vertex)
-        write_colors(out, &colors, material->name);
+        write_colors(out, &colors, material);
     write_faces(out, mesh, count, &colors);
     fprintf(out, "}\n");
     import->triangles += count;

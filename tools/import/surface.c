@@ -242,16 +242,38 @@ static void take_volume(const struct aiMaterial *m, Surface *s)
     }
 }
 
+/* In glTF, red of one image is the weight of the coat, and green of one its roughness. */
+static int take_coating(Import *import, const struct aiMaterial *m, Surface *s, RetexError *err)
+{
+    const unsigned normal = 2; /* its index as Assimp counts images of the coat */
+    float sheen[4] = {0, 0, 0, 1};
+    get_float(m, AI_MATKEY_CLEARCOAT_FACTOR, &s->clearcoat);
+    get_float(m, AI_MATKEY_CLEARCOAT_ROUGHNESS_FACTOR, &s->clearcoat_roughness);
+    s->clearcoat = unit(s->clearcoat), s->clearcoat_roughness = unit(s->clearcoat_roughness);
+    get_map(import, m, AI_MATKEY_CLEARCOAT_TEXTURE, &s->clearcoat_map);
+    int code = take_finish_map(import, &s->clearcoat_map, 0, &s->clearcoat, err);
+    if (!code && s->clearcoat > 0 &&
+        get_map(import, m, AI_MATKEY_CLEARCOAT_ROUGHNESS_TEXTURE, &s->clearcoat_roughness_map))
+        code = take_finish_map(import, &s->clearcoat_roughness_map, 1, &s->clearcoat_roughness, err);
+    s->clearcoat_normal_scale = 1;
+    if (s->clearcoat > 0 && get_map(import, m, aiTextureType_CLEARCOAT, normal, &s->clearcoat_normal_map))
+        get_float(m, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_CLEARCOAT, normal), &s->clearcoat_normal_scale);
+    get_color(m, AI_MATKEY_SHEEN_COLOR_FACTOR, sheen);
+    for (int k = 0; k < 3; k++)
+        s->sheen[k] = unit(sheen[k]);
+    if (largest(s->sheen) > 0)
+        get_map(import, m, AI_MATKEY_SHEEN_COLOR_TEXTURE, &s->sheen_map);
+    get_float(m, AI_MATKEY_SHEEN_ROUGHNESS_FACTOR, &s->sheen_roughness);
+    s->sheen_roughness = unit(s->sheen_roughness);
+    return code;
+}
+
 static void note_left_out(Import *import, const struct aiMaterial *m)
 {
-    float factor;
     if (has_any(import, m, aiTextureType_SPECULAR, 0) || has_any(import, m, aiTextureType_SHININESS, 0))
         import_leave_out(import, LEFT_SPECULAR_MAP);
-    if (get_float(m, AI_MATKEY_CLEARCOAT_FACTOR, &factor) && factor > 0)
-        import_leave_out(import, LEFT_CLEARCOAT);
-    if (has_any(import, m, AI_MATKEY_SHEEN_COLOR_TEXTURE) ||
-        (get_float(m, AI_MATKEY_SHEEN_ROUGHNESS_FACTOR, &factor) && factor > 0))
-        import_leave_out(import, LEFT_SHEEN);
+    if (has_any(import, m, AI_MATKEY_SHEEN_ROUGHNESS_TEXTURE))
+        import_leave_out(import, LEFT_SHEEN_ROUGHNESS_MAP);
 }
 
 /* Where nothing is refracted, the index stands for the reflectance alone: then it says all of it. */
@@ -303,6 +325,8 @@ int surface_read(Import *import, int index, Surface *s, RetexError *err)
     /* In formats without PBR an image stands in place of the colour. */
     if (s->base_map.source[0] && !import->is_gltf)
         s->base[0] = s->base[1] = s->base[2] = 1;
-    const int code = take_normal_map(import, m, s, err);
+    int code = take_normal_map(import, m, s, err);
+    if (!code)
+        code = take_coating(import, m, s, err);
     return code || is_specular ? code : take_finish_maps(import, m, s, err);
 }

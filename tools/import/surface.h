@@ -22,7 +22,9 @@ typedef struct Surface {
     AlphaMode alpha;
     float cutoff;
     int unlit;
+    float clearcoat, clearcoat_roughness, clearcoat_normal_scale, sheen[3], sheen_roughness;
     Map base_map, opacity_map, emission_map, metallic_map, roughness_map, normal_map, transmission_map;
+    Map clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map, sheen_map;
     int metallic_channel, roughness_channel;
     float normal_scale;
     int has_heights; /* normal_map has heights, in widths of the image times normal_scale */

@@ -54,6 +54,7 @@ static void decode_colors(Sdl *sdl)
     for (ParsedFinish *f = builder->finishes; f; f = f->next) {
         f->finish.ambient = working_decode(space, f->finish.ambient);
         f->finish.emission = working_decode(space, f->finish.emission);
+        f->finish.retex.sheen = working_decode(space, f->finish.retex.sheen);
         f->finish.reflection_min = working_decode(space, f->finish.reflection_min);
         f->finish.reflection_max = working_decode(space, f->finish.reflection_max);
     }
@@ -77,8 +78,11 @@ static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *conte
     const Finish *finish = texture->texture.finish;
     if (!finish)
         return;
-    const Pigment *const maps[] = {finish->retex.metallic_map, finish->retex.roughness_map,
-                                   finish->retex.transmission_map, finish->retex.emission_map};
+    normal_load(sdl, finish->retex.clearcoat_normal);
+    const Pigment *const maps[] = {finish->retex.metallic_map,     finish->retex.roughness_map,
+                                   finish->retex.transmission_map, finish->retex.clearcoat_map,
+                                   finish->retex.sheen_map,        finish->retex.clearcoat_roughness_map,
+                                   finish->retex.emission_map};
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (maps[i])
             load_pigment_images(sdl, maps[i], maps[i] == finish->retex.emission_map);

@@ -18,7 +18,7 @@ ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from)
             .roughness = 0.05,
             .reflection_falloff = 1,
             .reflection_exponent = 1,
-            .retex = {.ior = 1.5, .specular_tint = 1},
+            .retex = {.ior = 1.5, .specular_tint = 1, .sheen_roughness = 0.3},
         };
     finish->next = builder->finishes;
     builder->finishes = finish;
@@ -72,41 +72,89 @@ static void reflection(Sdl *sdl, Finish *f)
     }
 }
 
+/* `[second_uv] { PIGMENT }` */
 const Pigment *parse_uv_pigment(Sdl *sdl)
 {
+    const int second = sdl_accept(sdl, "second_uv");
     ParsedPigment *pigment = parse_pigment(sdl, NULL);
     pigment->pigment.uv_mapping = 1;
+    pigment->pigment.second_uv = second;
     return &pigment->pigment;
 }
 
-/* Our extension: retex{ metallic M roughness R ior N specular_tint T transmission A metallic_map{ PIGMENT }
- * roughness_map{ PIGMENT } transmission_map{ PIGMENT } emission_map{ PIGMENT } }. */
+/* Numbers and maps of our extension: words, and where they go. */
+static int retex_number(Sdl *sdl, Finish *f)
+{
+    static const struct {
+        const char *word;
+        double low, high;
+        size_t offset;
+    } numbers[] = {
+        {"metallic", 0, 1, offsetof(Finish, retex.metallic)},
+        {"roughness", 0, 1, offsetof(Finish, retex.roughness)},
+        {"ior", 1, 10, offsetof(Finish, retex.ior)},
+        {"specular_tint", 0, 1, offsetof(Finish, retex.specular_tint)},
+        {"transmission", 0, 1, offsetof(Finish, retex.transmission)},
+        {"clearcoat", 0, 1, offsetof(Finish, retex.clearcoat)},
+        {"clearcoat_roughness", 0, 1, offsetof(Finish, retex.clearcoat_roughness)},
+        {"sheen_roughness", 0, 1, offsetof(Finish, retex.sheen_roughness)},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (sdl_accept(sdl, numbers[i].word)) {
+            *(double *)((char *)f + numbers[i].offset) =
+                in_range(sdl, numbers[i].word, numbers[i].low, numbers[i].high);
+            return 1;
+        }
+    return 0;
+}
+
+static int retex_map(Sdl *sdl, Finish *f)
+{
+    static const struct {
+        const char *word;
+        size_t offset;
+    } maps[] = {
+        {"metallic_map", offsetof(Finish, retex.metallic_map)},
+        {"roughness_map", offsetof(Finish, retex.roughness_map)},
+        {"transmission_map", offsetof(Finish, retex.transmission_map)},
+        {"emission_map", offsetof(Finish, retex.emission_map)},
+        {"clearcoat_map", offsetof(Finish, retex.clearcoat_map)},
+        {"clearcoat_roughness_map", offsetof(Finish, retex.clearcoat_roughness_map)},
+        {"sheen_map", offsetof(Finish, retex.sheen_map)},
+    };
+    for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
+        if (sdl_accept(sdl, maps[i].word)) {
+            *(const Pigment **)((char *)f + maps[i].offset) = parse_uv_pigment(sdl);
+            return 1;
+        }
+    return 0;
+}
+
+/* `clearcoat_normal_map { PIGMENT } [SCALE]` */
+static const Normal *retex_normal(Sdl *sdl)
+{
+    Normal *normal = sdl_alloc(sdl, sizeof *normal);
+    *normal = (Normal){.kind = NORMAL_TANGENT, .vectors = parse_uv_pigment(sdl)};
+    normal->size = optional_float(sdl, 1);
+    return normal;
+}
+
+/* Our extension: retex{ NUMBERS, MAPS, sheen COLOR, clearcoat_normal_map{ PIGMENT } }. */
 static void retex_block(Sdl *sdl, Finish *f)
 {
     f->retex.present = 1;
     sdl_expect(sdl, "{");
     while (!sdl_accept(sdl, "}")) {
-        if (sdl_accept(sdl, "metallic"))
-            f->retex.metallic = in_range(sdl, "metallic", 0, 1);
-        else if (sdl_accept(sdl, "roughness"))
-            f->retex.roughness = in_range(sdl, "roughness", 0, 1);
-        else if (sdl_accept(sdl, "ior"))
-            f->retex.ior = in_range(sdl, "ior", 1, 10);
-        else if (sdl_accept(sdl, "specular_tint"))
-            f->retex.specular_tint = in_range(sdl, "specular_tint", 0, 1);
-        else if (sdl_accept(sdl, "transmission"))
-            f->retex.transmission = in_range(sdl, "transmission", 0, 1);
-        else if (sdl_accept(sdl, "metallic_map"))
-            f->retex.metallic_map = parse_uv_pigment(sdl);
-        else if (sdl_accept(sdl, "roughness_map"))
-            f->retex.roughness_map = parse_uv_pigment(sdl);
-        else if (sdl_accept(sdl, "transmission_map"))
-            f->retex.transmission_map = parse_uv_pigment(sdl);
-        else if (sdl_accept(sdl, "emission_map"))
-            f->retex.emission_map = parse_uv_pigment(sdl);
+        if (retex_number(sdl, f) || retex_map(sdl, f))
+            continue;
+        if (sdl_accept(sdl, "sheen")) {
+            const Rgb c = opaque_color(sdl);
+            f->retex.sheen = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
+        } else if (sdl_accept(sdl, "clearcoat_normal_map"))
+            f->retex.clearcoat_normal = retex_normal(sdl);
         else
-            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, metallic_map, roughness_map, "
-                              "transmission_map, emission_map or } in retex");
+            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission, clearcoat, clearcoat_roughness, "
+                              "sheen, sheen_roughness, a map of these, emission_map or } in retex");
     }
 }
 

@@ -160,10 +160,22 @@ static void by_vertex(Mesh *mesh, int limit, size_t offset)
     }
 }
 
+/* Our extension: a second set of UV, which goes by the same indices. */
+static void add_second(Sdl *sdl, Mesh *mesh, Vec2 *uvs, int count)
+{
+    if (count != mesh->nuvs)
+        sdl_error(sdl, "retex_second_uv_vectors: %d elements, but uv_vectors has %d", count, mesh->nuvs);
+    Mesh *other = sdl_alloc(sdl, sizeof *other);
+    *other = *mesh;
+    other->uvs = uvs;
+    mesh->second = other;
+}
+
 void parse_mesh2(Sdl *sdl, Object *object)
 {
     Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
-    int normal_indices = 0, uv_indices = 0;
+    int normal_indices = 0, uv_indices = 0, nsecond = 0;
+    Vec2 *second = NULL;
     object->shape.ops = &shape_mesh;
     for (;;) {
         if (sdl_accept(sdl, "vertex_vectors"))
@@ -172,6 +184,8 @@ void parse_mesh2(Sdl *sdl, Object *object)
             mesh->normals = vectors(sdl, "normal_vectors", &mesh->nnormals);
         else if (sdl_accept(sdl, "uv_vectors"))
             mesh->uvs = vectors2(sdl, "uv_vectors", &mesh->nuvs);
+        else if (sdl_accept(sdl, "retex_second_uv_vectors"))
+            second = vectors2(sdl, "retex_second_uv_vectors", &nsecond);
         else if (sdl_accept(sdl, "texture_list"))
             object->shape.textures = texture_list(sdl);
         else if (sdl_accept(sdl, "face_indices"))
@@ -196,6 +210,8 @@ void parse_mesh2(Sdl *sdl, Object *object)
         by_vertex(mesh, mesh->nuvs, offsetof(MeshFace, uv));
     object->shape.mesh = mesh;
     mesh->inward = mesh_winds_inward(mesh);
+    if (second)
+        add_second(sdl, mesh, second, nsecond);
     if (mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;
 }

@@ -17,9 +17,13 @@ static void add_for(Sdl *sdl, const Mesh *mesh, const Texture *texture)
     int any = 0;
     if (!mesh || mesh->tangents || !texture)
         return;
-    for (int k = 0; k < texture_leaf_count(texture) && !any; k++)
-        any = has_normal_map(texture_leaf(texture, k)->normal);
-    if (any && !mesh_add_tangents(sdl_arena(sdl), (Mesh *)mesh)) /* it is this scene's own */
+    for (int k = 0; k < texture_leaf_count(texture) && !any; k++) {
+        const Texture *leaf = texture_leaf(texture, k);
+        any = has_normal_map(leaf->normal) || (leaf->finish && leaf->finish->retex.clearcoat_normal);
+    }
+    Mesh *own = (Mesh *)mesh, *second = (Mesh *)mesh->second; /* they are this scene's own */
+    Arena *arena = sdl_arena(sdl);
+    if (any && (!mesh_add_tangents(arena, own) || (second && !mesh_add_tangents(arena, second))))
         sdl_error(sdl, "out of memory: tangents of a mesh");
 }
 

@@ -290,6 +290,14 @@ static void pigment_item(Sdl *sdl, ParsedPigment *pigment, ParsedTextureMap *tex
         pigment->pigment.uv_mapping = sdl_optional_bool(sdl, 1);
         return;
     }
+    if (sdl_accept(sdl, "retex_tint")) {
+        if (pigment->pigment.kind != PIGMENT_IMAGE)
+            sdl_error(sdl, "retex_tint: the pigment has no image_map");
+        const Rgbft c = sdl_color(sdl);
+        pigment->pigment.color = (Rgbft){not_negative(c.r), not_negative(c.g), not_negative(c.b), 0, 0};
+        pigment->pigment.is_tinted = 1;
+        return;
+    }
     const int mapped = accept_map(sdl, pigment, textures) || accept_pattern(sdl, pigment, textures);
     if (mapped)
         pigment->file = file, pigment->line = line;
