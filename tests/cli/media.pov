@@ -1,5 +1,6 @@
 // A small room with all that light may meet between surfaces: fog, haze and smoke, a flame, stained air, glass that
-// disperses, and skin. With -D Clear=1 there is neither fog nor haze.
+// disperses, and skin. With -D Clear=1 there is neither fog nor haze. With -D Fog=1 there is fog, and no medium but, with
+// -D Far=1, one that nothing meets.
 #version 3.7;
 global_settings { assumed_gamma 1 mm_per_unit 100 subsurface {} }
 
@@ -17,6 +18,12 @@ plane { -y, -3 pigment { rgb 0.8 } finish { ambient 0 diffuse 0.8 } }
 
 #ifndef (Clear)
 fog { distance 20 rgb <0.3, 0.35, 0.4> }
+#end
+#ifdef (Far)
+sphere { 500 * z, 0.1 pigment { rgbt 1 } hollow interior { media { absorption 1 } } }
+#end
+#ifndef (Fog)
+#ifndef (Clear)
 media { scattering { 5, 0.05 eccentricity 0.4 } absorption 0.01 }
 #end
 sphere {
@@ -30,6 +37,7 @@ sphere {
   translate <-0.7, 0.7, 0.2>
 }
 box { <-1.6, 0, 0>, <-1.2, 1.6, 0.6> pigment { rgbt 1 } hollow interior { media { absorption <0.4, 0.9, 1.6> } } }
+#end
 sphere {
   <0.5, 0.5, -0.2>, 0.45
   pigment { rgbt 1 }

@@ -19,6 +19,9 @@ $ printf 'output,Floor,Wall\na.exr,"rgb(.1,.6,.3)","rgb(.8,.3,.3)"\nb.exr,,"rgb(
 $ ./render --plain --crop 5,4,9,8 -o crop.exr; [ "$(make_values crop.exr 0,0 8,7)" = "$(make_values plain.exr 5,4 13,11)" ] || echo other pixels
 $ ./render --plain --frames 1-2 -o f%d.exr; ./render --plain --seed 2 -o seed2.exr; cmp f2.exr seed2.exr
 
+# Without media paths are traced side by side, and with them one after the other: they are the same.
+$ for o in --plain '--clusters 4'; do ./render $o -D Fog=1 -o fog.exr; ./render $o -D Fog=1 -D Far=1 -o far.exr; retex-diff -q --fail-abs 0 fog.exr far.exr || echo differs; done
+
 # Air is no surface: AOVs are as without it, but for the light that arrives.
 $ for d in '' '-D Clear=1'; do ./render --plain $d --aov depth,albedo,normal,position,uv,object,roughness,metallic,irradiance --aov-dir "aov$d" -o plain.exr; done; for f in aov/*.exr; do cmp -s "$f" "aov-D Clear=1/${f#*/}" || basename "$f"; done
 > beauty.exr
