@@ -18,10 +18,11 @@
 
 typedef struct Walk {
     const PathContext *context;
-    uint32_t key, count; /* of its random numbers */
-    double length[3];    /* mean free paths, by colour */
-    int color;           /* whose steps are taken */
-    double likely[3];    /* logarithms of how likely each colour is to take the steps so far */
+    uint32_t key, count;  /* of its random numbers */
+    double length[3];     /* mean free paths, by colour */
+    double log_length[3]; /* of those */
+    int color;            /* whose steps are taken */
+    double likely[3];     /* logarithms of how likely each colour is to take the steps so far */
 } Walk;
 
 static double walk_number(Walk *walk)
@@ -37,13 +38,15 @@ static void walk_begin(Walk *walk, const PathWorker *w, const Path *path, const 
     walk->key = hash_pair(hash_pair(w->key[path->half] ^ 0x53554253u, path->sample),
                           (uint32_t)(path->segments + path->straight));
     walk->color = (int)(3 * walk_number(walk));
+    for (int c = 0; c < 3; c++)
+        walk->log_length[c] = log(walk->length[c]);
 }
 
 /* scatters: at the end of that length, else it is only passed. */
 static void walk_step(Walk *walk, double length, int scatters)
 {
     for (int c = 0; c < 3; c++)
-        walk->likely[c] -= length / walk->length[c] + (scatters ? log(walk->length[c]) : 0);
+        walk->likely[c] -= length / walk->length[c] + (scatters ? walk->log_length[c] : 0);
 }
 
 /* What light of the three colours is multiplied by; the mean is 1. */
@@ -133,8 +136,7 @@ void walk_below_surface(PathWorker *w, Path *path, const Vertex *v, Vec3 directi
 /* It scatters once more, evenly, and outwards. */
 void leave_surface(Vertex *v)
 {
-    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40,
-                                  .lambert = 1};
+    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40, .lambert = 1};
     Shading *s = &v->s;
     v->white = (Texture){.finish = &finish};
     s->surface.texture = &v->white;
