@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`; `setup.sh serve`
-# for retex-serve with nginx and many clients) or compared with POV-Ray (`setup.sh parity`).
+# for retex-serve with nginx and many clients, `setup.sh web` for the player in a browser) or compared with POV-Ray
+# (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
 # password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
@@ -45,6 +46,10 @@ command oiiotool openimageio-tools
 command transicc liblcms2-utils
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
+'
+needs_web='
+command chromium chromium
+python websocket python3-websocket
 '
 needs_parity='
 command povray povray
@@ -151,9 +156,10 @@ build) install_missing "$needs_build" ;;
 test) install_missing "$needs_test" ;;
 parity) install_missing "$needs_parity" ;;
 serve) install_missing "$needs_serve" ;;
+web) install_missing "$needs_web" ;;
 config) config ;;
 *)
-    echo "usage: $0 build | test | parity | serve | config" >&2
+    echo "usage: $0 build | test | parity | serve | web | config" >&2
     exit 2
     ;;
 esac

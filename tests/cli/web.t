@@ -16,6 +16,9 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 $ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 61440 && echo small
 > small
 
+# What a room of this size takes until the first target can be changed, and in all: a little more than it did.
+$ retex-pack s.exr --web out/room 2>&1 | awk 'NR == 2 { print ($10 <= 36500), ($4 <= 60000) }' | grep -q '1 1' || retex-pack s.exr --web out/room
+
 # The manifest names all files with their sizes and checksums, and the sizes that were printed are theirs.
 $ retex-pack s.exr --web out/room 2>&1 | /usr/bin/python3 "$TESTS/../web/files.py" out/room
 > README.md index.html package.json retex-room.js room.json

@@ -3,7 +3,7 @@
 # keyboard, broken folders, no WebGL 2. RETEX_WEB_SHOTS=DIR keeps screenshots.
 set -u
 . tests/lib/tap.sh
-if ! command -v chromium >/dev/null || ! /usr/bin/python3 -c 'import websocket' 2>/dev/null; then
+if ! tools/setup.sh web >&2 2>&1; then
     skip "the player in a browser" "chromium or python3-websocket is not installed"
     finish
     exit
