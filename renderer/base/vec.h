@@ -63,6 +63,7 @@ static inline Rgb rgb_lerp(Rgb a, Rgb b, float t) { return rgb_add(rgb_scale(a, 
 static inline int rgb_is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }
 static inline int rgb_is_finite(Rgb a) { return isfinite(a.r + a.g + a.b); }
 static inline float rgb_max(Rgb a) { return fmaxf(a.r, fmaxf(a.g, a.b)); }
+static inline float rgb_min(Rgb a) { return fminf(a.r, fminf(a.g, a.b)); }
 /* Rec.709 luminance. */
 static inline float rgb_luminance(Rgb a) { return retex_luminancef(a.r, a.g, a.b); }
 

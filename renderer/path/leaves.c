@@ -56,8 +56,9 @@ static void set_color(Leaf *leaf, const Point *at, const Texture *texture)
 
 /* ---- layers ---- */
 
-/* What a layer sends on of the light from below, where its albedo is 1: *d of it by the colour. Mirrors send less; they
- * and highlights are the more seen, by *coat. */
+/* What a layer sends on of the light from below, where its albedo is 1: *d of it by the colour. Mirrors send less, a
+ * coloured one in all colours what it sends in that which it mirrors most; they and highlights are the more seen, by
+ * *coat. */
 static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i, float *coat)
 {
     const float sum = layer->color.filter + layer->color.transmit, scale = sum > 1 ? 1 / sum : 1;
@@ -67,9 +68,10 @@ static void layer_passage(const Leaf *layer, const Point *at, float *d, float *i
     const Surface surface = leaf_surface(at->surface, layer->texture, layer->target);
     Bsdf b;
     bsdf_setup(&b, &surface, at->wo, *d, *i, layer->opacity);
-    *coat = 1 - rgb_luminance(split_apply(b.passing, rgb_grey(1))) / (*d + *i);
+    const float passes_d = rgb_min(b.passing.d), passes_i = rgb_min(b.passing.i);
+    *coat = 1 - (passes_d + passes_i) / (*d + *i);
     *coat = at_most(not_negative(*coat), 1) + at_most(b.highlights, 1);
-    *d = rgb_luminance(b.passing.d), *i = rgb_luminance(b.passing.i);
+    *d = passes_d, *i = passes_i;
 }
 
 /* Goes below a layer. */

@@ -75,19 +75,31 @@ static float brightness(float filter, float transmit, float opacity)
     return opacity == clamp01(1 - filter - transmit) ? 1 : clamp01((1 - transmit - opacity) / filter);
 }
 
-/* No surface gives back more light than it gets: what mirror and highlights reflect is taken first, and what is below
- * has the rest. Its share for a pigment of that brightness is at most 1, or `diffuse` where that is more: then the
- * pigment is dark. gain: the most by which a film brightens reflected light. */
-static void limit_energy(Bsdf *b, const Finish *f, float specular, float gain, float bright)
+/* No surface gives back more light than it gets: what the mirror (specular, by channel) and highlights reflect is taken
+ * first, and what is below has the rest. Its share for a pigment of that brightness is at most 1, or `diffuse` where
+ * that is more: then the pigment is dark. gain: the most by which a film brightens reflected light. */
+static void limit_energy(Bsdf *b, const Finish *f, Rgb specular, float gain, float bright)
 {
-    float grow = 2 / (b->brilliance + 1), passing = rgb_max(split_apply(b->passing, rgb_grey(bright)));
-    float reflected = (b->diffuse + b->diffuse_back) * bright * grow * gain, sum = reflected + passing;
-    float left = not_negative(1 - specular * gain) * fmaxf(1, (float)fmax(f->diffuse, f->diffuse_back));
-    if (sum <= left)
-        return;
-    float scale = left / sum;
+    float grow = 2 / (b->brilliance + 1), most = fmaxf(1, (float)fmax(f->diffuse, f->diffuse_back));
+    float reflected = (b->diffuse + b->diffuse_back) * bright * grow * gain, scale = 1;
+    const Rgb passing = split_apply(b->passing, rgb_grey(bright));
+    if (reflected + rgb_max(passing) <= not_negative(1 - rgb_max(specular) * gain) * most)
+        return; /* most surfaces */
+    const float specular_of[3] = {specular.r, specular.g, specular.b},
+                passing_of[3] = {passing.r, passing.g, passing.b};
+    for (int c = 0; c < 3; c++) {
+        const float sum = reflected + passing_of[c], left = not_negative(1 - specular_of[c] * gain) * most;
+        scale = sum > left ? fminf(scale, left / sum) : scale;
+    }
     b->diffuse *= scale, b->diffuse_back *= scale, b->grain *= scale;
     b->passing = (Split){rgb_scale(b->passing.d, scale), rgb_scale(b->passing.i, scale)};
+}
+
+static Rgb specular_by_channel(const Bsdf *b, Rgb mirrored, float most)
+{
+    const Rgb m = rgb(at_most(mirrored.r, most), at_most(mirrored.g, most), at_most(mirrored.b, most));
+    const float h = b->highlights;
+    return b->highlight_lights_only ? rgb(fmaxf(m.r, h), fmaxf(m.g, h), fmaxf(m.b, h)) : rgb(m.r + h, m.g + h, m.b + h);
 }
 
 /* `double_illuminate`: light from behind counts as light from the front. */
@@ -108,14 +120,14 @@ static void setup_povray(Bsdf *b, const Surface *surface, float filter, float tr
     setup_mirror(b, f, opacity < 1);
     if (f->use_alpha)
         b->mirror = (Split){rgb_scale(b->mirror.d, opacity), rgb_scale(b->mirror.i, opacity)};
-    float mirror = at_most(rgb_max(split_apply(b->mirror, rgb_grey(1))), 1 / gain);
+    const Rgb mirrored = split_apply(b->mirror, rgb_grey(1));
+    float mirror = at_most(rgb_max(mirrored), 1 / gain);
     b->highlight_lights_only = finish_is_mirror(f);
     setup_highlights(b, f, f->use_alpha ? (double)opacity : 1, 1 / gain - (b->highlight_lights_only ? 0 : mirror));
     /* Mirrored light does not pass: POV-Ray does so with conserve_energy only. */
-    float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
-    b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
-    limit_energy(b, f, b->highlight_lights_only ? fmaxf(mirror, b->highlights) : mirror + b->highlights, gain,
-                 brightness(filter, transmit, opacity));
+    const Rgb passes = rgb(1 - clamp01(mirrored.r), 1 - clamp01(mirrored.g), 1 - clamp01(mirrored.b));
+    b->passing = (Split){rgb_scale(passes, filter), rgb_scale(passes, transmit)};
+    limit_energy(b, f, specular_by_channel(b, mirrored, 1 / gain), gain, brightness(filter, transmit, opacity));
     if (gain > 1)
         setup_film(b, f, surface->position, mirror);
     if (!surface->backside && finish_is_subsurface(f))

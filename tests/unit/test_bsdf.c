@@ -365,6 +365,25 @@ static void mirrors_rise_by_their_falloff(void **state)
         }
 }
 
+/* What a mirror takes does not pass, in each channel; POV-Ray does so with conserve_energy. */
+static void coloured_mirrors_let_the_other_colours_pass(void **state)
+{
+    (void)state;
+    Case c;
+    case_begin(&c, 0);
+    c.finish.reflection_min = c.finish.reflection_max = rgb(0, 0.5f, 1);
+    const Bsdf clear = make(&c, 0.7, 0.5f, 0.5f);
+    close_to(clear.passing.d.r, 0.5, 1e-6, "red");
+    close_to(clear.passing.i.g, 0.25, 1e-6, "green");
+    close_to(clear.passing.d.b, 0, 1e-6, "blue");
+    c.finish.diffuse = 1;
+    const Bsdf half = make(&c, 0.7, 0, 0.5f);
+    close_to(half.diffuse, 0, 1e-6, "nothing is left of blue");
+    c.finish.reflection_min = c.finish.reflection_max = rgb(0, 0.5f, 0);
+    const Bsdf green = make(&c, 0.7, 0, 0.5f);
+    close_to(green.diffuse + green.passing.i.g + green.mirror.i.g, 1, 1e-6, "all of green");
+}
+
 /* POV-Ray's formulas, (N.H)^(1 / roughness) and (R.L)^phong_size, over light from all around; dimmer by the ratio of
  * cosines where the light is lower than the eye. */
 static void highlights_are_povrays(void **state)
@@ -543,6 +562,7 @@ int main(void)
                                        cmocka_unit_test(losses_are_those_of_the_curves),
                                        cmocka_unit_test(brilliance_keeps_an_albedo),
                                        cmocka_unit_test(mirrors_rise_by_their_falloff),
+                                       cmocka_unit_test(coloured_mirrors_let_the_other_colours_pass),
                                        cmocka_unit_test(holes_have_no_coat),
                                        cmocka_unit_test(tint_of_metals_wears_off),
                                        cmocka_unit_test(highlights_sample_as_they_evaluate),
