@@ -116,15 +116,22 @@ static void allow_textures(const Cli *cli, const Job *job, RetexAccess *access, 
     access->nroots = 1;
 }
 
+/* So many megabytes, but at most a share of --max-memory, so that what is kept leaves enough for the work. */
+static uint64_t bytes_of(const Cli *cli, long megabytes, unsigned share)
+{
+    const uint64_t bytes = (uint64_t)megabytes << 20, most = retex_budget_memory(cli->budget) / share;
+    return most && most < bytes ? most : bytes;
+}
+
 static void open_site(const Cli *cli, const Job *job, Site *site, const RetexAccess *access, RetexBudget *budget)
 {
     RetexError err = {0};
-    const RoomsParams rooms = {job->folder, (uint64_t)job->memory << 20, cli->limits.pixels, cli->threads};
-    const ImagesParams images = {access->nroots ? access->roots[0] : NULL, (uint64_t)job->texture_memory << 20, access,
-                                 budget, cli->threads};
+    const RoomsParams rooms = {job->folder, bytes_of(cli, job->memory, 2), cli->limits.pixels, cli->threads};
+    const ImagesParams images = {access->nroots ? access->roots[0] : NULL, bytes_of(cli, job->texture_memory, 8),
+                                 access, budget, cli->threads};
     if (rooms_open(&site->rooms, &rooms, &err) || images_open(&site->images, &images, &err))
         cli_fail(cli, &err);
-    if (!(site->pictures = cache_open((size_t)job->picture_memory << 20)))
+    if (!(site->pictures = cache_open((size_t)bytes_of(cli, job->picture_memory, 16))))
         cli_die(cli, "not enough memory");
     site->quality = job->quality;
     site->formats = picture_formats();

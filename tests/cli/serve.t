@@ -26,7 +26,7 @@ $ retex-serve none --port 0
 $ retex-serve rooms --textures none --port 0
 ! retex-serve: error: --textures: there is no folder none
 = 2
-$ retex-serve rooms --listen nowhere.invalid --port 0 2>&1 | sed 's/invalid: .*/invalid/'
+$ retex-serve rooms --listen nowhere.invalid --port 0 2>&1 | sed 's/invalid: .*/invalid/; q'
 > retex-serve: error: --listen nowhere.invalid
 $ retex-serve rooms --base-url example.org
 ! retex-serve: error: --base-url: expected a URL such as https://example.org, without a slash at its end, not 'example.org'
