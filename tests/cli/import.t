@@ -13,6 +13,11 @@ $ for m in card.stl card.ply; do sh look $m --up z && retex-diff -q --part depth
 # glTF's own camera is the reference's.
 $ retex-import -q card.glb -o own && retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,uv own/own.pov -o own.exr && sh same own.exr reference.exr
 
+# So is that of a 3DS file; it is z up there. Names of images may differ in case.
+$ retex-import -q card.3ds -o studio && retex-render -q --plain --spp 1 --size 96x72 --aov depth studio/studio.pov -o studio.exr && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 studio.exr reference.exr
+$ sed 's/F.png/TEXTURES\\f.PNG/' card.mtl >upper.mtl && sed 's/card.mtl/upper.mtl/' card.obj >upper.obj && retex-import -q upper.obj -o upper && grep -c image_map upper/upper.pov
+> 1
+
 # A transform of the texture is one of its UV; a factor of its colours is in a new image.
 $ sh look turned.gltf && sh look turned_uv.gltf && retex-diff -q --part albedo --fail-psnr 35 turned.exr turned_uv.exr
 $ sh look tinted.gltf && sh look tinted_image.gltf && retex-diff -q --part albedo --fail-abs 0.004 tinted.exr tinted_image.exr

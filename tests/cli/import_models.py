@@ -170,6 +170,23 @@ write('card.dae', '''<?xml version="1.0"?>
                '</node>\n' % n for n in (('a', '1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1'),
                                          ('b', '0 0 1 1.25 0 1 0 0 -1 0 0 -0.25 0 0 0 1')))))
 
+
+
+def tds(kind, *inside):
+    data = b''.join(inside)
+    return struct.pack('<HI', kind, 6 + len(data)) + data
+
+
+# 3DS, z up: the card, and the reference's camera, whose lens is 2400 by its angle in degrees.
+corners = [(x, -z, y) for x, y, z in positions + side]
+angle = math.degrees(2 * math.atan(math.tan(.3) * 4 / 3))
+studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
+    0x3d3d, tds(0x4000, b'Card\0', tds(
+        0x4100, tds(0x4110, struct.pack('<H', 8), *(struct.pack('<3f', *p) for p in corners)),
+        tds(0x4120, struct.pack('<H', 4), *(struct.pack('<4H', *(4 * k + i for i in f), 7) for k in range(2) for f in faces)))),
+    tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', .75, -2.5, .5, .75, 0, .5, 0, 2400 / angle)))))
+write('card.3ds', studio)
+
 # Roughness is .75 times green, which rises with u; metallic is blue, in the upper half.
 numbers = png(16, 16, lambda x, y: (0, 16 * x, 255 if y < 8 else 0), 3)
 varying = gltf({'name': 'steel', 'pbrMetallicRoughness': {

@@ -8,7 +8,7 @@
 /* Position, direction and up of a camera in the scene. Returns 0 where they are no numbers. */
 static int place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
 {
-    const Affine node = import_node_transform(import, camera->mName.data);
+    const Affine node = import_own_transform(import, camera->mName.data);
     const struct aiVector3D zero = {0, 0, 0}, ahead = {0, 0, -1}, above = {0, 1, 0};
     const struct aiVector3D *p = import->is_gltf ? &zero : &camera->mPosition;
     const struct aiVector3D *d = import->is_gltf ? &ahead : &camera->mLookAt;

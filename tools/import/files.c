@@ -1,8 +1,10 @@
 /* Files that a model names. Assimp reads them through functions of ours: those in the model's folder and in the folders
  * of -I, and no others. */
+#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -152,11 +154,26 @@ static void clean_name(const char *name, char clean[PATH_MAX])
     clean[n] = '\0';
 }
 
-/* As it is named; else its last part in each folder, and in folders below that often have textures. */
+/* The first name in a folder that differs in the case of letters only, as names from DOS and Windows do. */
+static int find_any_case(const char *root, const char *below, const char *name, char found[NAME_MAX + 1])
+{
+    char folder[PATH_MAX];
+    DIR *entries = snprintf(folder, sizeof folder, "%s/%s", root, below) < (int)sizeof folder ? opendir(folder) : NULL;
+    found[0] = '\0';
+    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+        if (strcasecmp(entry->d_name, name) == 0 && (!found[0] || strcmp(entry->d_name, found) < 0))
+            snprintf(found, NAME_MAX + 1, "%s", entry->d_name);
+    if (entries)
+        closedir(entries);
+    return found[0] != '\0';
+}
+
+/* As it is named; else its last part in each folder, and in folders below that often have textures; else the same
+ * whatever the case of its letters. */
 int files_find(Import *import, const char *name, char path[PATH_MAX], int *found, RetexError *err)
 {
     static const char *const below[] = {"", "textures/", "Textures/", "images/", "maps/"};
-    char clean[PATH_MAX];
+    char clean[PATH_MAX], other[NAME_MAX + 1];
     int outside = 0;
     clean_name(name, clean);
     *found = 1;
@@ -170,6 +187,11 @@ int files_find(Import *import, const char *name, char path[PATH_MAX], int *found
     for (int i = 0; i < import->access.nroots && *last; i++)
         for (size_t k = 0; k < sizeof below / sizeof *below; k++)
             if (try_file(import, import->roots[i], below[k], last, path) == RETEX_ACCESS_ALLOWED)
+                return RETEX_OK;
+    for (int i = 0; i < import->access.nroots && *last; i++)
+        for (size_t k = 0; k < sizeof below / sizeof *below; k++)
+            if (find_any_case(import->roots[i], below[k], last, other) &&
+                try_file(import, import->roots[i], below[k], other, path) == RETEX_ACCESS_ALLOWED)
                 return RETEX_OK;
     *found = 0;
     if (outside)

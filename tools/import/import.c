@@ -84,6 +84,7 @@ static int read_model(Import *import, RetexError *err)
                      aiProcess_ValidateDataStructure | aiProcess_RemoveComponent;
     import->is_gltf = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb");
     import->is_fbx = has_ending(options->model, ".fbx");
+    import->is_3ds = has_ending(options->model, ".3ds");
     if (!import->is_gltf)
         flags |= aiProcess_JoinIdenticalVertices;
     if (import->is_fbx)
@@ -189,6 +190,14 @@ Affine import_node_transform(const Import *import, const char *name)
     Search search = {name, import->world, 0};
     visit_nodes((Import *)import, compare_name, &search);
     return search.world;
+}
+
+Affine import_own_transform(const Import *import, const char *name)
+{
+    if (!import->is_3ds)
+        return import_node_transform(import, name);
+    const Affine root = affine_from(&import->scene->mRootNode->mTransformation);
+    return affine_multiply(&import->world, &root);
 }
 
 static void add_bounds(Import *import, const struct aiNode *node, const Affine *world, void *context)
@@ -367,6 +376,8 @@ int import_model(const ImportOptions *options, RetexError *err)
     }
     if (!code && import.is_gltf)
         gltf_read(&import);
+    if (!code && import.is_3ds)
+        tds_read(&import);
     if (!code)
         code = find_bounds(&import, err);
     if (!code)

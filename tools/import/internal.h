@@ -108,7 +108,7 @@ struct Import {
     const char *roots[64];
     char root[PATH_MAX];   /* folder of the model, resolved */
     char denied[PATH_MAX]; /* the first file outside that the model asked for */
-    int is_gltf, is_fbx;
+    int is_gltf, is_fbx, is_3ds;
     Gltf gltf;
     Names names, files; /* identifiers; names of files */
     Affine world;       /* from the model's space: axes and scale, before z is mirrored */
@@ -116,7 +116,7 @@ struct Import {
     char (*meshes)[NAME_SIZE]; /* identifiers; "" = without surface */
     double low[3], high[3];    /* of the scene as written */
     long triangles, objects;
-    int emits; /* some material shines */
+    int emits; /* some material shines enough to light the scene */
     struct ImageFile *images;
     int nimages, image_capacity;
     unsigned long left_out; /* bits of LeftOut */
@@ -155,6 +155,8 @@ double gltf_number(const json_t *object, const char *key, double otherwise);
 const json_t *gltf_extension(const json_t *of, const char *name);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);
+/* tds.c: into Assimp's cameras */
+void tds_read(Import *import);
 /* gltf_lights.c */
 void gltf_take_lights(const json_t *json, Gltf *gltf);
 /* Returns 1 if there are any. */
@@ -191,6 +193,8 @@ int lights_write(Import *import, FILE *out, RetexError *err);
 int cameras_write(Import *import, FILE *out, RetexError *err);
 /* The world transform of the first node of that name, z not mirrored. */
 Affine import_node_transform(const Import *import, const char *name);
+/* That of a camera or light, which is relative to its node, but in 3DS files to all of the scene. */
+Affine import_own_transform(const Import *import, const char *name);
 /* Text for a comment, without control characters. */
 const char *import_plain(const char *text, char plain[NAME_SIZE]);
 

@@ -61,7 +61,7 @@ static double exposure(const Import *import)
         const struct aiLight *light = import->scene->mLights[i];
         const struct aiVector3D *p = &light->mPosition;
         const struct aiColor3D *c = &light->mColorDiffuse;
-        const Affine node = import_node_transform(import, light->mName.data);
+        const Affine node = import_own_transform(import, light->mName.data);
         double at[3], squared = 0, color = fmax((double)c->r, fmax((double)c->g, (double)c->b));
         affine_point(&node, (double[3]){(double)p->x, (double)p->y, (double)p->z}, at);
         at[2] = -at[2];
@@ -79,7 +79,7 @@ static double exposure(const Import *import)
 
 static void write_light(Import *import, const struct aiLight *light, double user, FILE *out)
 {
-    const Affine node = import_node_transform(import, light->mName.data);
+    const Affine node = import_own_transform(import, light->mName.data);
     const double p[3] = {(double)light->mPosition.x, (double)light->mPosition.y, (double)light->mPosition.z};
     const double d[3] = {(double)light->mDirection.x, (double)light->mDirection.y, (double)light->mDirection.z};
     double at[3], to[3], middle[3], radius = 0;

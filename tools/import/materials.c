@@ -362,7 +362,7 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     code = write_maps(&w, emission, err);
     if (code)
         return code;
-    import->emits |= !s->unlit && largest(emission) > 0;
+    import->emits |= !s->unlit && largest(emission) > 1; /* what shines less is a label or a lamp on a panel */
     to->is_solid = s->transmission > 0;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
     print_pigment(out, s, file);
