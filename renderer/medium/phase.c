@@ -52,12 +52,24 @@ double phase_density(const Medium *medium, double cosine)
     return value / (4 * PI * mean);
 }
 
+static double factor_of(const Medium *medium)
+{
+    const int has_factor = medium->phase != PHASE_ISOTROPIC && medium->phase != PHASE_HENYEY_GREENSTEIN;
+    return has_factor ? povray_factor[medium->phase] : 1;
+}
+
 double phase_of_sources(const Medium *medium, double cosine)
 {
     double mean;
     const double value = shape_of(medium, cosine, &mean);
-    const int has_factor = medium->phase != PHASE_ISOTROPIC && medium->phase != PHASE_HENYEY_GREENSTEIN;
-    return value * (has_factor ? povray_factor[medium->phase] : 1) / PI;
+    return value * factor_of(medium) / PI;
+}
+
+double phase_source_scale(const Medium *medium)
+{
+    double mean;
+    shape_of(medium, 0, &mean);
+    return 4 * mean * factor_of(medium);
 }
 
 /* Of 1 + a x^(n - 1), x uniform with a probability, else by the power. */

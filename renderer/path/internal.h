@@ -46,6 +46,7 @@ typedef struct Path {
     int half;
     int specular;                /* what bent it since it left a surface that scatters widely, see SPECULAR_… */
     const LightGroup *lit_group; /* of that surface: which light sources shine on it */
+    float source_scale;          /* of light sources that it meets; not 1 where a medium is seen that scattered it */
     Media media;
     Float4 media_weight;         /* of what media did to throughput, the distances of scattering are chosen by it */
     double light[3];             /* sum of its contributions */

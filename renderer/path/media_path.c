@@ -233,6 +233,7 @@ static MediumEvent scatter_at(PathWorker *w, Path *path, Ray *ray, const MediumS
     path->kind = RAY_BOUNCE;
     path->prev_context = (LightSampleContext){p, {0, 0, 0}, NULL};
     path->specular = SPECULAR_BEGINS, path->lit_group = NULL;
+    path->source_scale = path->sharp ? (float)(phase_source_scale(medium) / fmin(medium->extinction, 1)) : 1;
     path_next_segment(path, (float)pdf, (float)pdf);
     return MEDIUM_SCATTERED;
 }

@@ -167,7 +167,7 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
     const Primitive *p = v->s.surface.primitive;
     Factor factors[SHADOW_FACTORS_MAX];
     if (next->pdf > 0) {
-        path->specular = SPECULAR_BEGINS, path->lit_group = p->light_group;
+        path->specular = SPECULAR_BEGINS, path->lit_group = p->light_group, path->source_scale = 1;
         return;
     }
     const int by = next->transmitted || v->s.surface.backside ? CAUSTICS_REFRACT : CAUSTICS_REFLECT;
@@ -181,7 +181,7 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
         met.ray.tmax = met.light.shadow_distance * (1 - 1e-6);
         const int passed = trace_shadow_ray(w, path, &v->s.surface, &met, factors, SHADOW_FACTORS_MAX);
         if (passed >= 0)
-            path_add_light(w, path, met.light.radiance, factors, passed);
+            path_add_light(w, path, rgb_scale(met.light.radiance, path->source_scale), factors, passed);
     }
 }
 

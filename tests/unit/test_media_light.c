@@ -207,6 +207,28 @@ static void smoke_lights_a_plane(void **state)
     expect_color(mean, wanted, 0.015, "a plane below smoke");
 }
 
+/* Behind a pane that refracts it, the same light source is as bright in smoke: on paths that are scattered there. */
+static void smoke_behind_a_pane(void **state)
+{
+    static const char *const types[] = {"1, .1", "4, .1", "1, .1 extinction .5"};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        double means[2][3];
+        for (int pane = 0; pane < 2; pane++) {
+            char text[1024];
+            snprintf(text, sizeof text,
+                     "#version 3.7; global_settings { assumed_gamma 1 photons { count 1 } }\n"
+                     "camera { location -6*z look_at 0 angle 12 }\n"
+                     "light_source { 9*y, 1 parallel point_at 0 retex { radius 3 } }\n"
+                     "sphere { 0, .8 pigment { rgbt 1 } hollow interior { media { scattering { %s } } } }\n"
+                     "box { <-9,2,-9>, <9,2.1,9> pigment { rgbt 1 } finish { diffuse 0 } no_image %s }",
+                     types[k], pane ? "interior { ior 1.2 } photons { target refraction on }" : "");
+            render_mean(text, pane ? 8192 : 256, 5, means[pane]);
+        }
+        expect_color(means[1], means[0], 0.1, types[k]);
+    }
+}
+
 /* ---- furnace ---- */
 
 /* Nothing is absorbed under a white sky, by smoke that scatters each colour by its own, in each other too. */
@@ -266,7 +288,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shadow_rays_obey_beer),   cmocka_unit_test(smoke_by_a_shining_ball),
         cmocka_unit_test(smoke_by_a_light_source), cmocka_unit_test(smoke_lights_a_plane),
-        cmocka_unit_test(white_smoke_vanishes),    cmocka_unit_test(sets_recombine),
+        cmocka_unit_test(smoke_behind_a_pane),     cmocka_unit_test(white_smoke_vanishes),
+        cmocka_unit_test(sets_recombine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
