@@ -276,7 +276,7 @@ static int keep_some(void *context, int y0, int y1, const float *rows, RetexErro
     return 0;
 }
 
-/* Some rows are those of the whole picture. */
+/* Some rows, and some columns of them, are those of the whole picture. */
 static void expect_rows(const RetexSet *set, RetexTexture *const *textures, const RetexImage *picture)
 {
     static const int parts[][2] = {
@@ -292,6 +292,15 @@ static void expect_rows(const RetexSet *set, RetexTexture *const *textures, cons
         test_must(retex_retexture(set, NULL, textures, &params, keep_some, &some, 1, &err), &err);
         assert_int_equal(some.count, some.y1 - some.y0);
         assert_memory_equal(other.pixels + first, picture->pixels + first, floats * sizeof(float));
+        params.x0 = (int)(3 * i);
+        params.x1 = WIDTH - (int)i;
+        memset(other.pixels, 1, sizeof(float) * 3 * WIDTH * HEIGHT);
+        test_must(retex_retexture(set, NULL, textures, &params, keep_some, &some, 2, &err), &err);
+        for (int y = params.y0; y < params.y1; y++) {
+            const size_t at = retex_image_index(picture, params.x0, y);
+            assert_memory_equal(other.pixels + at, picture->pixels + at,
+                                sizeof(float) * 3 * (size_t)(params.x1 - params.x0));
+        }
         retex_image_free(&other);
     }
 }

@@ -93,6 +93,8 @@ static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads
     RetexCombineParams params = RETEX_COMBINE_INIT;
     params.y0 = place->y;
     params.y1 = place->y + place->height;
+    params.x0 = place->x;
+    params.x1 = place->x + place->width;
     int code = retex_image_alloc(&tall, place->scaled_width, place->height, 3, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);

@@ -19,13 +19,16 @@
 
 static void combine_row(const RetexPolynomialRow *row, int width, float *restrict out)
 {
-    for (int x = 0; x < width; x += SPAN_PIXELS) {
-        size_t first = 3 * (size_t)x, numbers = 3 * (size_t)(width - x < SPAN_PIXELS ? width - x : SPAN_PIXELS);
+    const RetexRowSpan columns = row->polynomial->columns;
+    if (columns.begin > 0 || columns.end < width)
+        memset(out, 0, 3 * (size_t)width * sizeof *out);
+    for (int x = columns.begin; x < columns.end; x += SPAN_PIXELS) {
+        const int end = columns.end - x < SPAN_PIXELS ? columns.end : x + SPAN_PIXELS;
+        const size_t first = 3 * (size_t)x, numbers = 3 * (size_t)(end - x);
         memset(out + first, 0, numbers * sizeof *out);
         for (int t = 0; t < row->count; t++) {
             const RetexMonomial *m = &row->monomials[t];
-            const RetexRowSpan span =
-                retex_span_intersection(m->span, (RetexRowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
+            const RetexRowSpan span = retex_span_intersection(m->span, (RetexRowSpan){x, end});
             const float *factors[RETEX_MAX_FACTORS + 3];
             if (retex_span_is_empty(span))
                 continue;
@@ -103,10 +106,12 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
     if (code)
         return code;
-    const int some = params && params->size >= sizeof *params && params->y1 > params->y0;
-    const int y0 = some && params->y0 > 0 ? params->y0 : 0;
-    const int y1 = some && params->y1 < set->height ? params->y1 : set->height;
-    code = combine(&polynomial, y0, y1, sink, context, nthreads, err);
+    RetexRowSpan rows = {0, set->height};
+    if (params && params->size >= sizeof *params && params->y1 > params->y0)
+        rows = retex_span_intersection(rows, (RetexRowSpan){params->y0, params->y1});
+    if (params && params->size >= sizeof *params && params->x1 > params->x0)
+        polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){params->x0, params->x1});
+    code = combine(&polynomial, rows.begin, rows.end, sink, context, nthreads, err);
     retex_polynomial_close(&polynomial);
     return code;
 }

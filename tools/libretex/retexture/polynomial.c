@@ -97,6 +97,7 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
     *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
+    p->columns = (RetexRowSpan){0, set->width};
     p->cross = params ? params->cross : defaults.cross;
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);

@@ -18,6 +18,7 @@ typedef struct RetexPolynomial {
                                                   corrections; 0: terms are grouped */
     char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
     int picture;                               /* 1: part 0 is the result, and there are no terms */
+    RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
     float correction;                          /* weight of the corrections of edited targets */
     RetexImage *footprints, *mixtures, *gains; /* reduced images, by number; gains by number of their part */
     struct RetexPolynomialGroup *groups;       /* unless apart; see polynomial_groups.h */

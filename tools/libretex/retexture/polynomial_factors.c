@@ -104,6 +104,8 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     RetexFootprintRow from;
     int code = retex_footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
+    if (from.width == set->width) /* a reduced one is made whole, once */
+        from.span = retex_span_intersection(from.span, p->columns);
     if (code || !from.uv || retex_span_is_empty(from.span))
         return code;
     refill(buffer, from.span);

@@ -14,10 +14,11 @@ typedef struct RetexCombineParams {
     size_t size;
     int cross;  /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
     int y0, y1; /* retex_retexture makes only rows y0 <= y < y1; default 0, 0 = all */
+    int x0, x1; /* and of these only x0 <= x < x1, the rest is 0 or its value; default 0, 0 = all */
 } RetexCombineParams;
 #define RETEX_COMBINE_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCombineParams), 3, 0, 0                                                                            \
+        sizeof(RetexCombineParams), 3, 0, 0, 0, 0                                                                      \
     }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
