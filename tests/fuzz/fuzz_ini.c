@@ -13,9 +13,27 @@
 
 enum { WORDS = 8 };
 
+static char folder[] = "/tmp/retex-fuzz-ini-XXXXXX"; /* of fuzz.ini and part.ini */
+static pid_t owner;
+
+static const char *path_of(const char *name)
+{
+    static char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void clean(void)
+{
+    if (getpid() != owner)
+        return;
+    unlink(path_of("fuzz.ini")), unlink(path_of("part.ini"));
+    rmdir(folder);
+}
+
 static void write_text(const char *name, const char *text, size_t size)
 {
-    FILE *file = fopen(name, "wb");
+    FILE *file = fopen(path_of(name), "wb");
     if (!file || fwrite(text, 1, size, file) != size || fclose(file))
         abort();
 }
@@ -35,9 +53,9 @@ static void begin(void)
         "+Llib\nStart_Column=3\nEnd_Row=.5\nfuzz.ini\n"
         "Bounding=off Video_Mode='1' \"Display=off\"\nother.pov\n",
     };
-    char folder[] = "/tmp/retex-fuzz-ini-XXXXXX";
-    if (!mkdtemp(folder) || chdir(folder))
+    if (!mkdtemp(folder) || atexit(clean))
         abort();
+    owner = getpid();
     write_text("part.ini", part, strlen(part));
     for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
         fuzz_seed(seeds[i], strlen(seeds[i]));
@@ -99,7 +117,7 @@ static int run(const unsigned char *bytes, size_t size)
         if (*word == '+')
             code = ini_switch(&ini, word, &err);
         else if (ini_is_file(word))
-            code = ini_read(&ini, word, &err);
+            code = ini_read(&ini, path_of(word), &err);
         fuzz_must(!code == !err.message[0], "an error has a message");
         fuzz_must(!strchr(err.message, '\n'), "a message is one line");
         word = next;
