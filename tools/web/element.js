@@ -407,10 +407,10 @@ class RetexRoom extends HTMLElement {
       case "download": {
         const a = document.createElement("a"), comparing = this.comparing;
         this.comparing = false;
-        a.href = URL.createObjectURL(await this.toBlob());
+        a.href = this.renderer ? URL.createObjectURL(await this.toBlob()) : this.$("img").src;
         this.comparing = comparing;
         this.draw(false);
-        a.download = "room.png";
+        a.download = this.renderer ? "room.png" : "room.jpg";
         a.click();
         return setTimeout(() => URL.revokeObjectURL(a.href), 1000);
       }

@@ -80,7 +80,8 @@ button { font: inherit; color: inherit; cursor: pointer; }
 .panel button, .file { min-height: 40px; padding: 6px 12px; border: 1px solid var(--line); border-radius: 10px; background: #fff; }
 .panel button:hover, .file:hover { border-color: #0006; }
 .panel [aria-pressed=true] { border-color: var(--accent); background: #2f5d5014; }
-.panel button:disabled { opacity: .45; cursor: default; }
+.panel :disabled, .file:has(:disabled) { opacity: .45; cursor: default; }
+.swatch[aria-pressed=true] { outline: 3px solid var(--accent); outline-offset: -1px; }
 .swatch { width: 44px; height: 44px; padding: 0 !important; background-size: cover !important; }
 .file { display: inline-flex; align-items: center; cursor: pointer; }
 .file:focus-within, :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
@@ -135,7 +136,7 @@ ${TOOLS}
     <h2 id="with">Texture</h2>
     <div class="row swatches" role="group" aria-labelledby="with"></div>
     <div class="row" style="margin-top:6px">
-      <label class="file">Choose a picture…<input type="file" accept="image/*" data-set="file"></label>
+      <label class="file">Your photo…<input type="file" accept="image/*" data-set="file"></label>
       <input type="color" value="#c8b9a6" data-set="color" title="One colour" aria-label="One colour">
       <button data-do="original">Original</button>
     </div>
