@@ -184,7 +184,10 @@ studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
     0x3d3d, tds(0x4000, b'Card\0', tds(
         0x4100, tds(0x4110, struct.pack('<H', 8), *(struct.pack('<3f', *p) for p in corners)),
         tds(0x4120, struct.pack('<H', 4), *(struct.pack('<4H', *(4 * k + i for i in f), 7) for k in range(2) for f in faces)))),
-    tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', .75, -2.5, .5, .75, 0, .5, 0, 2400 / angle)))))
+    tds(0x4000, b'Eye\0', tds(0x4700, struct.pack('<8f', .75, -2.5, .5, .75, 0, .5, 0, 2400 / angle)))),
+    tds(0xb000, *(tds(kind, tds(0xb010, name + struct.pack('<HHH', 0, 0, 0xffff)), tds(
+        0xb020, struct.pack('<HII', 0, 0, 0), struct.pack('<IIH', 1, 0, 0), struct.pack('<3f', *at)))
+        for kind, name, at in ((0xb002, b'Card\0', (0, 0, 0)), (0xb003, b'Eye\0', (.75, -2.5, .5))))))
 write('card.3ds', studio)
 
 # Roughness is .75 times green, which rises with u; metallic is blue, in the upper half.

@@ -130,7 +130,10 @@ static void add_finish(char *text, int rough)
     add(text, PICK("", "", "irid { .35 thickness .5 turbulence .5 }", "irid { 1 thickness 2 }"));
     if (!rough && pick(5) == 0)
         add(text, PICK("retex { metallic 1 roughness .5 }", "retex { transmission 1 ior 1.3 }",
-                       "retex { transmission 1 roughness .5 ior 1.5 }", "retex { metallic 1 roughness .01 }"));
+                       "retex { transmission 1 roughness .5 ior 1.5 }", "retex { metallic 1 roughness .01 }",
+                       "retex { metallic 1 roughness .4 clearcoat 1 clearcoat_roughness .3 }",
+                       "retex { metallic 1 clearcoat .7 sheen rgb 1 sheen_roughness .5 }",
+                       "retex { transmission 1 roughness .3 clearcoat 1 sheen rgb <1,.5,.2> }"));
     add(text, PICK("", "", "use_alpha"));
     add(text, "}");
 }
