@@ -29,6 +29,7 @@ texture { pigment { image_map { png "colours.png" interpolate 3 } } }
 texture { pigment { image_map { png "colours.png" interpolate 4 } } }
 texture { pigment { rgb .4 } } texture { pigment { rgbf <.1,.3,.2,.9> } } texture { pigment { rgbft <.3,.5,.2,.4,.2> } }
 texture { pigment { rgb .4 } } texture { pigment { rgbf <.1,.3,.2,.9> } finish { phong .1 } } texture { pigment { rgbf <.3,.5,.2,.4> } }
+texture { material_map { png "palette.png" texture { pigment { rgb <.9,.4,.1> } } texture { pigment { rgb <.1,.5,.9> } finish { phong .1 } } texture { pigment { gradient y } } } }
 '''.strip().split('\n')
 CELL = 5   # pixels of a texture
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../data')
