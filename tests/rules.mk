@@ -84,6 +84,7 @@ RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
+	@tools/setup.sh cluster || true # long/cluster.sh tells what is missing
 	@MUTANTS=all RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long mutants
 # Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
 check-mutants: tests

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`; `setup.sh serve`
-# for retex-serve with nginx and many clients, `setup.sh web` for the player in a browser) or compared with POV-Ray
-# (`setup.sh parity`).
+# for retex-serve with nginx and many clients, `setup.sh web` for the player in a browser, `setup.sh cluster` for parts
+# of work on several machines) or compared with POV-Ray (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
 # password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
@@ -60,6 +60,12 @@ command wrk wrk
 file /usr/sbin/nginx nginx-light
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
+'
+needs_cluster='
+command parallel parallel
+command sbatch slurm-wlm
+command munged munge
+python yaml python3-yaml
 '
 
 CC=${CC:-gcc}
@@ -157,9 +163,10 @@ test) install_missing "$needs_test" ;;
 parity) install_missing "$needs_parity" ;;
 serve) install_missing "$needs_serve" ;;
 web) install_missing "$needs_web" ;;
+cluster) install_missing "$needs_cluster" ;;
 config) config ;;
 *)
-    echo "usage: $0 build | test | parity | serve | web | config" >&2
+    echo "usage: $0 build | test | parity | serve | web | cluster | config" >&2
     exit 2
     ;;
 esac
