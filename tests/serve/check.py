@@ -31,7 +31,7 @@ def main():
         server.stop()
         load.check_queue(rooms, textures, log)
         load.check_kills(rooms, textures, log, 5)
-        load.check_throughput(rooms, textures, work, log, 24)
+        load.check_throughput(rooms, textures, work, log, 60)
     if "nginx" in parts:
         proxy.check(rooms, textures, work, log)
     if "unit" in parts:
