@@ -12,30 +12,35 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
     return rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
-/* The colours, but for the opacity, of a surface whose pigment's is known. */
-static void set_colors(Shading *s, const Rgbft *c, const RenderVariant *variants, int nvariants)
+static __attribute__((noinline)) void replace_color(Shading *s, const RenderVariant *variants, int nvariants)
 {
-    const Surface *surface = &s->surface;
-    s->albedo = rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b));
-    s->filter = not_negative(c->filter), s->transmit = not_negative(c->transmit);
-    s->replaced = s->is_leaf = s->is_layer = 0;
-    if (surface->target < 0)
-        return;
-    for (int v = 0; variants && v < nvariants; v++)
-        s->replaced |= variants[v].constants || variants[v].textures[surface->target];
+    const int target = s->surface.target;
+    for (int v = 0; v < nvariants; v++)
+        s->replaced |= variants[v].constants || variants[v].textures[target];
     for (int v = 0; s->replaced && v < nvariants; v++) {
-        const RetexTexture *replacement = variants[v].textures[surface->target];
-        s->albedos[v] = variants[v].constants ? variants[v].constants[surface->target]
+        const RetexTexture *replacement = variants[v].textures[target];
+        s->albedos[v] = variants[v].constants ? variants[v].constants[target]
                         : replacement         ? replaced_color(s, replacement)
                                               : s->albedo;
     }
+}
+
+/* The colours of a surface whose pigment's is known, and which is opaque unless the caller knows better. */
+static inline void set_colors(Shading *s, const Rgbft *c, const RenderVariant *variants, int nvariants)
+{
+    s->albedo = rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b));
+    s->filter = not_negative(c->filter), s->transmit = not_negative(c->transmit), s->opacity = 1;
+    s->replaced = s->is_leaf = s->is_layer = 0;
+    if (s->surface.target >= 0 && variants)
+        replace_color(s, variants, nvariants);
 }
 
 void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
 {
     const Rgbft c = surface_color(&s->surface, place, &s->uv);
     set_colors(s, &c, variants, nvariants);
-    s->opacity = pigment_opacity(s->surface.texture->pigment, c);
+    if (s->filter + s->transmit > 0)
+        s->opacity = pigment_opacity(s->surface.texture->pigment, c);
 }
 
 void shading_bsdf(Shading *s, Vec3 wo)

@@ -231,7 +231,7 @@ static Split split_scale(Split s, float k)
     return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)};
 }
 
-static Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+static inline Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     if (b->bumped)
         return eval_bumped(b, wi, light, pdf);
@@ -243,7 +243,7 @@ static Split eval_base(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
     return (Split){{0, 0, 0}, {0, 0, 0}};
 }
 
-static Split eval_coating(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
+static __attribute__((noinline)) Split eval_coating(const Bsdf *b, Vec3 wi, BsdfLight light, float *pdf)
 {
     Split sum = split_scale(eval_base(b, wi, light, pdf), b->coating.under);
     if (vec_dot(wi, b->geometric) > 0)
@@ -370,7 +370,7 @@ Vec3 bsdf_enter(const Bsdf *b, float u1, float u2)
 }
 
 /* Value and density of all lobes along the direction that one of them has chosen. */
-static int take_direction(const Bsdf *b, BsdfSample *sample)
+static inline int take_direction(const Bsdf *b, BsdfSample *sample)
 {
     const Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
     if (sample->pdf <= 0)
@@ -379,7 +379,7 @@ static int take_direction(const Bsdf *b, BsdfSample *sample)
     return 1;
 }
 
-static int sample_coat(const Bsdf *b, float u1, float u2, BsdfSample *sample)
+static __attribute__((noinline)) int sample_coat(const Bsdf *b, float u1, float u2, BsdfSample *sample)
 {
     sample->wi = coating_sample_coat(&b->coating, b->wo, u1, u2);
     if (vec_dot(sample->wi, b->geometric) <= 0)
@@ -390,7 +390,7 @@ static int sample_coat(const Bsdf *b, float u1, float u2, BsdfSample *sample)
     return 1;
 }
 
-static int sample_sheen(const Bsdf *b, float u1, float u2, BsdfSample *sample)
+static __attribute__((noinline)) int sample_sheen(const Bsdf *b, float u1, float u2, BsdfSample *sample)
 {
     sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
     return vec_dot(sample->wi, b->geometric) > 0 && take_direction(b, sample);

@@ -217,7 +217,8 @@ static int finish_has_coating(const Finish *f)
 }
 
 /* of_coat, of_sheen: what they reflect. Glass has them on its outside. */
-static void setup_coating(Bsdf *b, const Finish *f, const Surface *surface, float *of_coat, float *of_sheen)
+static __attribute__((noinline)) void setup_coating(Bsdf *b, const Finish *f, const Surface *surface, float *of_coat,
+                                                    float *of_sheen)
 {
     const CoatingNumbers numbers = {
         .clearcoat = mapped(f->retex.clearcoat, f->retex.clearcoat_map, surface),
@@ -250,7 +251,8 @@ static void setup_choice(Bsdf *b, float of_coat, float of_sheen)
     float sum = w[0] + w[1] + w[2] + w[3] + w[4] + w[5] + of_coat + of_sheen;
     if (!(sum > 0))
         return;
-    b->coating.coat.p = of_coat / sum, b->coating.sheen.p = of_sheen / sum;
+    if (b->coating.present)
+        b->coating.coat.p = of_coat / sum, b->coating.sheen.p = of_sheen / sum;
     b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum, b->p_subsurface = w[5] / sum;
 }
