@@ -26,10 +26,18 @@ static double inset(const Tiling *tiling, const Vec2 *corners, int n, Vec2 p)
 static double penrose_value(int number, const PatternPoint *point)
 {
     const Vec2 p = {point->p.x, point->p.z};
-    int type;
-    const double slope = number == TILING_KITES ? 4.46 : 3.4300886;
-    const double inset = number == TILING_KITES ? penrose_kites(p, &type) : penrose_rhombs(p, &type);
-    return (type + fmax(0, 1 - slope * inset)) / 2;
+    int type, types = 2;
+    double slope = 3.4300886, inset;
+    if (number == TILING_PENTAGONS) {
+        inset = penrose_pentagons(p, &type);
+        types = 6;
+    } else if (number == TILING_KITES) {
+        inset = penrose_kites(p, &type);
+        slope = 4.46;
+    } else {
+        inset = penrose_rhombs(p, &type);
+    }
+    return (type + fmax(0, 1 - slope * inset)) / types;
 }
 
 static double value(const Pattern *pattern, const PatternPoint *point)
@@ -62,5 +70,4 @@ static double value(const Pattern *pattern, const PatternPoint *point)
     return (type + fmax(0, 1 - tiling->slope * most)) / tiling->types;
 }
 
-const PatternOps pattern_tiling = {
-    .keyword = "tiling", .arguments = ARGUMENTS_TILING, .value = value, .name = "tiling 25"};
+const PatternOps pattern_tiling = {.keyword = "tiling", .arguments = ARGUMENTS_TILING, .value = value};

@@ -19,9 +19,11 @@ typedef struct Tiling {
 enum { TILINGS = 24 };
 extern const Tiling tilings[TILINGS];
 
-/* Penrose's tilings 26 and 27, in which nothing repeats: of darts (type 1) and kites, of thin (1) and thick rhombs.
- * They return how far a point is from the edges of its tile. */
-enum { TILING_KITES = 26, TILING_RHOMBS };
+/* Penrose's tilings 25 to 27, in which nothing repeats: of pentagons (types 0 to 2), stars (3), boats (4) and rhombs
+ * (5); of darts (1) and kites; of thin (1) and thick rhombs. They return how far a point is from the edges of its
+ * tile. */
+enum { TILING_PENTAGONS = 25, TILING_KITES, TILING_RHOMBS };
+double penrose_pentagons(Vec2 p, int *type);
 double penrose_kites(Vec2 p, int *type);
 double penrose_rhombs(Vec2 p, int *type);
 

@@ -155,6 +155,8 @@ PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles {tiles} pattern 
 PIGMENTS += [f'pavement number_of_sides {sides} number_of_tiles 5 pattern 4 exterior {n % 3} interior {n // 3 % 3} '
              f'form {n // 9}' for sides in (3, 6) for n in range(0, 36, 5)]
 PIGMENTS += [f'tiling {n} scale {s} translate <.123,0,.077>' for n in (26, 27) for s in (.01, .03, .1, .2, .3, .4, .5)]
+PIGMENTS += [f'tiling 25 scale {s} translate <.123,0,.077>' for s in
+             (1e-5, 1e-4, .001, *(n / 200 for n in range(2, 41)), .3, .4, .5)]
 
 
 def main():

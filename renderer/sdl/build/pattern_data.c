@@ -225,20 +225,12 @@ static int accept_fractal_modifier(Sdl *sdl, Pattern *pattern)
 
 /* ---- tiling ---- */
 
-enum { POVRAY_TILINGS = 27 };
-
-static void parse_tiling(Sdl *sdl, ParsedPigment *pigment)
+static void parse_tiling(Sdl *sdl, Pattern *pattern)
 {
-    Pattern *pattern = &pigment->pigment.pattern;
     const double number = floor(sdl_float(sdl));
-    if (!(number >= 1 && number <= POVRAY_TILINGS))
-        sdl_error(sdl, "tiling %g: there are 1 to %d", number, POVRAY_TILINGS);
+    if (!(number >= 1 && number <= TILING_RHOMBS))
+        sdl_error(sdl, "tiling %g: there are 1 to %d", number, TILING_RHOMBS);
     pattern->number = number;
-    if (number > TILINGS && number < TILING_KITES) {
-        gaps_add_pattern(&pigment->gaps, pattern_find(pattern->ops->keyword));
-        pigment->averaged = 1;
-        pattern->number = 1;
-    }
 }
 
 /* ---- pavement ---- */
@@ -327,7 +319,7 @@ void parse_pattern_data(Sdl *sdl, ParsedPigment *pigment)
         parse_pavement(sdl, pattern);
         break;
     case ARGUMENTS_TILING:
-        parse_tiling(sdl, pigment);
+        parse_tiling(sdl, pattern);
         break;
     case ARGUMENTS_BRICK: /* POV-Ray's */
         pattern->vector = vec3(8, 3, 4.5);
