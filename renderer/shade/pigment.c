@@ -172,7 +172,7 @@ int pigment_is_constant(const Pigment *pigment)
     return pigment->map.count > 0;
 }
 
-float pigment_hiding(const Pigment *pigment, Rgbft c)
+float pigment_opacity(const Pigment *pigment, Rgbft c)
 {
     const float transmit = not_negative(c.transmit);
     float filter = not_negative(c.filter);

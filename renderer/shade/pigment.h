@@ -30,11 +30,7 @@ int pigment_warp(const Pigment *pigment, Vec3 *p);
 void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
 /* How much the pigment hides where it has that colour, from 0 to 1: 1 - filter - transmit. In scenes before version 3.7
  * the brightest component of the colour, as written, multiplies filter: then it may be more than what does not pass. */
-float pigment_hiding(const Pigment *pigment, Rgbft color);
-static inline float pigment_opacity(const Pigment *pigment, Rgbft color)
-{
-    return color.filter > 0 || color.transmit > 0 ? pigment_hiding(pigment, color) : 1; /* most are opaque: no call */
-}
+float pigment_opacity(const Pigment *pigment, Rgbft color);
 /* 1 where the pigment has the same colour and opacity everywhere. */
 int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment is opaque everywhere: no filter, no transmit, no alpha of an image, no image with `once`. This is
