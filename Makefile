@@ -27,16 +27,18 @@
 #   make compare-external DIR=FOLDER   score another method's pictures against the references; sheets in build/external
 #   make lint         check the project's rules that a script can check
 #   make format       run clang-format on the sources
-#   make install      PREFIX=/usr/local DESTDIR=
+#   make install      PREFIX=/usr/local LIBDIR=PREFIX/lib DESTDIR=; make uninstall, with the same, removes it
 # A missing compiler or library is installed first if permitted: tools/setup.sh.
 
 BUILD ?= build
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 DESTDIR ?=
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
 WARNINGS = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wvla
 CXXWARNINGS = -Wall -Wextra
+VERSION := $(shell sed -n 's/.* RETEX_VERSION "\(.*\)"$$/\1/p' tools/libretex/include/retex/version.h)
 PKG_CONFIG ?= pkg-config
 INSTALL ?= install
 # V=1 prints whole commands.
@@ -54,10 +56,11 @@ endif
 LIBRETEX_SOURCES :=
 RENDERER_SOURCES :=
 TOOLS :=
+INSTALLED :=
 
 # The flags of the libraries, written after set-up. make then reads all makefiles again, so a machine that lacked
 # packages builds in the same run. `make clean` and `make format` do not need them.
-ifneq ($(filter-out clean format,$(or $(MAKECMDGOALS),all)),)
+ifneq ($(filter-out clean format uninstall,$(or $(MAKECMDGOALS),all)),)
 include $(BUILD)/config.mk
 endif
 $(BUILD)/config.mk: tools/setup.sh
@@ -71,27 +74,23 @@ include oiio_plugins/rules.mk
 include scenes/rules.mk
 include tests/rules.mk
 
-.PHONY: all demo pictures install clean lint format
+.PHONY: all demo pictures install uninstall clean lint format
 demo: all
 	@tools/demo.sh $(BUILD)
 pictures: all
 	@tools/pictures.sh $(BUILD)
 
+# What is installed: MODE:SOURCE:PLACE, see tools/install.sh. Each rules.mk adds its own.
+INSTALLED += $(TOOLS:%=755:$(BUILD)/bin/%:bin/) \
+	$(foreach page,$(wildcard man/*.[1-9]),644:$(page):share/man/man$(subst .,,$(suffix $(page)))/)
+space := $(subst ,, )
+RUN_INSTALL = PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' INSTALL='$(INSTALL)' \
+	VERSION='$(VERSION)' REQUIRES='$(LIBRETEX_REQUIRES)' LIBS='$(strip $(LIBRETEX_PRIVATE_LIBS))' \
+	STATIC_LIBS='$(subst $(space),;,$(strip $(LIBRETEX_LIBS) -pthread))' tools/install.sh
 install: all
-	$(INSTALL) -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include/retex
-	$(INSTALL) -m 755 $(TOOLS:%=$(BUILD)/bin/%) $(DESTDIR)$(PREFIX)/bin
-	$(INSTALL) -m 644 $(LIBRETEX) $(BRIDGE) $(DESTDIR)$(PREFIX)/lib
-	$(INSTALL) -m 644 tools/libretex/include/retex/*.h $(DESTDIR)$(PREFIX)/include/retex
-	$(INSTALL) -d $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
-	$(INSTALL) -m 755 $(PLUGINS) $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
-	for page in man/*.[1-9]; do [ ! -e $$page ] || $(INSTALL) -D -m 644 -t \
-	    $(DESTDIR)$(PREFIX)/share/man/man$${page##*.} $$page || exit 1; done
-	$(INSTALL) -d $(DESTDIR)$(PREFIX)/lib/systemd/system $(DESTDIR)$(PREFIX)/share/retex/serve
-	sed 's|/usr/local|$(PREFIX)|' tools/serve/retex-serve.service \
-	    >$(DESTDIR)$(PREFIX)/lib/systemd/system/retex-serve.service
-	$(INSTALL) -m 644 tools/serve/nginx.conf $(DESTDIR)$(PREFIX)/share/retex/serve
-	$(INSTALL) -d $(DESTDIR)$(PREFIX)/share/retex/blender
-	$(INSTALL) -m 644 tools/blender/retex_export.py $(DESTDIR)$(PREFIX)/share/retex/blender
+	@$(RUN_INSTALL) install $(INSTALLED)
+uninstall:
+	@$(RUN_INSTALL) uninstall $(INSTALLED)
 
 lint:
 	@tests/lib/lint.sh

@@ -26,7 +26,7 @@ $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 
 $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 # What URLs mean to retex-serve is tested without a server.
 SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif)
@@ -36,16 +36,16 @@ $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) \
 	    | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 # It runs the tools, and has models from Assimp.
 $(BUILD)/tests/fuzz/fuzz_import: TEST_LIBS += -lassimp
@@ -53,7 +53,7 @@ $(BUILD)/tests/fuzz/fuzz_import: | $(addprefix $(BUILD)/bin/,retex-import retex-
 
 $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 # Stands before the C library, so it knows it well; and its driver.
 $(BUILD)/tests/faults/shim.so: tests/faults/shim.c
@@ -66,11 +66,11 @@ $(BUILD)/tests/faults/faults: tests/faults/faults.c
 # What make bench-post measures by: each is one file.
 $(BUILD)/tests/bench/post_%: $(BUILD)/obj/tests/bench/post_%.o $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
 $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 .PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz

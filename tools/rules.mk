@@ -11,11 +11,21 @@ CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $
 KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))
 
 LIBRETEX := $(BUILD)/lib/libretex.a
+LIBRETEX_SHARED := $(BUILD)/lib/libretex.so.1
 BRIDGE := $(BUILD)/lib/libretex-oiio.so
 
+# One object serves both libraries. Public calls are visible (tools/libretex/include/retex), but nobody may replace them
+# inside the library: so they are inlined as in a program.
 $(BUILD)/obj/tools/libretex/%.o: tools/libretex/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) -fno-semantic-interposition \
+	    $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
+
+# A package may put the bridge elsewhere than beside the library: then the library knows the folder.
+BRIDGE_FOLDER ?=
+ifneq ($(BRIDGE_FOLDER),)
+$(BUILD)/obj/tools/libretex/picture/bridge_load.o: CPPFLAGS_ALL += -DRETEX_BRIDGE_FOLDER='"$(BRIDGE_FOLDER)"'
+endif
 
 $(BUILD)/obj/tools/%.o: tools/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
@@ -25,6 +35,14 @@ $(LIBRETEX): $(LIBRETEX_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
 	$(SAY)rm -f $@ && $(AR) qcs $@ $^
 
+# The number after .so changes when a program that was linked with the old library would not run with the new one.
+$(LIBRETEX_SHARED): $(LIBRETEX_SOURCES:%.c=$(BUILD)/obj/%.o) tools/libretex/libretex.map
+	@mkdir -p $(@D)
+	$(SAY)$(CC) -shared $(CFLAGS_ALL) $(LDFLAGS) -Wl,-soname,$(@F) -Wl,--version-script=tools/libretex/libretex.map \
+	    -Wl,-Bsymbolic-functions -Wl,--as-needed -Wl,--build-id $(filter %.o,$^) -o $@ $(LIBRETEX_LIBS)
+$(BUILD)/lib/libretex.so: $(LIBRETEX_SHARED)
+	@ln -sf $(<F) $@
+
 $(BUILD)/obj/tools/bridge/%.o: tools/bridge/%.cpp $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CXX) $(CPPFLAGS_ALL) $(BRIDGE_CFLAGS) $(CXXFLAGS_ALL) -MMD -MP -c $< -o $@
@@ -33,8 +51,10 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 	@mkdir -p $(@D)
 	$(SAY)$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
 
-# A tool is tools/retex-NAME.c, the common command line and the library. It loads the bridge from beside it at run time.
-LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
+# A tool is tools/retex-NAME.c, the common command line and the library. It contains the library, so that it runs from any
+# folder, starts without relocating it, and always is of one version with it. It loads the bridge from beside it at run
+# time.
+LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table batch batch_check \
 	batch_report batch_catalogue batch_manifest batch_sources frames kept_textures output_folder json_text)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
@@ -86,5 +106,17 @@ $(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(SERVE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
-all: $(LIBRETEX) $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
+# systemd looks into this folder, whatever LIBDIR is: the `./` keeps it below PREFIX.
+UNIT_PLACE := ./lib/systemd/system/
+BRIDGE_PLACE := $(or $(BRIDGE_FOLDER:$(LIBDIR)/%=lib/%),lib)
+INSTALLED += 644:$(LIBRETEX):lib/ 755:$(LIBRETEX_SHARED):lib/ link:$(notdir $(LIBRETEX_SHARED)):lib/libretex.so \
+	755:$(BRIDGE):$(BRIDGE_PLACE)/ \
+	$(patsubst %,644:%:include/retex/,$(wildcard tools/libretex/include/retex/*.h)) \
+	fill:tools/install/retex.pc.in:lib/pkgconfig/retex.pc \
+	fill:tools/install/retexConfig.cmake.in:lib/cmake/retex/retexConfig.cmake \
+	fill:tools/install/retexConfigVersion.cmake.in:lib/cmake/retex/retexConfigVersion.cmake \
+	644:tools/serve/nginx.conf:share/retex/serve/ 644:tools/blender/retex_export.py:share/retex/blender/ \
+	fill:tools/serve/retex-serve.service:$(UNIT_PLACE)
+
+all: $(LIBRETEX) $(BUILD)/lib/libretex.so $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

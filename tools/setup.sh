@@ -142,11 +142,15 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 
 config() {
     embree_name=$(embree)
+    modules="jansson libjpeg libpng blosc zlib libisal libdeflate"
+    exr_core=$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)
     echo "# Made by tools/setup.sh. Delete this file after other versions of the libraries have been installed."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg libpng blosc zlib libisal libdeflate)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg libpng blosc zlib libisal libdeflate)" \
-        "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libjpeg libpng blosc zlib libisal libdeflate) -ldl -lm"
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR $modules)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR $modules) $exr_core" \
+        "$("$PKG_CONFIG" --libs $modules) -ldl -lm"
+    # for retex.pc, so that others can link the static library
+    echo "LIBRETEX_REQUIRES := $modules"
+    echo "LIBRETEX_PRIVATE_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR) $exr_core -ldl -lm -pthread"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"

@@ -5,6 +5,7 @@
 
 #include <dlfcn.h>
 #include <limits.h>
+#include <link.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,8 +42,46 @@ static void *open_library(const char *path)
     return library;
 }
 
-/* The library beside the program: PREFIX/bin/retex-x -> PREFIX/lib, and the same for a program run from build/. A
- * program deeper in the tree (a unit test) is served by the folders above. */
+/* The bridge in a folder below the one of `file`, or of one above it, if it is there. */
+static void *open_near(const char *file, int levels, const char *below)
+{
+    char folder[PATH_MAX];
+    if (snprintf(folder, sizeof folder, "%s", file) >= (int)sizeof folder)
+        return NULL;
+    for (; levels > 0; levels--) {
+        char *slash = strrchr(folder, '/');
+        if (!slash)
+            return NULL;
+        *slash = '\0';
+        char path[PATH_MAX + 32];
+        snprintf(path, sizeof path, "%s/%s" BRIDGE_NAME, folder, below);
+        if (access(path, R_OK) == 0)
+            return open_library(path);
+    }
+    return NULL;
+}
+
+/* Beside the shared library that this code is in: libretex.so.1, whatever program uses it, or a plugin, which is in
+ * PREFIX/lib/retex/plugins, or in build/plugins. Its symbolic links are followed only where that finds nothing. */
+static void *open_near_library(void)
+{
+    static const char here;
+    Dl_info info;
+    struct link_map *map = NULL;
+    if (!dladdr1(&here, &info, (void **)&map, RTLD_DL_LINKMAP) || !map || !map->l_name[0])
+        return NULL; /* it is in the program itself */
+    void *library = open_near(map->l_name, 3, "");
+    if (!library && !bridge.message[0])
+        library = open_near(map->l_name, 2, "lib/");
+    char *resolved = library || bridge.message[0] ? NULL : realpath(map->l_name, NULL);
+    if (resolved)
+        library = open_near(resolved, 3, "");
+    free(resolved);
+    return library;
+}
+
+/* Beside the program that contains the library: PREFIX/bin/retex-x -> PREFIX/lib, and the same for a program run from
+ * build/. A program deeper in the tree (a unit test) is served by the folders above. */
 static void *open_near_program(void)
 {
     char program[PATH_MAX];
@@ -50,30 +89,27 @@ static void *open_near_program(void)
     if (length <= 0)
         return NULL;
     program[length] = '\0';
-    for (int up = 0; up < 3; up++) {
-        char *slash = strrchr(program, '/');
-        if (!slash)
-            return NULL;
-        *slash = '\0';
-        char path[PATH_MAX + 32];
-        snprintf(path, sizeof path, "%s/lib/" BRIDGE_NAME, program);
-        if (access(path, R_OK) == 0)
-            return open_library(path);
-    }
-    return NULL;
+    return open_near(program, 3, "lib/");
+}
+
+/* One that is found but cannot be loaded is not replaced by another, whose version nobody knows: its message stays. */
+static void *find_library(void)
+{
+    void *library = open_near_library();
+    if (!library && !bridge.message[0])
+        library = open_near_program();
+#ifdef RETEX_BRIDGE_FOLDER
+    if (!library && !bridge.message[0] && access(RETEX_BRIDGE_FOLDER "/" BRIDGE_NAME, R_OK) == 0)
+        library = open_library(RETEX_BRIDGE_FOLDER "/" BRIDGE_NAME);
+#endif
+    return library || bridge.message[0] ? library : open_library(BRIDGE_NAME);
 }
 
 static void load_bridge(void)
 {
     const char *named = getenv("RETEX_BRIDGE");
-    void *library;
-    if (named && *named) {
-        library = open_library(named); /* the user named this one: no other may replace it */
-    } else {
-        library = open_library(BRIDGE_NAME);
-        if (!library)
-            library = open_near_program();
-    }
+    /* the user named this one: no other may replace it */
+    void *library = named && *named ? open_library(named) : find_library();
     if (!library)
         return;
     /* ISO C has no conversion from object to function pointers; POSIX guarantees this one. */

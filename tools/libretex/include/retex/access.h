@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <retex/error.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -46,4 +47,5 @@ int retex_access_open(const RetexAccess *access, const char *path, int *descript
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

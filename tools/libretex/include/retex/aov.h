@@ -6,6 +6,7 @@
 
 #include <retex/image.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -79,4 +80,5 @@ int retex_aov_parse(unsigned *aovs, const char *list, const char *option, RetexE
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

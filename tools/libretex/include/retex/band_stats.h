@@ -5,6 +5,7 @@
 
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -30,4 +31,5 @@ void retex_band_stats_finish(RetexSet *set, const RetexBandStats *bands, int nba
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -11,6 +11,7 @@
 #include <stdint.h>
 #include <retex/image.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -69,4 +70,5 @@ int retex_band_store_load_band(const RetexBandStore *store, int image, int band,
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

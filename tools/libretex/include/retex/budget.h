@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <retex/error.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -78,4 +79,5 @@ int retex_budget_is_held(const RetexBudget *budget);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -4,6 +4,7 @@
 
 #include <time.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -18,4 +19,5 @@ struct timespec retex_clock_time_after(double seconds);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -45,4 +46,5 @@ static inline float retex_luminancef(float red, float green, float blue)
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

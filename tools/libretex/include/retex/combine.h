@@ -5,6 +5,7 @@
 #include <retex/picture.h>
 #include <retex/samples.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -63,4 +64,5 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples /* or 
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

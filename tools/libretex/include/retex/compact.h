@@ -4,6 +4,7 @@
 
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -39,4 +40,5 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

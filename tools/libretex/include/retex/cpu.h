@@ -20,6 +20,7 @@
 #define RETEX_CPU_X86 0
 #endif
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -70,4 +71,5 @@ RetexCpuLevel retex_cpu_level(void);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -12,6 +12,7 @@
 #include <retex/budget.h>
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -51,4 +52,5 @@ void retex_denoise_drop_data(RetexSet *set);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

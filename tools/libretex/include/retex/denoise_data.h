@@ -21,6 +21,7 @@
 
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -91,4 +92,5 @@ int retex_name_is_feature(const char *name);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -4,6 +4,7 @@
 
 #include <retex/metrics.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -49,4 +50,5 @@ void retex_diff_close(RetexDiff **diff); /* NULL and pointers to NULL are fine *
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

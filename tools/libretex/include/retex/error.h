@@ -3,6 +3,7 @@
 #ifndef RETEX_ERROR_H
 #define RETEX_ERROR_H
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -48,4 +49,5 @@ int retex_fail_at(RetexError *err, int code, const char *file, int line, int col
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

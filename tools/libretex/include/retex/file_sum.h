@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <retex/access.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -23,4 +24,5 @@ uint32_t retex_bytes_sum(uint32_t so_far, const void *bytes, size_t count);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -8,6 +8,7 @@
 #include <retex/budget.h>
 #include <retex/error.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -47,4 +48,5 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

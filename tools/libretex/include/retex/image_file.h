@@ -4,6 +4,7 @@
 
 #include <retex/image.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -67,4 +68,5 @@ int retex_image_format_check(const char *path, const RetexWriteParams *params /*
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

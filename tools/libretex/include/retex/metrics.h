@@ -4,6 +4,7 @@
 
 #include <retex/image.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -26,4 +27,5 @@ int retex_metrics(RetexMetrics *metrics, const RetexImage *image, const RetexIma
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

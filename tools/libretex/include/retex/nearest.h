@@ -2,6 +2,7 @@
 #ifndef RETEX_NEAREST_H
 #define RETEX_NEAREST_H
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -34,5 +35,6 @@ const char *retex_meant(const char *best, char text[RETEX_MEANT_SIZE]);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 
 #endif

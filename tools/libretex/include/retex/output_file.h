@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <retex/error.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,4 +21,5 @@ void retex_pending_files_remove(void);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -5,6 +5,7 @@
 
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -58,4 +59,5 @@ int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const 
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

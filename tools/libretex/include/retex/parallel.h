@@ -2,6 +2,7 @@
 #ifndef RETEX_PARALLEL_H
 #define RETEX_PARALLEL_H
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -17,4 +18,5 @@ void retex_parallel(int nthreads, int count, void (*job)(void *context, int inde
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -5,6 +5,7 @@
 
 #include <retex/image_file.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -41,4 +42,5 @@ int retex_picture_take(RetexPicture **picture, void **data, size_t *bytes, Retex
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -32,5 +32,6 @@
 #include <retex/texture.h>
 #include <retex/uv_stats.h>
 #include <retex/version.h>
+#include <retex/web.h>
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -40,4 +41,5 @@ float retex_round_coverage(double coverage);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -5,6 +5,7 @@
 #include <retex/set.h>
 #include <retex/texture.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -66,4 +67,5 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -20,6 +20,7 @@
 #include <retex/image.h>
 #include <retex/band_store.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -188,4 +189,5 @@ int retex_set_find_target(const RetexSet *set, const char *name);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -4,6 +4,7 @@
 
 #include <retex/samples.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -70,4 +71,5 @@ int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

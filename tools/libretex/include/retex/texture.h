@@ -21,6 +21,7 @@
 
 #include <retex/image.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -163,4 +164,5 @@ void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -77,4 +78,5 @@ void retex_uv_stats_load(RetexUvStats *stats, double weight, const float mean[2]
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <retex/set.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -35,4 +36,5 @@ int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParam
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif
