@@ -1,7 +1,6 @@
 """Checks the player of retex-pack --web in headless Chromium, and prints TAP: check.py SCENES FOLDER.
 
 FOLDER has the set room.exr and what retex-pack --web made of it, room/. With RETEX_WEB_SHOTS=DIR screenshots are kept."""
-import base64
 import http.server
 import json
 import os
@@ -14,12 +13,10 @@ import time
 import urllib.parse
 import zlib
 
-from browser import Browser
+from page import PART, ROOM, Page, finish, psnr, result
 
 scenes, work = sys.argv[1:]
 textures = ["walnut-herringbone", "terrazzo", "fans", "travertine", "brick", "damask"]
-shots = os.environ.get("RETEX_WEB_SHOTS")
-number = 0
 held, released = set(), threading.Event()
 
 
@@ -44,81 +41,6 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
 threading.Thread(target=server.serve_forever, daemon=True).start()
 url = f"http://127.0.0.1:{server.server_port}/"
-
-
-def result(good, name):
-    global number
-    number += 1
-    print(f"{'ok' if good else 'not ok'} {number} - {name}", flush=True)
-
-
-def psnr(a, b):
-    text = subprocess.run(["retex-diff", "--json", a, b], capture_output=True, text=True, check=False).stdout
-    return json.loads(text)["psnr"]
-
-
-ROOM = "document.querySelector('retex-room')"
-PART = ROOM + ".shadowRoot.querySelector"
-
-
-class Page(Browser):
-    def room(self, code):
-        return self.run(f"{ROOM}.{code}")
-
-    def save(self, path):
-        data = self.room("toBlob().then(x => x.arrayBuffer()).then(a => { let s = ''; for (const c of new Uint8Array(a)) "
-                         "s += String.fromCharCode(c); return btoa(s); })")
-        with open(path, "wb") as file:
-            file.write(base64.b64decode(data))
-
-    def put(self, target, texture, options="{scale: [1, 1]}"):
-        source = "null" if texture is None else json.dumps(url + texture)
-        self.room(f"setTexture('{target}', {source}, {options})")
-
-    def middle(self, selector):
-        box = self.run(f"(() => {{ const r = {PART}({json.dumps(selector)}).getBoundingClientRect(); "
-                       "return [r.x, r.y, r.width, r.height]; })()")
-        return box[0] + box[2] / 2, box[1] + box[3] / 2
-
-    def press(self, selector, touch=False):
-        self.run(f"{PART}({json.dumps(selector)}).scrollIntoView({{block: 'nearest'}})")
-        if touch:
-            self.touch(selector)
-        else:
-            self.click(*self.middle(selector))
-        self.settle()
-
-    def touch(self, selector):
-        """Tap until it is noticed: the browser drops taps while a swipe moves the page or a slow script runs."""
-        self.run(f"window.seen = 0; {PART}({json.dumps(selector)}).addEventListener('click', () => window.seen++, "
-                 "{once: true})")
-        for _ in range(4):
-            time.sleep(0.5)
-            self.tap([self.middle(selector)])
-            if self.until("window.seen > 0", 3):
-                return
-
-    def settle(self):
-        self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60))))")
-
-    def until(self, code, seconds=20):
-        end = time.time() + seconds
-        while time.time() < end:
-            if self.run(code):
-                return True
-            time.sleep(0.1)
-        return False
-
-    def state(self):
-        return self.room("getState()")
-
-    def message(self):
-        return self.run(f"{PART}('.message').hidden ? '' : {PART}('.message').textContent")
-
-    def shot(self, name):
-        if shots:
-            os.makedirs(shots, exist_ok=True)
-            self.screenshot(f"{shots}/{name}.png")
 
 
 def reference(path, *options):
@@ -146,6 +68,16 @@ def check_pictures(page):
     for i in range(0, len(textures), 2):
         compare(page, 38, (f"textures/{textures[i]}.jpg", f"textures/{textures[i + 1]}.jpg"))
     compare(page, 38, ("large.jpg", None))
+    page.put("Wall", "textures/brick.jpg")
+    page.room("command('compare')")
+    page.run(f"{PART}('.split').value = 100")
+    page.save(f"{work}/canvas.png")
+    page.room("command('compare')")
+    page.run(f"{PART}('.split').value = 50")
+    page.room("setState({})")
+    reference(f"{work}/combined.png")
+    decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+    result(decibels >= 38, f"before and after: the picture before is as the set has it, {decibels:.2f} dB")
     begin = page.run("performance.now()")
     for i in range(4):
         page.put("Floor", f"textures/{textures[i]}.jpg")
@@ -256,6 +188,11 @@ def check_controls(page, touch):
     result(float(page.run(f"{PART}('.split').value")) < 48, f"{how}: before and after")
     page.shot(f"compare-{how}")
     page.press("[data-do=compare]", touch)
+    before = page.run(f"{PART}('.stage').offsetWidth * {PART}('.stage').offsetHeight")
+    page.press("[data-do=panel]", touch)
+    after = page.run(f"{PART}('.stage').offsetWidth * {PART}('.stage').offsetHeight")
+    page.press("[data-do=panel]", touch)
+    result(after > 1.2 * before and page.run(f"!{PART}('.panel').hidden"), f"{how}: controls hidden, and shown again")
     page.press("[data-do=full]", touch)
     full = page.until("!!document.fullscreenElement", 5)
     page.run("document.exitFullscreen().catch(() => 0)")
@@ -280,7 +217,7 @@ def check_keyboard(page):
     for _ in range(60):
         page.key("Tab", 9)
         seen.append(page.run(f"(e => e.dataset.do || e.dataset.set || e.className || e.textContent)({focused})"))
-    wanted = {"stage", "compare", "out", "in", "full", "download", "link", "Floor", "Wall", "swatch", "file", "color",
+    wanted = {"stage", "compare", "out", "in", "full", "download", "link", "panel", "Floor", "Wall", "swatch", "file", "color",
               "original", "size", "rotate", "right", "up", "repeat", "tint", "exposure", "warmth"}
     result(wanted <= set(seen), f"keyboard: Tab reaches every control{' but ' if wanted - set(seen) else ''}"
            f"{', '.join(sorted(wanted - set(seen)))}")
@@ -305,6 +242,10 @@ def check_keyboard(page):
     zoomed = page.room("zoom.times")
     on("[data-do=out]", space)
     result(zoomed > 1.4 and page.room("zoom.times") == 1, "keyboard: zoom by buttons")
+    on("[data-do=panel]", enter)
+    hidden = page.run(f"{PART}('.panel').hidden")
+    on("[data-do=panel]", space)
+    result(hidden and page.run(f"!{PART}('.panel').hidden"), "keyboard: controls hidden, and shown again")
     on("[data-do=full]", enter)
     result(page.until("!!document.fullscreenElement", 5), "keyboard: full screen")
     page.run("document.exitFullscreen().catch(() => 0)")
@@ -492,7 +433,7 @@ def check_graphics(page):
 
 
 def check_no_webgl():
-    page = Page("--disable-3d-apis")
+    page = Page(url, "--disable-3d-apis")
     try:
         page.size(1280, 800)
         page.open(url + "page.html")
@@ -505,7 +446,7 @@ def check_no_webgl():
 
 
 def main():
-    page = Page()
+    page = Page(url)
     try:
         page.size(1280, 800)
         page.open(url + "page.html")
@@ -531,7 +472,7 @@ def main():
     finally:
         page.close()
     check_no_webgl()
-    print(f"1..{number}")
+    finish()
 
 
 main()

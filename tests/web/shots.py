@@ -9,8 +9,8 @@ url = serve(folder)
 room = "document.querySelector('retex-room')"
 browser = Browser(timeout=900)
 try:
-    for name, size, floor, wall in (("desktop", (1280, 720), "walnut-herringbone", None),
-                                    ("phone", (390, 780), "terrazzo", "damask"),
+    for name, size, floor, wall in (("desktop", (1440, 900), "walnut-herringbone", None),
+                                    ("phone", (390, 844), "terrazzo", "damask"),
                                     ("compare", (900, 620), "fans", "travertine")):
         browser.size(*size, phone=name == "phone")
         browser.open(url + page)

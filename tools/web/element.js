@@ -15,6 +15,7 @@ class RetexRoom extends HTMLElement {
   }
 
   connectedCallback() {
+    this.togglePanel(this.getAttribute("panel") !== "closed");
     if (!this.started && this.hasAttribute("src")) this.load();
   }
 
@@ -160,9 +161,7 @@ class RetexRoom extends HTMLElement {
     this.room = room;
     this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
-    const view = this.$(".view");
-    view.style.aspectRatio = `${room.width} / ${room.height}`;
-    view.style.maxWidth = `calc(100cqh * ${room.width / room.height})`;
+    this.$(".view").style.setProperty("--ratio", room.width / room.height);
     this.refresh();
     this.progress = { done: 0, all: [room.picture, room.reduced, ...room.lights, ...room.classes].reduce((n, f) => n + (f?.bytes || 0), 0) };
     const get = async (entry) => {
@@ -283,7 +282,7 @@ class RetexRoom extends HTMLElement {
   fail(message) {
     const box = this.$(".message");
     box.hidden = !message;
-    box.textContent = message || "";
+    box.firstChild.textContent = message || "";
     if (message) this.$(".bar").hidden = true, this.emit("retex-error", { message });
   }
 
@@ -304,7 +303,7 @@ class RetexRoom extends HTMLElement {
   refresh() {
     const { room } = this, texture = this.textures[this.selected];
     if (!room) return;
-    const row = this.$(".targets"), offers = this.$(".swatches");
+    const row = this.$(".targets");
     if (row.children.length !== room.targets.length)
       row.replaceChildren(...room.targets.map((t) => {
         const button = document.createElement("button");
@@ -316,22 +315,25 @@ class RetexRoom extends HTMLElement {
       button.setAttribute("aria-pressed", i === this.selected);
       button.disabled = !this.renderer?.canEdit(i);
     });
-    if (!offers.children.length)
-      offers.replaceChildren(...this.offers.map((source) => {
+    if (!this.offered)
+      this.offered = this.offers.map((source) => {
         const button = document.createElement("button"), color = parseColor(source);
         button.className = "swatch";
         button.style.background = color ? source : `url("${new URL(source, document.baseURI).href.replace(/"/g, "%22")}")`;
         button.dataset.source = source;
-        button.title = color ? source : nameOf(source);
-        button.setAttribute("aria-label", color ? `Colour ${source}` : nameOf(source));
+        button.title = color ? source : wordsOf(nameOf(source));
+        button.setAttribute("aria-label", color ? `Colour ${source}` : button.title);
         button.onclick = () => this.try(() => this.setTexture(this.targets[this.selected], source));
+        if (color) this.$("[data-set=color]").before(button);
+        else this.$(".images").append(button);
         return button;
-      }));
+      });
     const off = !this.renderer?.canEdit(this.selected);
-    for (const button of offers.children) button.disabled = off, button.setAttribute("aria-pressed", button.dataset.source === texture.source);
+    for (const button of this.offered) button.disabled = off, button.setAttribute("aria-pressed", button.dataset.source === texture.source);
     this.$("[data-set=exposure]").disabled = this.$("[data-set=warmth]").disabled = !this.renderer;
     this.$("[data-set=file]").disabled = this.$("[data-set=color]").disabled = this.$("[data-do=original]").disabled = off;
-    this.$(".placing").hidden = !texture.image;
+    this.$(".chosen").textContent = wordsOf(texture.label);
+    this.$(".placing").hidden = !texture.image || Array.isArray(texture.image);
     const mean = Array.isArray(texture.scale) ? texture.scale[0] : texture.scale;
     const show = (key, value, text) => {
       const input = this.$(`[data-set=${key}]`), output = input.parentElement.querySelector("output");
@@ -392,6 +394,7 @@ class RetexRoom extends HTMLElement {
         if (this.comparing) this.$(".split").focus();
         this.moveLine();
         return this.draw(false);
+      case "panel": return this.togglePanel();
       case "in": return this.zoomBy(1.5);
       case "out": return this.zoomBy(1 / 1.5);
       case "full": return document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen();
@@ -415,6 +418,13 @@ class RetexRoom extends HTMLElement {
         return setTimeout(() => URL.revokeObjectURL(a.href), 1000);
       }
     }
+  }
+
+  /* Show the controls, or only the picture. */
+  togglePanel(open = this.$(".panel").hidden) {
+    this.$(".panel").hidden = !open;
+    this.$(".room").classList.toggle("wide", !open);
+    this.$("[data-do=panel]").setAttribute("aria-expanded", open);
   }
 
   /* Show a few words for a moment. */
@@ -523,18 +533,24 @@ class RetexRoom extends HTMLElement {
       else return;
       event.preventDefault();
     });
-    stage.addEventListener("dragover", (event) => {
+    const room = this.$(".room"), dropAt = (event) => {
+      const target = this.targetAt(event.clientX, event.clientY);
+      return target >= 0 && this.renderer.canEdit(target) ? target : this.selected;
+    };
+    const drag = (event, on) => {
       event.preventDefault();
-      stage.classList.add("drop");
+      room.classList.toggle("drop", on && !!this.renderer);
       this.hover(event);
-    });
-    stage.addEventListener("dragleave", () => stage.classList.remove("drop"));
-    stage.addEventListener("drop", (event) => {
-      event.preventDefault();
-      stage.classList.remove("drop");
-      const [file] = event.dataTransfer.files, target = this.targetAt(event.clientX, event.clientY);
-      if (target >= 0 && this.renderer?.canEdit(target)) this.select(this.targets[target]);
-      if (file) this.try(() => this.setTexture(this.targets[this.selected], file));
+      if (on && this.renderer) this.$(".name").hidden = false, (this.$(".name").textContent = `Put it on: ${this.targets[dropAt(event)]}`);
+    };
+    room.addEventListener("dragover", (event) => drag(event, true));
+    room.addEventListener("dragleave", (event) => room.contains(event.relatedTarget) || drag(event, false));
+    room.addEventListener("drop", (event) => {
+      drag(event, false);
+      const [file] = event.dataTransfer.files;
+      if (!file || !this.renderer) return;
+      this.select(this.targets[dropAt(event)]);
+      this.try(() => this.setTexture(this.targets[this.selected], file));
     });
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();

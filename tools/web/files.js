@@ -42,7 +42,7 @@ async function decodeImage(blob, name) {
   try {
     await image.decode();
   } catch {
-    throw new Error(`${name} is no picture that this browser reads.`);
+    throw new Error(`${name || "The file"} is no picture that this browser reads.`);
   } finally {
     URL.revokeObjectURL(image.src);
   }

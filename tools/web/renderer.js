@@ -301,7 +301,7 @@ class Renderer {
     }
     const partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
     if (ready.includes(1)) {
-      if (partial) this.drawFactors(this.originals, true, values);
+      if (partial || split > 0) this.drawFactors(this.originals, true, values);
       this.drawFactors(this.factors, false, values);
     }
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);

@@ -96,7 +96,7 @@ uvec4 recordAt(int at) { return texelFetch(records, ivec2(at & ${RECORD_COLUMNS 
 const number = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
 
 /* Adds the colours of class c's records in pixel p to sum and total, weighted by w. */
-function classCode(room, c, albedo, slots) {
+function classCode(room, c, albedo, add) {
   const info = room.classes[c], t = info.target, target = room.targets[t];
   const disc = info.kind === "sharp" && room.filter === "box";
   const bound = (value, k, far) => number(target.periodic[k] ? far : value[k]);
@@ -110,11 +110,11 @@ function classCode(room, c, albedo, slots) {
       uvec4 r = recordAt(first + i);
       vec2 w = shares(r);
       vec3 color = own;
-      if (edited[${t}]${slots.original ? " && !original" : ""}) {
+      if (edited[${t}] && !original) {
         vec4 found = filtered(image${t}, turn[${t}], offset[${t}], edge[${t}], ${bounds}, r, ${disc});
         color = own * (1.0 - found.a) + found.rgb * tint[${t}];
       }
-      ${slots.add}
+      ${add}
     }
   }`;
 }
@@ -149,9 +149,8 @@ function tileFunction(room, index, finest) {
 function mixtureShader(room) {
   const cases = room.mixtures.map((m, index) => {
     if (room.classes[m[0][0]].scale === 1) return "";
-    const code = m.map(([c, slot]) => classCode(room, c, tileCode(room, room.classes[c].albedo, room.classes[c].scale), {
-      original: true, add: `sum += w[${slot}] * color; total += w[${slot}];`,
-    }));
+    const code = m.map(([c, slot]) => classCode(room, c, tileCode(room, room.classes[c].albedo, room.classes[c].scale),
+      `sum += w[${slot}] * color; total += w[${slot}];`));
     return `if (mixture == ${index}) { ${code.join("\n")} }`;
   });
   return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
@@ -205,23 +204,23 @@ void main() {
 }`;
 }
 
-/* Last step: the picture. While not everything is loaded it is the still plus what new textures change. */
+/* Last step: the picture, with the original textures left of `split`. While not everything is loaded it is the still plus
+ * what new textures change. */
 function pictureShader(room) {
   const full = room.mixtures.map((m, i) => [m, i]).filter(([m]) => room.classes[m[0][0]].scale === 1);
   const byClass = new Map();
   for (const [m, i] of full) for (const [c, slot] of m) byClass.set(c, [...(byClass.get(c) || []), [i, slot]]);
   const mixtures = [...byClass].map(([c, list]) => `
-  if (loaded[${c}]) ${classCode(room, c, lightCode(room, room.classes[c].albedo), {
-    add: list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}];`).join(" ") +
-      list.map(([i, slot]) => `own${i} += w[${slot}] * own;`).join(" "),
-  })}`);
+  if (loaded[${c}]) ${classCode(room, c, lightCode(room, room.classes[c].albedo),
+    list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}]; own${i} += w[${slot}] * own;`).join(" "))}`);
   const groups = room.groups.map((g, i) => {
     const factor = g.mixture < 0 ? "" : ` * mean(sum${g.mixture}, total${g.mixture})`;
     const before = g.mixture < 0 ? "" : ` * mean(own${g.mixture}, total${g.mixture})`;
     return `
   if (ready[${i}]) {
     vec3 d = ${lightCode(room, g.light)};
-    color += d * factor(factors, ${i})${factor};
+    if (original) color += d * factor(originals, ${i})${factor};
+    else color += d * factor(factors, ${i})${factor};
     if (partial) color -= d * factor(originals, ${i})${before};
   }`;
   });
@@ -243,9 +242,9 @@ vec3 factor(sampler2DArray from, int layer) {
 vec3 mean(vec3 sum, float total) { return total > 0.0 ? sum / total : vec3(0.0); }
 void main() {
   ivec2 p = ivec2(int(gl_FragCoord.x), ${room.height - 1} - int(gl_FragCoord.y));
-  vec3 color = linear(texelFetch(still, p, 0).rgb);
-  if (gl_FragCoord.x >= split) {
-    if (!partial) color = vec3(0.0);
+  bool original = gl_FragCoord.x < split;
+  vec3 color = partial ? linear(texelFetch(still, p, 0).rgb) : vec3(0.0);
+  if (!partial || !original) {
     ${full.map(([, i]) => `vec3 sum${i} = vec3(0.0), own${i} = vec3(0.0); float total${i} = 0.0;`).join("\n")}
     ${mixtures.join("")}
     ${groups.join("")}
