@@ -83,6 +83,9 @@ pictures: all
 # What is installed: MODE:SOURCE:PLACE, see tools/install.sh. Each rules.mk adds its own.
 INSTALLED += $(TOOLS:%=755:$(BUILD)/bin/%:bin/) \
 	$(foreach page,$(wildcard man/*.[1-9]),644:$(page):share/man/man$(subst .,,$(suffix $(page)))/)
+# A page of calls is found by the name of each.
+INSTALLED += $(shell awk '/^\.Sh SYN/ { nextfile } /^\.Nm/ { sub(/.*\//, "", FILENAME); name = $$2 ".3"; \
+	if (name != FILENAME) print "link:" FILENAME ":share/man/man3/" name }' man/*.3)
 space := $(subst ,, )
 RUN_INSTALL = PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' INSTALL='$(INSTALL)' \
 	VERSION='$(VERSION)' REQUIRES='$(LIBRETEX_REQUIRES)' LIBS='$(strip $(LIBRETEX_PRIVATE_LIBS))' \

@@ -26,7 +26,7 @@ jobs_of() {
     cli | oiio) for t in tests/"$1"/*.t; do
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.t} tests/lib/case.sh $1 $t"; }
         done ;;
-    man) for t in man/*.[17]; do [ ! -e "$t" ] || { t=${t##*/}; echo "man/${t%.?} tests/lib/man.sh man/$t"; }; done ;;
+    man) for t in man/*.[137]; do [ ! -e "$t" ] || { t=${t##*/}; echo "man/${t%.?} tests/lib/man.sh man/$t"; }; done ;;
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;

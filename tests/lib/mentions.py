@@ -48,9 +48,10 @@ def main():
     for path, text in texts.items():
         if path == "CHANGES.md" or "/stb" in path:
             continue
+        made = set(re.findall(r'^\.\\" file (\S+)', text, flags=re.M))  # by a page's own examples
         for start, comment in comments(path, text):
             for m in re.finditer(r"(?<![\w<$./*{}-])((?:[\w-]+/)*[\w-]+\.(?:c|h|cpp|hpp|sh|py|mk))\b(?![\w(.])", comment):
-                if m[1] not in ends and not EXAMPLES.search(m[1]):
+                if m[1] not in ends | made and not EXAMPLES.search(m[1]):
                     complain(path, text, start + m.start(), f"file {m[1]}")
             for m in re.finditer(r"`((?!build/)[a-z][\w-]*(?:/[\w.-]+)+)/?`", comment if path.endswith(".md") else ""):
                 if not any(root + m[1] in folders for root in ROOTS) and m[1].split(".")[0] not in stems and \

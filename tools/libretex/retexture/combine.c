@@ -107,10 +107,13 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     if (code)
         return code;
     RetexRowSpan rows = {0, set->height};
-    if (params && params->size >= sizeof *params && params->y1 > params->y0)
-        rows = retex_span_intersection(rows, (RetexRowSpan){params->y0, params->y1});
-    if (params && params->size >= sizeof *params && params->x1 > params->x0)
-        polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){params->x0, params->x1});
+    RetexCombineParams given = RETEX_COMBINE_INIT;
+    if (params)
+        memcpy(&given, params, params->size < sizeof given ? params->size : sizeof given);
+    if (given.y1 > given.y0)
+        rows = retex_span_intersection(rows, (RetexRowSpan){given.y0, given.y1});
+    if (given.x1 > given.x0)
+        polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){given.x0, given.x1});
     code = combine(&polynomial, rows.begin, rows.end, sink, context, nthreads, err);
     retex_polynomial_close(&polynomial);
     return code;
