@@ -62,7 +62,7 @@ static void metallic_at(float value[3], const Hit *hit, const SeenLeaf *leaf)
     value[0] = shading_metallic(&leaf->s);
 }
 
-/* NULL: the AOV does not depend on the first hit alone; render.c adds it. */
+/* NULL: the AOV does not depend on first hits alone; render.c adds it. */
 static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_DEPTH] = depth_at,
     [RETEX_AOV_ALBEDO] = albedo_at,
@@ -72,7 +72,14 @@ static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_OBJECT] = object_at,
     [RETEX_AOV_ROUGHNESS] = roughness_at,
     [RETEX_AOV_METALLIC] = metallic_at,
+    [RETEX_AOV_ALBEDO_MEAN] = albedo_at,
+    [RETEX_AOV_NORMAL_MEAN] = normal_at,
 };
+
+void first_hit_value(RetexAov aov, float value[3], const Hit *hit, const SeenLeaf *leaf)
+{
+    aov_values[aov](value, hit, leaf);
+}
 
 /* AOVs that are the mean of a texture's leaves; of the others the leaf that is seen most counts. */
 static const unsigned aov_means = 1u << RETEX_AOV_ALBEDO | 1u << RETEX_AOV_ROUGHNESS | 1u << RETEX_AOV_METALLIC;
@@ -149,7 +156,8 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
     int parts[RETEX_AOV_COUNT], wanted = 0;
     for (int k = 0; k < RETEX_AOV_COUNT; k++) {
         parts[k] = -1;
-        int code = aovs >> k & 1 && aov_values[k] ? first_hit_add_aov(set, (RetexAov)k, &parts[k], err) : RETEX_OK;
+        const int is_wanted = (aovs & ~AOVS_AVERAGED) >> k & 1 && aov_values[k];
+        int code = is_wanted ? first_hit_add_aov(set, (RetexAov)k, &parts[k], err) : RETEX_OK;
         if (code)
             return code;
     }

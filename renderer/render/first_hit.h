@@ -4,6 +4,7 @@
 #define RENDERER_RENDER_FIRST_HIT_H
 
 #include "accel/accel.h"
+#include "path/shading.h"
 #include "render/render.h"
 
 typedef struct FirstHitWindow {
@@ -17,7 +18,11 @@ typedef struct FirstHitWindow {
 
 /* Add a part for an AOV. */
 int first_hit_add_aov(RetexSet *set, RetexAov aov, int *part, RetexError *err);
-/* Add and fill a part for each of these AOVs, of the first hit alone: all but irradiance. */
+/* The value of an AOV at a first hit, of one leaf of its texture: up to three channels. Not of irradiance. */
+void first_hit_value(RetexAov aov, float value[3], const Hit *hit, const SeenLeaf *leaf);
+/* Those that are averaged over the pixel's samples: mean_aovs.h adds them. */
+#define AOVS_AVERAGED (RETEX_AOV_BIT(ALBEDO_MEAN) | RETEX_AOV_BIT(NORMAL_MEAN))
+/* Add and fill a part for each of these AOVs, of the ray through the centre: all but irradiance and averaged ones. */
 int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
 /* Fill in `share` and `periodic` of all targets. */
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);

@@ -6,6 +6,7 @@
 #include <retex/version.h>
 #include "render/checkpoints.h"
 #include "render/internal.h"
+#include "render/mean_aovs.h"
 #include "render/originals.h"
 #include "render/uv_scale.h"
 
@@ -87,6 +88,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, r->params.nthreads, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
+    if (!code)
+        code = mean_aovs_add(set, r, r->params.aovs, err);
     if (!code && r->pixel_guides)
         code = denoise_guides_finish(&r->guides, r->film, set, err);
     if (!code && r->params.aovs & RETEX_AOV_BIT(IRRADIANCE))

@@ -88,17 +88,22 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
+void render_camera_rays(const Render *r, int x, int y, int first, int count, Ray *rays)
+{
+    const PixelStart start = start_pixel(r, r->params.seed, x, y);
+    Sampler unused;
+    for (int i = 0; i < count; i++)
+        rays[i] = start_sample(r, &start, first + i, &unused);
+}
+
 /* Trace additional camera rays for the guides, if the guides need more sample points than the pixel has samples. */
 static void end_guides(const Render *r, int thread, int spp, int x, int y)
 {
     PixelGuides *guides = r->pixel_guides[thread];
     Ray rays[ACCEL_PACKET];
-    Sampler unused;
-    const PixelStart start = start_pixel(r, r->params.seed, r->x0 + x, r->y0 + y);
     for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
         count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
-        for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, &start, s + i, &unused);
+        render_camera_rays(r, r->x0 + x, r->y0 + y, s, count, rays);
         denoise_guides_trace(guides, rays, count);
     }
     denoise_guides_pixel_end(guides, r->pixels[thread], x, y);

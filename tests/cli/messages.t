@@ -42,7 +42,7 @@ $ for x in scal=2 rotat=30 warp=mirror colourspace=sRGB zzz=1; do retex-combine 
 ! retex-combine: error: no texture option is called 'colourspace'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is colorspace meant?
 ! retex-combine: error: no texture option is called 'zzz'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
 = 2
-$ for x in dpeth depth,nromal smell; do retex-render --size 8x6 --aov $x box.pov -o x.exr; done 2>&1 | sed 's/expected beauty, [a-z, ]*, not/expected LIST, not/'
+$ for x in dpeth depth,nromal smell; do retex-render --size 8x6 --aov $x box.pov -o x.exr; done 2>&1 | sed 's/expected beauty, [a-z_, ]*, not/expected LIST, not/'
 > retex-render: error: --aov: expected LIST, not `dpeth`; is depth meant?
 > retex-render: error: --aov: expected LIST, not `nromal`; is normal meant?
 > retex-render: error: --aov: expected LIST, not `smell`

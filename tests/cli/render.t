@@ -99,7 +99,7 @@ $ retex-render --list-targets --size 8x6 ball.pov -o x.txt
 $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2
-$ retex-render --aov depth, --size 8x6 ball.pov -o x.exr 2>&1 | sed 's/expected beauty, [a-z, ]*, not/expected LIST, not/'
+$ retex-render --aov depth, --size 8x6 ball.pov -o x.exr 2>&1 | sed 's/expected beauty, [a-z_, ]*, not/expected LIST, not/'
 > retex-render: error: --aov: expected LIST, not ``
 $ retex-render --size +8x6 ball.pov -o x.exr
 ! retex-render: error: --size: expected WxH, not `+8x6`

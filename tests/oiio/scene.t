@@ -52,7 +52,7 @@ $ for p in '' '&plain=0' '&plain=1' '&plain=1&no_ambient=0'; do oiiotool -a "box
 > 22 22 0 0
 
 # What is wrong with options.
-$ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z, ]*, not/expected LIST, not/p'
+$ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z_, ]*, not/expected LIST, not/p'
 > oiiotool ERROR: read : "box.pov?aov=smell": aov: expected LIST, not `smell`
 $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
 > oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads

@@ -42,7 +42,10 @@ typedef enum RetexAovShown {
     /* 0..1, how much the surface's reflections have the pigment's colour */                                           \
     X(METALLIC, "metallic", "R", RETEX_FLOAT, 0, RETEX_AOV_SHARE)                                                      \
     /* direct and indirect light on the side that is seen: pi times the radiance of a white diffuse surface there */   \
-    X(IRRADIANCE, "irradiance", "RGB", RETEX_FLOAT, 0, RETEX_AOV_EXPOSED)
+    X(IRRADIANCE, "irradiance", "RGB", RETEX_FLOAT, 0, RETEX_AOV_EXPOSED)                                              \
+    /* albedo and normal, not at the pixel's centre but averaged over its samples, what hits nothing as 0 */           \
+    X(ALBEDO_MEAN, "albedo_mean", "RGB", RETEX_FLOAT, 0, RETEX_AOV_COLOR)                                              \
+    X(NORMAL_MEAN, "normal_mean", "RGB", RETEX_FLOAT, 0, RETEX_AOV_SIGNED)
 
 typedef enum RetexAov {
 #define RETEX_AOV_ENUMERATOR(id, ...) RETEX_AOV_##id,
