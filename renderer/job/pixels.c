@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "job/job.h"
+#include "path/target_units.h"
 
 enum { PIXELS_MAX = 64 };
 typedef struct Pixels {
@@ -82,5 +83,9 @@ int job_resolve_targets(Scene *scene, const RenderParams *render, const char *co
         if (pixels.count && first_selector(targets[k]))
             code = name_objects(scene, &pixels, &next, targets[k], &named[k], err);
     }
-    return code ? code : scene_resolve_targets(scene, named, ntargets, err);
+    if (!code)
+        code = scene_resolve_targets(scene, named, ntargets, err);
+    if (!code)
+        target_units_choose(scene);
+    return code;
 }

@@ -1,5 +1,6 @@
 /* See surface_color.h. */
 #include "path/surface_color.h"
+#include "path/target_units.h"
 #include "shade/pigment.h"
 
 PatternPoint surface_pattern_point(const Surface *surface)
@@ -12,6 +13,9 @@ PatternPoint surface_pattern_point(const Surface *surface)
 static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
 {
     const Pigment *pigment = surface->texture->pigment;
+    Vec2 uv;
+    if (surface->primitive->unit_targets && target_units_uv(surface, of, &uv))
+        return uv;
     return target_uv(pigment, surface_texture_point(surface), surface_texture_normal(surface),
                      pigment->uv_mapping ? &of->uv : NULL, of->has_natural ? &of->natural : NULL);
 }

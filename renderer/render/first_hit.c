@@ -258,7 +258,7 @@ static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
 
 void target_periodic(const Scene *scene, int t, int periodic[2])
 {
-    int any = 0, u = 1, v = 1;
+    int any = 0, u = !scene->targets[t].uv_folds, v = u;
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         const Texture *texture;

@@ -433,6 +433,7 @@ typedef struct Primitive {
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
     const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
+    const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit, else NULL */
 } Primitive;
 
 /* ---- lights, camera, sky ---- */
@@ -553,6 +554,9 @@ typedef struct Rainbow {
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
+    int is_pointed_at;       /* 1: one of them selects objects or colours that need no name */
+    double uv_unit[2];       /* path/target_units.h; 0, 0: UV are those of shapes and patterns */
+    int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
 } Target;
 
 typedef struct SceneFile {

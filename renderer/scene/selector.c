@@ -10,6 +10,7 @@
 
 struct SelectorForm {
     const char *what; /* as messages name it */
+    int points;       /* see selector_points */
     int (*begins)(const char *text);
     int (*read)(Selector *selector, const Scene *scene, RetexError *err);
     /* Whether it selects a texture, or an object; NULL: never. */
@@ -365,11 +366,11 @@ static double near_image(const Selector *selector, const Texture *texture, const
 /* ---- the table ---- */
 
 static const SelectorForm forms[] = {
-    {"object", begins_number, read_number, NULL, object_numbered, NULL},
-    {"surface of the colour", begins_color, read_color, texture_colored, NULL, near_color},
-    {"object that begins in", begins_place, read_place, NULL, object_placed, near_place},
-    {"image", begins_image, read_image, texture_shows_image, NULL, near_image},
-    {"identifier", begins_any, read_ident, texture_named, object_named, NULL},
+    {"object", 1, begins_number, read_number, NULL, object_numbered, NULL},
+    {"surface of the colour", 1, begins_color, read_color, texture_colored, NULL, near_color},
+    {"object that begins in", 1, begins_place, read_place, NULL, object_placed, near_place},
+    {"image", 0, begins_image, read_image, texture_shows_image, NULL, near_image},
+    {"identifier", 0, begins_any, read_ident, texture_named, object_named, NULL},
 };
 
 int selector_matches(const Selector *selector, const Texture *texture, const ObjectPart *object)
@@ -377,6 +378,11 @@ int selector_matches(const Selector *selector, const Texture *texture, const Obj
     const SelectorForm *form = selector->form;
     return (texture && !texture->tree && form->texture && form->texture(selector, texture)) ||
            (object && form->object && form->object(selector, object));
+}
+
+int selector_points(const Selector *selector)
+{
+    return selector->form->points;
 }
 
 /* ---- whether there is what it selects ---- */

@@ -32,6 +32,9 @@ int selector_read(Selector *selector, const Scene *scene, const char *text, Rete
 /* texture: a plain one, or NULL; of layers and maps as a whole nothing is known. object: or NULL. */
 int selector_matches(const Selector *selector, const Texture *texture, const ObjectPart *object);
 
+/* 1: it selects objects or colours, which need no name; 0: what is declared, or shows an image. */
+int selector_points(const Selector *selector);
+
 ObjectPart object_part(const Scene *scene, const Primitive *primitive, int part);
 
 /* The text that selects a surface, by each form; 0 where there is none. */

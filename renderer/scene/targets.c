@@ -36,6 +36,7 @@ static int add_selector(const Scene *scene, Target *target, Selector *selector, 
     int code = selector_read(selector, scene, word, err);
     if (code)
         return code;
+    target->is_pointed_at |= selector_points(selector);
     size_t used = strlen(target->idents);
     if (used + strlen(selector->text) + 2 > sizeof target->idents)
         return retex_fail(err, RETEX_ELIMIT, "target `%s`: its identifiers are more than %zu bytes", target->name,
@@ -90,6 +91,7 @@ static int mark(Scene *scene, const Selectors *selectors, Primitive *p, RetexErr
     p->target = target_of(selectors, p->inherits ? NULL : p->texture, &object);
     p->interior_target = p->interior_texture ? target_of(selectors, p->interior_texture, &object) : -1;
     p->face_targets = NULL;
+    p->unit_targets = NULL;
     mark_leaves(selectors, p->texture);
     if (p->interior_texture)
         mark_leaves(selectors, p->interior_texture);

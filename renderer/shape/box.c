@@ -128,6 +128,16 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->has_uv = out->has_natural = 1;
 }
 
+static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
+{
+    static const Vec3 u[6] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
+
+    (void)primitive, (void)axes;
+    out->is_flat = 1;
+    out->u = u[face];
+    out->v = face == 2 ? vec3(0, 0, -1) : face == 3 ? vec3(0, 0, 1) : vec3(0, 1, 0);
+}
+
 static int inside(const Shape *shape, Vec3 p)
 {
     (void)shape;
@@ -179,6 +189,7 @@ const ShapeOps shape_box = {
     .intersect = intersect,
     .point = point,
     .uv = uv,
+    .extent = extent,
     .inside = inside,
     .area = area,
     .sample = sample,

@@ -120,6 +120,17 @@ static void uv(const Surface *surface, ShapeUv *out)
         out->natural = (Vec2){shape_turn(p.x, p.y), fmin(fmax(p.z, 0), 1)};
 }
 
+static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
+{
+    const double r0 = primitive->shape.r0, r1 = primitive->shape.r1, radius = face == 1 ? r0 : r1;
+
+    out->is_flat = face > 0;
+    out->u = vec3(2 * radius, 0, 0);
+    out->v = vec3(0, 2 * radius, 0);
+    out->lengths[0] = shape_circumference((r0 + r1) / 2, axes[0], axes[1]);
+    out->lengths[1] = hypot(vec_length(axes[2]), shape_circumference(r1 - r0, axes[0], axes[1]) / (2 * PI));
+}
+
 /* As if it had its caps. */
 static int inside(const Shape *shape, Vec3 p)
 {
@@ -207,6 +218,7 @@ const ShapeOps shape_cone = {
     .intersect = intersect,
     .point = point,
     .uv = uv,
+    .extent = extent,
     .inside = inside,
     .area = area,
     .sample = sample,

@@ -47,6 +47,14 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->has_natural = 1;
 }
 
+static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
+{
+    (void)face, (void)axes;
+    out->is_flat = 1;
+    out->u = vec3(2 * primitive->shape.r0, 0, 0);
+    out->v = vec3(0, 2 * primitive->shape.r0, 0);
+}
+
 static int inside(const Shape *shape, Vec3 p)
 {
     (void)shape;
@@ -91,6 +99,7 @@ const ShapeOps shape_disc = {
     .intersect = intersect,
     .point = point,
     .uv = uv,
+    .extent = extent,
     .inside = inside,
     .area = area,
     .sample = sample,

@@ -165,6 +165,11 @@ Vec3 shape_axis(const Transform *t, int i)
     return vec3(t->m[0][i], t->m[1][i], t->m[2][i]);
 }
 
+double shape_circumference(double radius, Vec3 e, Vec3 f)
+{
+    return 2 * PI * radius * sqrt((vec_dot(e, e) + vec_dot(f, f)) / 2);
+}
+
 double shape_similarity(const Transform *t)
 {
     Vec3 x = shape_axis(t, 0), y = shape_axis(t, 1), z = shape_axis(t, 2);

@@ -37,6 +37,14 @@ typedef struct ShapeTriangles {
     int per_face;       /* so many triangles, one after the other, are one face as Hit counts them */
 } ShapeTriangles;
 
+/* A face that is flat is spanned by vectors of a unit of its natural u and v, in canonical space. Of curved ones only the
+ * lengths of these units are known, in the world, as means over the face. */
+typedef struct ShapeExtent {
+    int is_flat;
+    Vec3 u, v;
+    double lengths[2];
+} ShapeExtent;
+
 typedef enum ShapeProperty {
     SHAPE_U_PERIODIC = 1, /* the natural u goes once round from 0 to 1 */
     SHAPE_V_PERIODIC = 2,
@@ -59,6 +67,8 @@ struct ShapeOps {
     /* The point of the face next to p, which is near the surface, in canonical space. */
     void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
     void (*uv)(const Surface *surface, ShapeUv *out);
+    /* How long the face's natural UV are, on a primitive whose canonical axes are these in the world. */
+    void (*extent)(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out);
     /* Which of the shape's textures the surface has where it is; -1: the primitive's own. Asked where there are any.
      * Where textures are blended, each has a share of the points there, at random: see shape_share. */
     int (*texture)(const Surface *surface);
@@ -180,6 +190,7 @@ static inline double shape_inverse(double area)
 /* Area in the world of a unit square in canonical space with edges e and f. */
 double shape_stretch(const Transform *t, Vec3 e, Vec3 f);
 Vec3 shape_axis(const Transform *t, int i); /* the image of a canonical axis */
+double shape_circumference(double radius, Vec3 e, Vec3 f); /* of an ellipse with these axes: nearly */
 double shape_similarity(const Transform *t); /* the scale, if the transform keeps shapes, else 0 */
 Vec3 shape_world_normal(const Primitive *primitive, Vec3 normal); /* of unit length, outward */
 

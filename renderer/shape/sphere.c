@@ -44,6 +44,13 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->has_uv = out->has_natural = 1;
 }
 
+static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
+{
+    (void)primitive, (void)face;
+    out->lengths[0] = shape_circumference(1, axes[0], axes[2]);
+    out->lengths[1] = (shape_circumference(1, axes[0], axes[1]) + shape_circumference(1, axes[2], axes[1])) / 4;
+}
+
 static int inside(const Shape *shape, Vec3 p)
 {
     (void)shape;
@@ -110,6 +117,7 @@ const ShapeOps shape_sphere = {
     .intersect = intersect,
     .point = point,
     .uv = uv,
+    .extent = extent,
     .inside = inside,
     .area = area,
     .sample = sample,

@@ -212,6 +212,15 @@ static void uv(const Surface *surface, ShapeUv *out)
     out->has_uv = out->has_natural = 1;
 }
 
+static void extent(const Primitive *primitive, int face, const Vec3 axes[3], ShapeExtent *out)
+{
+    const double r0 = primitive->shape.r0, r1 = fabs(primitive->shape.r1);
+
+    (void)face;
+    out->lengths[0] = shape_circumference(r0, axes[0], axes[2]);
+    out->lengths[1] = (shape_circumference(r1, axes[0], axes[1]) + shape_circumference(r1, axes[2], axes[1])) / 2;
+}
+
 static int inside(const Shape *shape, Vec3 p)
 {
     return hypot(hypot(p.x, p.z) - shape->r0, p.y) <= fabs(shape->r1);
@@ -276,6 +285,7 @@ const ShapeOps shape_torus = {
     .intersect = intersect,
     .point = point,
     .uv = uv,
+    .extent = extent,
     .inside = inside,
     .area = area,
     .sample = sample,
