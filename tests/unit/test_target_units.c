@@ -208,6 +208,19 @@ static void equally_round(void **state)
     close_world(&world);
 }
 
+/* Of different size they turn back, so that nothing closes. */
+static void not_equally_round(void **state)
+{
+    (void)state;
+    World world = open_world("sphere { 0, .5 pigment { rgb .2 } } sphere { 4*x, .6 pigment { rgb .2 } }", "A=#1,#2");
+    int periodic[2];
+    check_round(&world, "a ball", 0.5, vec3(0, 0, 0), 1, 1);
+    check_round(&world, "a larger ball", 0.6, vec3(4, 0, 0), 1, 1);
+    target_periodic(world.scene, 0, periodic);
+    assert_int_equal(periodic[0], 0);
+    close_world(&world);
+}
+
 /* ---- what stays ---- */
 
 static void others_keep_theirs(void **state)
@@ -244,6 +257,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_of_all_sizes), cmocka_unit_test(boxes_go_on),   cmocka_unit_test(copies_of_a_group),
         cmocka_unit_test(round_parts),        cmocka_unit_test(equally_round), cmocka_unit_test(others_keep_theirs),
+        cmocka_unit_test(not_equally_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
