@@ -37,8 +37,8 @@ typedef struct ShapeTriangles {
     int per_face;       /* so many triangles, one after the other, are one face as Hit counts them */
 } ShapeTriangles;
 
-/* A face that is flat is spanned by vectors of a unit of its natural u and v, in canonical space. Of curved ones only the
- * lengths of these units are known, in the world, as means over the face. */
+/* A face that is flat is spanned by vectors of a unit of its natural u and v, in canonical space. Of curved ones only
+ * the lengths of these units are known, in the world, as means over the face. */
 typedef struct ShapeExtent {
     int is_flat;
     Vec3 u, v;
