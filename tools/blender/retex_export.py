@@ -303,6 +303,11 @@ def reaches_image(socket, depth=0):
     return depth < 16 and any(reaches_image(s, depth + 1) for s in node.inputs if s.is_linked)
 
 
+def ticked_targets(materials):
+    """The names of targets, each once."""
+    return sorted({m.retex_target_name or m.name for m in materials if m.retex_target})
+
+
 def uses_vertex_colors(materials):
     return any(node.type in {"VERTEX_COLOR", "ATTRIBUTE"}
                for m in materials if m.use_nodes and m.node_tree for node in m.node_tree.nodes)
@@ -529,6 +534,25 @@ class EXPORT_SCENE_OT_retex(bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    def draw(self, context):
+        """Beside the file browser: what will be done."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        names = ticked_targets(used_materials(rendered_objects(context.view_layer)).values())
+        box = layout.box()
+        box.label(text="Targets", icon="MATERIAL")
+        for name in names:
+            box.label(text=name)
+        if not names:
+            box.label(text="None: tick them in the")
+            box.label(text="materials' panel retex")
+        layout.prop(self, "render")
+        column = layout.column()
+        column.enabled = self.render
+        column.prop(self, "samples")
+        layout.prop(self, "keep_glb")
+
     def execute(self, context):
         def tell(line):
             self.report({"WARNING" if "warning:" in line else "INFO"}, line)
@@ -556,9 +580,11 @@ class MATERIAL_PT_retex(bpy.types.Panel):
         return context.material is not None
 
     def draw(self, context):
-        material = context.material
-        self.layout.prop(material, "retex_target")
-        row = self.layout.row()
+        layout, material = self.layout, context.material
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        layout.prop(material, "retex_target")
+        row = layout.row()
         row.enabled = material.retex_target
         row.prop(material, "retex_target_name")
 
