@@ -155,20 +155,20 @@ static void sleep_milliseconds(long milliseconds)
     nanosleep(&time, NULL);
 }
 
-static void serve(const Cli *cli, Http *http, Work *work)
+static void serve(const Cli *cli, Http *http, Work *pictures, Work *texts)
 {
     enum { LOOK_MILLISECONDS = 50, LAST_SECONDS = 5 };
     while (!retex_budget_is_stopped(cli->budget)) {
         sleep_milliseconds(LOOK_MILLISECONDS);
         http_sweep(http);
     }
-    retex_budget_hold(cli->budget);
     http_refuse(http);
-    work_refuse(work);
+    work_refuse(pictures);
+    work_refuse(texts);
     /* what was accepted is finished; then clients have some time to take it */
     for (double until = 0; http_pending(http) && (!until || retex_clock_seconds() < until);) {
-        const WorkCount count = work_count(work);
-        if (!until && !count.waiting && !count.running)
+        const WorkCount a = work_count(pictures), b = work_count(texts);
+        if (!until && !a.waiting && !a.running && !b.waiting && !b.running)
             until = retex_clock_seconds() + LAST_SECONDS;
         sleep_milliseconds(LOOK_MILLISECONDS);
         http_sweep(http);
@@ -219,16 +219,19 @@ int main(int argc, char **argv)
     retex_budget_set_memory(budget, retex_budget_memory(cli.budget));
     retex_budget_set_pixels(budget, cli.limits.pixels);
     open_site(&cli, &job, &site, &access, budget);
-    const WorkParams work = {site_make, &site, cli.threads, job.queue};
-    if (work_open(&job.http.work, &work, &err))
+    const WorkParams pictures = {site_make, &site, cli.threads, job.queue}, texts = {site_make, &site, 1, job.queue};
+    if (work_open(&job.http.pictures, &pictures, &err) || work_open(&job.http.texts, &texts, &err))
         cli_fail(&cli, &err);
     job.http.site = &site;
     job.http.is_quiet = cli.quiet;
     if (http_open(&http, &job.http, &err))
         cli_fail(&cli, &err);
+    watchdog_end_is_right(1);
+    retex_budget_hold(cli.budget);
     tell_address(&cli, http, job.http.address);
-    serve(&cli, http, job.http.work);
-    work_close(job.http.work);
+    serve(&cli, http, job.http.pictures, job.http.texts);
+    work_close(job.http.pictures);
+    work_close(job.http.texts);
     http_close(http);
     cache_close(site.pictures);
     images_close(site.images);

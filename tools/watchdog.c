@@ -32,7 +32,7 @@ static struct {
     RetexBudget *budget;
     sigset_t signals; /* signals that end the tool */
     atomic_int started;
-    atomic_int may_keep, bar_is_open;
+    atomic_int may_keep, end_is_right, bar_is_open;
     atomic_int number;    /* the first signal received, or 0 */
     atomic_int too_large; /* the process uses more memory than the limit */
     int status_file;      /* /proc/self/statm, or below 0 */
@@ -156,7 +156,7 @@ void watchdog_fail(const char *why)
 {
     if (!take_on(THE_WORK))
         wait_for_the_end();
-    if (is_stopped())
+    if (is_stopped() && !atomic_load(&dog.end_is_right))
         end_tool(what_was_kept(why));
 }
 
@@ -174,6 +174,11 @@ void watchdog_go_on(void)
 void watchdog_let_keep(int on)
 {
     atomic_store(&dog.may_keep, on);
+}
+
+void watchdog_end_is_right(int on)
+{
+    atomic_store(&dog.end_is_right, on);
 }
 
 void watchdog_note_bar(int open)

@@ -19,6 +19,10 @@ RetexBudget *watchdog_budget(void);
  * once. */
 void watchdog_let_keep(int on);
 
+/* While on, a signal, or the end of --max-time, is how the tool is meant to end: the work, which watchdog_let_keep lets
+ * finish, returns without a message. */
+void watchdog_end_is_right(int on);
+
 /* Call before an error message. Does not return if the error is a consequence of the watchdog's stop. */
 void watchdog_fail(const char *why);
 /* Call when the tool is done. */

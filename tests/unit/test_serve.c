@@ -275,15 +275,20 @@ static void write_set(const char *path, int width, uint32_t seed)
 {
     RetexError err = {0};
     RetexSet *set = test_set(width, 24, seed);
+    set->terms[set->nterms - 1].edited = 2; /* corrects the second target */
     test_must(retex_set_write(set, NULL, path, NULL, 1, &err), &err);
     retex_set_close(&set);
 }
 
+/* A room with its parts, but corrections, as for a picture. */
 static const Room *take_room(Rooms *rooms, const char *name)
 {
+    const int none[RETEX_MAX_TARGETS] = {0};
     const Room *room;
     RetexError err = {0};
     test_must(rooms_take(rooms, name, &room, &err), &err);
+    test_must(rooms_begin_picture(rooms, room, none, &err), &err);
+    rooms_end_picture(rooms, room);
     return room;
 }
 
@@ -291,6 +296,35 @@ static void join_names(void *text, const char *name)
 {
     strcat(text, name);
     strcat(text, " ");
+}
+
+/* Corrections of a target are decoded with the first picture that reads them, while no other picture is made. */
+static void *end_later(void *context)
+{
+    void **rooms_and_room = context;
+    usleep(20000);
+    rooms_end_picture(rooms_and_room[0], rooms_and_room[1]);
+    return NULL;
+}
+
+static void test_corrections(Rooms *rooms, const Room *room)
+{
+    const uint64_t before = rooms_count(rooms).bytes;
+    int one[RETEX_MAX_TARGETS] = {0, 1}, none[RETEX_MAX_TARGETS] = {0};
+    void *rooms_and_room[] = {rooms, (void *)(uintptr_t)room};
+    RetexError err = {0};
+    pthread_t other;
+    assert_int_equal(retex_set_preload_bytes(room->set, none), before);
+    const uint64_t after = retex_set_preload_bytes(room->set, one);
+    assert_true(after > before);
+    test_must(rooms_begin_picture(rooms, room, none, &err), &err);
+    assert_int_equal(pthread_create(&other, NULL, end_later, rooms_and_room), 0);
+    test_must(rooms_begin_picture(rooms, room, one, &err), &err);
+    assert_int_equal(rooms_count(rooms).bytes, after);
+    pthread_join(other, NULL);
+    test_must(rooms_begin_picture(rooms, room, none, &err), &err); /* does not wait for the other picture */
+    rooms_end_picture(rooms, room);
+    rooms_end_picture(rooms, room);
 }
 
 /* Rooms beyond the limit are closed, the oldest first; those in use, and a replaced one that is in use, stay. */
@@ -317,16 +351,18 @@ static void test_rooms(void **state)
     const RetexSet *set;
     some.memory = UINT64_MAX / 2;
     test_must(rooms_open(&rooms, &some, &err), &err);
-    const Room *a = take_room(rooms, "a");
+    const Room *a;
+    test_must(rooms_take(rooms, "a", &a, &err), &err);
+    assert_true(a->set->width == 32 && rooms_count(rooms).bytes == 0); /* nothing is decoded for its size */
+    assert_ptr_equal(take_room(rooms, "a"), a);
     const uint64_t bytes = rooms_count(rooms).bytes;
     assert_true(bytes > 32 * 24 * 12);
+    test_corrections(rooms, a);
+    rooms_return(rooms, a);
     rooms_return(rooms, a);
     rooms_close(rooms);
 
-    RetexSet *whole;
-    test_must(retex_set_open("a.exr", &whole, NULL, 1, &err), &err);
-    some.memory = 2 * retex_set_bytes(whole) + bytes / 2; /* of two, while a third is opened */
-    retex_set_close(&whole);
+    some.memory = 2 * bytes + bytes / 2; /* of two */
     test_must(rooms_open(&rooms, &some, &err), &err);
     a = take_room(rooms, "a");
     const Room *b = take_room(rooms, "b");

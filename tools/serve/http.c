@@ -214,12 +214,12 @@ static void write_counts(FILE *file, Http *http)
     const Site *site = http->params.site;
     const RoomsCount rooms = rooms_count(site->rooms);
     const ImagesCount images = images_count(site->images);
-    const WorkCount work = work_count(http->params.work);
+    const WorkCount work = work_count(http->params.pictures);
     size_t pictures, picture_bytes;
     cache_count(site->pictures, &pictures, &picture_bytes);
-    metrics_write_value(file, "queue_length", "gauge", "Pieces of work that wait.", work.waiting);
-    metrics_write_value(file, "queue_limit", "gauge", "Pieces of work that may wait.", work.limit);
-    metrics_write_value(file, "working", "gauge", "Pieces of work that are being done.", work.running);
+    metrics_write_value(file, "queue_length", "gauge", "Pictures that wait.", work.waiting);
+    metrics_write_value(file, "queue_limit", "gauge", "Pictures that may wait.", work.limit);
+    metrics_write_value(file, "working", "gauge", "Pictures that are being made.", work.running);
     metrics_write_value(file, "rooms_open", "gauge", "Rooms that are open.", rooms.open);
     metrics_write_value(file, "rooms_bytes", "gauge", "Bytes of rooms decoded in memory.", (double)rooms.bytes);
     metrics_write_value(file, "rooms_opened_total", "counter", "Rooms that were opened.", (double)rooms.opened);
@@ -321,6 +321,7 @@ static const char *is_unchanged(const Exchange *exchange, char etag[ETAG_SIZE])
 static int wait_for_work(Exchange *exchange, const char *key, const char *base)
 {
     Http *http = exchange->http;
+    Work *work = site_is_picture(exchange->request.route) ? http->params.pictures : http->params.texts;
     WorkItem *item = calloc(1, sizeof *item);
     if (!item)
         return 0;
@@ -330,7 +331,7 @@ static int wait_for_work(Exchange *exchange, const char *key, const char *base)
     item->key = key;
     exchange->waiter.done = work_done;
     MHD_suspend_connection(exchange->connection);
-    const WorkResult result = work_add(http->params.work, item, &exchange->waiter);
+    const WorkResult result = work_add(work, item, &exchange->waiter);
     free(item);
     if (result != WORK_ACCEPTED)
         work_done(&exchange->waiter, answer_error(503, "the server is busy"));

@@ -17,7 +17,8 @@ typedef struct HttpParams {
     const char *base;    /* beginning of the server's own URLs, or NULL: by the header Host */
     int is_quiet;        /* 1: requests are not logged */
     const Site *site;
-    Work *work;
+    Work *pictures; /* work that makes pictures */
+    Work *texts;    /* and work that needs no pixels, which so never waits for a picture */
 } HttpParams;
 
 typedef struct Http Http;

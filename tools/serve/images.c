@@ -2,32 +2,57 @@
 #include "images.h"
 
 #include <errno.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "kept.h"
 #include "names.h"
 #include "request.h"
+
+enum { MOST_OPEN = 4096 }; /* images that nobody uses are closed from this number on */
 
 static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "tga", "bmp", "gif", NULL};
 
 struct OpenImage {
-    struct OpenImage *next;
+    Kept kept;
     RetexTextureSpec spec; /* as the image was read, in its simplest placement */
-    FileId id;
     RetexTexture *texture;
-    uint64_t bytes, used;
-    int users, is_ready, is_stale;
 };
 
 struct Images {
     ImagesParams params;
-    pthread_mutex_t lock; /* protects all below, and images that are not ready */
-    pthread_cond_t ready;
-    OpenImage *first;
-    uint64_t bytes, uses, read, failed;
-    int count;
+    KeptList list;
 };
+
+/* What of a spec decides on the texels. */
+static Kept *create(const void *key, const void *params_of_images)
+{
+    const RetexTextureSpec *spec = key;
+    const ImagesParams *params = params_of_images;
+    OpenImage *image = calloc(1, sizeof *image);
+    if (!image)
+        return NULL;
+    image->spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+    strcpy(image->spec.image, spec->image);
+    strcpy(image->spec.colorspace, spec->colorspace);
+    memcpy(image->spec.wrap, spec->wrap, sizeof spec->wrap);
+    image->spec.repeat = spec->repeat;
+    image->spec.access = params->access;
+    image->spec.budget = params->budget;
+    return &image->kept;
+}
+
+static int is_of(const Kept *kept, const void *key)
+{
+    const RetexTextureSpec *a = &((const OpenImage *)(const void *)kept)->spec, *b = key;
+    return strcmp(a->image, b->image) == 0 && strcmp(a->colorspace, b->colorspace) == 0 && a->wrap[0] == b->wrap[0] &&
+           a->wrap[1] == b->wrap[1] && a->repeat == b->repeat;
+}
+
+static void close_image(Kept *kept)
+{
+    retex_texture_close(&((OpenImage *)(void *)kept)->texture);
+}
 
 int images_open(Images **images, const ImagesParams *params, RetexError *err)
 {
@@ -40,31 +65,21 @@ int images_open(Images **images, const ImagesParams *params, RetexError *err)
     if (!(*images = calloc(1, sizeof **images)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for images");
     (*images)->params = *params;
-    pthread_mutex_init(&(*images)->lock, NULL);
-    pthread_cond_init(&(*images)->ready, NULL);
+    (*images)->list = (KeptList){.most_bytes = params->memory,
+                                 .most = MOST_OPEN,
+                                 .is_of = is_of,
+                                 .create = create,
+                                 .close = close_image,
+                                 .params = &(*images)->params};
+    kept_begin(&(*images)->list);
     return RETEX_OK;
-}
-
-static void remove_image(Images *images, OpenImage *image)
-{
-    OpenImage **place = &images->first;
-    while (*place != image)
-        place = &(*place)->next;
-    *place = image->next;
-    images->bytes -= image->bytes;
-    images->count--;
-    retex_texture_close(&image->texture);
-    free(image);
 }
 
 void images_close(Images *images)
 {
     if (!images)
         return;
-    while (images->first)
-        remove_image(images, images->first);
-    pthread_cond_destroy(&images->ready);
-    pthread_mutex_destroy(&images->lock);
+    kept_end(&images->list);
     free(images);
 }
 
@@ -94,113 +109,21 @@ int images_list(const Images *images, void (*tell)(void *context, const char *na
 
 /* ---- images in memory ---- */
 
-/* What of a spec decides on the texels. */
-static void simplify(RetexTextureSpec *simple, const RetexTextureSpec *spec, const ImagesParams *params)
-{
-    *simple = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    strcpy(simple->image, spec->image);
-    strcpy(simple->colorspace, spec->colorspace);
-    memcpy(simple->wrap, spec->wrap, sizeof simple->wrap);
-    simple->repeat = spec->repeat;
-    simple->access = params->access;
-    simple->budget = params->budget;
-}
-
-static int has_texels_of(const RetexTextureSpec *a, const RetexTextureSpec *b)
-{
-    return strcmp(a->image, b->image) == 0 && strcmp(a->colorspace, b->colorspace) == 0 && a->wrap[0] == b->wrap[0] &&
-           a->wrap[1] == b->wrap[1] && a->repeat == b->repeat;
-}
-
-static OpenImage *find_open(Images *images, const RetexTextureSpec *spec)
-{
-    for (OpenImage *image = images->first; image; image = image->next)
-        if (!image->is_stale && has_texels_of(&image->spec, spec))
-            return image;
-    return NULL;
-}
-
-/* Free images that nobody uses, those used least recently first, until all are within the limit. */
-static void make_space(Images *images)
-{
-    while (images->bytes > images->params.memory) {
-        OpenImage *oldest = NULL;
-        for (OpenImage *image = images->first; image; image = image->next)
-            if (!image->users && image->is_ready && (!oldest || image->used < oldest->used))
-                oldest = image;
-        if (!oldest)
-            return;
-        remove_image(images, oldest);
-    }
-}
-
-static void drop_stale(Images *images, OpenImage *image)
-{
-    image->is_stale = 1;
-    if (!image->users)
-        remove_image(images, image);
-}
-
-/* The image of this spec: *is_new: the caller has to read it. */
-static OpenImage *find_or_add(Images *images, const RetexTextureSpec *spec, const FileId *id, int *is_new)
-{
-    OpenImage *image = find_open(images, spec);
-    while (image && !image->is_ready) {
-        pthread_cond_wait(&images->ready, &images->lock);
-        image = find_open(images, spec);
-    }
-    if (image && !file_id_is_same(&image->id, id)) {
-        drop_stale(images, image);
-        image = NULL;
-    }
-    *is_new = !image;
-    if (!image && !(image = calloc(1, sizeof *image)))
-        return NULL;
-    if (*is_new) {
-        simplify(&image->spec, spec, &images->params);
-        image->id = *id;
-        image->next = images->first;
-        images->first = image;
-        images->count++;
-    }
-    image->users++;
-    image->used = ++images->uses;
-    return image;
-}
-
-static int read_image(Images *images, OpenImage *image, RetexError *err)
-{
-    int code = retex_texture_load(&image->texture, &image->spec, images->params.threads, err);
-    pthread_mutex_lock(&images->lock);
-    *(code ? &images->failed : &images->read) += 1;
-    if (code) {
-        remove_image(images, image);
-    } else {
-        image->is_ready = 1;
-        image->bytes = retex_texture_bytes(image->texture);
-        images->bytes += image->bytes;
-        make_space(images);
-    }
-    pthread_cond_broadcast(&images->ready);
-    pthread_mutex_unlock(&images->lock);
-    return code;
-}
-
 int images_take(Images *images, const RetexTextureSpec *spec, const RetexSet *set, OpenImage **result,
                 RetexTexture **texture, RetexError *err)
 {
     FileId id;
-    int is_new = 0;
+    int is_new;
     *result = NULL;
     *texture = NULL;
     if (file_id_of(&id, spec->image) != 0)
         return retex_fail(err, RETEX_ENOTFOUND, "the texture of target %s is gone", spec->target);
-    pthread_mutex_lock(&images->lock);
-    OpenImage *image = find_or_add(images, spec, &id, &is_new);
-    pthread_mutex_unlock(&images->lock);
+    OpenImage *image = (OpenImage *)(void *)kept_take(&images->list, spec, &id, &is_new);
     if (!image)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
-    int code = is_new ? read_image(images, image, err) : RETEX_OK;
+    int code = is_new ? retex_texture_load(&image->texture, &image->spec, images->params.threads, err) : RETEX_OK;
+    if (is_new)
+        kept_opened(&images->list, &image->kept, code, code ? 0 : retex_texture_bytes(image->texture));
     if (code)
         return code;
     code = retex_textures_place(texture, image->texture, set, spec, err);
@@ -213,19 +136,15 @@ int images_take(Images *images, const RetexTextureSpec *spec, const RetexSet *se
 
 void images_return(Images *images, OpenImage *image)
 {
-    if (!image)
-        return;
-    pthread_mutex_lock(&images->lock);
-    if (--image->users == 0 && image->is_stale)
-        remove_image(images, image);
-    make_space(images);
-    pthread_mutex_unlock(&images->lock);
+    if (image)
+        kept_return(&images->list, &image->kept);
 }
 
 ImagesCount images_count(Images *images)
 {
-    pthread_mutex_lock(&images->lock);
-    const ImagesCount count = {images->count, images->bytes, images->read, images->failed};
-    pthread_mutex_unlock(&images->lock);
+    KeptList *list = &images->list;
+    pthread_mutex_lock(&list->lock);
+    const ImagesCount count = {list->count, list->bytes, list->opened, list->failed};
+    pthread_mutex_unlock(&list->lock);
     return count;
 }

@@ -1,6 +1,6 @@
 /* Images of textures: the files of a folder, by name. An image is read once, and stays in memory as long as all
- * together keep within a limit, those that were used last first; pictures place it on their targets without copying it.
- * Any thread may call. */
+ * together keep within a limit, see kept.h; pictures place it on their targets without copying it. Any thread may
+ * call. */
 #ifndef RETEX_SERVE_IMAGES_H
 #define RETEX_SERVE_IMAGES_H
 

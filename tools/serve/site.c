@@ -27,7 +27,7 @@ static RETEX_PRINTF(2, 3) void append(Text *to, const char *fmt, ...)
         to->used += (size_t)length < to->size - to->used ? (size_t)length : to->size - to->used - 1;
 }
 
-static int is_picture(ServeRoute route)
+int site_is_picture(ServeRoute route)
 {
     return route == SERVE_PICTURE || route == SERVE_THUMBNAIL || route == SERVE_IIIF_IMAGE;
 }
@@ -59,14 +59,14 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     Text key = {text, 0, SITE_KEY_MAX};
     char path[PATH_MAX], id_text[FILE_ID_TEXT];
     FileId id;
-    append(&key, "%d", is_picture(request->route) ? SERVE_PICTURE : request->route);
+    append(&key, "%d", site_is_picture(request->route) ? SERVE_PICTURE : request->route);
     if (request->route == SERVE_ROOMS)
         return NULL;
     if (rooms_find(site->rooms, request->room, path, &id))
         return answer_error(404, "there is no room '%s'", request->room);
     append(&key, "\n%s\n%s\n%s", request->room, file_id_text(&id, id_text), request->edits);
     Answer *error = key_of_images(site, request, &key);
-    if (is_picture(request->route)) {
+    if (site_is_picture(request->route)) {
         const ServeRegion *r = &request->region;
         const ServeSize *s = &request->size;
         append(&key, "\n%d %.17g %.17g %.17g %.17g\n%d %d %d %.17g %d\n%d %d %d %d %d", r->kind, r->x, r->y, r->width,
@@ -111,7 +111,7 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
     char path[PATH_MAX];
     FileId id;
     ServePlace place;
-    if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
+    if (!site_is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
         return 0;
     const Room *room = rooms_peek(site->rooms, request->room, &id);
     ServeRequest copy = *request; /* iiif_place may put an error into it */
@@ -156,6 +156,28 @@ static int open_textures(const Site *site, const ServeRequest *request, const Re
     return code;
 }
 
+/* The targets whose corrections a picture reads. */
+static void find_corrected(const ServeRequest *request, const RetexSet *set, int corrected[RETEX_MAX_TARGETS])
+{
+    memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
+    for (int i = 0; i < request->nspecs && retex_correction_weight(set->ntargets, request->nspecs) > 0; i++)
+        corrected[retex_set_find_target(set, request->specs[i].target)] = 1;
+}
+
+/* The file of a picture: 0. Its targets are known to be there. */
+static int make_file(const Site *site, const ServeRequest *request, const PicturePlan *plan, const Room *room,
+                     int nthreads, void **data, size_t *bytes, RetexError *err)
+{
+    int corrected[RETEX_MAX_TARGETS];
+    find_corrected(request, room->set, corrected);
+    int code = rooms_begin_picture(site->rooms, room, corrected, err);
+    if (code)
+        return code;
+    code = picture_make(plan, nthreads, data, bytes, err);
+    rooms_end_picture(site->rooms, room);
+    return code;
+}
+
 static Answer *make_picture(const Site *site, const WorkItem *item, const Room *room, int nthreads)
 {
     ServeRequest request = item->request;
@@ -178,7 +200,7 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                    ? retex_fail(&err, RETEX_ENOTFOUND, "a texture is gone")
                    : open_textures(site, &request, room->set, &textures, &err);
     if (!code)
-        code = picture_make(&plan, nthreads, &data, &bytes, &err);
+        code = make_file(site, &request, &plan, room, nthreads, &data, &bytes, &err);
     close_textures(site, &textures);
     if (code)
         return answer_of_error(&err);
@@ -288,7 +310,7 @@ Answer *site_make(void *context, const WorkItem *item, int nthreads)
     if (item->request.route != SERVE_ROOMS && rooms_take(site->rooms, item->request.room, &room, &err))
         return answer_of_error(&err);
     Answer *answer =
-        is_picture(item->request.route) ? make_picture(site, item, room, nthreads) : make_text(site, item, room);
+        site_is_picture(item->request.route) ? make_picture(site, item, room, nthreads) : make_text(site, item, room);
     rooms_return(site->rooms, room);
     return answer;
 }

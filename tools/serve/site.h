@@ -17,6 +17,9 @@ typedef struct Site {
 
 enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
 
+/* Whether the answer is a picture, which may take long. */
+int site_is_picture(ServeRoute route);
+
 /* What a request is of, by the files as they are now: two requests with the same key have the same answer. The images
  * of request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */
 Answer *site_key(const Site *site, ServeRequest *request, const char *base, char key[SITE_KEY_MAX]);

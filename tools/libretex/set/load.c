@@ -137,6 +137,12 @@ static uint64_t list_read_parts(const RetexSet *set, const int *corrected, char 
     return bytes;
 }
 
+uint64_t retex_set_preload_bytes(const RetexSet *set, const int *corrected)
+{
+    char wanted[RETEX_SET_PARTS_MAX];
+    return list_read_parts(set, corrected, wanted);
+}
+
 int retex_set_preload(RetexSet *set, RetexSamples *samples, const int *corrected, uint64_t most_bytes, int nthreads,
                       RetexError *err)
 {

@@ -40,6 +40,8 @@ uint64_t retex_set_bytes(const RetexSet *set);
 int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */,
                       const int *corrected /* by target: 1: its corrections too; NULL: those of all */,
                       uint64_t most_bytes, int nthreads, RetexError *err);
+/* Bytes of the set's parts that retex_set_preload loads with the same `corrected`. */
+uint64_t retex_set_preload_bytes(const RetexSet *set, const int *corrected);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
