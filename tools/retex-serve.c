@@ -11,7 +11,6 @@
 
 #include "cli.h"
 #include "serve/http.h"
-#include "serve/picture.h"
 #include "watchdog.h"
 
 static const CliOption options[] = {
@@ -22,8 +21,8 @@ static const CliOption options[] = {
     {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0},
     {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0},
     {"picture-memory", 0, "SIZE", "keep finished pictures of at most SIZE in memory; default 128 MB", 0},
-    {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 128", 0},
-    {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 30", 0},
+    {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 512", 0},
+    {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 300", 0},
     {"connections", 0, "N", "accept at most N connections; default 1000", 0},
     {"per-client", 0, "N", "accept at most N connections of one address; default 0, any number", 0},
     {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
@@ -134,7 +133,6 @@ static void open_site(const Cli *cli, const Job *job, Site *site, const RetexAcc
     if (!(site->pictures = cache_open((size_t)bytes_of(cli, job->picture_memory, 16))))
         cli_die(cli, "not enough memory");
     site->quality = job->quality;
-    site->formats = picture_formats();
 }
 
 /* Print the address, or write it to the file of -o, when the server can be reached. */
@@ -193,10 +191,10 @@ int main(int argc, char **argv)
         .memory = CLI_MEMORY_DEFAULT,
         .texture_memory = 512,
         .picture_memory = 128,
-        .queue = 128,
+        .queue = 512,
         .quality = 95,
         .http = {
-            .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 30, .max_age = 60}};
+            .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 300, .max_age = 60}};
     Cli cli = {.tool = "retex-serve",
                .usage = "FOLDER [--port N] [--textures FOLDER]",
                .about = "Serve pictures of the rooms in a folder, sets and packs, with textures that URLs name.",

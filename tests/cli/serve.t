@@ -9,8 +9,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced refused l
 > refused
 > lists
 > metrics
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together crowd slow deadline end
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together texts crowd slow deadline end
 > together
+> texts
 > crowd
 > slow
 > deadline

@@ -18,6 +18,7 @@
 #include "headers.h"
 #include "iiif.h"
 #include "log.h"
+#include "picture.h"
 
 enum { CONNECTION_BYTES = 48 << 10, LINK_MAX_BYTES = 8 << 10, RETRY_SECONDS = 2 };
 
@@ -371,11 +372,22 @@ static Answer *refuse_headers(const Exchange *exchange)
     return NULL;
 }
 
+/* JPEG and PNG can be written everywhere. Whether the others can is found out when the first request comes to them. */
+static int parse(Exchange *exchange)
+{
+    ServeRequest *request = &exchange->request;
+    const char *accept = header_of(exchange, "Accept");
+    const int status = serve_request_parse(request, exchange->url, accept, (1u << SERVE_FORMATS) - 1);
+    if (status || request->format == SERVE_JPEG || request->format == SERVE_PNG)
+        return status;
+    return serve_request_parse(request, exchange->url, accept, picture_formats());
+}
+
 static int begin(Exchange *exchange)
 {
     Http *http = exchange->http;
     ServeRequest *request = &exchange->request;
-    if (serve_request_parse(request, exchange->url, header_of(exchange, "Accept"), http->params.site->formats)) {
+    if (parse(exchange)) {
         exchange->answer = answer_error(request->status, "%s", request->reason);
         return 0;
     }

@@ -3,6 +3,7 @@
  * then it is mirrored, turned and encoded. */
 #include "picture.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -221,10 +222,17 @@ static int can_write(ServeFormat format)
     return is_right;
 }
 
+static unsigned writable;
+
+static void try_formats(void)
+{
+    for (int format = 0; format < SERVE_FORMATS; format++)
+        writable |= can_write((ServeFormat)format) ? 1u << format : 0;
+}
+
 unsigned picture_formats(void)
 {
-    unsigned formats = 0;
-    for (int format = 0; format < SERVE_FORMATS; format++)
-        formats |= can_write((ServeFormat)format) ? 1u << format : 0;
-    return formats;
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, try_formats);
+    return writable;
 }

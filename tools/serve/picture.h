@@ -20,7 +20,8 @@ typedef struct PicturePlan {
 /* The file in memory; the caller frees *data. A whole picture is, to the byte, what retex-combine writes. */
 int picture_make(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err);
 
-/* The formats that this machine can write, as bits 1 << ServeFormat. */
+/* The formats that this machine can write, as bits 1 << ServeFormat. The first call tries them, which loads OpenImageIO
+ * and takes a quarter of a second; any thread may call. */
 unsigned picture_formats(void);
 
 #endif

@@ -237,7 +237,7 @@ static int write_rooms(const Site *site, FILE *file)
     failed |= images_list(site->images, tell_name, &images);
     fputs("], \"formats\": [", file);
     for (int format = 0, count = 0; format < SERVE_FORMATS; format++)
-        if (site->formats & 1u << format)
+        if (picture_formats() & 1u << format)
             fprintf(file, "%s\"%s\"", count++ ? ", " : "", serve_format_extension((ServeFormat)format));
     fputs("]}\n", file);
     return failed;
@@ -294,7 +294,7 @@ static Answer *make_text(const Site *site, const WorkItem *item, const Room *roo
     else if (item->request.route == SERVE_ROOM)
         write_room(file, &item->request, room->set);
     else
-        iiif_info_write(file, &item->request, item->base, room->set->width, room->set->height, site->formats);
+        iiif_info_write(file, &item->request, item->base, room->set->width, room->set->height, picture_formats());
     Answer *answer = take_text(file, &text, &bytes, "application/json");
     if (!failed)
         return answer;

@@ -11,8 +11,7 @@ typedef struct Site {
     Rooms *rooms;
     Images *images;
     Cache *pictures;
-    unsigned formats; /* that can be written, see request.h */
-    int quality;      /* of pictures that ask for none */
+    int quality; /* of pictures that ask for none */
 } Site;
 
 enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
