@@ -36,11 +36,10 @@ int rooms_take(Rooms *rooms, const char *name, const Room **room, RetexError *er
 const Room *rooms_peek(Rooms *rooms, const char *name, const FileId *id);
 void rooms_return(Rooms *rooms, const Room *room); /* NULL is fine */
 
-/* Before and after the parts of a room are read: decode what a picture needs that is not decoded yet, as far as there is
- * memory for it; what is beyond is read from the file. Corrections, which only pictures need that change some of the
- * targets, are decoded when they are first wanted. */
-int rooms_begin_picture(Rooms *rooms, const Room *room, const int corrected[RETEX_MAX_TARGETS] /* by target: 1: its
-                        corrections are read */, RetexError *err);
+/* Before and after the parts of a room are read: decode what a picture needs that is not decoded yet, as far as there
+ * is memory for it; what is beyond is read from the file. Corrections, which only pictures need that change some of the
+ * targets, are decoded when they are first wanted: corrected[t] is 1 where those of target t are read. */
+int rooms_begin_picture(Rooms *rooms, const Room *room, const int corrected[RETEX_MAX_TARGETS], RetexError *err);
 void rooms_end_picture(Rooms *rooms, const Room *room);
 
 /* Call for each room of the folder, sorted by name; not 0: the folder cannot be read. */
