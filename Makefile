@@ -78,7 +78,7 @@ include tests/rules.mk
 demo: all
 	@tools/demo.sh $(BUILD)
 pictures: all
-	@tools/pictures.sh $(BUILD)
+	@tools/pictures.sh $(BUILD) && tools/page-pictures.sh $(BUILD)
 
 # What is installed: MODE:SOURCE:PLACE, see tools/install.sh. Each rules.mk adds its own.
 INSTALLED += $(TOOLS:%=755:$(BUILD)/bin/%:bin/) \

@@ -41,6 +41,7 @@ needs_test='
 pkg libzip libzip-dev
 pkg cmocka libcmocka-dev
 command mandoc mandoc
+command cmark cmark
 command curl curl
 command oiiotool openimageio-tools
 command transicc liblcms2-utils

@@ -30,7 +30,7 @@ jobs_of() {
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;
-    fidelity | long) for t in tests/"$1"/*.sh; do
+    docs | fidelity | long) for t in tests/"$1"/*.sh; do
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.sh} sh tests/$1/$t"; }
         done ;;
     faults) echo "faults/calls sh tests/faults/faults.sh" ;;

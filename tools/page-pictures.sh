@@ -1,0 +1,40 @@
+#!/bin/sh
+# The pictures of pages in docs/ that explain: page-pictures.sh BUILD [PAGE...], by default all of tutorial, own. Part of
+# make pictures. Sets are kept in BUILD/pictures/pages.
+set -eu
+here=$(pwd)
+case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
+shift
+[ $# != 0 ] || set -- tutorial own
+PATH=$build/bin:$PATH
+out=$here/docs/pictures
+sets=$build/pictures/pages
+mkdir -p "$sets"
+
+# jpeg FROM NAME: a picture for people, as small as it may be.
+jpeg() { oiiotool --nosoftwareattrib "$1" --ch R,G,B --eraseattrib ".*" --compression jpeg:88 -o "$out/$2.jpg"; }
+
+# Those that its commands make, as they are written there.
+tutorial() {
+    rm -rf "$sets/tutorial"
+    BUILD=$build TUTORIAL_AS_WRITTEN=1 TUTORIAL_FOLDER=$sets/tutorial sh tests/docs/tutorial.sh
+    for name in noisy room walnut blue marble damask small-damask; do
+        jpeg "$sets/tutorial/my-room/$name.jpg" "tutorial-$name"
+    done
+}
+
+# The converter of own-renderer.md: its picture, the scene rendered again, and their difference.
+own() {
+    box=scenes/cornell-box/cornell-box.pov terrazzo=scenes/textures/terrazzo.jpg
+    retex-render -q --plain --size 768x768 --spp 16 --aov albedo,uv,object,irradiance $box -o "$sets/aovs.exr"
+    /usr/bin/python3 docs/aovs_to_set.py --target Floor --object 1 --samples 4 "$sets/aovs.exr" "$sets/own.exr"
+    retex-combine -q "$sets/own.exr" --texture Floor=$terrazzo -o "$sets/own-retextured.exr"
+    retex-render -q --plain --size 192x192 --spp 256 --replace Floor=$terrazzo $box -o "$sets/own-again.exr"
+    oiiotool "$sets/own-retextured.exr" "$sets/own-again.exr" --sub --mulc 4 --addc 0.2 -o "$sets/own-difference.exr"
+    for name in own-retextured own-again own-difference; do
+        oiiotool "$sets/$name.exr" --ch R,G,B --tocolorspace sRGB -d uint8 -o "$sets/$name.png"
+        jpeg "$sets/$name.png" "$name"
+    done
+}
+
+for page; do "$page"; done
