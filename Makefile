@@ -72,6 +72,7 @@ include tools/rules.mk
 include renderer/rules.mk
 include oiio_plugins/rules.mk
 include scenes/rules.mk
+include completions/rules.mk
 include tests/rules.mk
 
 .PHONY: all demo pictures install uninstall clean lint format

@@ -19,7 +19,7 @@
 
 const CliOption cli_positional = {"", 0, NULL, NULL, 0};
 
-static const CliOption common_options[] = {
+const CliOption cli_common_options[] = {
     {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
     {"threads", 0, "N", "use N threads; 0, the default, uses all cores", 0},
     {"safe", 0, NULL, "refuse devices and rare picture formats; scenes read only their own folder; also RETEX_SAFE=1",
@@ -113,7 +113,7 @@ static _Noreturn void print_help(const Cli *cli)
         print_options(cli->options);
         putchar('\n');
     }
-    print_options(common_options);
+    print_options(cli_common_options);
     exit(cli_close(cli, CLI_OK));
 }
 
@@ -125,10 +125,9 @@ static _Noreturn void print_version(const Cli *cli)
 
 /* --- parsing argv --- */
 
-/* Find an option by name (length bytes) or, if name is NULL, by letter. The tool's own options come first. */
-static const CliOption *find_option(const Cli *cli, const char *name, size_t length, char letter)
+const CliOption *cli_find_option(const Cli *cli, const char *name, size_t length, char letter)
 {
-    const CliOption *tables[] = {cli->options, common_options};
+    const CliOption *tables[] = {cli->options, cli_common_options};
     for (int t = 0; t < 2; t++)
         for (const CliOption *o = tables[t]; o && o->name; o++) {
             if (name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
@@ -141,12 +140,12 @@ static const CliOption *find_option(const Cli *cli, const char *name, size_t len
 
 static const CliOption *nearest_option(const Cli *cli, const char *name)
 {
-    const CliOption *tables[] = {cli->options, common_options};
+    const CliOption *tables[] = {cli->options, cli_common_options};
     RetexNearest nearest = {name, NULL, 0};
     for (int t = 0; t < 2; t++)
         for (const CliOption *o = tables[t]; o && o->name; o++)
             retex_nearest_try(&nearest, o->name);
-    return nearest.best ? find_option(cli, nearest.best, strlen(nearest.best), 0) : NULL;
+    return nearest.best ? cli_find_option(cli, nearest.best, strlen(nearest.best), 0) : NULL;
 }
 
 /* text follows the dashes. The suggestion covers long names with one dash and letters in the other case. */
@@ -157,7 +156,7 @@ static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const c
     int letter = name[0] && !name[1] ? isupper((unsigned char)name[0]) ? tolower((unsigned char)name[0])
                                                                        : toupper((unsigned char)name[0])
                                      : 0;
-    const CliOption *option = letter ? find_option(cli, NULL, 0, (char)letter) : nearest_option(cli, name);
+    const CliOption *option = letter ? cli_find_option(cli, NULL, 0, (char)letter) : nearest_option(cli, name);
     if (option && letter)
         cli_die(cli, "unknown option %s%.*s; is -%c meant?", dashes, length, text, letter);
     if (option)
@@ -169,7 +168,7 @@ static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const c
 static void check_value(const Cli *cli, const CliOption *option)
 {
     const char *name = cli->value + 2;
-    if (strncmp(cli->value, "--", 2) == 0 && find_option(cli, name, strcspn(name, "=:"), 0))
+    if (strncmp(cli->value, "--", 2) == 0 && cli_find_option(cli, name, strcspn(name, "=:"), 0))
         cli_die(cli, "--%s needs an argument, %s, before %s", option->name, option->argument, cli->value);
 }
 
@@ -193,7 +192,7 @@ static void take_value(Cli *cli, const CliOption *option, const char *attached)
 static const CliOption *long_option(Cli *cli, const char *text)
 {
     size_t length = strcspn(text, "=:");
-    const CliOption *option = find_option(cli, text, length, 0);
+    const CliOption *option = cli_find_option(cli, text, length, 0);
     if (!option)
         unknown_option(cli, "--", text, (int)length);
     const char *attached = NULL;
@@ -212,7 +211,7 @@ static const CliOption *long_option(Cli *cli, const char *text)
 static const CliOption *short_option(Cli *cli)
 {
     char letter = *cli->group++;
-    const CliOption *option = find_option(cli, NULL, 0, letter);
+    const CliOption *option = cli_find_option(cli, NULL, 0, letter);
     if (!option)
         unknown_option(cli, "-", cli->group - 1, 1);
     const char *rest = *cli->group ? cli->group : NULL;
@@ -225,7 +224,8 @@ static const CliOption *short_option(Cli *cli)
 /* Handle an option that every tool has. Return 0 if it is not one of these. */
 static int common_option(Cli *cli, const CliOption *option)
 {
-    if (option < common_options || option >= common_options + sizeof common_options / sizeof *common_options)
+    const size_t count = sizeof cli_common_options / sizeof *cli_common_options;
+    if (option < cli_common_options || option >= cli_common_options + count)
         return 0;
     if (strcmp(option->name, "output") == 0) {
         if (!*cli->value)
@@ -254,6 +254,8 @@ const CliOption *cli_next(Cli *cli)
     prepare_process(cli);
     if (cli->next == 0)
         cli->next = 1;
+    if (cli->next == 1 && cli->argc > 1 && strcmp(cli->argv[1], "--complete") == 0)
+        cli_complete(cli);
     if (cli->access.size == 0) {
         cli->access = (RetexAccess)RETEX_ACCESS_INIT;
         cli->access.safe = retex_access_safe_requested();
@@ -334,11 +336,11 @@ const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t s
     const char *textures[] = {"texture", "replace"};
     text[0] = '\0';
     for (int k = 0; k < 2 && strchr(word, '='); k++)
-        if (find_option(cli, textures[k], strlen(textures[k]), 0))
+        if (cli_find_option(cli, textures[k], strlen(textures[k]), 0))
             snprintf(text, size, "; is --%s %s meant?", textures[k], word);
     if (strcmp(word, "-") == 0)
         return text;
-    if (!text[0] && !strpbrk(word, "./") && find_option(cli, NULL, 0, 't'))
+    if (!text[0] && !strpbrk(word, "./") && cli_find_option(cli, NULL, 0, 't'))
         snprintf(text, size, "; is -t %s meant?", word);
     if (!text[0] && !has_output(cli))
         snprintf(text, size, "; is -o %s meant?", word);

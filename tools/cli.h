@@ -15,7 +15,7 @@ typedef struct CliOption {
     const char *name;      /* long name without dashes */
     char letter;           /* one-letter form, or 0 */
     const char *argument;  /* the argument's name in --help; NULL: takes no argument; `=NAME`: may be left out, and is
-                              given as `--name=VALUE` only */
+                              given as `--name=VALUE` only. Completion goes by it: see complete.c */
     const char *help;      /* text of --help */
     int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
 } CliOption;
@@ -55,6 +55,20 @@ typedef struct Cli {
  * CLI_FAIL. */
 const CliOption *cli_next(Cli *cli);
 extern const CliOption cli_positional;
+
+/* Find an option by name (length bytes) or, if name is NULL, by letter. The tool's own options come first. NULL: there
+ * is none. */
+const CliOption *cli_find_option(const Cli *cli, const char *name, size_t length, char letter);
+extern const CliOption cli_common_options[]; /* those of all tools */
+
+/* complete.c: `retex-NAME --complete WORD…` prints what could stand in place of the last word, for completion in
+ * shells, and exits. */
+_Noreturn void cli_complete(Cli *cli);
+
+/* The modifiers of --texture and --replace, for --help and completion. */
+#define CLI_TEXTURE_OPTS                                                                                               \
+    "scale=S[,T], rotate=DEGREES, offset=U,V, flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, "              \
+    "repeat=straight|brick|half-drop|mirror, colorspace=NAME"
 
 /* Parse cli->value. If it is wrong, print one line with the option and the expected value, and exit with CLI_FAIL. */
 long cli_integer(const Cli *cli, const CliOption *option, long low, long high);

@@ -71,7 +71,7 @@ int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-denoise",
                .usage = "SET [--strength F] [--radius N] [--no-footprints] -o SET",
-               .about = "Remove the noise from a set once, so that every retexture of it is free of noise.",
+               .about = "Remove the noise from a set once, and so from all its retextures.",
                .options = options,
                .argc = argc,
                .argv = argv,

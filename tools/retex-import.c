@@ -30,7 +30,7 @@ enum { MOST_FOLDERS = 32, READ_SECONDS = 600 };
 static const CliOption options[] = {
     {"camera", 0, "N", "use the Nth camera of the model, or the one of that name; default the first", 0},
     {"sky", 0, "FILE", "put a picture around the scene, which lights it: HDR, EXR, PNG, JPEG or TIFF", 0},
-    {"up", 0, "AXIS", "the model's axis that is up, y or z; default what its format says", 0},
+    {"up", 0, "y|z", "the model's axis that is up; default what its format says", 0},
     {"scale", 0, "S", "multiply all lengths", 0},
     {"lights", 0, "F", "multiply the light of all light sources", 0},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
@@ -316,8 +316,8 @@ int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-import",
                .usage = "MODEL -o NAME [options]",
-               .about = "Make a scene of a model: glTF, OBJ, FBX, Collada, 3DS, PLY, STL and what else Assimp reads. "
-                        "The folder NAME gets NAME.pov, its meshes and its textures.",
+               .about = "Make a scene of a model of another program. It reads glTF, OBJ, FBX, Collada, 3DS, PLY, STL "
+                        "and what else Assimp reads. The folder NAME gets NAME.pov, its meshes and its textures.",
                .options = options,
                .argc = argc,
                .argv = argv,

@@ -3,11 +3,7 @@
 #include "texture_args.h"
 
 static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE",
-     "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: scale=S[,T], rotate=DEGREES, offset=U,V, "
-     "flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, repeat=straight|brick|half-drop|mirror, "
-     "colorspace=NAME",
-     1},
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
     FRAMES_OPTION,
     {"keep-going", 0, NULL, "continue after a frame that fails", 0},
     {0},

@@ -197,7 +197,7 @@ int main(int argc, char **argv)
             .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 300, .max_age = 60}};
     Cli cli = {.tool = "retex-serve",
                .usage = "FOLDER [--port N] [--textures FOLDER]",
-               .about = "Serve pictures of the rooms in a folder, sets and packs, with textures that URLs name.",
+               .about = "Serve pictures of sets and packs, with the textures that URLs name.",
                .options = options,
                .argc = argc,
                .argv = argv,

@@ -1,6 +1,6 @@
 # The library, the bridge to OpenImageIO, OpenColorIO and Little CMS, and the tools.
 LIBRETEX_SOURCES += $(wildcard tools/libretex/*/*.c)
-TOOLS += $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
+TOOLS += retex $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 
 # Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO, OpenColorIO and
 # Little CMS.
@@ -55,9 +55,14 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 # folder, starts without relocating it, and always is of one version with it. It loads the bridge from beside it at run
 # time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
-TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table batch batch_check \
+TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog texture_table batch batch_check \
 	batch_report batch_catalogue batch_manifest batch_sources frames kept_textures output_folder json_text)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
+
+# retex becomes one of the other tools.
+$(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 

@@ -45,6 +45,9 @@ command cmark cmark
 command curl curl
 command oiiotool openimageio-tools
 command transicc liblcms2-utils
+command zsh zsh
+command fish fish
+file /usr/share/bash-completion/bash_completion bash-completion
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
 '
