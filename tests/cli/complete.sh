@@ -21,7 +21,7 @@ exec "$TESTS/complete.py" "$1" "$2" \
     'retex-render box' \
     'retex-render --layout p' \
     'retex-render --layout=p' \
-    'retex-render --aov depth,al' \
+    'retex-render --aov depth,met' \
     'retex-render box.pov -t ' \
     'retex comb' \
     'retex help com' \

@@ -66,12 +66,12 @@ $ retex-combine --complete --texture:scale=2:wrap=r; retex-combine --complete --
 > --texture:scale=2:wrap=mirror	
 > --texture:scale=2:wrap=clamp	
 > --texture:scale=2:wrap=black	
-$ retex-render --complete --layout ''; retex-render --complete --aov depth,alb | tail -3
+$ retex-render --complete --layout ''; retex-render --complete --aov depth,alb | head -3
 > footprints	
 > paper	
-> depth,roughness	
-> depth,metallic	
-> depth,irradiance	
+> depth,beauty	
+> depth,depth	
+> depth,albedo	
 $ retex-render --complete ''; retex-render --complete --control ''; retex-render --complete --list-targets=; retex-render --complete --list-targets ''
 > :files		pov ini
 > :files		exr retex
@@ -184,8 +184,8 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-comple
 >     all: <retex-render><--layout><paper>
 > retex-render --layout=p: <retex-render><--layout=paper>
 >     all: <retex-render><--layout=paper>
-> retex-render --aov depth,al: <retex-render><--aov><depth,albedo>
->     all: <retex-render><--aov><depth,albedo>
+> retex-render --aov depth,met: <retex-render><--aov><depth,metallic>
+>     all: <retex-render><--aov><depth,metallic>
 > retex-render box.pov -t : <retex-render><box.pov><-t>
 >     all: <retex-render><box.pov><-t><Floor><Wall>
 > retex comb: <retex><combine>
@@ -237,8 +237,8 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" zsh "$PWD/a root/usr/share/zsh/site-fun
 >     all: <retex-render><--layout><paper>
 > retex-render --layout=p: <retex-render><--layout=paper>
 >     all: <retex-render><--layout=paper>
-> retex-render --aov depth,al: <retex-render><--aov><depth,albedo>
->     all: <retex-render><--aov><depth,albedo>
+> retex-render --aov depth,met: <retex-render><--aov><depth,metallic>
+>     all: <retex-render><--aov><depth,metallic>
 > retex-render box.pov -t : <retex-render><box.pov><-t>
 >     all: <retex-render><box.pov><-t><Floor><Wall>
 > retex comb: <retex><combine>
@@ -270,7 +270,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" fish "$PWD/a root/usr/share/fish/vendor
 > retex-render box: box.pov
 > retex-render --layout p: paper
 > retex-render --layout=p: --layout=paper
-> retex-render --aov depth,al: depth,albedo
+> retex-render --aov depth,met: depth,metallic
 > retex-render box.pov -t : Floor Wall
 > retex comb: combine
 > retex help com: combine
