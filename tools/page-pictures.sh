@@ -1,14 +1,15 @@
 #!/bin/sh
-# The pictures of pages in docs/ that explain: page-pictures.sh BUILD [PAGE...], by default all of tutorial, own. Part of
-# make pictures. Sets are kept in BUILD/pictures/pages.
+# The pictures of pages in docs/ that explain: page-pictures.sh BUILD [PAGE...], by default all of tutorial, own and
+# how. Part of make pictures. Sets are kept in BUILD/pictures/pages.
 set -eu
 here=$(pwd)
 case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
 shift
-[ $# != 0 ] || set -- tutorial own
+[ $# != 0 ] || set -- tutorial own how
 PATH=$build/bin:$PATH
 out=$here/docs/pictures
 sets=$build/pictures/pages
+glass=scenes/glass-caustics/glass-caustics.pov
 mkdir -p "$sets"
 
 # jpeg FROM NAME: a picture for people, as small as it may be.
@@ -35,6 +36,32 @@ own() {
         oiiotool "$sets/$name.exr" --ch R,G,B --tocolorspace sRGB -d uint8 -o "$sets/$name.png"
         jpeg "$sets/$name.png" "$name"
     done
+}
+
+figure() { /usr/bin/python3 -B tools/page_pictures.py "$@"; }
+
+# Light, places, one pixel and denoising, in the scene of glass.
+how() {
+    [ -e "$sets/glass.exr" ] || retex-render -q --size 480x360 --spp 64 -t Floor --aov uv $glass -o "$sets/glass.exr"
+    [ -e "$sets/glass-denoised.exr" ] || retex-denoise -q "$sets/glass.exr" -o "$sets/glass-denoised.exr"
+    retex-combine -q "$sets/glass-denoised.exr" -o "$sets/scene.png"
+    jpeg "$sets/scene.png" how-scene
+    figure light "$sets/light.png" "$sets/glass-denoised.exr"
+    oiiotool "$sets/light.png" --resize 1400x0 -o "$sets/light.png"
+    jpeg "$sets/light.png" how-light
+    figure places "$sets/places.png" "$sets/glass.exr"
+    jpeg "$sets/places.png" how-places
+    for sample in $(seq 10 39); do
+        [ -s "$sets/path-$sample" ] || retex-render --trace-pixel "245,89,$sample" --size 480x360 -t Floor $glass \
+            >"$sets/path-$sample"
+    done
+    figure pixel "$out/how-pixel.svg" "$sets/glass.exr" 245 89 "$sets"/path-??
+    retex-render -q --size 480x360 --crop 30,80,180,130 --spp 16 -t Floor $glass -o "$sets/crop.exr"
+    retex-denoise -q "$sets/crop.exr" -o "$sets/crop-denoised.exr"
+    retex-combine -q "$sets/crop-denoised.exr" --texture Floor=scenes/textures/fans.jpg -o "$sets/crop.png"
+    figure denoise "$sets/denoise.png" "$sets/crop.exr" "$sets/crop-denoised.exr" "$sets/crop.png"
+    oiiotool "$sets/denoise.png" --resize:filter=box 1092x0 -o "$sets/denoise.png"
+    jpeg "$sets/denoise.png" how-denoise
 }
 
 for page; do "$page"; done
