@@ -7,10 +7,14 @@
 #include <retex/retex.h>
 
 #include "cli.h"
+#include "compositor.h"
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the manifest and the sizes as JSON", 0},
     {"check", 0, NULL, "check the checksums of all parts; exit status 1 if one is wrong", 0},
+    {"layers", 0, "FILE.exr", "write the set's images as the layers of a flat EXR, for compositors", 0},
+    {"blender", 0, NULL, "print a script of nodes for Blender's compositor that reads FILE.exr", 0},
+    {"nuke", 0, NULL, "print such a script for Nuke", 0},
     {0},
 };
 
@@ -286,36 +290,94 @@ static int check(const Cli *cli, const char *path)
     return CLI_OK;
 }
 
+/* What the command line asks for. */
+typedef struct Request {
+    const char *path, *layers;
+    int json, checking;
+    CompositorKind script;
+} Request;
+
+/* Scripts are read in any folder. */
+static int print_script(const Cli *cli, const Request *request, const RetexSet *set, RetexError *err)
+{
+    char *layers = realpath(request->layers, NULL);
+
+    if (!layers)
+        return retex_fail(err, RETEX_EIO, "cannot find %s again", request->layers);
+    const int code = compositor_print(cli->answer, request->script, set, layers, err);
+    free(layers);
+    return code;
+}
+
+static int write_layers(const Cli *cli, const Request *request)
+{
+    RetexSet *set = NULL;
+    RetexError error = {0};
+
+    if (retex_set_open(request->path, &set, NULL, cli->threads, &error))
+        cli_fail(cli, &error);
+    cli_check_pixels(cli, set, request->path);
+    int code = request->script ? compositor_check(set, request->path, &error) : RETEX_OK;
+    if (!code)
+        code = retex_set_load(set, cli->threads, &error);
+    if (!code)
+        code = retex_set_write_layers(set, request->layers, cli->threads, &error);
+    if (!code && request->script)
+        code = print_script(cli, request, set, &error);
+    retex_set_close(&set);
+    if (code)
+        cli_error(cli, &error);
+    return code ? CLI_FAIL : CLI_OK;
+}
+
+static void check_request(Cli *cli, const Request *request)
+{
+    if (!request->path)
+        cli_die(cli, "no set given");
+    if (request->json + request->checking + (request->layers != NULL) > 1)
+        cli_die(cli, "--json, --check and --layers exclude each other");
+    if (request->script && !request->layers)
+        cli_die(cli, "--%s prints a script that reads a file of layers: add --layers FILE.exr",
+                request->script == COMPOSITOR_NUKE ? "nuke" : "blender");
+    if (request->layers && !cli_ends_with(request->layers, ".exr"))
+        cli_die(cli, "--layers writes OpenEXR: expected a name that ends in .exr, not `%s`", request->layers);
+    cli_input(cli, request->path, "a set, as from retex-render");
+    cli_reads(cli, "the set", request->path);
+    cli_writes(cli, "--layers", request->layers);
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-info",
-               .usage = "SET [--json] [--check] [-o FILE]",
+               .usage = "SET [--json] [--check] [--layers FILE.exr] [-o FILE]",
                .about = "Describe a set, samples or a pack, or check that it is whole.",
                .options = options,
                .argc = argc,
                .argv = argv,
                .next = 1};
-    const char *path = NULL;
+    Request request = {0};
     const CliOption *option;
-    int json = 0, checking = 0;
 
     while ((option = cli_next(&cli))) {
         if (option == &cli_positional) {
-            if (path)
+            if (request.path)
                 cli_die(&cli, "one set at a time: what is %s?", cli.value);
-            path = cli.value;
+            request.path = cli.value;
         } else if (strcmp(option->name, "json") == 0) {
-            json = 1;
+            request.json = 1;
+        } else if (strcmp(option->name, "check") == 0) {
+            request.checking = 1;
+        } else if (strcmp(option->name, "layers") == 0) {
+            request.layers = cli.value;
         } else {
-            checking = 1;
+            if (request.script)
+                cli_die(&cli, "one script at a time: --blender or --nuke");
+            request.script = strcmp(option->name, "nuke") == 0 ? COMPOSITOR_NUKE : COMPOSITOR_BLENDER;
         }
     }
-    if (!path)
-        cli_die(&cli, "no set given");
-    if (json && checking)
-        cli_die(&cli, "--json and --check exclude each other");
-    cli_input(&cli, path, "a set, as from retex-render");
-    cli_reads(&cli, "the set", path);
+    check_request(&cli, &request);
     cli_answer(&cli);
-    return cli_close(&cli, checking ? check(&cli, path) : print_info(&cli, path, json));
+    return cli_close(&cli, request.layers     ? write_layers(&cli, &request)
+                           : request.checking ? check(&cli, request.path)
+                                              : print_info(&cli, request.path, request.json));
 }

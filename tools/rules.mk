@@ -56,7 +56,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 # time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog texture_table batch batch_check \
-	batch_report batch_catalogue batch_manifest batch_sources frames kept_textures output_folder json_text)
+	batch_report batch_catalogue batch_manifest batch_sources compositor frames kept_textures output_folder json_text)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)

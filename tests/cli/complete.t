@@ -7,6 +7,9 @@ $ retex-info --complete ''
 $ retex-info --complete --
 > --json	print the manifest and the sizes as JSON
 > --check	check the checksums of all parts; exit status 1 if one is wrong
+> --layers	write the set's images as the layers of a flat EXR, for compositors
+> --blender	print a script of nodes for Blender's compositor that reads FILE.exr
+> --nuke	print such a script for Nuke
 > --output	write to FILE; - is standard output
 > --threads	use N threads; 0, the default, uses all cores
 > --safe	refuse devices and rare picture formats; scenes read only their own folder; also RETEX_SAFE=1
@@ -18,7 +21,7 @@ $ retex-info --complete --
 > --help	print this help and exit
 > --version	print the version and exit
 $ retex-info --complete - | cut -f1 | tr '\n' ' '
-> --json --check --output -o --threads --safe --max-memory --max-time --max-pixels --quiet -q --verbose -v --help -h --version -V
+> --json --check --layers --blender --nuke --output -o --threads --safe --max-memory --max-time --max-pixels --quiet -q --verbose -v --help -h --version -V
 $ retex-combine --complete room.exr --texture ''
 > Floor=	40.0 % of the picture
 > Wall=	40.0 % of the picture
@@ -177,7 +180,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-comple
 > retex-combine room.exr --batch-root=: <retex-combine><room.exr><--batch-root=>
 >     all: <retex-combine><room.exr><--batch-root=a root><folder>
 > retex-info --: <retex-info><-->
->     all: <retex-info><--check><--help><--json><--max-memory><--max-pixels><--max-time><--output><--quiet><--safe><--threads><--verbose><--version>
+>     all: <retex-info><--blender><--check><--help><--json><--layers><--max-memory><--max-pixels><--max-time><--nuke><--output><--quiet><--safe><--threads><--verbose><--version>
 > retex-render box: <retex-render><box.pov>
 >     all: <retex-render><box.pov>
 > retex-render --layout p: <retex-render><--layout><paper>
@@ -230,7 +233,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" zsh "$PWD/a root/usr/share/zsh/site-fun
 > retex-combine room.exr --batch-root=: <retex-combine><room.exr><--batch-root=>
 >     all: <retex-combine><room.exr><--batch-root=a root><--batch-root=folder>
 > retex-info --: <retex-info><-->
->     all: <retex-info><--check><--help><--json><--max-memory><--max-pixels><--max-time><--output><--quiet><--safe><--threads><--verbose><--version>
+>     all: <retex-info><--blender><--check><--help><--json><--layers><--max-memory><--max-pixels><--max-time><--nuke><--output><--quiet><--safe><--threads><--verbose><--version>
 > retex-render box: <retex-render><box.pov>
 >     all: <retex-render><box.pov>
 > retex-render --layout p: <retex-render><--layout><paper>
@@ -266,7 +269,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" fish "$PWD/a root/usr/share/fish/vendor
 > retex-combine room.exr --cross : 0 2 3
 > retex-combine room.exr --batch : a root/ folder/ table.csv
 > retex-combine room.exr --batch-root=: --batch-root=a root/ --batch-root=folder/
-> retex-info --: --check --help --json --max-memory --max-pixels --max-time --output --quiet --safe --threads --verbose --version
+> retex-info --: --blender --check --help --json --layers --max-memory --max-pixels --max-time --nuke --output --quiet --safe --threads --verbose --version
 > retex-render box: box.pov
 > retex-render --layout p: paper
 > retex-render --layout=p: --layout=paper

@@ -51,6 +51,14 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
                     const RetexStoreParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
                     RetexError *err);
 
+/* Write the layers of a set, all of which is in memory, as one flat EXR part with channels NAME.R, NAME.G and so on,
+ * for programs that do not read files of several parts: every part of the picture's size, but for what denoising reads
+ * and for what is 0 everywhere. Mean UV has u in R, v in G, and in B 1 where coverage is above 0. Layers of two
+ * channels get a third one of zeros. */
+int retex_set_write_layers(const RetexSet *set, const char *path, int nthreads /* 0 = all cores */, RetexError *err);
+/* Whether it writes this part; the set is in memory. */
+int retex_set_is_layer(const RetexSet *set, int part);
+
 /* Check that a set, samples or a pack can be written to path, as far as that is known without writing: to be called
  * before the work that makes them. */
 int retex_set_write_check(const char *path, RetexError *err);
