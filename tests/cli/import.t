@@ -7,7 +7,7 @@ $ printf '%s\n' 'retex-import -q "$@" -o scene || exit' 'cat camera.inc >>scene/
 $ printf '%s\n' 'for part in albedo depth uv; do retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs; done' >same
 
 # Depth, colour and UV are the reference's: nothing is mirrored, each card is in its place.
-$ for m in card.gltf card.glb second.gltf opaque.gltf card.obj card.dae; do sh look $m && sh same ${m%.*}.exr reference.exr; done
+$ for m in card.gltf card.glb second.gltf opaque.gltf words.gltf quantized.gltf quantized.glb card.obj card.dae; do sh look $m && sh same ${m%.*}.exr reference.exr; done
 $ for m in card.stl card.ply; do sh look $m --up z && retex-diff -q --part depth --allow-inf --fail-abs 0.0005 card.exr reference.exr; done
 
 # glTF's own camera is the reference's.

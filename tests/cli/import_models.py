@@ -190,6 +190,37 @@ studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
         for kind, name, at in ((0xb002, b'Card\0', (0, 0, 0)), (0xb003, b'Eye\0', (.75, -2.5, .5))))))
 write('card.3ds', studio)
 
+# UV of 16 and of 8 bits, each element on four bytes, and positions of 16 bits by KHR_mesh_quantization.
+
+
+def integers(uv_type, uv_bytes, uv_stride, short_positions=False):
+    data = (b''.join(struct.pack('<3hxx', *(32767 * a for a in p)) for p in positions) if short_positions else
+            buffer[:48]) + uv_bytes + buffer[80:]
+    scene = gltf(MATERIAL, buffer=data)
+    size = 32 if short_positions else 48
+    scene['bufferViews'] = [{'buffer': 0, 'byteLength': size}, {'buffer': 0, 'byteOffset': size, 'byteLength': 16},
+                            {'buffer': 0, 'byteOffset': size + 16, 'byteLength': 12}]
+    scene['bufferViews'][1]['byteStride'] = uv_stride
+    scene['accessors'][1].update(componentType=uv_type, normalized=True)
+    if short_positions:
+        scene['bufferViews'][0]['byteStride'] = 8
+        scene['accessors'][0].update(componentType=5122, normalized=True, max=[32767, 32767, 0])
+        scene['extensionsUsed'] = scene['extensionsRequired'] = ['KHR_mesh_quantization']
+    return scene, data
+
+
+words, octets = (b''.join(struct.pack(f, most * u, most * v) for u, v in uvs) for f, most in (('<2H', 65535), ('<2Bxx', 255)))
+scene, data = integers(5123, words, 4)
+write('words.bin', data)
+scene['buffers'][0]['uri'] = 'words.bin'
+write('words.gltf', json.dumps(scene))
+scene, data = integers(5121, octets, 4, True)
+write('quantized.gltf', json.dumps(scene))
+del scene['buffers'][0]['uri']
+write('quantized.glb', glb(scene, data))
+scene['bufferViews'][1]['byteLength'] = 13
+write('beyond.glb', glb(scene, data))
+
 # Roughness is .75 times green, which rises with u; metallic is blue, in the upper half.
 numbers = png(16, 16, lambda x, y: (0, 16 * x, 255 if y < 8 else 0), 3)
 varying = gltf({'name': 'steel', 'pbrMetallicRoughness': {

@@ -96,6 +96,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
         close(descriptor);
         return NULL;
     }
+    if (is_model && import->is_gltf)
+        stream = gltf_with_floats(import, stream);
     *file = (struct aiFile){read_file, write_file, tell_file, file_size, seek_file, flush_file, (aiUserData)stream};
     return file;
 }

@@ -6,25 +6,23 @@
 
 #include "import/internal.h"
 
-enum { MAGIC = 0x46546c67, JSON_CHUNK = 0x4e4f534a };
-
-static uint32_t little(const unsigned char *p)
+uint32_t gltf_little(const unsigned char *p)
 {
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-/* The JSON text of a .gltf or .glb file. */
-static json_t *read_json(FILE *in)
+json_t *gltf_load(FILE *in, int *is_binary)
 {
     unsigned char head[20];
     if (fread(head, 1, sizeof head, in) != sizeof head)
         return NULL;
-    if (little(head) != MAGIC) {
+    *is_binary = gltf_little(head) == GLTF_MAGIC;
+    if (!*is_binary) {
         rewind(in);
         return json_loadf(in, 0, NULL);
     }
-    const size_t length = little(head + 12);
-    char *text = little(head + 16) == JSON_CHUNK ? malloc(length + 1) : NULL;
+    const size_t length = gltf_little(head + 12);
+    char *text = gltf_little(head + 16) == GLTF_JSON_CHUNK ? malloc(length + 1) : NULL;
     json_t *json = text && fread(text, 1, length, in) == length ? json_loadb(text, length, 0, NULL) : NULL;
     free(text);
     return json;
@@ -112,13 +110,13 @@ static void take_lenses(const json_t *json, Gltf *gltf)
 
 void gltf_read(Import *import)
 {
-    int descriptor;
+    int descriptor, is_binary;
     RetexAccess access = RETEX_ACCESS_INIT;
     access.safe = import->options->safe;
     if (retex_access_open(&access, import->options->model, &descriptor, NULL))
         return;
     FILE *in = fdopen(descriptor, "rb");
-    json_t *json = in ? read_json(in) : NULL;
+    json_t *json = in ? gltf_load(in, &is_binary) : NULL;
     if (in)
         fclose(in);
     take_materials(json, &import->gltf);

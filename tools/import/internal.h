@@ -149,6 +149,13 @@ void files_close_io(struct aiFileIO *io);
 int files_find(Import *import, const char *name, char path[PATH_MAX], int *found, RetexError *err);
 
 /* gltf.c */
+enum { GLTF_MAGIC = 0x46546c67, GLTF_JSON_CHUNK = 0x4e4f534a, GLTF_BINARY_CHUNK = 0x004e4942 };
+uint32_t gltf_little(const unsigned char *bytes);
+/* The JSON text of a .gltf or .glb file; in a .glb, the binary chunk is next. NULL where there is none. */
+json_t *gltf_load(FILE *in, int *is_binary);
+/* gltf_floats.c */
+/* The file as it is, or in its place one without integers that Assimp would take for floats. */
+FILE *gltf_with_floats(Import *import, FILE *in);
 void gltf_read(Import *import);
 void gltf_free(Gltf *gltf);
 double gltf_number(const json_t *object, const char *key, double otherwise);
