@@ -272,3 +272,22 @@ $ retex-import --sky F.png card.glb -o sky && grep sky_sphere sky/sky.pov && ls 
 > sky.png
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote sky/sky.pov
+# Dispersion: n of blue is 1.60825 and of red 1.59175; sheen's roughness by the mean of alpha; a line for what is left out.
+$ retex-import -q prism.gltf -o prism; grep -o 'interior.*' prism/prism.pov; retex-import velvet.gltf -o velvet; grep -o 'sheen.*' velvet/velvet.pov
+> interior { ior 1.6 dispersion 1.0198 }
+> sheen rgb 0.5 sheen_roughness 0.348 } #end
+! retex-import: warning: images of the reflectance are left out
+! retex-import: warning: the extension KHR_materials_iridescence is left out
+! retex-import: warning: the extension EXT_mesh_gpu_instancing is left out
+! retex-import: warning: the extension X?[31m is left out
+! retex-import: warning: of images of the roughness of sheen, the mean is taken
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote velvet/velvet.pov
+# Integers that do not lie within their buffer are left to Assimp, which refuses them.
+$ retex-import -q packed.gltf -o packed; retex-import -q beyond.glb -o beyond; ls -d packed beyond
+! retex-import: error: packed.gltf: its meshes are compressed by EXT_meshopt_compression, which is not supported; export it without compression
+! retex-import: error: beyond.glb: GLTF: count*stride 16 > maxSize 13 in accessors[1]
+! ls: cannot access 'packed': No such file or directory
+! ls: cannot access 'beyond': No such file or directory
+= 2

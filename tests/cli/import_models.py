@@ -260,6 +260,23 @@ write('coated.gltf', json.dumps(dict(gltf({'name': 'silk', 'pbrMetallicRoughness
     'KHR_materials_sheen': {'sheenColorFactor': [.5, .25, .125], 'sheenRoughnessFactor': .75}}}),
     extensionsUsed=['KHR_materials_clearcoat', 'KHR_materials_sheen'])))
 
+# Glass with dispersion; sheen whose roughness is half its image's alpha; what is left out.
+write('prism.gltf', json.dumps(dict(gltf({'name': 'flint', 'pbrMetallicRoughness': {'roughnessFactor': 0, 'metallicFactor': 0},
+    'extensions': {'KHR_materials_transmission': {'transmissionFactor': 1}, 'KHR_materials_ior': {'ior': 1.6},
+                   'KHR_materials_dispersion': {'dispersion': .55}}}),
+    extensionsUsed=['KHR_materials_transmission', 'KHR_materials_ior', 'KHR_materials_dispersion'])))
+write('velvet.gltf', json.dumps(dict(gltf({'name': 'velvet', 'pbrMetallicRoughness': {'metallicFactor': 0}, 'extensions': {
+    'KHR_materials_sheen': {'sheenColorFactor': [.5, .5, .5], 'sheenRoughnessFactor': .5, 'sheenRoughnessTexture': {'index': 0}},
+    'KHR_materials_specular': {'specularColorTexture': {'index': 0}},
+    'KHR_materials_iridescence': {'iridescenceFactor': 1}}}, half),
+    extensionsUsed=['KHR_materials_sheen', 'KHR_materials_specular', 'KHR_materials_iridescence', 'EXT_mesh_gpu_instancing',
+                    'X\u001b[31m', 7])))
+
+packed = gltf(MATERIAL)
+packed['extensionsUsed'] = packed['extensionsRequired'] = ['EXT_meshopt_compression']
+del packed['buffers'][0]['uri']
+write('packed.gltf', json.dumps(packed))
+
 # An image that ends too early, and one that is none.
 write('torn.gltf', json.dumps(gltf(MATERIAL, F[:-30])))
 write('no_image.gltf', json.dumps(gltf(MATERIAL, F[:8] + b'no')))

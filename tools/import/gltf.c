@@ -64,11 +64,14 @@ static void take_materials(const json_t *json, Gltf *gltf)
     const size_t count = json_array_size(materials);
     gltf->strengths = calloc(count + 1, sizeof *gltf->strengths);
     gltf->speculars = calloc(count + 1, sizeof *gltf->speculars);
-    for (size_t i = 0; gltf->strengths && gltf->speculars && i < count; i++) {
+    gltf->dispersions = calloc(count + 1, sizeof *gltf->dispersions);
+    for (size_t i = 0; gltf->strengths && gltf->speculars && gltf->dispersions && i < count; i++) {
         const json_t *material = json_array_get(materials, i);
         const json_t *emissive = gltf_extension(material, "KHR_materials_emissive_strength");
         gltf->strengths[i] = (float)gltf_number(emissive, "emissiveStrength", 1);
         gltf->speculars[i] = (float)specular_of(gltf_extension(material, "KHR_materials_specular"));
+        gltf->dispersions[i] = (float)fmin(
+            fmax(gltf_number(gltf_extension(material, "KHR_materials_dispersion"), "dispersion", 0), 0), 20);
         gltf->nmaterials = (int)i + 1;
     }
 }
@@ -108,18 +111,85 @@ static void take_lenses(const json_t *json, Gltf *gltf)
     }
 }
 
-void gltf_read(Import *import)
+/* Images of the reflectance, which Assimp does not know of. */
+static void note_specular_images(Import *import, const json_t *json)
+{
+    const json_t *materials = json_object_get(json, "materials");
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        const json_t *specular = gltf_extension(json_array_get(materials, i), "KHR_materials_specular");
+        if (json_object_get(specular, "specularTexture") || json_object_get(specular, "specularColorTexture"))
+            import_leave_out(import, LEFT_SPECULAR_MAP);
+    }
+}
+
+/* A line for each that changes what a picture shows and is not taken. */
+static void note_extensions(Import *import, const json_t *json)
+{
+    static const char *const taken[] = {
+        "KHR_lights_punctual",
+        "KHR_materials_clearcoat",
+        "KHR_materials_dispersion",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_pbrSpecularGlossiness",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_unlit",
+        "KHR_materials_volume",
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
+        "KHR_xmp",
+        "KHR_xmp_json_ld",
+    };
+    enum { TAKEN = sizeof taken / sizeof *taken, MOST = 16 };
+    const json_t *used = json_object_get(json, "extensionsUsed");
+    for (size_t i = 0; i < json_array_size(used) && i < MOST; i++) {
+        const char *name = json_string_value(json_array_get(used, i));
+        char plain[NAME_SIZE];
+        int k = 0;
+        while (name && k < TAKEN && strcmp(name, taken[k]) != 0)
+            k++;
+        if (name && k == TAKEN)
+            import_tell(import, IMPORT_WARNING, "the extension %s is left out", import_plain(name, plain));
+    }
+}
+
+static json_t *load_model(const Import *import)
 {
     int descriptor, is_binary;
     RetexAccess access = RETEX_ACCESS_INIT;
     access.safe = import->options->safe;
     if (retex_access_open(&access, import->options->model, &descriptor, NULL))
-        return;
+        return NULL;
     FILE *in = fdopen(descriptor, "rb");
     json_t *json = in ? gltf_load(in, &is_binary) : NULL;
     if (in)
         fclose(in);
+    return json;
+}
+
+int gltf_is_compressed(const Import *import, char plain[NAME_SIZE])
+{
+    json_t *json = load_model(import);
+    const json_t *required = json_object_get(json, "extensionsRequired");
+    int is_compressed = 0;
+    for (size_t i = 0; i < json_array_size(required) && !is_compressed; i++) {
+        const char *name = json_string_value(json_array_get(required, i));
+        is_compressed = name && (strstr(name, "draco_mesh") || strstr(name, "meshopt"));
+        if (is_compressed)
+            import_plain(name, plain);
+    }
+    json_decref(json);
+    return is_compressed;
+}
+
+void gltf_read(Import *import)
+{
+    json_t *json = load_model(import);
     take_materials(json, &import->gltf);
+    note_specular_images(import, json);
+    note_extensions(import, json);
     take_cameras(json, &import->gltf);
     take_lenses(json, &import->gltf);
     gltf_take_lights(json, &import->gltf);
@@ -130,6 +200,7 @@ void gltf_free(Gltf *gltf)
 {
     free(gltf->strengths);
     free(gltf->speculars);
+    free(gltf->dispersions);
     free(gltf->cameras);
     free(gltf->lights);
 }

@@ -34,9 +34,9 @@ void import_leave_out(Import *import, LeftOut what)
         [LEFT_NORMAL_MAP] = "normal maps with a third set of UV are left out",
         [LEFT_FINISH_MAP] = "of images of the finish with a third set of UV, the mean is taken",
         [LEFT_EMISSION_MAP] = "images of emission with a third set of UV are left out",
-        [LEFT_SPECULAR_MAP] = "specular maps are left out",
+        [LEFT_SPECULAR_MAP] = "images of the reflectance are left out",
         [LEFT_VERTEX_COLORS] = "colours of vertices are left out where a surface transmits light",
-        [LEFT_SHEEN_ROUGHNESS_MAP] = "images of the roughness of sheen are left out",
+        [LEFT_SHEEN_ROUGHNESS_MAP] = "of images of the roughness of sheen, the mean is taken",
         [LEFT_ANIMATION] = "animations are left out",
         [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
         [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
@@ -109,6 +109,11 @@ static int read_model(Import *import, RetexError *err)
     if (!import->scene && strstr(aiGetErrorString(), "bad_alloc"))
         return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
                           options->model);
+    char compression[NAME_SIZE];
+    if (!import->scene && import->is_gltf && gltf_is_compressed(import, compression))
+        return retex_fail(err, RETEX_EFORMAT,
+                          "%s: its meshes are compressed by %s, which is not supported; export it without compression",
+                          options->model, compression);
     if (!import->scene)
         return retex_fail(err, RETEX_EFORMAT, "%s: %.400s", options->model, aiGetErrorString());
     if (!import->scene->mRootNode || !import->scene->mNumMeshes || !import->scene->mNumMaterials)

@@ -95,7 +95,8 @@ typedef struct GltfLight {
 } GltfLight;
 
 typedef struct Gltf {
-    float *strengths, *speculars; /* by material: of emission, of the reflectance at normal incidence */
+    /* by material: of emission, of the reflectance at normal incidence, 20 over Abbe's number */
+    float *strengths, *speculars, *dispersions;
     GltfCamera *cameras;
     GltfLight *lights;
     int nmaterials, ncameras, nlights;
@@ -157,6 +158,8 @@ json_t *gltf_load(FILE *in, int *is_binary);
 /* The file as it is, or in its place one without integers that Assimp would take for floats. */
 FILE *gltf_with_floats(Import *import, FILE *in);
 void gltf_read(Import *import);
+/* Whether the model requires an extension that compresses meshes, and its name. */
+int gltf_is_compressed(const Import *import, char plain[NAME_SIZE]);
 void gltf_free(Gltf *gltf);
 double gltf_number(const json_t *object, const char *key, double otherwise);
 const json_t *gltf_extension(const json_t *of, const char *name);

@@ -152,11 +152,21 @@ static void print_finish(FILE *out, const Surface *s, const float emission[3], i
     fprintf(out, "\n  }\n");
 }
 
+/* glTF means indices of refraction of red and blue; POV-Ray's dispersion is the ratio of those at the ends of its
+ * spectrum, of which the middles of red and blue are this far apart. */
+static float dispersion_of(const Surface *s)
+{
+    const float apart = 0.525f, half = 0.025f * s->dispersion * (s->ior - 1);
+    return s->dispersion > 0 && half < s->ior - 1 ? powf((s->ior + half) / (s->ior - half), 1 / apart) : 1;
+}
+
 /* Light that is absorbed: POV-Ray's fade_power 1001 is exp((fade_color - 1) x / fade_distance). */
 static void print_interior(FILE *out, const Surface *s)
 {
     float optical[3], most = 0;
     fprintf(out, "  interior { ior %.4g", (double)s->ior);
+    if (dispersion_of(s) > 1)
+        fprintf(out, " dispersion %.5g", (double)dispersion_of(s));
     for (int k = 0; k < 3; k++) {
         optical[k] = -logf(fmaxf(unit(s->fade_color[k]), 1e-4f));
         most = fmaxf(most, optical[k]);

@@ -242,6 +242,24 @@ static void take_volume(const struct aiMaterial *m, Surface *s)
     }
 }
 
+/* The alpha of an image in glTF: its mean. */
+static int take_sheen_roughness(Import *import, const struct aiMaterial *m, Surface *s, RetexError *err)
+{
+    const int alpha = 3;
+    Map map;
+    ChannelStats stats;
+    int found;
+    if (!get_map(import, m, AI_MATKEY_SHEEN_ROUGHNESS_TEXTURE, &map))
+        return RETEX_OK;
+    const int code = images_stats(import, map.source, &stats, &found, err);
+    if (code || !found)
+        return code;
+    if (stats.high[alpha] > stats.low[alpha])
+        import_leave_out(import, LEFT_SHEEN_ROUGHNESS_MAP);
+    s->sheen_roughness *= stats.mean[alpha];
+    return RETEX_OK;
+}
+
 /* In glTF, red of one image is the weight of the coat, and green of one its roughness. */
 static int take_coating(Import *import, const struct aiMaterial *m, Surface *s, RetexError *err)
 {
@@ -265,15 +283,13 @@ static int take_coating(Import *import, const struct aiMaterial *m, Surface *s, 
         get_map(import, m, AI_MATKEY_SHEEN_COLOR_TEXTURE, &s->sheen_map);
     get_float(m, AI_MATKEY_SHEEN_ROUGHNESS_FACTOR, &s->sheen_roughness);
     s->sheen_roughness = unit(s->sheen_roughness);
-    return code;
+    return code || largest(s->sheen) == 0 ? code : take_sheen_roughness(import, m, s, err);
 }
 
 static void note_left_out(Import *import, const struct aiMaterial *m)
 {
     if (has_any(import, m, aiTextureType_SPECULAR, 0) || has_any(import, m, aiTextureType_SHININESS, 0))
         import_leave_out(import, LEFT_SPECULAR_MAP);
-    if (has_any(import, m, AI_MATKEY_SHEEN_ROUGHNESS_TEXTURE))
-        import_leave_out(import, LEFT_SHEEN_ROUGHNESS_MAP);
 }
 
 /* Where nothing is refracted, the index stands for the reflectance alone: then it says all of it. */
@@ -314,6 +330,8 @@ int surface_read(Import *import, int index, Surface *s, RetexError *err)
     s->transmission = unit(s->transmission);
     if (is_pbr && index < import->gltf.nmaterials)
         s->tint = import->gltf.speculars[index];
+    if (index < import->gltf.nmaterials)
+        s->dispersion = import->gltf.dispersions[index];
     take_opacity(import, m, base, s);
     take_emission(import, m, index, s);
     take_volume(m, s);

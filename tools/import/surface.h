@@ -18,6 +18,7 @@ typedef struct Surface {
     float base[3], opacity;
     float metallic, roughness, ior, tint; /* tint: scales the reflectance of the coat */
     float transmission, emission[3];
+    float dispersion; /* 20 over Abbe's number */
     float fade_distance, fade_color[3]; /* 0 = none */
     AlphaMode alpha;
     float cutoff;
