@@ -209,7 +209,8 @@ def integers(uv_type, uv_bytes, uv_stride, short_positions=False):
     return scene, data
 
 
-words, octets = (b''.join(struct.pack(f, most * u, most * v) for u, v in uvs) for f, most in (('<2H', 65535), ('<2Bxx', 255)))
+words = b''.join(struct.pack('<2H', 65535 * u, 65535 * v) for u, v in uvs)
+octets = b''.join(struct.pack('<2Bxx', 255 * u, 255 * v) for u, v in uvs)
 scene, data = integers(5123, words, 4)
 write('words.bin', data)
 scene['buffers'][0]['uri'] = 'words.bin'
@@ -261,16 +262,19 @@ write('coated.gltf', json.dumps(dict(gltf({'name': 'silk', 'pbrMetallicRoughness
     extensionsUsed=['KHR_materials_clearcoat', 'KHR_materials_sheen'])))
 
 # Glass with dispersion; sheen whose roughness is half its image's alpha; what is left out.
-write('prism.gltf', json.dumps(dict(gltf({'name': 'flint', 'pbrMetallicRoughness': {'roughnessFactor': 0, 'metallicFactor': 0},
+write('prism.gltf', json.dumps(dict(gltf({
+    'name': 'flint', 'pbrMetallicRoughness': {'roughnessFactor': 0, 'metallicFactor': 0},
     'extensions': {'KHR_materials_transmission': {'transmissionFactor': 1}, 'KHR_materials_ior': {'ior': 1.6},
                    'KHR_materials_dispersion': {'dispersion': .55}}}),
     extensionsUsed=['KHR_materials_transmission', 'KHR_materials_ior', 'KHR_materials_dispersion'])))
-write('velvet.gltf', json.dumps(dict(gltf({'name': 'velvet', 'pbrMetallicRoughness': {'metallicFactor': 0}, 'extensions': {
-    'KHR_materials_sheen': {'sheenColorFactor': [.5, .5, .5], 'sheenRoughnessFactor': .5, 'sheenRoughnessTexture': {'index': 0}},
+write('velvet.gltf', json.dumps(dict(gltf({
+    'name': 'velvet', 'pbrMetallicRoughness': {'metallicFactor': 0}, 'extensions': {
+    'KHR_materials_sheen': {'sheenColorFactor': [.5, .5, .5], 'sheenRoughnessFactor': .5,
+                            'sheenRoughnessTexture': {'index': 0}},
     'KHR_materials_specular': {'specularColorTexture': {'index': 0}},
     'KHR_materials_iridescence': {'iridescenceFactor': 1}}}, half),
-    extensionsUsed=['KHR_materials_sheen', 'KHR_materials_specular', 'KHR_materials_iridescence', 'EXT_mesh_gpu_instancing',
-                    'X\u001b[31m', 7])))
+    extensionsUsed=['KHR_materials_sheen', 'KHR_materials_specular', 'KHR_materials_iridescence',
+                    'EXT_mesh_gpu_instancing', 'X\u001b[31m', 7])))
 
 packed = gltf(MATERIAL)
 packed['extensionsUsed'] = packed['extensionsRequired'] = ['EXT_meshopt_compression']
