@@ -4,9 +4,9 @@
 #define RENDERER_RETEX_RENDER_H
 
 #include <retex/retex.h>
+#include "batch/batch.h"
 #include "cli.h"
 #include "texture_args.h"
-#include "batch.h"
 #include "frames.h"
 #include "job/ini.h"
 #include "job/job.h"

@@ -55,8 +55,8 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 # folder, starts without relocating it, and always is of one version with it. It loads the bridge from beside it at run
 # time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
-TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog texture_table batch batch_check \
-	batch_report batch_catalogue batch_manifest batch_sources compositor frames kept_textures output_folder json_text)
+TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog compositor frames kept_textures \
+	output_folder json_text) $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/batch/*.c))
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
@@ -92,6 +92,11 @@ $(BUILD)/obj/gen/player.o: $(BUILD)/gen/player.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CFLAGS_ALL) -c $< -o $@
 $(BUILD)/bin/retex-pack: $(BUILD)/obj/gen/player.o
+
+COMBINE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/combine/*.c))
+$(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
 # retex-import alone uses Assimp.
 IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c))

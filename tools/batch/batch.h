@@ -7,9 +7,9 @@
 #include <limits.h>
 #include <retex/image_file.h>
 
-#include "batch_manifest.h"
-#include "batch_sources.h"
-#include "texture_table.h"
+#include "batch/manifest.h"
+#include "batch/sources.h"
+#include "batch/texture_table.h"
 
 /* The options of batches, as rows of the tool's option table. */
 #define BATCH_OPTIONS                                                                                                  \
@@ -47,6 +47,10 @@ typedef struct BatchTool {
     int (*complete)(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count);
     /* List all new textures of the picture; return their number. */
     int (*describe)(void *context, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS]);
+    /* batch_run: get ready for the rows that batch_is_wanted, of which there are some. */
+    int (*begin)(void *context, RetexError *err);
+    /* batch_run: make the picture of a row, silently in the file `trial` if that is not NULL. */
+    int (*make)(void *context, int row, const char *trial, RetexError *err);
 } BatchTool;
 
 /* BATCH_KEPT: the picture of an earlier run, with --resume */
@@ -111,14 +115,19 @@ int batch_is_wanted(const Batch *batch, int row);
  * status. */
 int batch_finish(Batch *batch, const RetexError *err /* or NULL */);
 
-/* ---- batch_check.c, which also has batch_check ---- */
+/* ---- run.c ---- */
+
+/* After batch_open: check the table, and make its pictures or do what else was asked. Return the exit status. */
+int batch_run(Batch *batch, const RetexWriteParams *params);
+
+/* ---- check.c, which also has batch_check ---- */
 
 /* RETEX_EINVAL if the resolved output is not below the root. */
 int batch_check_root(const Batch *batch, const char *real, const char *output, RetexError *err);
 /* The path of a row's picture, from the table and the root. */
 int batch_path(const Batch *batch, int row, char path[PATH_MAX], RetexError *err);
 
-/* ---- batch_catalogue.c: BATCH_CATALOGUE_OPTIONS ---- */
+/* ---- catalogue.c: BATCH_CATALOGUE_OPTIONS ---- */
 
 /* Handle an option of BATCH_CATALOGUE_OPTIONS. Return 0 if it is not one of these. */
 int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option);
@@ -138,7 +147,7 @@ int batch_print_verdict(const Batch *batch);
 /* Print what is to be made; with the total size and time of some trial pictures, if there are any, also how much. */
 void batch_print_plan(const Batch *batch, int trials, double bytes, double seconds);
 
-/* ---- batch_report.c ---- */
+/* ---- report.c ---- */
 
 /* Print one line of JSON to standard error, about a finished row or the whole batch. */
 void batch_report_row(const Batch *batch, int row);

@@ -9,7 +9,7 @@
 
 #include <retex/retex.h>
 
-#include "batch.h"
+#include "batch/batch.h"
 #include "output_folder.h"
 #include "texture_args.h"
 

@@ -6,7 +6,7 @@
 
 #include <retex/retex.h>
 
-#include "batch.h"
+#include "batch/batch.h"
 #include "json_text.h"
 #include "texture_args.h"
 

@@ -1,4 +1,4 @@
-/* See batch_manifest.h. The keys of a line are output, version, set, samples, options, textures, bytes, crc32 and
+/* See manifest.h. The keys of a line are output, version, set, samples, options, textures, bytes, crc32 and
  * seconds, in this order. Its beginning up to "version" is the key, that up to "bytes" the sources. No string can
  * contain `, "` as these separators do, because quotes in strings have a backslash. */
 #include <errno.h>
@@ -11,7 +11,7 @@
 
 #include <retex/file_sum.h>
 
-#include "batch_manifest.h"
+#include "batch/manifest.h"
 
 enum { MANIFEST_BYTES_MAX = 1 << 30 };
 #define BYTES_KEY ", \"bytes\": "

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "texture_table.h"
+#include "batch/texture_table.h"
 
 /* ---- mistakes ---- */
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "batch.h"
+#include "batch/batch.h"
 #include "output_folder.h"
 #include "texture_args.h"
 #include "watchdog.h"

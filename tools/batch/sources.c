@@ -1,4 +1,4 @@
-/* See batch_sources.h. */
+/* See sources.h. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include <retex/file_sum.h>
 #include <retex/version.h>
 
-#include "batch_sources.h"
+#include "batch/sources.h"
 #include "json_text.h"
 
 /* ---- checksums of files ---- */

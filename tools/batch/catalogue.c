@@ -8,7 +8,7 @@
 
 #include <retex/file_sum.h>
 
-#include "batch.h"
+#include "batch/batch.h"
 
 /* ---- options ---- */
 

@@ -1,0 +1,82 @@
+/* The course of a batch whose tool makes one picture at a time. See batch.h. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/clock.h>
+
+#include "batch/batch.h"
+
+/* Make the picture of a row, look at its size and time, and remove it. */
+static int try_row(const Batch *batch, int row, double *bytes, double *seconds, RetexError *err)
+{
+    char path[PATH_MAX];
+    const char *folder = getenv("TMPDIR"), *ending = strrchr(texture_table_output(&batch->table, row), '.');
+    const double began = retex_clock_seconds();
+    snprintf(path, sizeof path, "%s/retex-plan-%ld%s", folder && *folder ? folder : "/tmp", (long)getpid(),
+             ending ? ending : "");
+    int code = batch->tool.make(batch->tool.context, row, path, err);
+    *seconds += retex_clock_seconds() - began;
+    *bytes += cli_file_size(path);
+    if (!code)
+        unlink(path);
+    return code;
+}
+
+/* --plan: make trial pictures from all over the table. The first one is made twice, because it also takes the time to
+ * load libraries. */
+static int plan(const Batch *batch, RetexError *err)
+{
+    enum { TRIALS = 4 };
+    double bytes = 0, seconds = 0, ignored = 0;
+    const int wanted = batch->end - batch->first - batch->kept, trials = wanted < TRIALS ? wanted : TRIALS;
+    int code = RETEX_OK, made = 0, at = 0;
+    for (int row = batch->first; row < batch->end && made < trials && !code; row++) {
+        if (!batch_is_wanted(batch, row) || at++ < (int)((long)made * wanted / trials))
+            continue;
+        code = made ? RETEX_OK : try_row(batch, row, &ignored, &ignored, err);
+        if (!code)
+            code = try_row(batch, row, &bytes, &seconds, err);
+        made++;
+    }
+    if (!code)
+        batch_print_plan(batch, made, bytes, seconds);
+    return code;
+}
+
+static void make_rows(Batch *batch)
+{
+    for (int row = batch->first; row < batch->end; row++) {
+        RetexError err = {0};
+        const double began = retex_clock_seconds();
+        if (!batch_is_wanted(batch, row))
+            continue;
+        const int failed = batch->tool.make(batch->tool.context, row, NULL, &err);
+        if (!batch_done(batch, row, retex_clock_seconds() - began, failed ? &err : NULL))
+            break;
+    }
+}
+
+int batch_run(Batch *batch, const RetexWriteParams *params)
+{
+    RetexError err = {0};
+    batch_check(batch, params);
+    batch_refuse_mistakes(batch);
+    if (batch_prepare(batch, &err))
+        return batch_finish(batch, &err);
+    if (batch_only_verifies(batch)) {
+        const int status = batch_print_verdict(batch), failed = batch_finish(batch, NULL);
+        return failed ? failed : status;
+    }
+    if (batch->dry_run) {
+        batch_print(batch);
+        return batch_finish(batch, NULL);
+    }
+    int code = batch->kept < batch->end - batch->first ? batch->tool.begin(batch->tool.context, &err) : RETEX_OK;
+    if (!code && batch->plan)
+        code = plan(batch, &err);
+    else if (!code)
+        make_rows(batch);
+    return batch_finish(batch, code ? &err : NULL);
+}

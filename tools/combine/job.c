@@ -1,0 +1,113 @@
+/* The files of retex-combine: they are announced and checked before work, and opened. See job.h. */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "combine/job.h"
+
+/* The samples cannot be read. The message asks whether -o or --texture is missing before the name. */
+static int fail_samples(const Cli *cli, const Job *job, const RetexError *why, RetexError *err)
+{
+    char forgotten[1024] = "";
+    if (!job->table && strcmp(job->samples_path, job->set_path) != 0)
+        cli_forgotten(cli, job->samples_path, forgotten, sizeof forgotten);
+    return retex_fail(err, why->code, "%.900s%.100s", why->message, forgotten);
+}
+
+int job_check_samples(const Cli *cli, const Job *job, RetexError *err)
+{
+    RetexError why = {0};
+    struct stat info;
+    if (!job->samples_path || strcmp(job->samples_path, "-") == 0 || stat(job->samples_path, &info) == 0)
+        return RETEX_OK;
+    retex_fail(&why, RETEX_EIO, "cannot read %s: %s", job->samples_path, strerror(errno));
+    return fail_samples(cli, job, &why, err);
+}
+
+static int load_samples(const Cli *cli, Job *job, RetexError *err)
+{
+    RetexError why = {0};
+    cli_input(cli, job->samples_path, "samples, as from retex-sample");
+    int code = retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &why);
+    if (!code && !job->samples)
+        code = retex_fail(&why, RETEX_EINVAL, "%s holds no samples", job->samples_path);
+    return code ? fail_samples(cli, job, &why, err) : retex_samples_check(job->samples, job->set, err);
+}
+
+int job_open(const Cli *cli, Job *job, RetexError *err)
+{
+    cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
+    int code = retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, err);
+    if (!code && !job->set)
+        code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set_path);
+    if (code)
+        return code;
+    cli_check_pixels(cli, job->set, job->set_path);
+    return job->samples_path ? load_samples(cli, job, err) : RETEX_OK;
+}
+
+void job_close(Job *job)
+{
+    retex_samples_close(&job->samples);
+    retex_set_close(&job->set);
+}
+
+void job_announce(const Cli *cli, const Job *job)
+{
+    cli_reads(cli, "the set", job->set_path);
+    cli_reads(cli, "the samples", job->samples_path);
+    cli_reads(cli, "the table", job->table);
+    texture_args_reads(cli, job->textures.specs, job->textures.count);
+    cli_writes(cli, "the output", job->output);
+    cli_writes(cli, "--error", job->error);
+}
+
+void job_check_output(const Cli *cli, const Job *job)
+{
+    RetexError err = {0};
+    if (retex_image_write_check(job->output, &job->write, &err))
+        cli_fail(cli, &err);
+    if (job->error && retex_image_write_check(job->error, NULL, &err))
+        cli_fail(cli, &err);
+}
+
+int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err)
+{
+    const RetexSet *set = job->set;
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    RetexTextureSpec colors[RETEX_MAX_TARGETS];
+    for (int i = 0; i < count; i++) {
+        const int t = retex_set_find_target(set, specs[i].target);
+        if (t >= 0 && retex_texture_spec_needs_scale(&specs[i]) && !(set->targets[t].uv_scale[0] > 0))
+            return retex_fail(
+                err, RETEX_EINVAL,
+                "the size of target %s is not known: width= cannot be used on it, only scale=", set->targets[t].name);
+        colors[i] = specs[i];
+        colors[i].constant = 1;
+        colors[i].warn = NULL; /* warnings come when it is loaded for the picture */
+    }
+    int code = retex_textures_load(textures, set, colors, count, 1, err);
+    retex_textures_close(textures);
+    return code;
+}
+
+void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS])
+{
+    int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
+    for (int t = 0; t < job->set->ntargets; t++)
+        edited[t] = job->samples && job->samples->textures[t][0];
+    for (int i = 0; i < nspecs; i++) {
+        const int t = retex_set_find_target(job->set, specs[i].target);
+        if (t >= 0)
+            edited[t] = 1;
+    }
+    for (int t = 0; t < job->set->ntargets; t++)
+        count += edited[t];
+    for (int t = 0; t < job->set->ntargets && retex_correction_weight(job->set->ntargets, count) > 0; t++)
+        corrected[t] |= edited[t];
+}
+
+int job_preload(const Cli *cli, Job *job, const int corrected[RETEX_MAX_TARGETS], RetexError *err)
+{
+    return retex_set_preload(job->set, job->samples, corrected, cli_memory(cli, job->memory), cli->threads, err);
+}

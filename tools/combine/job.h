@@ -1,0 +1,71 @@
+/* What retex-combine was asked to do: one picture, the rows of a table, or the frames of an animation. */
+#ifndef RETEX_COMBINE_JOB_H
+#define RETEX_COMBINE_JOB_H
+
+#include <retex/retex.h>
+
+#include "batch/batch.h"
+#include "frames.h"
+#include "kept_textures.h"
+#include "texture_args.h"
+
+typedef struct Job {
+    const char *set_path, *samples_path, *table, *error;
+    const char *output;
+    FrameRange frames;
+    Batch batch;
+    TextureArgs textures;
+    long memory; /* megabytes of the set that --batch may keep in memory */
+    RetexWriteParams write;
+    RetexCombineParams combine;
+    RetexSet *set;         /* rows are read when they are needed */
+    RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
+} Job;
+
+/* ---- job.c: files ---- */
+
+/* Announce the files of the command line. batch_check announces those of a table. */
+void job_announce(const Cli *cli, const Job *job);
+/* Exit if the picture cannot be written. */
+void job_check_output(const Cli *cli, const Job *job);
+/* Whether the samples can be read, if they are a file. */
+int job_check_samples(const Cli *cli, const Job *job, RetexError *err);
+/* Open the set, and the samples from the same stream or from a separate file. */
+int job_open(const Cli *cli, Job *job, RetexError *err);
+void job_close(Job *job);
+/* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
+int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
+/* Add the targets whose corrections a picture with these textures uses. */
+void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS]);
+/* Keep the open set in memory if it fits. */
+int job_preload(const Cli *cli, Job *job, const int corrected[RETEX_MAX_TARGETS], RetexError *err);
+
+/* ---- picture.c ---- */
+
+/* The textures of one picture. Targets without one use the samples that came with the set. */
+typedef struct Row {
+    const RetexTextureSpec *specs;
+    int count;
+    RetexTexture *const *textures; /* by target */
+} Row;
+
+/* List the new textures of a picture; return their number. */
+int job_describe(const Job *job, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS]);
+/* Compute and write one picture. The expected error is written first, and removed if the picture cannot be written, so
+ * that neither is left alone. */
+int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err);
+/* Make the picture of a job whose set is open. */
+int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err);
+/* Print one line of JSON about a picture that was made. */
+void job_report(const Cli *cli, const char *output, double began, int done, int total);
+
+/* ---- table.c, frames.c ---- */
+
+/* --batch; return the exit status. */
+int job_run_table(const Cli *cli, Job *job);
+/* Before the first frame: check the files of all. */
+void job_check_frames(Cli *cli, const Job *job);
+/* --frames; return the exit status. As a batch, stop at a frame that fails, unless --keep-going. */
+int job_run_frames(Cli *cli, Job *job);
+
+#endif

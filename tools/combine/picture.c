@@ -1,0 +1,135 @@
+/* One picture, and the picture of its expected error. See job.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "combine/job.h"
+#include "json_text.h"
+#include "watchdog.h"
+
+int job_describe(const Job *job, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS])
+{
+    int found = 0;
+    for (int t = 0; t < job->set->ntargets; t++) {
+        const RetexTextureSpec *spec = NULL;
+        const char *sampled = job->samples ? job->samples->textures[t] : "";
+        for (int i = 0; i < count; i++)
+            if (retex_set_find_target(job->set, specs[i].target) == t)
+                spec = &specs[i];
+        if (!spec && !sampled[0])
+            continue;
+        BatchTexture *texture = &textures[found++];
+        texture->target = job->set->targets[t].name;
+        if (spec)
+            texture_args_name(spec, texture->texture, sizeof texture->texture);
+        else
+            snprintf(texture->texture, sizeof texture->texture, "%s", sampled);
+    }
+    return found;
+}
+
+static const char *describe(const Job *job, const Row *row, char *text, size_t size)
+{
+    BatchTexture textures[RETEX_MAX_TARGETS];
+    const int count = job_describe(job, row->specs, row->count, textures);
+    size_t used = 0;
+    for (int i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", i ? ", " : "", textures[i].target,
+                                 textures[i].texture);
+    return used ? text : "original textures";
+}
+
+static int write_rows(void *picture, int y0, int y1, const float *rows, RetexError *err)
+{
+    return retex_picture_rows(picture, y0, y1, rows, err);
+}
+
+/* The picture of the expected error while it is written. */
+typedef struct ErrorPicture {
+    RetexPicture *picture;
+    double *squares; /* sum of squares of each band */
+    size_t width;
+} ErrorPicture;
+
+static int write_error_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    ErrorPicture *error = context;
+    const size_t count = 3 * error->width * (size_t)(y1 - y0);
+    double *sum = &error->squares[y0 / RETEX_PICTURE_BAND];
+    for (size_t i = 0; i < count; i++)
+        *sum += (double)rows[i] * rows[i];
+    return retex_picture_rows(error->picture, y0, y1, rows, err);
+}
+
+/* Compute and write the expected error; text gets its root mean square. */
+static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
+{
+    const int width = job->set->width, height = job->set->height;
+    const int bands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+    ErrorPicture error = {NULL, calloc((size_t)bands, sizeof *error.squares), (size_t)width};
+    double squares = 0;
+    int code = error.squares ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
+    if (!code)
+        code = retex_picture_open(&error.picture, job->error, width, height, 3, NULL, err);
+    if (!code)
+        code = retex_estimate_error(job->set, job->samples, row->textures, &job->combine, write_error_rows, &error,
+                                    cli->threads, err);
+    int closed = retex_picture_close(&error.picture, !code, code ? NULL : err);
+    for (int i = 0; i < bands && error.squares; i++)
+        squares += error.squares[i];
+    free(error.squares);
+    snprintf(text, size, ", expected error %.3g rms", sqrt(squares / (3.0 * width * height)));
+    return code ? code : closed;
+}
+
+int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
+{
+    RetexPicture *picture = NULL;
+    struct stat old;
+    char text[2048], expected[64] = "";
+    int is_new = job->error && stat(job->error, &old) != 0;
+    int code = job->error ? make_error(cli, job, row, expected, sizeof expected, err) : RETEX_OK;
+    if (code)
+        return code;
+    watchdog_remove(is_new ? job->error : NULL);
+    code = retex_picture_open(&picture, output, job->set->width, job->set->height, 3, &job->write, err);
+    if (!code)
+        code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
+                               err);
+    int closed = retex_picture_close(&picture, !code, code ? NULL : err);
+    code = code ? code : closed;
+    if (code && is_new)
+        unlink(job->error);
+    watchdog_remove(NULL);
+    if (code)
+        return code;
+    if (!cli->json_progress)
+        cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
+                 describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
+                 retex_clock_seconds() - began);
+    return RETEX_OK;
+}
+
+void job_report(const Cli *cli, const char *output, double began, int done, int total)
+{
+    if (!cli->json_progress)
+        return;
+    fprintf(stderr, "{\"output\": ");
+    json_text(stderr, output);
+    fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": %d, \"total\": %d}\n",
+            retex_clock_seconds() - began, done, total);
+}
+
+int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err)
+{
+    const Row row = {job->textures.specs, job->textures.count, kept->textures};
+    int code = kept_textures_load(kept, job->set, row.specs, row.count, cli->threads, err);
+    if (!code) {
+        cli_detail(cli, "ready after %.2f s", retex_clock_seconds() - began);
+        code = job_make_picture(cli, job, &row, job->output, began, err);
+    }
+    return code;
+}

@@ -1,0 +1,138 @@
+/* --batch: a picture for each row of a table. See job.h. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/file_sum.h>
+
+#include "combine/job.h"
+
+/* Add the textures of --texture to a row, for targets that the row does not name. */
+static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
+{
+    for (int i = 0; i < job->textures.count; i++) {
+        int target = retex_set_find_target(job->set, job->textures.specs[i].target), k = 0;
+        while (k < count && retex_set_find_target(job->set, specs[k].target) != target)
+            k++;
+        if (k == count)
+            specs[count++] = job->textures.specs[i];
+    }
+    return count;
+}
+
+/* Replace the table's column names by the set's target names; 0 if some match no target. */
+static int find_columns(TextureTable *table, const RetexSet *set)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    int taken[RETEX_MAX_TARGETS] = {0};
+    const int before = table->nmistakes;
+    for (int i = 0; i < table->ncolumns; i++) {
+        RetexError err = {0};
+        RetexTextureSpec unknown = RETEX_TEXTURE_SPEC_INIT;
+        int t = retex_set_find_target(set, table->columns[i]);
+        if (t >= 0) {
+            if (taken[t]++)
+                texture_table_mistake(table, 1, "target '%s' has two columns", table->columns[i]);
+            table->columns[i] = set->targets[t].name;
+            continue;
+        }
+        snprintf(unknown.target, sizeof unknown.target, "%s", table->columns[i]);
+        retex_textures_load(textures, set, &unknown, 1, 1, &err); /* makes the message, which lists the targets */
+        texture_table_mistake(table, 1, "%s", err.message);
+    }
+    return table->nmistakes == before;
+}
+
+/* The context of a batch. */
+typedef struct Table {
+    const Cli *cli;
+    Job *job;
+    KeptTextures kept;
+} Table;
+
+static int check_row(void *context, const RetexTextureSpec *specs, int count, RetexError *err)
+{
+    return job_check_textures(((const Table *)context)->job, specs, count, err);
+}
+
+static int complete(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count)
+{
+    return complete_row(((const Table *)context)->job, specs, count);
+}
+
+static int describe_row(void *context, const RetexTextureSpec *specs, int count,
+                        BatchTexture textures[RETEX_MAX_TARGETS])
+{
+    const Job *job = ((const Table *)context)->job;
+    RetexTextureSpec all[RETEX_MAX_TARGETS];
+    memcpy(all, specs, (size_t)count * sizeof *all);
+    return job_describe(job, all, complete_row(job, all, count), textures);
+}
+
+/* Load what all pictures need, corrections included. */
+static int begin(void *context, RetexError *err)
+{
+    const Table *table = context;
+    Job *job = table->job;
+    int corrected[RETEX_MAX_TARGETS] = {0};
+    for (int number = 0; number < job->batch.table.nrows; number++) {
+        RetexTextureSpec specs[RETEX_MAX_TARGETS];
+        if (!batch_is_wanted(&job->batch, number))
+            continue;
+        const int nspecs = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
+        job_add_corrected(job, specs, nspecs, corrected);
+    }
+    return job_preload(table->cli, job, corrected, err);
+}
+
+static int make_row(void *context, int number, const char *trial, RetexError *err)
+{
+    Table *table = context;
+    Job *job = table->job;
+    Cli cli = *table->cli;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    char path[PATH_MAX];
+    const double began = retex_clock_seconds();
+    const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
+    const Row row = {table->kept.specs, count, table->kept.textures};
+    int code = kept_textures_load(&table->kept, job->set, specs, count, cli.threads, err);
+    if (!code && !trial)
+        code = batch_output(&job->batch, number, path, err);
+    cli.quiet |= trial != NULL;
+    return code ? code : job_make_picture(&cli, job, &row, trial ? trial : path, began, err);
+}
+
+/* The options that change pictures, in words, for the manifest. */
+static const char *describe_options(const Job *job, char *text, size_t size)
+{
+    const RetexWriteParams *write = &job->write;
+    const char *config = getenv("OCIO");
+    RetexFileSum sum = {0};
+    RetexError err = {0};
+    if (config && *config)
+        (void)retex_file_sum(&sum, config, NULL, &err); /* one that cannot be read is an error of the pictures */
+    snprintf(text, size, "quality=%d cross=%d display=%s view=%s colorspace=%s ocio=%08x", write->quality,
+             job->combine.cross, write->display ? write->display : "", write->view ? write->view : "",
+             write->colorspace ? write->colorspace : "", (unsigned)sum.crc);
+    return text;
+}
+
+int job_run_table(const Cli *cli, Job *job)
+{
+    Batch *batch = &job->batch;
+    Table table = {.cli = cli, .job = job};
+    char options_text[1024];
+    batch_open(batch, cli, job->table);
+    batch->tool = (BatchTool){.context = &table,
+                              .check = find_columns(&batch->table, job->set) ? check_row : NULL,
+                              .complete = complete,
+                              .describe = describe_row,
+                              .begin = begin,
+                              .make = make_row};
+    batch->sources.set = job->set_path, batch->sources.samples = job->samples_path;
+    batch->sources.options = describe_options(job, options_text, sizeof options_text);
+    batch->inputs_known = 1;
+    const int status = batch_run(batch, &job->write);
+    kept_textures_close(&table.kept);
+    return status;
+}
