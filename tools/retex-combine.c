@@ -90,7 +90,7 @@ static void warn_display(const Cli *cli, const Job *job)
 static int make_single(const Cli *cli, Job *job, double began)
 {
     RetexError err = {0};
-    KeptTextures kept = {.count = 0};
+    KeptTextures kept = {.nimages = 0};
     if (job_make(cli, job, &kept, began, &err))
         cli_fail(cli, &err);
     job_report(cli, job->output, began, 1, 1);

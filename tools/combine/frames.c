@@ -72,7 +72,7 @@ int job_run_frames(Cli *cli, Job *job)
 {
     const double began = retex_clock_seconds();
     const int total = frames_count(&job->frames), one_set = has_one_set(job);
-    KeptTextures kept = {.count = 0};
+    KeptTextures kept = {.nimages = 0};
     RetexError err = {0};
     int corrected[RETEX_MAX_TARGETS] = {0}, made = 0, failed = 0;
     if (one_set && job_open(cli, job, &err))

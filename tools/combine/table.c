@@ -94,7 +94,7 @@ static int make_row(void *context, int number, const char *trial, RetexError *er
     char path[PATH_MAX];
     const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
-    const Row row = {table->kept.specs, count, table->kept.textures};
+    const Row row = {specs, count, table->kept.textures};
     int code = kept_textures_load(&table->kept, job->set, specs, count, cli.threads, err);
     if (!code && !trial)
         code = batch_output(&job->batch, number, path, err);
@@ -120,7 +120,7 @@ static const char *describe_options(const Job *job, char *text, size_t size)
 int job_run_table(const Cli *cli, Job *job)
 {
     Batch *batch = &job->batch;
-    Table table = {.cli = cli, .job = job};
+    Table table = {.cli = cli, .job = job, .kept.most_bytes = cli_memory(cli, job->memory) / 4};
     char options_text[1024];
     batch_open(batch, cli, job->table);
     batch->tool = (BatchTool){.context = &table,
