@@ -140,13 +140,15 @@ bench-scale: all
 
 # How long retextures take and how large sets are, as in the paper's tables; and size against loss of packs.
 POST_PROGRAMS := $(BUILD)/tests/bench/post_floor $(BUILD)/tests/bench/post_measure
-.PHONY: bench-post bench-storage bench-paper
+.PHONY: bench-post bench-storage bench-paper bench-catalogues
 bench-post: all $(POST_PROGRAMS)
 	@BUILD=$(BUILD) tests/bench/post/run.sh
 bench-storage: all fidelity-textures
 	@BUILD=$(BUILD) tests/bench/post/storage.sh
 bench-paper: all
 	@BUILD=$(BUILD) tests/bench/post/paper.sh
+bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
+	@BUILD=$(BUILD) tests/bench/catalogues/run.sh
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.

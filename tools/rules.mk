@@ -5,8 +5,13 @@ TOOLS += retex $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 # Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO, OpenColorIO and
 # Little CMS.
 CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(CPPFLAGS)
-CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) $(CFLAGS)
-CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) $(CXXFLAGS)
+CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) \
+	$(SAME_ANYWHERE) $(CFLAGS)
+CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) \
+	$(SAME_ANYWHERE) $(CXXFLAGS)
+# Programs do not hold the name of the folder that they are built in, so that they are the same bytes wherever that is:
+# shards of a render are merged only if they come from one program.
+SAME_ANYWHERE = '-ffile-prefix-map=$(CURDIR)=.'
 # Hot loops (*_kernel.c) are compiled with the vectoriser. The build runs on any x86-64 or ARM: no -march here.
 KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))
 

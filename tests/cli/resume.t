@@ -175,3 +175,8 @@ $ for o in '--shard 1/2' --resume; do ./render $o -o /dev/null; done
 ! retex-render: error: --shard needs an output file, which /dev/null is not
 ! retex-render: error: --resume needs an output file, which /dev/null is not
 = 2
+
+# Shards are merged if they are of one program, and a program is the same bytes wherever it is built: it does not hold the
+# folder's name.
+$ for p in retex-render retex-combine; do grep -azxF "${TESTS%/tests/cli}" "$(command -v $p)"; done
+= 1

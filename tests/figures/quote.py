@@ -91,6 +91,12 @@ def post_variants(size):
     return f"{12 * 60 / post('wall_s', size, 'batch'):.0f}"
 
 
+def catalogue_rate(what):
+    """Pictures of --batch a second of a core's time."""
+    row, = rows("catalogues", kind="pictures", what=what, way="1-thread")
+    return f"{float(row['pictures']) / float(row['cpu_s']):.1f}"
+
+
 def overhead(count):
     """Least and largest of the edits of so many targets, processor time of sets over plain pictures."""
     found = [float(r["over_cpu_percent"]) for r in rows("overhead", part="time", row="footprints")
@@ -183,7 +189,7 @@ def speed_over_cycles():
 
 
 FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size,
-                                   post_seconds, post_memory, post_variants, overhead, overhead_of, paper_size, paper_psnr,
+                                   post_seconds, post_memory, post_variants, catalogue_rate, overhead, overhead_of, paper_size, paper_psnr,
                                    paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
                                    lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles)}
 
