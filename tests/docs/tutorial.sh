@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs the commands of docs/tutorial.md: blocks of ```sh in order, in one shell; a block ```output after one is what it
 # must print. The picture is smaller than the tutorial's, unless TUTORIAL_AS_WRITTEN=1. TUTORIAL_FOLDER=DIR works in
-# DIR, which must be empty, and keeps it; with TUTORIAL_INSTALLED=DIR the tools are those in PATH, and DIR has scenes/.
+# DIR, which must be empty, and keeps it; with TUTORIAL_INSTALLED=DIR the tools are those in PATH, and the scenes are in DIR.
 set -u
 . tests/lib/tap.sh
 page=$here/docs/tutorial.md
@@ -30,7 +30,7 @@ mkdir -p "$folder"
         echo ": >'$block.done'"
     done
 } >"$work/all"
-(cd "$folder" && examples=${TUTORIAL_INSTALLED:-$here} sh "$work/all" </dev/null)
+(cd "$folder" && scenes=${TUTORIAL_INSTALLED:-$here/scenes} sh "$work/all" </dev/null)
 
 for block in "$work"/blocks/??; do
     title=$(head -n 1 "$block")
