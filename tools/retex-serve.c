@@ -27,6 +27,12 @@ static const CliOption options[] = {
     {"per-client", 0, "N", "accept at most N connections of one address; default 0, any number", 0},
     {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
     {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0},
+    {"uploads", 0, "FOLDER", "accept images by POST and keep them in FOLDER; by default none are accepted", 0},
+    {"upload-size", 0, "SIZE", "accept an image of at most SIZE; default 16 MB", 0},
+    {"upload-pixels", 0, "N", "accept an image of at most N pixels; default 25000000", 0},
+    {"upload-count", 0, "N", "keep at most N images; default 1000", 0},
+    {"upload-total", 0, "SIZE", "keep images of at most SIZE in all; default 1024 MB", 0},
+    {"upload-age", 0, "SECONDS", "delete an image after this time; 0: never; default 86400, a day", 0},
     {"base-url", 0, "URL", "the server's URL as clients know it; default by the header Host", 0},
     {0},
 };
@@ -34,6 +40,11 @@ static const CliOption options[] = {
 typedef struct Job {
     const char *folder, *textures;
     long memory, texture_memory, picture_memory; /* megabytes */
+    const char *uploads;
+    long upload_size, upload_total; /* megabytes */
+    long upload_pixels;
+    int upload_count;
+    double upload_age;
     int queue, quality;
     HttpParams http;
 } Job;
@@ -58,6 +69,12 @@ static int parse_number(const Cli *cli, const CliOption *option, Job *job)
         http->timeout = cli_number(cli, option, 0.1, 3600);
     else if (strcmp(name, "max-age") == 0)
         http->max_age = (int)cli_integer(cli, option, 0, 31536000);
+    else if (strcmp(name, "upload-pixels") == 0)
+        job->upload_pixels = cli_integer(cli, option, 1, 1L << 28);
+    else if (strcmp(name, "upload-count") == 0)
+        job->upload_count = (int)cli_integer(cli, option, 1, 1000000);
+    else if (strcmp(name, "upload-age") == 0)
+        job->upload_age = cli_number(cli, option, 0, 1e9);
     else
         return 0;
     return 1;
@@ -83,6 +100,12 @@ static void parse(Cli *cli, Job *job)
             job->http.address = cli->value;
         } else if (strcmp(option->name, "textures") == 0) {
             job->textures = cli->value;
+        } else if (strcmp(option->name, "uploads") == 0) {
+            job->uploads = cli->value;
+        } else if (strcmp(option->name, "upload-size") == 0) {
+            job->upload_size = cli_megabytes(cli, option);
+        } else if (strcmp(option->name, "upload-total") == 0) {
+            job->upload_total = cli_megabytes(cli, option);
         } else if (strcmp(option->name, "base-url") == 0) {
             check_base(cli);
             job->http.base = cli->value;
@@ -102,17 +125,42 @@ static void parse(Cli *cli, Job *job)
 
 /* ---- start ---- */
 
-/* Images come from the folder alone, wherever links lead, and in the formats of safe access. */
-static void allow_textures(const Cli *cli, const Job *job, RetexAccess *access, const char *roots[1])
+/* The folders of images. */
+typedef struct Folders {
+    RetexAccess access; /* to these alone, wherever links lead, and in the formats of safe access */
+    const char *roots[2];
+    char *textures, *uploads; /* or NULL */
+} Folders;
+
+static char *find_folder(const Cli *cli, Folders *folders, const char *option, const char *name)
 {
-    *access = (RetexAccess)RETEX_ACCESS_INIT;
-    access->safe = 1;
-    access->roots = roots;
-    if (!job->textures)
-        return;
-    if (!(roots[0] = realpath(job->textures, NULL)))
-        cli_die(cli, "--textures: there is no folder %s", job->textures);
-    access->nroots = 1;
+    char *path = name ? realpath(name, NULL) : NULL;
+    if (name && !path)
+        cli_die(cli, "%s: there is no folder %s", option, name);
+    if (path)
+        folders->roots[folders->access.nroots++] = path;
+    return path;
+}
+
+static void allow_folders(const Cli *cli, const Job *job, Folders *folders)
+{
+    *folders = (Folders){.access = RETEX_ACCESS_INIT};
+    folders->access.safe = 1;
+    folders->access.roots = folders->roots;
+    folders->textures = find_folder(cli, folders, "--textures", job->textures);
+    folders->uploads = find_folder(cli, folders, "--uploads", job->uploads);
+}
+
+/* A budget of what is read; that of cli is stopped while requests are still being answered. */
+static RetexBudget *new_budget(const Cli *cli, long pixels)
+{
+    RetexBudget *budget = NULL;
+    RetexError err = {0};
+    if (retex_budget_create(&budget, &err))
+        cli_fail(cli, &err);
+    retex_budget_set_memory(budget, retex_budget_memory(cli->budget));
+    retex_budget_set_pixels(budget, !cli->limits.pixels || pixels < cli->limits.pixels ? pixels : cli->limits.pixels);
+    return budget;
 }
 
 /* So many megabytes, but at most a share of --max-memory, so that what is kept leaves enough for the work. */
@@ -122,12 +170,26 @@ static uint64_t bytes_of(const Cli *cli, long megabytes, unsigned share)
     return most && most < bytes ? most : bytes;
 }
 
-static void open_site(const Cli *cli, const Job *job, Site *site, const RetexAccess *access, RetexBudget *budget)
+static void open_uploads(const Cli *cli, const Job *job, Site *site, const Folders *folders, RetexBudget *budget)
+{
+    const UploadsParams params = {.folder = folders->uploads,
+                                  .most_bytes = (size_t)job->upload_size << 20,
+                                  .total_bytes = (uint64_t)job->upload_total << 20,
+                                  .most = job->upload_count,
+                                  .seconds = job->upload_age,
+                                  .budget = budget,
+                                  .threads = cli->threads};
+    RetexError err = {0};
+    if (folders->uploads && uploads_open(&site->uploads, &params, &err))
+        cli_fail(cli, &err);
+}
+
+static void open_site(const Cli *cli, const Job *job, Site *site, const Folders *folders, RetexBudget *budget)
 {
     RetexError err = {0};
     const RoomsParams rooms = {job->folder, bytes_of(cli, job->memory, 2), cli->limits.pixels, cli->threads};
-    const ImagesParams images = {access->nroots ? access->roots[0] : NULL, bytes_of(cli, job->texture_memory, 8),
-                                 access, budget, cli->threads};
+    const ImagesParams images = {folders->textures, folders->uploads, bytes_of(cli, job->texture_memory, 8),
+                                 &folders->access, budget, cli->threads};
     if (rooms_open(&site->rooms, &rooms, &err) || images_open(&site->images, &images, &err))
         cli_fail(cli, &err);
     if (!(site->pictures = cache_open((size_t)bytes_of(cli, job->picture_memory, 16))))
@@ -193,6 +255,11 @@ int main(int argc, char **argv)
         .picture_memory = 128,
         .queue = 512,
         .quality = 95,
+        .upload_size = 16,
+        .upload_total = 1024,
+        .upload_pixels = 25000000,
+        .upload_count = 1000,
+        .upload_age = 86400,
         .http = {
             .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 300, .max_age = 60}};
     Cli cli = {.tool = "retex-serve",
@@ -203,20 +270,16 @@ int main(int argc, char **argv)
                .argv = argv,
                .next = 1};
     RetexError err = {0};
-    RetexAccess access;
-    const char *roots[1] = {NULL};
-    RetexBudget *budget = NULL; /* of textures; that of cli is stopped while requests are still being answered */
+    Folders folders;
     Site site = {0};
     Http *http = NULL;
     parse(&cli, &job);
     watchdog_let_keep(1);
     keep_memory(retex_threads(cli.threads));
-    allow_textures(&cli, &job, &access, roots);
-    if (retex_budget_create(&budget, &err))
-        cli_fail(&cli, &err);
-    retex_budget_set_memory(budget, retex_budget_memory(cli.budget));
-    retex_budget_set_pixels(budget, cli.limits.pixels);
-    open_site(&cli, &job, &site, &access, budget);
+    allow_folders(&cli, &job, &folders);
+    RetexBudget *budget = new_budget(&cli, LONG_MAX), *upload_budget = new_budget(&cli, job.upload_pixels);
+    open_site(&cli, &job, &site, &folders, budget);
+    open_uploads(&cli, &job, &site, &folders, upload_budget);
     const WorkParams pictures = {site_make, &site, cli.threads, job.queue}, texts = {site_make, &site, 1, job.queue};
     if (work_open(&job.http.pictures, &pictures, &err) || work_open(&job.http.texts, &texts, &err))
         cli_fail(&cli, &err);
@@ -234,7 +297,10 @@ int main(int argc, char **argv)
     cache_close(site.pictures);
     images_close(site.images);
     rooms_close(site.rooms);
+    uploads_close(site.uploads);
     retex_budget_close(&budget);
-    free((char *)roots[0]);
+    retex_budget_close(&upload_budget);
+    free(folders.textures);
+    free(folders.uploads);
     return cli_close(&cli, CLI_OK);
 }

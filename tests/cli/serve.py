@@ -1,6 +1,6 @@
 # What serve.t asks of retex-serve: starts it at a port that the system chooses, runs the checks of one function of this
 # file, and ends it. Prints what differs, and at last the name of the function.
-import http.client, json, os, re, shutil, signal, socket, subprocess, sys, threading, time
+import hashlib, http.client, json, os, re, shutil, signal, socket, subprocess, sys, threading, time
 
 
 def start(*options, log='log'):
@@ -229,6 +229,71 @@ def metrics(server):
     expect('memory', values['retex_serve_resident_bytes'] > 1e6 and values['retex_serve_rooms_bytes'] > 1e5, True)
 
 
+# ---- uploads ----
+
+def send(server, body, path='/v1/uploads', method='POST', **headers):
+    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+    connection.request(method, path, body, {name.replace('_', '-'): value for name, value in headers.items()})
+    answer = connection.getresponse()
+    answer.body = answer.read()
+    connection.close()
+    return answer
+
+
+def uploads(server):
+    """An image that is sent is a texture, by the hash of its content."""
+    image = open('outside.jpg', 'rb').read()
+    name = hashlib.sha256(image).hexdigest() + '.jpg'
+    expect('gone at the start', os.path.exists('uploads/.incoming-9.jpg'), False)
+    expect('before', ask(server, f'/v1/small/Floor={name}/full.png').status, 404)
+    answer = send(server, image, Content_Type='image/jpeg')
+    told = json.loads(answer.body)
+    expect('new', (answer.status, told['texture'], told['bytes'], answer.getheader('Cache-Control')),
+           (201, name, len(image), 'no-store'))
+    expect('time', re.fullmatch(r'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ', told['expires']) is not None, True)
+    wanted = ask(server, '/v1/small/Floor=oak/full.png').body
+    for given in name, name[:64]:
+        expect('as a texture', ask(server, f'/v1/small/Floor={given}/full.png').body == wanted, True)
+    expect('files', os.listdir('uploads'), [name])
+    expect('again', send(server, (image[at:at + 7000] for at in range(0, len(image), 7000))).status, 200)  # in chunks
+    expect('list', json.loads(ask(server, '/v1').body)['textures'], ['brick.jpg', 'oak.jpg'])
+    expect('count', (metric(server, 'uploads'), metric(server, 'uploads_bytes')), (1, len(image)))
+    for what, body, status in (
+            ('no image', b'not an image', 415), ('nothing', b'', 415), ('half', image[:len(image) // 2], 415),
+            ('a signature only', image[:10], 415), ('HTML', b'<html><script>', 415),
+            ('a signature of another', b'\x89PNG\r\n\x1a\n' + image, 415), ('too large', bytes(1 << 20) + b'x', 413),
+            ('too large, in chunks', (bytes(1 << 16) for _ in range(20)), 413),
+            ('too many pixels', open('wide.png', 'rb').read(), 413)):
+        expect(what, send(server, body).status, status)
+    expect('length', send(server, b'', Content_Length='99999999999').status, 413)
+    expect('elsewhere', send(server, image, '/v1/small').status, 405)
+    expect('another method', send(server, image, method='PUT').status, 405)
+    expect('asked before', (send(server, b'', method='OPTIONS').status, ask(server, '/v1', 'OPTIONS').status), (204, 405))
+    with socket.create_connection(('127.0.0.1', server.port), 10) as plain:  # who leaves in the middle
+        plain.sendall(b'POST /v1/uploads HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n' + image[:5000])
+    expect('files', os.listdir('uploads'), [name])
+    expect('second', send(server, open('textures/brick.jpg', 'rb').read()).status, 201)
+    expect('full', send(server, open('third.png', 'rb').read()).status, 507)
+    expect('one that is there', send(server, image).status, 200)
+    open('uploads/mine.txt', 'w').write('not an upload')
+    os.utime('uploads/' + name, (1, 1))
+    for _ in range(200):
+        if metric(server, 'uploads') == 1:
+            break
+        time.sleep(.1)
+    expect('old ones go, other files stay', (os.path.exists('uploads/' + name), os.path.exists('uploads/mine.txt')),
+           (False, True))
+    expect('gone', ask(server, f'/v1/small/Floor={name}/full.png?quality=90').status, 404)
+    expect('place', send(server, open('third.png', 'rb').read()).status, 201)
+    expect('files', sum(file.startswith('.') for file in os.listdir('uploads')), 0)
+
+
+def off(server):
+    """Nobody can upload where that was not allowed."""
+    expect('off', send(server, open('outside.jpg', 'rb').read()).status, 403)
+    expect('body', send(server, b'x' * 10, '/v1/small/full.jpg', 'GET').status, 413)
+
+
 # ---- load, and the end ----
 
 def together(server):
@@ -320,7 +385,9 @@ def end(server):
     expect('keys', list(lines[0])[:8], ['time', 'client', 'method', 'path', 'status', 'bytes', 'seconds', 'cache'])
 
 
-OPTIONS = {'texts': ['--threads', '1'], 'refused': ['--timeout', '1'], 'crowd': ['--queue', '0', '--threads', '1'],
+OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-count', '2', '--upload-pixels', '1100000',
+                       '--upload-age', '3600'],
+           'texts': ['--threads', '1'], 'refused': ['--timeout', '1'], 'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
 for name in sys.argv[1:]:
     server = start('--textures', 'textures', *OPTIONS.get(name, []))

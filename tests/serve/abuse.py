@@ -1,11 +1,13 @@
 """Ten thousand requests that are none: each is answered by a status 4xx, or its connection is closed."""
+import hashlib
+import os
 import random
 import re
 import socket
 import threading
 import time
 
-from serving import Tap, fetch
+from serving import Tap, fetch, wait_until
 
 BAD_PARTS = ["%2e%2e", "..", "%2F", "a%2Fb", "%5C", "%00", "a%00b", "%0d%0aX:y", "%C0%AF", "%C0%AE%C0%AE", "%ED%A0%80",
              "%FF", "%", "%4", "%zz", "%F4%90%80%80", "%C2%85", "a\\b", "%252e%252e%252f", "A" * 5000, "%41" * 1400,
@@ -65,8 +67,35 @@ def malformed(rng):
                                "GET /v1/\u00e4 HTTP/1.1", "GET / HTTP/", "GET / JUNK/1.1"]))
 
 
-def exchange(port, data):
-    """The statuses that come back; closing is none."""
+def malformed_upload(rng, image):
+    """An upload that is none: damaged, cut, with wrong lengths, or chunks that are none."""
+    body = bytearray(image)
+    kind = rng.choice([0, 0, 0, 0, 1, 1, 2, 2, 2, 3, 4, 5, 6, 7])
+    if kind == 0:  # damaged at some places, its header among them
+        for _ in range(rng.randrange(1, 40)):
+            body[rng.randrange(min(len(body), rng.choice([64, 700, len(body)])))] = rng.randrange(256)
+    elif kind == 1:
+        body = body[:rng.randrange(len(body))]
+    elif kind == 2:
+        begin = rng.choice([b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"GIF89a", b"BM", b"II*\0", b"MM\0*", b"#?RADIANCE\n",
+                            b"\x76\x2f\x31\x01", b"RIFF", b"<svg", b"%PDF", b""])
+        body = begin + bytes(rng.randrange(256) for _ in range(rng.randrange(2000)))
+    length = b"Content-Length: %d" % len(body)
+    if kind == 3:
+        length = b"Content-Length: %d" % rng.choice([0, 1, len(body) // 2, 2 * len(body), 1 << 40])
+        return request("POST /v1/uploads HTTP/1.1", length) + bytes(body), None
+    if kind == 4:
+        chunks = rng.choice([b"zz\r\n", b"-1\r\n", b"ffffffffffffffff\r\n", b"3\r\nabcd\r\n", b"0\r\n\r\n"])
+        return request("POST /v1/uploads HTTP/1.1", b"Transfer-Encoding: chunked") + chunks, None
+    if kind == 5:
+        return request("POST /v1/uploads HTTP/1.1", b"Content-Length: 0")
+    if kind == 6:
+        return request(f"POST /v1/uploads{rng.choice(['/', '/x', '?a=b', '%00', '/..'])} HTTP/1.1", length) + bytes(body)
+    return request("POST /v1/uploads HTTP/1.1", length, b"Content-Type: " + b"x" * rng.randrange(3000)) + bytes(body)
+
+
+def exchange(port, data, is_last=True):
+    """The statuses that come back; closing is none. Who says that this was the last byte is not answered after work."""
     close = isinstance(data, tuple)
     received = b""
     with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
@@ -74,7 +103,8 @@ def exchange(port, data):
             connection.sendall(data[0] if close else data)
             if close:
                 return []
-            connection.shutdown(socket.SHUT_WR)
+            if is_last:
+                connection.shutdown(socket.SHUT_WR)
             while chunk := connection.recv(65536):
                 received += chunk
         except TimeoutError:
@@ -104,6 +134,27 @@ def send_slowly(port, results):
     except OSError:
         pass
     results.append(time.monotonic() - began)
+
+
+def check_uploads(server, folder, image, count):
+    """Bodies of uploads. Images that are damaged where no decoder notices are kept; nothing partial is."""
+    rng, bad, kept, statuses = random.Random(7), [], 0, {}
+    before = server.memory()
+    for _ in range(count):
+        data = malformed_upload(rng, image)
+        for status in exchange(server.port, data, is_last=False):
+            statuses[status] = statuses.get(status, 0) + 1
+            kept += status == 201
+            if not (status in (200, 201, 503, 507) or 400 <= status < 500):
+                bad.append((status, data[:200]))
+    wait_until(lambda: not any(name.startswith(".") for name in os.listdir(folder)), 5)
+    names = os.listdir(folder)
+    right = all(hashlib.sha256(open(os.path.join(folder, name), "rb").read()).hexdigest() == name[:64] for name in names)
+    Tap.note(f"{count} malformed uploads: {statuses}; {len(names)} files; memory {before:.0f} MB before, "
+             f"{server.memory():.0f} MB after")
+    busy = 3 * statuses.get(503, 0) > sum(statuses.values())  # some, for those who left without a word keep their place
+    Tap.result(not bad and not busy and server.is_alive(), "malformed uploads are refused or kept", f"{len(bad)}: {bad[:3]}")
+    Tap.result(right and len(names) == kept, "the folder has the images that were accepted, whole", f"{len(names)} {kept}")
 
 
 def check(server, count):

@@ -25,6 +25,12 @@ def main():
         server = Server(rooms, textures, "--timeout", "2", "-q", log=log)
         abuse.check(server, 10000)
         server.stop()
+        folder = os.path.join(work, "uploads")
+        os.makedirs(folder, exist_ok=True)
+        server = Server(rooms, textures, "--timeout", "2", "--uploads", folder, "-q", log=log)
+        with open(reference, "rb") as file:
+            abuse.check_uploads(server, folder, file.read(), 2000)
+        server.stop()
     if "load" in parts:
         server = Server(rooms, textures, "--picture-memory", "16", "-q", log=log)
         load.check_clients(server, seconds, work)

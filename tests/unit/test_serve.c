@@ -4,10 +4,12 @@
 #include "lib_test.h"
 #include <cmocka.h>
 
+#include <dirent.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <retex/clock.h>
@@ -17,6 +19,7 @@
 #include "serve/images.h"
 #include "serve/rooms.h"
 #include "serve/shrink.h"
+#include "serve/uploads.h"
 #include "serve/work.h"
 
 /* ---- cache ---- */
@@ -422,7 +425,7 @@ static void test_images(void **state)
     test_random_image(&im, 64, 64, 3, 3, 0, 1);
     test_must(retex_image_write(&im, "one.png", NULL, 1, &err), &err);
     test_must(retex_image_write(&im, "two.png", NULL, 1, &err), &err);
-    const ImagesParams params = {roots[0], 60000, &access, NULL, 1}; /* of one */
+    const ImagesParams params = {roots[0], NULL, 60000, &access, NULL, 1}; /* of one */
     test_must(images_open(&images, &params, &err), &err);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
@@ -458,6 +461,111 @@ static void test_images(void **state)
     free((char *)roots[0]);
 }
 
+/* The examples of FIPS 180-4, and lengths around a block, whatever the pieces. */
+static void test_sha256(void **state)
+{
+    static const char digits[] = "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq";
+    char text[SHA256_TEXT], pieces[SHA256_TEXT], bytes[200];
+    Sha256 hash;
+    (void)state;
+    sha256_begin(&hash);
+    assert_string_equal(sha256_end(&hash, text), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    sha256_begin(&hash);
+    sha256_add(&hash, "abc", 3);
+    assert_string_equal(sha256_end(&hash, text), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    sha256_begin(&hash);
+    sha256_add(&hash, digits, sizeof digits - 1);
+    assert_string_equal(sha256_end(&hash, text), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+    memset(bytes, 'a', sizeof bytes);
+    sha256_begin(&hash);
+    for (int i = 0; i < 5000; i++)
+        sha256_add(&hash, bytes, 200);
+    assert_string_equal(sha256_end(&hash, text), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    for (size_t length = 50; length < 140; length++) {
+        sha256_begin(&hash);
+        sha256_add(&hash, bytes, length);
+        sha256_end(&hash, text);
+        sha256_begin(&hash);
+        for (size_t at = 0; at < length; at++)
+            sha256_add(&hash, bytes + at, 1);
+        assert_string_equal(sha256_end(&hash, pieces), text);
+    }
+}
+
+static int keep(Uploads *uploads, const char *file)
+{
+    char data[4096], hash[SHA256_TEXT];
+    FILE *from = fopen(file, "rb");
+    const size_t bytes = fread(data, 1, sizeof data, from);
+    Sha256 sum;
+    fclose(from);
+    sha256_begin(&sum);
+    sha256_add(&sum, data, bytes);
+    Answer *answer = uploads_keep(uploads, sha256_end(&sum, hash), data, bytes);
+    const int status = answer->status;
+    answer_release(answer);
+    return status;
+}
+
+static void remove_files(const char *folder)
+{
+    DIR *files = opendir(folder);
+    for (struct dirent *entry; (entry = readdir(files));)
+        unlinkat(dirfd(files), entry->d_name, 0);
+    closedir(files);
+}
+
+/* Number and bytes of uploads are limited; those that were there count, and what cannot be kept leaves nothing. */
+static void test_uploads(void **state)
+{
+    RetexError err = {0};
+    RetexBudget *budget;
+    Uploads *uploads;
+    (void)state;
+    assert_int_equal(mkdir("uploads", 0700), 0);
+    for (int i = 0; i < 3; i++) {
+        RetexImage im = {0};
+        char name[] = "0.png";
+        name[0] = (char)('0' + i);
+        test_random_image(&im, 8 << i, 8, 3, 3 + (unsigned)i, 0, 1);
+        test_must(retex_image_write(&im, name, NULL, 1, &err), &err);
+        retex_image_free(&im);
+    }
+    test_must(retex_budget_create(&budget, &err), &err);
+    retex_budget_set_pixels(budget, 16 * 8);
+    char *folder = realpath("uploads", NULL);
+    UploadsParams params = {folder, 1 << 20, 1 << 20, 1, 0, budget, 1};
+    test_must(uploads_open(&uploads, &params, &err), &err);
+    assert_int_equal(keep(uploads, "2.png"), 413); /* too many pixels */
+    assert_int_equal(uploads_count(uploads).count, 0);
+    assert_int_equal(keep(uploads, "0.png"), 201);
+    assert_int_equal(keep(uploads, "1.png"), 507);
+    assert_int_equal(keep(uploads, "0.png"), 200);
+    const uint64_t bytes = uploads_count(uploads).bytes;
+    assert_true(bytes > 8 * 8 && uploads_count(uploads).count == 1);
+    uploads_close(uploads);
+    params.most = 2;
+    params.total_bytes = 2 * bytes; /* the second one is larger */
+    test_must(uploads_open(&uploads, &params, &err), &err);
+    assert_int_equal(uploads_count(uploads).count, 1);
+    assert_int_equal(keep(uploads, "1.png"), 507);
+    assert_int_equal(uploads_count(uploads).bytes, bytes);
+    for (int i = 0; i < 64; i++)
+        assert_true(uploads_enter(uploads));
+    assert_false(uploads_enter(uploads));
+    assert_true(uploads_take_memory(uploads, 8 << 20));
+    assert_false(uploads_take_memory(uploads, 1));
+    uploads_leave(uploads, 8 << 20);
+    assert_true(uploads_enter(uploads) && uploads_take_memory(uploads, 1));
+    uploads_close(uploads);
+    params.folder = "none";
+    assert_int_equal(uploads_open(&uploads, &params, &err), RETEX_EIO);
+    retex_budget_close(&budget);
+    free(folder);
+    remove_files("uploads");
+    assert_int_equal(rmdir("uploads"), 0); /* nothing else is in it */
+}
+
 static int enter_folder(void **state)
 {
     return test_make_folder(state) || chdir(test_folder);
@@ -468,7 +576,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),   cmocka_unit_test(test_etags),
         cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),   cmocka_unit_test(test_shrink),
-        cmocka_unit_test(test_rooms),  cmocka_unit_test(test_images),
+        cmocka_unit_test(test_rooms),  cmocka_unit_test(test_images), cmocka_unit_test(test_sha256),
+        cmocka_unit_test(test_uploads),
     };
     return cmocka_run_group_tests(tests, enter_folder, test_remove_folder);
 }

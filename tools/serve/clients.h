@@ -8,9 +8,10 @@ typedef struct Client Client;
 
 /* What the server waits for. */
 typedef enum ClientState {
-    CLIENT_SENDS, /* a request, or its rest */
-    CLIENT_WAITS, /* nothing: the client waits for its answer */
-    CLIENT_TAKES  /* that the answer is taken */
+    CLIENT_SENDS,   /* a request, or its rest */
+    CLIENT_UPLOADS, /* an image, which is large */
+    CLIENT_WAITS,   /* nothing: the client waits for its answer */
+    CLIENT_TAKES    /* that the answer is taken */
 } ClientState;
 
 Clients *clients_open(void); /* NULL: no memory */
@@ -20,8 +21,8 @@ Client *clients_add(Clients *clients, int socket); /* NULL: no memory */
 void clients_remove(Clients *clients, Client *client);
 void clients_set(Clients *clients, Client *client, ClientState state);
 
-/* Shut down the sockets of those that take longer than `seconds` to send a request, or ten times as long to take an
- * answer. */
+/* Shut down the sockets of those that take longer than `seconds` to send a request, or ten times as long to send an
+ * image or to take an answer. */
 void clients_sweep(Clients *clients, double seconds);
 int clients_count(Clients *clients);
 

@@ -6,7 +6,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,11 +13,13 @@
 
 #include <retex/clock.h>
 
+#include "body.h"
 #include "clients.h"
 #include "headers.h"
 #include "iiif.h"
 #include "log.h"
 #include "picture.h"
+#include "status.h"
 
 enum { CONNECTION_BYTES = 48 << 10, LINK_MAX_BYTES = 8 << 10, RETRY_SECONDS = 2 };
 
@@ -40,6 +41,7 @@ typedef struct Exchange {
     char method[16];
     double began;
     ServeRequest request;
+    Body body; /* of an upload */
     Answer *answer;
     CacheUse cache;
     int is_begun; /* 1: all headers have come */
@@ -119,7 +121,7 @@ static void add_headers(struct MHD_Response *response, const Exchange *exchange,
     const Answer *answer = exchange->answer;
     const int is_info = exchange->request.route == SERVE_IIIF_INFO && status == 200;
     char base[256], seconds[16];
-    if (status != 304)
+    if (status != 304 && status != 204)
         add_header(response, "Content-Type", is_info ? iiif_info_type(header_of(exchange, "Accept")) : answer->type);
     add_cache_headers(response, exchange, status);
     add_header(response, "X-Content-Type-Options", "nosniff");
@@ -130,6 +132,11 @@ static void add_headers(struct MHD_Response *response, const Exchange *exchange,
         add_header(response, "Location", answer->location);
     if (status == 405)
         add_header(response, "Allow", "GET, HEAD");
+    if (status == 204) { /* what a page of another site asks before it sends an image */
+        add_header(response, "Allow", "POST, OPTIONS");
+        add_header(response, "Access-Control-Allow-Methods", "POST");
+        add_header(response, "Access-Control-Allow-Headers", "Content-Type");
+    }
     if (status == 503) {
         snprintf(seconds, sizeof seconds, "%d", RETRY_SECONDS);
         add_header(response, "Retry-After", seconds);
@@ -201,71 +208,6 @@ static enum MHD_Result send_answer(Exchange *exchange)
 
 /* ---- answers that need no work ---- */
 
-static Answer *text_answer(FILE *file, char **text, const size_t *bytes, const char *type)
-{
-    const int failed = ferror(file);
-    if (fclose(file) == 0 && !failed)
-        return answer_new(200, type, *text, *bytes);
-    free(*text);
-    return NULL;
-}
-
-static void write_counts(FILE *file, Http *http)
-{
-    const Site *site = http->params.site;
-    const RoomsCount rooms = rooms_count(site->rooms);
-    const ImagesCount images = images_count(site->images);
-    const WorkCount work = work_count(http->params.pictures);
-    size_t pictures, picture_bytes;
-    cache_count(site->pictures, &pictures, &picture_bytes);
-    metrics_write_value(file, "queue_length", "gauge", "Pictures that wait.", work.waiting);
-    metrics_write_value(file, "queue_limit", "gauge", "Pictures that may wait.", work.limit);
-    metrics_write_value(file, "working", "gauge", "Pictures that are being made.", work.running);
-    metrics_write_value(file, "rooms_open", "gauge", "Rooms that are open.", rooms.open);
-    metrics_write_value(file, "rooms_bytes", "gauge", "Bytes of rooms decoded in memory.", (double)rooms.bytes);
-    metrics_write_value(file, "rooms_opened_total", "counter", "Rooms that were opened.", (double)rooms.opened);
-    metrics_write_value(file, "rooms_failed_total", "counter", "Rooms that could not be opened.", (double)rooms.failed);
-    metrics_write_value(file, "images_open", "gauge", "Images of textures in memory.", images.open);
-    metrics_write_value(file, "images_bytes", "gauge", "Bytes of images of textures in memory.", (double)images.bytes);
-    metrics_write_value(file, "images_read_total", "counter", "Images of textures that were read.",
-                        (double)images.read);
-    metrics_write_value(file, "images_failed_total", "counter", "Images of textures that could not be read.",
-                        (double)images.failed);
-    metrics_write_value(file, "pictures_kept", "gauge", "Finished pictures in memory.", (double)pictures);
-    metrics_write_value(file, "pictures_bytes", "gauge", "Bytes of finished pictures in memory.",
-                        (double)picture_bytes);
-}
-
-static void write_process(FILE *file)
-{
-    FILE *status = fopen("/proc/self/statm", "re");
-    struct rusage usage = {0};
-    unsigned long long pages = 0;
-    if (status && fscanf(status, "%*u %llu", &pages) == 1)
-        metrics_write_value(file, "resident_bytes", "gauge", "Memory of the process.",
-                            (double)pages * (double)sysconf(_SC_PAGESIZE));
-    if (status)
-        fclose(status);
-    if (getrusage(RUSAGE_SELF, &usage) == 0)
-        metrics_write_value(file, "processor_seconds_total", "counter", "Processor time of the process.",
-                            (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                                1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec));
-}
-
-static Answer *metrics_answer(Http *http)
-{
-    char *text = NULL;
-    size_t bytes = 0;
-    FILE *file = open_memstream(&text, &bytes);
-    if (!file)
-        return NULL;
-    atomic_store(&http->metrics.connections, clients_count(http->clients));
-    metrics_write(file, &http->metrics);
-    write_counts(file, http);
-    write_process(file);
-    return text_answer(file, &text, &bytes, "text/plain; version=0.0.4; charset=utf-8");
-}
-
 static Answer *health_answer(void)
 {
     char *text = strdup("ok\n");
@@ -322,7 +264,7 @@ static const char *is_unchanged(const Exchange *exchange, char etag[ETAG_SIZE])
 static int wait_for_work(Exchange *exchange, const char *key, const char *base)
 {
     Http *http = exchange->http;
-    Work *work = site_is_picture(exchange->request.route) ? http->params.pictures : http->params.texts;
+    Work *work = site_takes_long(exchange->request.route) ? http->params.pictures : http->params.texts;
     WorkItem *item = calloc(1, sizeof *item);
     if (!item)
         return 0;
@@ -330,6 +272,9 @@ static int wait_for_work(Exchange *exchange, const char *key, const char *base)
     snprintf(item->base, sizeof item->base, "%s", base);
     item->deadline = retex_clock_seconds() + http->params.deadline;
     item->key = key;
+    item->body = exchange->body.data;
+    item->bytes = exchange->body.bytes;
+    snprintf(item->hash, sizeof item->hash, "%s", exchange->request.route == SERVE_UPLOAD ? key : "");
     exchange->waiter.done = work_done;
     MHD_suspend_connection(exchange->connection);
     const WorkResult result = work_add(work, item, &exchange->waiter);
@@ -361,15 +306,46 @@ static int begin_work(Exchange *exchange)
     return wait_for_work(exchange, key, base);
 }
 
+static int is_upload(const Exchange *exchange)
+{
+    return strcmp(exchange->method, "POST") == 0 && strcmp(exchange->url, "/v1/uploads") == 0;
+}
+
+/* An error where no image can be received. */
+static Answer *refuse_upload(Exchange *exchange)
+{
+    Uploads *uploads = exchange->http->params.site->uploads;
+    exchange->request.route = SERVE_UPLOAD;
+    if (!uploads)
+        return answer_error(403, "this server takes no images");
+    if (atomic_load(&exchange->http->is_refusing))
+        return answer_error(503, "the server ends");
+    clients_set(exchange->http->clients, client_of(exchange->connection), CLIENT_UPLOADS);
+    return body_begin(&exchange->body, uploads, header_of(exchange, "Content-Length"));
+}
+
 /* An error where a request is none of those that are answered here, so that no body is read. */
-static Answer *refuse_headers(const Exchange *exchange)
+static Answer *refuse_headers(Exchange *exchange)
 {
     const char *length = header_of(exchange, "Content-Length");
+    if (is_upload(exchange))
+        return refuse_upload(exchange);
+    if (strcmp(exchange->method, "OPTIONS") == 0 && strcmp(exchange->url, "/v1/uploads") == 0 &&
+        exchange->http->params.site->uploads)
+        return answer_new(204, "", NULL, 0);
     if (strcmp(exchange->method, "GET") != 0 && strcmp(exchange->method, "HEAD") != 0)
         return answer_error(405, "only GET and HEAD are known here");
     if ((length && strcmp(length, "0") != 0) || header_of(exchange, "Transfer-Encoding"))
         return answer_error(413, "a request has no body here");
     return NULL;
+}
+
+/* All of an image has come. */
+static int begin_upload(Exchange *exchange)
+{
+    char hash[SHA256_TEXT];
+    exchange->answer = body_complete(&exchange->body, hash);
+    return exchange->answer ? 0 : wait_for_work(exchange, hash, "");
 }
 
 /* JPEG and PNG can be written everywhere. Whether the others can is found out when the first request comes to them. */
@@ -396,7 +372,10 @@ static int begin(Exchange *exchange)
         exchange->answer = atomic_load(&http->is_refusing) ? answer_error(503, "the server ends") : health_answer();
         return 0;
     case SERVE_METRICS:
-        exchange->answer = metrics_answer(http);
+        exchange->answer = status_answer(&(StatusSources){.metrics = &http->metrics,
+                                                           .connections = clients_count(http->clients),
+                                                           .site = http->params.site,
+                                                           .pictures = http->params.pictures});
         return 0;
     case SERVE_IIIF_BASE:
         exchange->answer = redirect_answer(exchange);
@@ -436,7 +415,8 @@ static enum MHD_Result handle(void *context, struct MHD_Connection *connection, 
                               const char *version, const char *upload_data, size_t *upload_bytes, void **state)
 {
     Exchange *exchange = *state;
-    (void)context, (void)url, (void)version, (void)upload_data;
+    const size_t bytes = *upload_bytes;
+    (void)context, (void)url, (void)version;
     *upload_bytes = 0;
     if (!exchange)
         return MHD_NO;
@@ -447,10 +427,12 @@ static enum MHD_Result handle(void *context, struct MHD_Connection *connection, 
         exchange->answer = refuse_headers(exchange);
         return exchange->answer ? send_answer(exchange) : MHD_YES; /* an answer now ends the connection */
     }
+    if (bytes && exchange->body.uploads)
+        return body_add(&exchange->body, upload_data, bytes) ? MHD_NO : MHD_YES;
     if (!exchange->is_begun) {
         exchange->is_begun = 1;
         clients_set(exchange->http->clients, client_of(connection), CLIENT_WAITS);
-        if (begin(exchange))
+        if (exchange->body.uploads ? begin_upload(exchange) : begin(exchange))
             return MHD_YES; /* called again when the answer is there */
     }
     return send_answer(exchange);
@@ -497,6 +479,7 @@ static void end_exchange(void *context, struct MHD_Connection *connection, void 
         log_request(&line);
     clients_set(http->clients, client_of(connection), CLIENT_SENDS);
     answer_release(exchange->answer);
+    body_free(&exchange->body);
     free(exchange->url);
     free(exchange);
     atomic_fetch_sub(&http->pending, 1);
@@ -585,6 +568,8 @@ int http_port(const Http *http)
 void http_sweep(Http *http)
 {
     clients_sweep(http->clients, http->params.timeout);
+    if (http->params.site->uploads)
+        uploads_sweep(http->params.site->uploads);
 }
 
 void http_refuse(Http *http)

@@ -26,7 +26,7 @@ typedef struct Http Http;
 int http_open(Http **http, const HttpParams *params, RetexError *err);
 /* The port that is listened on. */
 int http_port(const Http *http);
-/* Close connections that are too slow. To be called a few times a second. */
+/* Close connections that are too slow, delete uploads that are too old. To be called a few times a second. */
 void http_sweep(Http *http);
 /* Accept no more connections and requests. */
 void http_refuse(Http *http);

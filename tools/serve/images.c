@@ -89,17 +89,23 @@ static int is_plain(const char *name)
     return serve_name_is_valid(name) && !strchr(name, '/');
 }
 
-int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id)
+static int find_in(const Images *images, const char *folder, const char *name, char *path, size_t size, FileId *id)
 {
-    const char *folder = images->params.folder;
-    if (!folder || !is_plain(name))
-        return -1;
-    for (int i = -1; i < 0 || endings[i]; i++) {
+    for (int i = -1; folder && (i < 0 || endings[i]); i++) {
         const int length = snprintf(path, size, "%s/%s%s%s", folder, name, i < 0 ? "" : ".", i < 0 ? "" : endings[i]);
         if (length > 0 && (size_t)length < size && file_id_of(id, path) == 0)
             return retex_access_check(images->params.access, "", path) == RETEX_ACCESS_ALLOWED ? 0 : -1;
     }
     return -1;
+}
+
+int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id)
+{
+    if (!is_plain(name))
+        return -1;
+    return find_in(images, images->params.folder, name, path, size, id)
+               ? find_in(images, images->params.uploads, name, path, size, id)
+               : 0;
 }
 
 int images_list(const Images *images, void (*tell)(void *context, const char *name), void *context)

@@ -13,9 +13,10 @@ typedef struct Images Images;
 typedef struct OpenImage OpenImage;
 
 typedef struct ImagesParams {
-    const char *folder;      /* NULL: there are only colours */
-    uint64_t memory;         /* bytes of images that are kept */
-    const RetexAccess *access; /* must allow this folder alone */
+    const char *folder;        /* NULL: there are only colours, and uploads */
+    const char *uploads;       /* a second folder, whose images are not listed; or NULL */
+    uint64_t memory;           /* bytes of images that are kept */
+    const RetexAccess *access; /* must allow these folders alone */
     RetexBudget *budget;
     int threads; /* that decode an image */
 } ImagesParams;

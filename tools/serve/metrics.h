@@ -8,8 +8,8 @@
 #include "request.h"
 
 enum {
-    METRICS_ROUTES = SERVE_IIIF_IMAGE + 2, /* the last one: no route */
-    METRICS_STATUSES = 18,                 /* the last one: all others */
+    METRICS_ROUTES = SERVE_UPLOAD + 2, /* the last one: no route */
+    METRICS_STATUSES = 22,                 /* the last one: all others */
     METRICS_BUCKETS = 13
 };
 

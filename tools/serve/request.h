@@ -34,7 +34,8 @@ typedef enum ServeRoute {
     SERVE_THUMBNAIL, /* a small picture, for lists; in all else as SERVE_PICTURE */
     SERVE_IIIF_BASE, /* redirect to its info.json */
     SERVE_IIIF_INFO,
-    SERVE_IIIF_IMAGE
+    SERVE_IIIF_IMAGE,
+    SERVE_UPLOAD /* POST /v1/uploads, which is no URL of a GET */
 } ServeRoute;
 
 typedef enum ServeFormat { SERVE_JPEG, SERVE_PNG, SERVE_WEBP, SERVE_AVIF, SERVE_FORMATS } ServeFormat;

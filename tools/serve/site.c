@@ -27,9 +27,14 @@ static RETEX_PRINTF(2, 3) void append(Text *to, const char *fmt, ...)
         to->used += (size_t)length < to->size - to->used ? (size_t)length : to->size - to->used - 1;
 }
 
-int site_is_picture(ServeRoute route)
+static int is_picture(ServeRoute route)
 {
     return route == SERVE_PICTURE || route == SERVE_THUMBNAIL || route == SERVE_IIIF_IMAGE;
+}
+
+int site_takes_long(ServeRoute route)
+{
+    return is_picture(route) || route == SERVE_UPLOAD;
 }
 
 static int quality_of(const Site *site, const ServeRequest *request)
@@ -59,14 +64,14 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     Text key = {text, 0, SITE_KEY_MAX};
     char path[PATH_MAX], id_text[FILE_ID_TEXT];
     FileId id;
-    append(&key, "%d", site_is_picture(request->route) ? SERVE_PICTURE : request->route);
+    append(&key, "%d", is_picture(request->route) ? SERVE_PICTURE : request->route);
     if (request->route == SERVE_ROOMS)
         return NULL;
     if (rooms_find(site->rooms, request->room, path, &id))
         return answer_error(404, "there is no room '%s'", request->room);
     append(&key, "\n%s\n%s\n%s", request->room, file_id_text(&id, id_text), request->edits);
     Answer *error = key_of_images(site, request, &key);
-    if (site_is_picture(request->route)) {
+    if (is_picture(request->route)) {
         const ServeRegion *r = &request->region;
         const ServeSize *s = &request->size;
         append(&key, "\n%d %.17g %.17g %.17g %.17g\n%d %d %d %.17g %d\n%d %d %d %d %d", r->kind, r->x, r->y, r->width,
@@ -111,7 +116,7 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
     char path[PATH_MAX];
     FileId id;
     ServePlace place;
-    if (!site_is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
+    if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
         return 0;
     const Room *room = rooms_peek(site->rooms, request->room, &id);
     ServeRequest copy = *request; /* iiif_place may put an error into it */
@@ -239,7 +244,10 @@ static int write_rooms(const Site *site, FILE *file)
     for (int format = 0, count = 0; format < SERVE_FORMATS; format++)
         if (picture_formats() & 1u << format)
             fprintf(file, "%s\"%s\"", count++ ? ", " : "", serve_format_extension((ServeFormat)format));
-    fputs("]}\n", file);
+    if (site->uploads)
+        fprintf(file, "], \"upload_bytes\": %zu}\n", uploads_most_bytes(site->uploads));
+    else
+        fputs("]}\n", file);
     return failed;
 }
 
@@ -307,10 +315,12 @@ Answer *site_make(void *context, const WorkItem *item, int nthreads)
     const Site *site = context;
     const Room *room = NULL;
     RetexError err = {0};
+    if (item->request.route == SERVE_UPLOAD)
+        return uploads_keep(site->uploads, item->hash, item->body, item->bytes);
     if (item->request.route != SERVE_ROOMS && rooms_take(site->rooms, item->request.room, &room, &err))
         return answer_of_error(&err);
     Answer *answer =
-        site_is_picture(item->request.route) ? make_picture(site, item, room, nthreads) : make_text(site, item, room);
+        is_picture(item->request.route) ? make_picture(site, item, room, nthreads) : make_text(site, item, room);
     rooms_return(site->rooms, room);
     return answer;
 }

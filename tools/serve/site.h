@@ -5,19 +5,21 @@
 #include "cache.h"
 #include "images.h"
 #include "rooms.h"
+#include "uploads.h"
 #include "work.h"
 
 typedef struct Site {
     Rooms *rooms;
     Images *images;
+    Uploads *uploads; /* NULL: there are none */
     Cache *pictures;
     int quality; /* of pictures that ask for none */
 } Site;
 
 enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
 
-/* Whether the answer is a picture, which may take long. */
-int site_is_picture(ServeRoute route);
+/* Whether the answer may take long: it is a picture, or an image has to be decoded. */
+int site_takes_long(ServeRoute route);
 
 /* What a request is of, by the files as they are now: two requests with the same key have the same answer. The images
  * of request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */

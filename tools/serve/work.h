@@ -5,6 +5,7 @@
 
 #include "answer.h"
 #include "request.h"
+#include "sha256.h"
 
 typedef struct Work Work;
 
@@ -22,6 +23,9 @@ typedef struct WorkItem {
     char base[256];  /* beginning of the server's own URLs */
     double deadline; /* of retex_clock_seconds */
     const char *key;
+    const void *body; /* of an upload: the waiter's, until done is called */
+    size_t bytes;
+    char hash[SHA256_TEXT]; /* of the body */
 } WorkItem;
 
 /* Make the answer, on so many threads. NULL: no memory. */
