@@ -86,7 +86,8 @@ void clients_sweep(Clients *clients, double seconds)
     pthread_mutex_lock(&clients->lock); /* so that no socket is closed, and its number used again, meanwhile */
     for (Client *client = clients->first; client; client = client->next)
         if ((client->state == CLIENT_SENDS && now - client->since > seconds) ||
-            ((client->state == CLIENT_TAKES || client->state == CLIENT_UPLOADS) && now - client->since > TAKES_LONGER * seconds))
+            ((client->state == CLIENT_TAKES || client->state == CLIENT_UPLOADS) &&
+             now - client->since > TAKES_LONGER * seconds))
             shutdown(client->socket, SHUT_RDWR);
     pthread_mutex_unlock(&clients->lock);
 }

@@ -373,9 +373,9 @@ static int begin(Exchange *exchange)
         return 0;
     case SERVE_METRICS:
         exchange->answer = status_answer(&(StatusSources){.metrics = &http->metrics,
-                                                           .connections = clients_count(http->clients),
-                                                           .site = http->params.site,
-                                                           .pictures = http->params.pictures});
+                                                          .connections = clients_count(http->clients),
+                                                          .site = http->params.site,
+                                                          .pictures = http->params.pictures});
         return 0;
     case SERVE_IIIF_BASE:
         exchange->answer = redirect_answer(exchange);

@@ -25,7 +25,7 @@ struct Uploads {
     RetexAccess access;
     pthread_mutex_t lock; /* protects all below, and the names in the folder */
     int count, arriving;
-    size_t in_memory; /* bytes that are being received */
+    size_t in_memory;         /* bytes that are being received */
     uint64_t bytes, reserved; /* of files, and of those that are being checked */
     int nreserved;
     unsigned long serial;
@@ -43,8 +43,14 @@ static const char *ending_of(const char *data, size_t bytes)
         const char *begin;
         size_t length;
         int ending;
-    } begins[] = {{"\xff\xd8\xff", 3, 0}, {"\x89PNG\r\n\x1a\n", 8, 1}, {"\x76\x2f\x31\x01", 4, 2}, {"II*\0", 4, 3},
-                  {"MM\0*", 4, 3},        {"BM", 2, 4},                {"GIF8", 4, 5},             {"#?RADIANCE", 10, 6},
+    } begins[] = {{"\xff\xd8\xff", 3, 0},
+                  {"\x89PNG\r\n\x1a\n", 8, 1},
+                  {"\x76\x2f\x31\x01", 4, 2},
+                  {"II*\0", 4, 3},
+                  {"MM\0*", 4, 3},
+                  {"BM", 2, 4},
+                  {"GIF8", 4, 5},
+                  {"#?RADIANCE", 10, 6},
                   {"#?RGBE", 6, 6}};
     for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
         if (bytes > begins[i].length && memcmp(data, begins[i].begin, begins[i].length) == 0)
@@ -232,11 +238,11 @@ static int check(const Uploads *uploads, const char *path, int size[2], Answer *
         retex_texture_close(&texture);
         return 0;
     }
-    *answer = code == RETEX_ENOMEM  ? answer_error(503, "the server is busy")
-                     : code == RETEX_ELIMIT ? answer_error(413, "the image has too many pixels")
-                                            : answer_error(415, "the image is damaged, or of a kind that is not read");
+    *answer = code == RETEX_ENOMEM   ? answer_error(503, "the server is busy")
+              : code == RETEX_ELIMIT ? answer_error(413, "the image has too many pixels")
+                                     : answer_error(415, "the image is damaged, or of a kind that is not read");
     if (*answer)
-        snprintf((*answer)->reason, sizeof (*answer)->reason, "upload: %.180s", err.message);
+        snprintf((*answer)->reason, sizeof(*answer)->reason, "upload: %.180s", err.message);
     return code;
 }
 
@@ -251,8 +257,8 @@ static Answer *tell(const Uploads *uploads, int status, const char *name, size_t
         return NULL;
     if (uploads->params.seconds > 0 && gmtime_r(&ends, &parts))
         strftime(time_text, sizeof time_text, "\"%Y-%m-%dT%H:%M:%SZ\"", &parts);
-    fprintf(file, "{\"texture\": \"%s\", \"width\": %d, \"height\": %d, \"bytes\": %zu, \"expires\": %s}\n", name, size[0],
-            size[1], bytes, time_text);
+    fprintf(file, "{\"texture\": \"%s\", \"width\": %d, \"height\": %d, \"bytes\": %zu, \"expires\": %s}\n", name,
+            size[0], size[1], bytes, time_text);
     if (fclose(file) == 0)
         return answer_new(status, "application/json", text, length);
     free(text);
@@ -274,8 +280,8 @@ static Answer *add(Uploads *uploads, const char *path, const char *name, const c
     pthread_mutex_lock(&uploads->lock);
     const unsigned long serial = ++uploads->serial;
     pthread_mutex_unlock(&uploads->lock);
-    const int length = snprintf(incomplete, sizeof incomplete, "%s/" INCOMPLETE "%lu.%s", uploads->params.folder, serial,
-                                strrchr(name, '.') + 1);
+    const int length = snprintf(incomplete, sizeof incomplete, "%s/" INCOMPLETE "%lu.%s", uploads->params.folder,
+                                serial, strrchr(name, '.') + 1);
     const int failed = length < (int)sizeof incomplete ? write_file(incomplete, data, bytes) : ENAMETOOLONG;
     Answer *error = NULL;
     const int is_wrong = !failed && check(uploads, incomplete, size, &error);
