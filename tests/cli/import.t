@@ -291,3 +291,7 @@ $ retex-import -q packed.gltf -o packed; retex-import -q beyond.glb -o beyond; l
 ! ls: cannot access 'packed': No such file or directory
 ! ls: cannot access 'beyond': No such file or directory
 = 2
+# Lights of 3DS, z up: half of the angles of the cones, and the direction of the spot, (0, .6, -.8), as the file has it.
+$ retex-import -q lights.3ds -o lights; grep light_source lights/lights.pov
+> light_source { <1, 3, 2>, rgb <2, 1, 0.5> }
+> light_source { <-4, 5, 0>, rgb <0.25, 0.5, 1> spotlight radius 15 falloff 25 point_at <-4, 4.2, 0.6> }

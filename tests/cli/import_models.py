@@ -190,6 +190,17 @@ studio = tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
         for kind, name, at in ((0xb002, b'Card\0', (0, 0, 0)), (0xb003, b'Eye\0', (.75, -2.5, .5))))))
 write('card.3ds', studio)
 
+# A bulb twice as bright as its colour, and a spot that looks from (-4, 0, 5) to (-4, 3, 1), its cones of 30 and 50 degrees.
+corners = [(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)]
+write('lights.3ds', tds(0x4d4d, tds(2, struct.pack('<I', 3)), tds(
+    0x3d3d, tds(0x4000, b'Floor\0', tds(
+        0x4100, tds(0x4110, struct.pack('<H', 4), *(struct.pack('<3f', *p) for p in corners)),
+        tds(0x4120, struct.pack('<H', 2), *(struct.pack('<4H', *f, 7) for f in faces)))),
+    tds(0x4000, b'Bulb\0', tds(0x4600, struct.pack('<3f', 1, 2, 3), tds(0x10, struct.pack('<3f', 1, .5, .25)),
+                                tds(0x465b, struct.pack('<f', 2)))),
+    tds(0x4000, b'Lamp\0', tds(0x4600, struct.pack('<3f', -4, 0, 5), tds(0x10, struct.pack('<3f', .25, .5, 1)),
+                                tds(0x4610, struct.pack('<5f', -4, 3, 1, 30, 50)))))))
+
 # UV of 16 and of 8 bits, each element on four bytes, and positions of 16 bits by KHR_mesh_quantization.
 
 

@@ -1,12 +1,13 @@
-/* What Assimp leaves out of 3DS files: where cameras look, their roll and lens. It also moves cameras and lights twice,
- * by their node and by themselves; see import_own_transform. */
+/* What Assimp leaves out of 3DS files: where cameras look, their roll and lens; and the cone of spot lights, to whose
+ * outer angle it adds the inner one. It also moves cameras and lights twice, by their node and by themselves; see
+ * import_own_transform. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "import/internal.h"
 
-enum { MAIN = 0x4d4d, EDITOR = 0x3d3d, OBJECT = 0x4000, CAMERA = 0x4700 };
+enum { MAIN = 0x4d4d, EDITOR = 0x3d3d, OBJECT = 0x4000, LIGHT = 0x4600, SPOT = 0x4610, CAMERA = 0x4700 };
 
 /* The rest of a file, or of a chunk. */
 typedef struct Bytes {
@@ -80,6 +81,25 @@ static void take_camera(const struct aiScene *scene, const char *name, Bytes chu
     }
 }
 
+/* Of a light: its position, then chunks. A spot has its target and the angles of both cones, in degrees. */
+static void take_light(const struct aiScene *scene, const char *name, Bytes light)
+{
+    unsigned long kind;
+    Bytes chunk;
+    if (light.left < sizeof(float) * 3)
+        return;
+    light.at += sizeof(float) * 3, light.left -= sizeof(float) * 3;
+    while (next_chunk(&light, &kind, &chunk)) {
+        if (kind != SPOT || chunk.left < sizeof(float) * 5)
+            continue;
+        chunk.at += sizeof(float) * 4, chunk.left -= sizeof(float) * 4;
+        const double outer = take_float(&chunk) * PI / 180;
+        for (unsigned i = 0; i < scene->mNumLights; i++)
+            if (strcmp(scene->mLights[i]->mName.data, name) == 0 && isfinite(outer))
+                scene->mLights[i]->mAngleOuterCone = (float)outer;
+    }
+}
+
 static void take_object(const struct aiScene *scene, Bytes object)
 {
     const char *name = (const char *)object.at;
@@ -92,6 +112,8 @@ static void take_object(const struct aiScene *scene, Bytes object)
     while (next_chunk(&object, &kind, &chunk))
         if (kind == CAMERA)
             take_camera(scene, name, chunk);
+        else if (kind == LIGHT)
+            take_light(scene, name, chunk);
 }
 
 /* Chunks of the editor, which are in the main one. */
@@ -114,7 +136,8 @@ void tds_read(Import *import)
     int descriptor;
     RetexAccess access = RETEX_ACCESS_INIT;
     access.safe = import->options->safe;
-    if (!import->scene->mNumCameras || retex_access_open(&access, import->options->model, &descriptor, NULL))
+    if (!(import->scene->mNumCameras || import->scene->mNumLights) ||
+        retex_access_open(&access, import->options->model, &descriptor, NULL))
         return;
     FILE *in = fdopen(descriptor, "rb");
     const long size = in && fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
