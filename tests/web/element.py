@@ -58,6 +58,14 @@ def check_methods(page):
         return {ROOM}.getState().textures.Wall.source;
     }})()""")
     result(later == "#112233", "of two textures at once the one asked for last is kept")
+    page.room("setState({})")
+    picture = "toBlob().then(b => b.arrayBuffer()).then(a => String(new Uint8Array(a)))"
+    plain = page.room(picture)
+    page.room("setState({textures: {Floor: {source: 'textures/brick.jpg'}, Wall: {source: '#112233'}}})")
+    edited = page.room(picture)
+    page.run(f"{ROOM}.command('compare'), {PART}('.split').value = 100")
+    result(edited != plain and page.room(picture) == plain, "before and after: the side before is the picture with its originals")
+    page.run(f"{ROOM}.command('compare'), {PART}('.split').value = 50")
     kind = page.room("toBlob('image/jpeg', 0.8).then(b => [b.type, b.size > 2000])")
     result(kind == ["image/jpeg", True], "toBlob() in another format")
     state, link = page.state(), page.room("link")
