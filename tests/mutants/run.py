@@ -60,7 +60,8 @@ def read_list():
 def test_file(test):
     """Where a test is, or the folder of a suite."""
     suite, _, name = test.partition("/")
-    ending = {"unit": ".c", "cli": ".t", "oiio": ".t", "golden": "/command", "fidelity": ".sh", "docs": ".sh", "long": ".sh"}
+    ending = {"unit": ".c", "cli": ".t", "oiio": ".t", "golden": "/command", "fidelity": ".sh", "docs": ".sh",
+              "long": ".sh"}
     if suite not in ending:
         return None
     return os.path.join("tests", suite, name + ending[suite]) if name else os.path.join("tests", suite)
