@@ -233,7 +233,10 @@ def metrics(server):
 
 def send(server, body, path='/v1/uploads', method='POST', **headers):
     connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
-    connection.request(method, path, body, {name.replace('_', '-'): value for name, value in headers.items()})
+    try:
+        connection.request(method, path, body, {name.replace('_', '-'): value for name, value in headers.items()})
+    except BrokenPipeError:  # the server has answered, and closed, before it had all; its answer is there to be read
+        pass
     answer = connection.getresponse()
     answer.body = answer.read()
     connection.close()
