@@ -43,6 +43,9 @@ pkg cmocka libcmocka-dev
 command mandoc mandoc
 command cmark cmark
 command curl curl
+python pip python3-pip
+python setuptools python3-setuptools
+python wheel python3-wheel
 command oiiotool openimageio-tools
 command transicc liblcms2-utils
 command zsh zsh

@@ -30,6 +30,9 @@ jobs_of() {
             [ ! -e "$t" ] || { t=${t##*/}; n=${t%.?}; [ "$t" = "$n.1" ] || [ ! -e "man/$n.1" ] || n=$t
             echo "man/$n tests/lib/man.sh man/$t"; }
         done ;;
+    python) for t in tests/python/test_*.py; do
+            [ ! -e "$t" ] || { n=${t##*/}; n=${n%.py}; echo "python/${n#test_} /usr/bin/python3 -B $t"; }
+        done ;;
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;

@@ -1,19 +1,8 @@
 /* See lib_error.h. */
 #include "lib_error.h"
 
-#include <string.h>
-
 #include "lib_test.h"
 #include "retexture/sample_row.h"
-
-static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
-{
-    RetexImage *image = context;
-    const size_t first = retex_image_index(image, 0, y0);
-    (void)err;
-    memcpy(image->pixels + first, rows, sizeof *rows * (retex_image_index(image, 0, y1) - first));
-    return RETEX_OK;
-}
 
 RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
                       int nthreads)
@@ -23,7 +12,7 @@ RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const Re
     RetexError err = {0};
     test_must(retex_textures_load(textures, set, specs, nspecs, nthreads, &err), &err);
     test_must(retex_image_alloc(&error, set->width, set->height, 3, &err), &err);
-    test_must(retex_estimate_error(set, samples, textures, NULL, keep_rows, &error, nthreads, &err), &err);
+    test_must(retex_estimate_error(set, samples, textures, NULL, retex_image_keep_rows, &error, nthreads, &err), &err);
     retex_textures_close(textures);
     return error;
 }

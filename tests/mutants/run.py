@@ -61,9 +61,10 @@ def test_file(test):
     """Where a test is, or the folder of a suite."""
     suite, _, name = test.partition("/")
     ending = {"unit": ".c", "cli": ".t", "oiio": ".t", "golden": "/command", "fidelity": ".sh", "docs": ".sh",
-              "long": ".sh"}
+              "long": ".sh", "python": ".py"}
     if suite not in ending:
         return None
+    name = f"test_{name}" if suite == "python" and name else name
     return os.path.join("tests", suite, name + ending[suite]) if name else os.path.join("tests", suite)
 
 

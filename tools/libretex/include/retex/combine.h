@@ -46,6 +46,9 @@ void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
  * threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
 
+/* A RetexRowSink that keeps the rows: context is a RetexImage, RGB of the picture's size. */
+int retex_image_keep_rows(void *image, int y0, int y1, const float *rows, RetexError *err);
+
 /* Sampling and recombination in one pass, band by band. The rows are those that retex_sample, retex_samples_merge into
  * samples (which may be NULL) and retex_combine would give. */
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],

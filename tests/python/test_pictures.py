@@ -1,0 +1,238 @@
+"""Pictures of the package retex are those of the tools, to the bit."""
+import itertools
+import json
+
+import lib
+import numpy as np
+import OpenImageIO as oiio
+
+import retex
+
+numbers = itertools.count()
+
+OAK = lib.SCENES + "/living-room/textures/oak-planks.jpg"
+TERRAZZO = lib.SCENES + "/textures/terrazzo.jpg"
+lib.run("make_set", "room.exr", "200", "140", "denoise")
+lib.run("make_set", "clusters.exr", "96", "70", "footprints")
+lib.run("retex-pack", "-q", "room.exr", "-o", "room.retex")
+lib.run("oiiotool", "--pattern", "fill:topleft=1,0,0:topright=0,1,0:bottomleft=0,0,1:bottomright=1,1,.5", "33x17", "3",
+        "-d", "float", "-o", "fill.exr")
+
+
+def combined(set_name, *options):
+    """What retex-combine makes, as an array."""
+    name = f"expected-{next(numbers)}.exr"  # another one each time: the reader keeps files by their names
+    lib.run("retex-combine", "-q", set_name, *options, "-o", name)
+    return as_written(lib_read(name))
+
+
+def lib_read(path):
+    """A picture's red, green and blue by another reader."""
+    image = oiio.ImageBuf(path)
+    return image.get_pixels(oiio.FLOAT)[:, :, :3]
+
+
+def as_written(picture):
+    """As halves, which an EXR has."""
+    return np.asarray(picture, dtype=np.float32).astype(np.float16).view(np.uint16)
+
+
+def check(picture, expected):
+    assert picture.dtype == np.float32 and picture.shape == expected.shape, (picture.shape, expected.shape)
+    assert np.array_equal(as_written(picture), expected)
+
+
+def test_originals():
+    """A picture without new textures"""
+    for name in ("room.exr", "room.retex", "clusters.exr"):
+        with retex.open(name) as room:
+            check(room.combine(), combined(name))
+
+
+def test_files_and_colours():
+    """Files and colours, of sets and packs"""
+    for name in ("room.exr", "room.retex", "clusters.exr"):
+        with retex.open(name) as room:
+            check(room.combine({"Floor": OAK, "Wall": (0.8, 0.25, 0.1)}),
+                  combined(name, "--texture", "Floor=" + OAK, "--texture", "Wall=rgb(0.8,0.25,0.1)"))
+            check(room.combine({"floor": TERRAZZO}), combined(name, "--texture", "Floor=" + TERRAZZO))
+
+
+def test_placement():
+    """All ways to place a texture"""
+    texture = retex.Texture(OAK, scale=(2, 3.5), rotate=30, offset=(0.25, -0.5), flip="u", wrap=("mirror", "clamp"))
+    brick = retex.Texture(OAK, scale=0.7, repeat="brick", colorspace="linear")
+    with retex.open("room.exr") as room:
+        check(room.combine({"Floor": texture, "Wall": brick}),
+              combined("room.exr", "--texture:scale=2,3.5:rotate=30:offset=0.25,-0.5:flip=u:wrap=mirror,clamp",
+                       "Floor=" + OAK, "--texture:scale=0.7:repeat=brick:colorspace=linear", "Wall=" + OAK))
+
+
+def test_arrays():
+    """An array as a texture is what the same numbers in a file are"""
+    array = lib_read("fill.exr").astype(np.float32)
+    with retex.open("room.exr") as room:
+        plain = combined("room.exr", "--texture", "Floor=fill.exr")
+        check(room.combine({"Floor": array}), plain)
+        check(room.combine({"Floor": array.astype(np.float64)}), plain)
+        check(room.combine({"Floor": retex.read("fill.exr")}), plain)
+        assert np.allclose(room.combine({"Floor": retex.Texture(array[:, ::-1], flip="u")}),
+                           room.combine({"Floor": array}), atol=1e-4)
+        check(room.combine({"Wall": retex.Texture(array, rotate=45, wrap="mirror")}),
+              combined("room.exr", "--texture:rotate=45:wrap=mirror", "Wall=fill.exr"))
+        grey = array[:, :, :1]
+        assert np.array_equal(room.combine({"Floor": grey}), room.combine({"Floor": np.repeat(grey, 3, axis=2)}))
+        assert np.array_equal(room.combine({"Floor": grey[:, :, 0]}), room.combine({"Floor": grey}))
+
+
+def test_width_of_array():
+    """An array with a width in scene units"""
+    lib.run("retex-render", "-q", "--size", "64x40", "--spp", "4", "-t", "Floor", "-o", "cornell.exr",
+            lib.SCENES + "/cornell-box/cornell-box.pov")
+    with retex.open("cornell.exr") as room:
+        assert min(room.targets[0].uv_scale) > 0
+        array = retex.read("fill.exr")
+        check(room.combine({"Floor": retex.Texture(array, width=0.5)}),
+              combined("cornell.exr", "--texture:width=0.5", "Floor=fill.exr"))
+    with retex.open("room.exr") as room:
+        error = lib.fails(retex.Error, room.combine, {"Floor": retex.Texture(array, width=0.5)})
+        assert error.code == retex.Code.EINVAL, error
+
+
+def test_crop():
+    """A part of the picture"""
+    with retex.open("room.exr") as room:
+        whole = room.combine({"Floor": OAK})
+        part = room.combine({"Floor": OAK}, crop=(21, 33, 57, 71))
+        assert part.shape == (71, 57, 3) and np.array_equal(part, whole[33:104, 21:78])
+        assert np.array_equal(room.combine(crop=(0, 0, 200, 140)), room.combine())
+        for crop in ((-1, 0, 5, 5), (0, 0, 0, 5), (0, 0, 201, 5), (199, 139, 2, 1)):
+            lib.fails(ValueError, room.combine, crop=crop)
+
+
+def test_samples():
+    """Samples, and their file"""
+    lib.run("retex-sample", "room.exr", "--texture", "Floor=" + OAK, "-o", "expected-samples.exr")
+    with retex.open("room.exr") as room:
+        expected = room.combine({"Floor": OAK})
+        samples = room.sample({"Floor": OAK})
+        assert np.array_equal(room.combine(samples=samples), expected)
+        samples.write("samples.exr")
+        for name in ("samples.exr", "expected-samples.exr"):
+            assert np.array_equal(room.combine(samples=retex.Samples.open(name)), expected)
+        assert np.array_equal(room.combine({"Wall": (1, 0, 0)}, samples=samples),
+                              room.combine({"Wall": (1, 0, 0), "Floor": OAK}))
+        assert np.array_equal(room.combine({"Floor": (1, 0, 0)}, samples=samples), room.combine({"Floor": (1, 0, 0)}))
+    check(lib_read("expected-samples.exr"), as_written(lib_read("samples.exr")))
+
+
+def test_batch():
+    """A batch makes what single pictures are, whatever it keeps in memory"""
+    rows = [{}, {"Floor": OAK}, {"Wall": OAK}, {"Floor": OAK, "Wall": (0.1, 0.2, 0.3)},
+            {"Floor": retex.Texture(OAK, scale=2)}, {"floor": TERRAZZO, "Wall": OAK}, {"Floor": OAK}]
+    rows += [{"Floor": np.full((4, 4, 3), value, np.float32)} for value in (0.25, 0.5, 0.75)]
+    for name in ("room.exr", "room.retex"):
+        with retex.open(name) as fresh:
+            expected = [fresh.combine(row) for row in rows]
+        for options in ({}, {"memory": 0, "texture_memory": 0}, {"texture_memory": 3 << 20}, {"threads": 1}):
+            with retex.open(name) as room:
+                pictures = list(room.batch(iter(rows), **options))
+            assert len(pictures) == len(rows)
+            for picture, other in zip(pictures, expected):
+                assert np.array_equal(picture, other)
+
+
+def test_threads():
+    """The same to the bit for every number of threads"""
+    with retex.open("room.exr") as room:
+        expected = room.combine({"Floor": OAK}, threads=1)
+        for threads in (0, 2, 7):
+            assert np.array_equal(room.combine({"Floor": OAK}, threads=threads), expected)
+
+
+def test_out():
+    """A picture into an array of one's own"""
+    with retex.open("room.exr") as room:
+        out = np.full((140, 200, 3), 7, np.float32)
+        made = room.combine({"Floor": OAK}, out=out)
+        assert np.shares_memory(made, out) and np.array_equal(out, room.combine({"Floor": OAK}))
+        wrong = [np.zeros((140, 200, 3)), np.zeros((140, 199, 3), np.float32), np.zeros((140, 200, 4), np.float32),
+                 np.zeros((140, 400, 3), np.float32)[:, ::2]]
+        fixed = np.zeros((140, 200, 3), np.float32)
+        fixed.flags.writeable = False
+        for array in wrong + [fixed]:
+            lib.fails(ValueError, room.combine, out=array)
+        assert not fixed.any()
+
+
+def test_cross():
+    """Fewer cross terms"""
+    with retex.open("room.exr") as room:
+        for cross in (0, 2):
+            check(room.combine({"Floor": OAK}, cross=cross),
+                  combined("room.exr", "--texture", "Floor=" + OAK, "--cross", str(cross)))
+
+
+def test_error():
+    """The expected error"""
+    lib.run("retex-combine", "-q", "clusters.exr", "--texture", "Floor=" + OAK, "--error", "error.exr", "-o", "x.exr")
+    with retex.open("clusters.exr") as room:
+        error = room.error({"Floor": OAK})
+        check(error, as_written(lib_read("error.exr")))
+        assert error.any()
+
+
+def test_files():
+    """Pictures in files and in memory"""
+    with retex.open("room.exr") as room:
+        picture = room.combine({"Floor": OAK})
+    for name in ("a.png", "a.jpg", "a.exr", "a.tif"):
+        lib.run("retex-combine", "-q", "room.exr", "--texture", "Floor=" + OAK, "-o", "expected-" + name)
+        retex.write(picture, name)
+        with open(name, "rb") as file, open("expected-" + name, "rb") as expected:
+            assert file.read() == expected.read() or name == "a.tif", name
+    for name in ("a.png", "a.jpg"):
+        with open(name, "rb") as file:
+            assert retex.encode(picture, name[2:]) == file.read(), name
+    assert len(retex.encode(picture, "jpg", quality=20)) < len(retex.encode(picture, "jpg"))
+    assert np.array_equal(as_written(retex.read("a.exr")[:, :, :3]), as_written(picture))
+    assert (retex.read("a.exr")[:, :, 3] == 1).all()
+    assert retex.encode(picture[::2, ::3], "png") == retex.encode(picture[::2, ::3].copy(), "png")
+
+
+def test_denoise_and_pack():
+    """Denoising, writing and packing"""
+    lib.run("retex-denoise", "-q", "room.exr", "-o", "denoised.exr")
+    lib.run("retex-pack", "-q", "denoised.exr", "-o", "denoised.retex")
+    with retex.open("room.exr") as room:
+        assert room.can_denoise and not room.denoised
+        room.denoise()
+        assert room.denoised and not room.can_denoise
+        check(room.combine({"Floor": OAK}), combined("denoised.exr", "--texture", "Floor=" + OAK))
+        room.write("own.exr")
+        assert room.pack("own.retex") > 1000
+        assert room.pack("fine.retex", lossless=True) > room.pack("own.retex")
+    for name in ("own", "denoised"):
+        lib.run("retex-info", "--check", name + ".exr")
+    with open("own.retex", "rb") as own, open("denoised.retex", "rb") as expected:
+        assert own.read() == expected.read()
+    check(lib_read("own.exr"), as_written(lib_read("denoised.exr")))
+
+
+def test_metadata():
+    """Targets and the manifest"""
+    expected = json.loads(lib.run("retex-info", "--json", "room.exr"))
+    with retex.open("room.exr") as room:
+        assert (room.width, room.height, room.layout, room.spp) == (200, 140, "paper", 16)
+        manifest = room.manifest
+        assert all(expected[key] == value for key, value in manifest.items()), "manifest"
+        manifest["width"] = 1
+        assert room.width == 200
+        floor, wall = room.targets
+        assert (floor.name, wall.name, floor.idents, floor.share) == ("Floor", "Wall", ("Floor",), 0.4)
+        assert floor.mean_albedo == (0.5, 0.375, 0.25) and wall.periodic == (True, False)
+        assert floor.uv_min == (0.2, -0.3) and floor.uv_max == (1.7, 0.9)
+        assert "Floor, Wall" in repr(room)
+
+
+lib.main(globals())

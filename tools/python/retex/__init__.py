@@ -1,0 +1,27 @@
+"""Change the textures of a rendered picture without rendering it again.
+
+A *set* is what one render leaves: open() opens one, or a *pack*, its compressed form. Its *targets* are the surfaces
+whose textures can be replaced. Set.combine() makes a picture with new ones:
+
+    import retex
+
+    with retex.open("room.exr") as room:
+        print([target.name for target in room.targets])
+        picture = room.combine({"Floor": "oak.jpg", "Wall": (0.8, 0.1, 0.1)})
+        retex.write(picture, "oak.png")
+
+Pictures are numpy arrays of floats: rows from the top, then pixels, then channels; scene-linear, with Rec.709's
+primaries. They lie in the library's memory, which is freed with the last array that shows it. write() and encode()
+apply the display's curve.
+
+All calls may be made from any thread, and long ones do not hold Python's lock. Pictures of one set may be made by
+several threads at the same time; what changes a set waits until they are done. Every failure of the library is an
+Error."""
+from .library import Code, Error, RetexWarning
+from .pictures import Picture, encode, read, write
+from .sets import Samples, Set, Target, open  # pylint: disable=redefined-builtin
+from .texture import Source, Texture
+
+__version__ = "0.1.0"
+__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture", "encode", "open",
+           "read", "write"]

@@ -1,0 +1,376 @@
+"""Sets and packs: their targets, samples of new textures, pictures, batches, denoising and packing."""
+import contextlib
+import ctypes
+import json
+import threading
+import weakref
+from collections import OrderedDict
+from ctypes import byref, c_void_p, sizeof
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Type, Union
+
+import numpy as np
+
+from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexDenoiseParams, RetexImage, RetexPackParams
+from .library import RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes, text_bytes, threads_of
+from .pictures import Path, Picture, array_of, image_of
+from .texture import Source, Texture
+
+#: New textures by the names of their targets.
+Textures = Mapping[str, Union[Source, Texture]]
+Crop = Tuple[int, int, int, int]
+MEGABYTE = 1 << 20
+
+
+@dataclass(frozen=True)
+class Target:
+    """A surface, or several, whose texture may be replaced."""
+
+    name: str
+    idents: Tuple[str, ...]               #: the scene's identifiers that it was made of
+    share: float                          #: of the picture's pixels, whose centre sees it directly; 0 to 1
+    mean_albedo: Tuple[float, float, float]  #: of the original texture, scene-linear
+    periodic: Tuple[bool, bool]           #: the surface closes in u, in v
+    uv_min: Tuple[float, float]           #: range of UV that was met
+    uv_max: Tuple[float, float]
+    uv_scale: Tuple[float, float]         #: scene units that a unit of u and of v spans; 0: unknown
+
+
+class _Lock:
+    """Many may read at the same time; who changes something is alone."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._readers = 0
+        self._writer = False
+
+    @contextlib.contextmanager
+    def shared(self) -> Iterator[None]:
+        with self._changed:
+            self._changed.wait_for(lambda: not self._writer)
+            self._readers += 1
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._readers -= 1
+                self._changed.notify_all()
+
+    @contextlib.contextmanager
+    def exclusive(self) -> Iterator[None]:
+        with self._changed:
+            self._changed.wait_for(lambda: not self._writer)
+            self._writer = True
+            self._changed.wait_for(lambda: not self._readers)
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._writer = False
+                self._changed.notify_all()
+
+
+def _close(name: str, address: int) -> None:
+    getattr(lib, name)(byref(c_void_p(address)))
+
+
+class _Handle:
+    """Something of the library that is closed when nobody has it any more."""
+
+    def __init__(self, handle: c_void_p, close: str):
+        self.pointer = handle
+        self._finalizer = weakref.finalize(self, _close, close, handle.value)
+        self._finalizer.atexit = False
+
+    def close(self) -> None:
+        self._finalizer()
+
+
+class Samples:
+    """New textures, filtered at the footprints of a set: the first half of a retexture. Set.sample() makes them."""
+
+    def __init__(self, handle: _Handle):
+        self._handle = handle
+
+    @classmethod
+    def open(cls, path: Path) -> "Samples":
+        """Open a file that write() or retex-sample made."""
+        pointer = c_void_p()
+        call("retex_set_open", path_bytes(path), None, byref(pointer), 0)
+        return cls(_Handle(pointer, "retex_samples_close"))
+
+    def write(self, path: Path, *, threads: int = 0) -> None:
+        """Write them to a file, OpenEXR."""
+        call("retex_set_write", None, self._handle.pointer, path_bytes(path), None, threads_of(threads))
+
+
+class _TextureCache:
+    """Loaded textures of a batch, by target and texture, the last ones used up to a number of bytes."""
+
+    def __init__(self, most_bytes: int):
+        self._loaded: "OrderedDict[Any, Tuple[_Handle, int, Texture]]" = OrderedDict()
+        self._most = most_bytes
+        self._bytes = 0
+
+    def get(self, key: Any) -> Optional[_Handle]:
+        if key not in self._loaded:
+            return None
+        self._loaded.move_to_end(key)
+        return self._loaded[key][0]
+
+    def put(self, key: Any, handle: _Handle, texture: Texture) -> None:
+        size = lib.retex_texture_bytes(handle.pointer)
+        self._loaded[key] = handle, size, texture  # the texture keeps its array, whose id is in the key
+        self._bytes += size
+        while self._bytes > self._most:
+            self._bytes -= self._loaded.popitem(last=False)[1][1]
+
+
+class Set:
+    """A set, or a pack: what one render leaves for retexturing. open() opens one; close() or `with` closes it."""
+
+    def __init__(self, handle: c_void_p):
+        """For open()."""
+        self._lock = _Lock()
+        self._handle = _Handle(handle, "retex_set_close")
+        self._closed = False
+        self._read_manifest()
+
+    def _read_manifest(self) -> None:
+        text = c_void_p()
+        call("retex_set_manifest", self._handle.pointer, None, byref(text))
+        try:
+            self._manifest: Dict[str, Any] = json.loads(ctypes.string_at(text))
+        finally:
+            free(text)
+
+    def close(self) -> None:
+        """Free its memory and close its file. Pictures made of it stay."""
+        with self._lock.exclusive():
+            self._closed = True
+            self._handle.close()
+
+    def __enter__(self) -> "Set":
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        names = ", ".join(target.name for target in self.targets)
+        return f"<retex.Set {self.width}x{self.height}, {self.layout}, targets: {names or 'none'}>"
+
+    @property
+    def manifest(self) -> Dict[str, Any]:
+        """All that the set says about itself: a copy of its manifest, see retex-set(5)."""
+        return json.loads(json.dumps(self._manifest))
+
+    @property
+    def width(self) -> int:
+        """Pixels in a row."""
+        return int(self._manifest["width"])
+
+    @property
+    def height(self) -> int:
+        """Rows."""
+        return int(self._manifest["height"])
+
+    @property
+    def layout(self) -> str:
+        """'footprints', 'paper', or 'plain': a picture only."""
+        return str(self._manifest["layout"])
+
+    @property
+    def spp(self) -> int:
+        """Samples per pixel."""
+        return int(self._manifest["spp"])
+
+    @property
+    def denoised(self) -> bool:
+        """Whether its noise was removed."""
+        return bool(self._manifest["denoised"])
+
+    @property
+    def targets(self) -> List[Target]:
+        """The targets, in their order."""
+        def pair(target: Dict[str, Any], name: str) -> Tuple[float, float]:
+            first, second = target.get(name, (0.0, 0.0))
+            return float(first), float(second)
+
+        return [Target(name=target["name"], idents=tuple(filter(None, target["idents"].split(","))),
+                       share=target["share"], mean_albedo=tuple(target["mean_albedo"]),
+                       periodic=tuple(target["periodic"]), uv_min=pair(target, "uv_min"),
+                       uv_max=pair(target, "uv_max"), uv_scale=pair(target, "uv_scale"))
+                for target in self._manifest["targets"]]
+
+    @property
+    def can_denoise(self) -> bool:
+        """Whether the set has the data that denoise() reads."""
+        with self._shared() as pointer:
+            return bool(lib.retex_denoise_has_data(pointer))
+
+    @contextlib.contextmanager
+    def _shared(self) -> Iterator[c_void_p]:
+        with self._lock.shared():
+            self._check_open()
+            yield self._handle.pointer
+
+    @contextlib.contextmanager
+    def _exclusive(self) -> Iterator[c_void_p]:
+        with self._lock.exclusive():
+            self._check_open()
+            yield self._handle.pointer
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise ValueError("the set is closed")
+
+    # ---- textures ----
+
+    def _load(self, pointer: c_void_p, name: str, texture: Texture, threads: int) -> _Handle:
+        """Load a texture for a target. An array takes the place of a colour, by which the target is checked."""
+        loaded = (c_void_p * MAX_TARGETS)()
+        array = texture.array is not None
+        spec = (Texture((0, 0, 0)) if array else texture).spec(name)
+        specs = (RetexTextureSpec * 1)(spec)
+        target = lib.retex_set_find_target(pointer, text_bytes(name))
+        try:
+            call("retex_textures_load", loaded, pointer, specs, 1, threads)
+            if not array:
+                handle, loaded[target] = c_void_p(loaded[target]), None
+                return _Handle(handle, "retex_texture_close")
+        finally:
+            for address in filter(None, loaded):
+                _close("retex_texture_close", address)
+        made = _Handle(texture.create(name, threads), "retex_texture_close")
+        call("retex_textures_move", made.pointer, pointer, target)
+        return made
+
+    def _textures(self, pointer: c_void_p, textures: Optional[Textures], threads: int,
+                  cache: Optional[_TextureCache] = None) -> Tuple[Any, List[_Handle], List[RetexTextureSpec]]:
+        """Textures by target for the library; what keeps them; and their descriptions."""
+        by_target = (c_void_p * MAX_TARGETS)()
+        kept, specs = [], []
+        for name, source in (textures or {}).items():
+            texture = Texture.of(source)
+            target = lib.retex_set_find_target(pointer, text_bytes(name))
+            key = target, texture.key()
+            if target >= 0 and by_target[target]:
+                raise Error(Code.EINVAL, f"target {self.targets[target].name} is given two textures")
+            handle = cache.get(key) if cache else None
+            if not handle:
+                handle = self._load(pointer, name, texture, threads)
+                if cache:
+                    cache.put(key, handle, texture)
+            by_target[target] = handle.pointer
+            kept.append(handle)
+            specs.append(texture.spec(name))
+        pass_warnings()
+        return by_target, kept, specs
+
+    def sample(self, textures: Textures, *, threads: int = 0) -> Samples:
+        """Filter textures at the footprints of their targets, for several pictures or for a file."""
+        threads_of(threads)
+        with self._shared() as pointer:
+            by_target, _kept, specs = self._textures(pointer, textures, threads)
+            made = c_void_p()
+            call("retex_sample_textures", byref(made), pointer, by_target, (RetexTextureSpec * len(specs))(*specs),
+                 len(specs), b"-", threads)
+            return Samples(_Handle(made, "retex_samples_close"))
+
+    # ---- pictures ----
+
+    def _params(self, crop: Optional[Crop], cross: int) -> Tuple[RetexCombineParams, Tuple[slice, slice]]:
+        x, y, width, height = crop or (0, 0, self.width, self.height)
+        if x < 0 or y < 0 or width < 1 or height < 1 or x + width > self.width or y + height > self.height:
+            raise ValueError(f"crop: {crop} is not within the picture's {self.width}x{self.height} pixels")
+        params = RetexCombineParams(sizeof(RetexCombineParams), cross, y, y + height, x, x + width)
+        return params, (slice(y, y + height), slice(x, x + width))
+
+    def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
+              cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None) -> Picture:
+        threads_of(threads)
+        with self._shared() as pointer:
+            params, part = self._params(crop, cross)
+            by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
+            if out is None:
+                image = RetexImage()
+                call("retex_image_alloc", byref(image), self.width, self.height, 3)
+                out = array_of(image)
+            else:
+                image, borrowed = image_of(out)
+                if borrowed is not out or out.shape != (self.height, self.width, 3) or not out.flags.writeable:
+                    raise ValueError(f"out: expected a writable array of float32, {self.height} x {self.width} x 3, "
+                                     "row after row")
+            call(what, pointer, samples._handle.pointer if samples else None, by_target, byref(params), keep_rows,
+                 ctypes.addressof(image), threads)
+            return out[part]
+
+    def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
+                crop: Optional[Crop] = None, cross: int = 3, out: Optional[Picture] = None,
+                threads: int = 0) -> Picture:
+        """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
+
+        textures  by target: a file's name, a colour, an array, or a Texture
+        samples   of this set; `textures` override them
+        crop      x, y, width, height: make only this part, and return it
+        cross     use cross terms of paths with at most this many hits, 0, 2 or 3
+        out       put the picture there instead of into a new array
+        threads   0: all cores. The picture is the same to the bit for every number."""
+        return self._make("retex_retexture", textures, samples, crop, cross, out, threads)
+
+    def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
+              crop: Optional[Crop] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
+        """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
+        difference to rendering again with these textures."""
+        return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads)
+
+    def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, cross: int = 3, threads: int = 0,
+              memory: int = 2048 * MEGABYTE, texture_memory: int = 512 * MEGABYTE) -> Iterator[Picture]:
+        """Make a picture for each row, a mapping as for combine(), when it is asked for. The set stays decoded if it
+        takes at most `memory` bytes, and so do the textures used last, up to `texture_memory`."""
+        cache = _TextureCache(texture_memory)
+        self.preload(memory=memory, threads=threads)
+        for row in rows:
+            yield self._make("retex_retexture", row, None, crop, cross, None, threads, cache)
+
+    def preload(self, *, memory: int = 2048 * MEGABYTE, threads: int = 0) -> None:
+        """Decode what combine() reads, if it takes at most `memory` bytes: before several pictures of the set."""
+        with self._exclusive() as pointer:
+            call("retex_set_preload", pointer, None, None, memory, threads_of(threads))
+
+    # ---- the set itself ----
+
+    def denoise(self, *, strength: float = 1, radius: int = 5, footprints: bool = True, full_precision: bool = False,
+                threads: int = 0) -> None:
+        """Remove the noise from the set, once, in place, as retex-denoise(1): every picture made of it is clean then.
+        Error, Code.ENOTFOUND, where the set has no data for that."""
+        params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, footprints, 0, None, None, None, None,
+                                    full_precision)
+        with self._exclusive() as pointer:
+            call("retex_denoise", pointer, byref(params), None, threads_of(threads))
+            self._read_manifest()
+
+    def write(self, path: Path, *, threads: int = 0) -> None:
+        """Write the set, OpenEXR."""
+        with self._exclusive() as pointer:
+            call("retex_set_write", pointer, None, path_bytes(path), None, threads_of(threads))
+
+    def pack(self, path: Path, *, quality: int = 90, lossless: bool = False, threads: int = 0) -> int:
+        """Write the set as a pack, a small file, as retex-pack(1). Return its bytes."""
+        params = RetexPackParams(sizeof(RetexPackParams), quality, lossless)
+        size = ctypes.c_size_t()
+        with self._exclusive() as pointer:
+            call("retex_set_load", pointer, threads_of(threads))
+            call("retex_pack_write", pointer, path_bytes(path), byref(params), byref(size), threads)
+        return size.value
+
+
+def open(path: Path, *, threads: int = 0) -> Set:  # pylint: disable=redefined-builtin
+    """Open a set or a pack. Its parts are read when they are needed: the file must stay as it is until the set is
+    closed."""
+    handle = c_void_p()
+    call("retex_set_open", path_bytes(path), byref(handle), None, threads_of(threads))
+    return Set(handle)
