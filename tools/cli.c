@@ -382,7 +382,9 @@ char *cli_plain(char *text)
 
 void cli_set_frame(Cli *cli, int frame)
 {
-    snprintf(cli->frame, sizeof cli->frame, frame < 0 ? "" : "frame %d: ", frame);
+    cli->frame[0] = '\0';
+    if (frame >= 0)
+        snprintf(cli->frame, sizeof cli->frame, "frame %d: ", frame);
 }
 
 /* Print one line to stderr. Messages contain names and text from users' files, so control characters are replaced: a

@@ -1,5 +1,6 @@
 /* The machine that runs compiled functions, and the operations on numbers by themselves. */
 #include <string.h>
+#include <retex/cpu.h>
 #include "base/noise.h"
 #include "function/function.h"
 
@@ -18,7 +19,7 @@ double function_apply(FunctionOp op, double a, double b)
 }
 
 /* Constants are few: to call memcpy for them costs more than it saves. */
-#define PLAIN_LOOPS __attribute__((optimize("no-tree-loop-distribute-patterns")))
+#define PLAIN_LOOPS RETEX_CPU_OPTIONS("no-tree-loop-distribute-patterns")
 
 /* Registers of the program, with those of the functions that it calls behind them. */
 PLAIN_LOOPS static double run(const FunctionProgram *restrict program, double *restrict r, long *restrict steps)

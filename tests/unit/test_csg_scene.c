@@ -64,8 +64,8 @@ static void emitters_shine_where_they_are_left(void **unused)
     static const char *const scenes[] = {
         "intersection{box{-1,1 texture{Lamp}} plane{x,.3 texture{Dark}}}",
         "difference{sphere{0,1.2 texture{Lamp}} sphere{<.6,-1.4,0>,1 texture{Dark}}}",
-        "difference{mesh{triangle{-1,<1,-1,-1>,<0,1,0>} triangle{-1,<0,1,0>,<0,-1,1>} inside_vector y texture{Lamp}} "
-        "cylinder{-3*y,3*y,.3 texture{Dark}}}",
+        ("difference{mesh{triangle{-1,<1,-1,-1>,<0,1,0>} triangle{-1,<0,1,0>,<0,-1,1>} inside_vector y texture{Lamp}} "
+         "cylinder{-3*y,3*y,.3 texture{Dark}}}"),
         "sphere{0,1.2 texture{Lamp} clipped_by{plane{y,.3 inverse}}}",
         "sphere{0,1.2 texture{Lamp} clipped_by{box{-1,1 inverse}}}",
     };

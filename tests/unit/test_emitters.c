@@ -38,8 +38,8 @@ static void light_is_that_of_a_sampled_shape(void **unused)
     static const char *const balls[] = {
         "superellipsoid{<1,1>",
         "blob{threshold .5 sphere{0,1.8477590650225735,1}",
-        "lathe{bezier_spline 8, <0,-1>,<0.5522847498,-1>,<1,-0.5522847498>,<1,0>,"
-        "<1,0>,<1,0.5522847498>,<0.5522847498,1>,<0,1>",
+        ("lathe{bezier_spline 8, <0,-1>,<0.5522847498,-1>,<1,-0.5522847498>,<1,0>,"
+         "<1,0>,<1,0.5522847498>,<0.5522847498,1>,<0,1>"),
         "isosurface{function{x*x+y*y+z*z-1} contained_by{box{-1.1,1.1}} max_gradient 4",
     };
     const double expected = mean_light("sphere{0,1}");

@@ -243,7 +243,7 @@ RETEX_CPU_KERNEL(features, (RetexDenoiseSimilarity * alike, const RetexDenoiseFe
                  (alike, f, dx, dy))
 RETEX_CPU_KERNEL(signal, (const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch), (s, batch))
 
-#define NO_VECTORS __attribute__((optimize("no-tree-vectorize,no-tree-slp-vectorize")))
+#define NO_VECTORS RETEX_CPU_OPTIONS("no-tree-vectorize,no-tree-slp-vectorize")
 
 NO_VECTORS static void features_scalar(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *f, int dx, int dy)
 {

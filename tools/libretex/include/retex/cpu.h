@@ -72,4 +72,25 @@ RetexCpuLevel retex_cpu_level(void);
 }
 #endif
 #pragma GCC visibility pop
+
+/* Options of GCC for one function, in quotes. */
+#ifdef __clang__
+#define RETEX_CPU_OPTIONS(options)
+#else
+#define RETEX_CPU_OPTIONS(options) __attribute__((optimize(options)))
+#endif
+
+/* Clang says the same in other words, and has no width to prefer. */
+#if defined(__clang__) && RETEX_CPU_X86
+#undef RETEX_CPU_TARGET_AVX512
+#define RETEX_CPU_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512bw,avx512dq")))
+#undef RETEX_CPU_BEGIN_AVX2
+#define RETEX_CPU_BEGIN_AVX2                                                                                           \
+    _Pragma("clang attribute push(__attribute__((target(\"avx2,f16c\"))), apply_to = function)")
+#undef RETEX_CPU_BEGIN_AVX512
+#define RETEX_CPU_BEGIN_AVX512                                                                                         \
+  _Pragma("clang attribute push(__attribute__((target(\"avx512f,avx512vl,avx512bw,avx512dq\"))), apply_to = function)")
+#undef RETEX_CPU_END
+#define RETEX_CPU_END _Pragma("clang attribute pop")
+#endif
 #endif
