@@ -29,6 +29,7 @@
 #   make lint         check the project's rules that a script can check
 #   make format       run clang-format on the sources
 #   make install      PREFIX=/usr/local LIBDIR=PREFIX/lib DESTDIR=; make uninstall, with the same, removes it
+#   make deb          Debian packages, into build/deb
 # A missing compiler or library is installed first if permitted: tools/setup.sh.
 
 BUILD ?= build
@@ -61,7 +62,7 @@ INSTALLED :=
 
 # The flags of the libraries, written after set-up. make then reads all makefiles again, so a machine that lacked
 # packages builds in the same run. `make clean` and `make format` do not need them.
-ifneq ($(filter-out clean format uninstall,$(or $(MAKECMDGOALS),all)),)
+ifneq ($(filter-out clean format uninstall deb,$(or $(MAKECMDGOALS),all)),)
 include $(BUILD)/config.mk
 endif
 $(BUILD)/config.mk: tools/setup.sh
@@ -76,7 +77,7 @@ include scenes/rules.mk
 include completions/rules.mk
 include tests/rules.mk
 
-.PHONY: all demo pictures install uninstall clean lint format
+.PHONY: all demo pictures install uninstall deb clean lint format
 demo: all
 	@tools/demo.sh $(BUILD)
 pictures: all
@@ -96,6 +97,9 @@ install: all
 	@$(RUN_INSTALL) install $(INSTALLED)
 uninstall:
 	@$(RUN_INSTALL) uninstall $(INSTALLED)
+# Debian packages, into $(BUILD)/deb.
+deb:
+	@tools/deb.sh $(BUILD)/deb
 
 lint:
 	@tests/lib/lint.sh
