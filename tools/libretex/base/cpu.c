@@ -2,13 +2,20 @@
 #include <retex/cpu.h>
 
 #if RETEX_CPU_X86
+#include <stdatomic.h>
 #include <cpuid.h>
 
-/* Not every compiler knows its name. */
+/* Not every compiler knows its name. Asked once: virtual machines take microseconds to answer cpuid. */
 static int has_f16c(void)
 {
-    unsigned a, b, c, d;
-    return __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
+    static atomic_int known; /* 0 not yet, 1 no, 2 yes */
+    int answer = atomic_load_explicit(&known, memory_order_relaxed);
+    if (!answer) {
+        unsigned a, b, c, d;
+        answer = __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C) ? 2 : 1;
+        atomic_store_explicit(&known, answer, memory_order_relaxed);
+    }
+    return answer == 2;
 }
 #endif
 
