@@ -113,7 +113,7 @@ $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
-# retex-serve alone uses libmicrohttpd.
+# retex-serve alone uses libmicrohttpd and Nettle.
 SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c))
 $(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)

@@ -11,7 +11,8 @@ set -eu
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
 # reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
-# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libmicrohttpd-dev HTTP for retex-serve.
+# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libmicrohttpd-dev
+# HTTP and nettle-dev the names of uploads for retex-serve.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -34,6 +35,7 @@ pkg libpng libpng-dev
 header gif_lib.h libgif-dev
 pkg assimp libassimp-dev
 pkg libmicrohttpd libmicrohttpd-dev
+pkg nettle nettle-dev
 file /usr/share/fonts/truetype/povray/timrom.ttf fonts-povray
 file /usr/share/povray-3.7/include/colors.inc povray-includes
 '
@@ -162,8 +164,8 @@ config() {
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"
     echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp)"
-    echo "SERVE_CFLAGS := $(cflags libmicrohttpd)"
-    echo "SERVE_LIBS := $("$PKG_CONFIG" --libs libmicrohttpd)"
+    echo "SERVE_CFLAGS := $(cflags libmicrohttpd nettle)"
+    echo "SERVE_LIBS := $("$PKG_CONFIG" --libs libmicrohttpd nettle)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z) $(cflags freetype2 libpng)"
     echo "RENDER_LIBS := -l$embree_name $("$PKG_CONFIG" --libs freetype2 libpng) -lgif"
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <nettle/base16.h>
+
 static Answer *too_large(const Uploads *uploads)
 {
     return answer_error(413, "an image may have %zu bytes", uploads_most_bytes(uploads));
@@ -20,7 +22,7 @@ Answer *body_begin(Body *body, Uploads *uploads, const char *content_length)
     if (!uploads_enter(uploads))
         return answer_error(503, "too many images are being received");
     body->uploads = uploads;
-    sha256_begin(&body->hash);
+    sha256_init(&body->hash);
     return NULL;
 }
 
@@ -55,18 +57,21 @@ int body_add(Body *body, const void *data, size_t bytes)
         return 0;
     }
     memcpy(body->data + body->bytes, data, bytes);
-    sha256_add(&body->hash, data, bytes);
+    sha256_update(&body->hash, bytes, data);
     body->bytes += bytes;
     return 0;
 }
 
-Answer *body_complete(Body *body, char hash[SHA256_TEXT])
+Answer *body_complete(Body *body, char hash[UPLOAD_HASH_TEXT])
 {
+    uint8_t digest[SHA256_DIGEST_SIZE];
     if (body->beyond)
         return too_large(body->uploads);
     if (body->is_lost)
         return answer_error(503, "the server is busy");
-    sha256_end(&body->hash, hash);
+    sha256_digest(&body->hash, sizeof digest, digest);
+    base16_encode_update(hash, sizeof digest, digest);
+    hash[2 * sizeof digest] = 0;
     return NULL;
 }
 

@@ -2,6 +2,8 @@
 #ifndef RETEX_SERVE_BODY_H
 #define RETEX_SERVE_BODY_H
 
+#include <nettle/sha2.h>
+
 #include "uploads.h"
 
 /* Zero-initialized. */
@@ -11,7 +13,7 @@ typedef struct Body {
     size_t bytes, size, taken; /* received; allocated; taken of the memory for uploads */
     size_t beyond;             /* bytes that came beyond the limit, and are not kept */
     int is_lost;               /* 1: there was no memory */
-    Sha256 hash;
+    struct sha256_ctx hash;
 } Body;
 
 /* Before an upload of so many bytes, as its header says, or NULL: an error, or NULL. */
@@ -19,7 +21,7 @@ Answer *body_begin(Body *body, Uploads *uploads, const char *content_length);
 /* -1: it will not be an upload, and the connection is better closed. */
 int body_add(Body *body, const void *data, size_t bytes);
 /* All has come: what is wrong with it, or NULL, and its hash. */
-Answer *body_complete(Body *body, char hash[SHA256_TEXT]);
+Answer *body_complete(Body *body, char hash[UPLOAD_HASH_TEXT]);
 void body_free(Body *body);
 
 #endif

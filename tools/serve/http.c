@@ -343,7 +343,7 @@ static Answer *refuse_headers(Exchange *exchange)
 /* All of an image has come. */
 static int begin_upload(Exchange *exchange)
 {
-    char hash[SHA256_TEXT];
+    char hash[UPLOAD_HASH_TEXT];
     exchange->answer = body_complete(&exchange->body, hash);
     return exchange->answer ? 0 : wait_for_work(exchange, hash, "");
 }

@@ -61,10 +61,10 @@ static const char *ending_of(const char *data, size_t bytes)
 /* Whether this is the name of an upload: other files of the folder are left alone. */
 static int is_upload(const char *name)
 {
-    if (strspn(name, "0123456789abcdef") != SHA256_TEXT - 1 || name[SHA256_TEXT - 1] != '.')
+    if (strspn(name, "0123456789abcdef") != UPLOAD_HASH_TEXT - 1 || name[UPLOAD_HASH_TEXT - 1] != '.')
         return 0;
     for (int i = 0; endings[i]; i++)
-        if (strcmp(name + SHA256_TEXT, endings[i]) == 0)
+        if (strcmp(name + UPLOAD_HASH_TEXT, endings[i]) == 0)
             return 1;
     return 0;
 }
@@ -295,7 +295,7 @@ static Answer *add(Uploads *uploads, const char *path, const char *name, const c
 Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes)
 {
     const char *ending = ending_of(data, bytes);
-    char name[SHA256_TEXT + 8], path[PATH_MAX];
+    char name[UPLOAD_HASH_TEXT + 8], path[PATH_MAX];
     int size[2] = {0, 0};
     if (!ending)
         return answer_error(415, "expected an image: JPEG, PNG, OpenEXR, TIFF, BMP, GIF or Radiance HDR");

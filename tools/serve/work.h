@@ -5,7 +5,7 @@
 
 #include "answer.h"
 #include "request.h"
-#include "sha256.h"
+#include "uploads.h"
 
 typedef struct Work Work;
 
@@ -25,7 +25,7 @@ typedef struct WorkItem {
     const char *key;
     const void *body; /* of an upload: the waiter's, until done is called */
     size_t bytes;
-    char hash[SHA256_TEXT]; /* of the body */
+    char hash[UPLOAD_HASH_TEXT]; /* of the body */
 } WorkItem;
 
 /* Make the answer, on so many threads. NULL: no memory. */
