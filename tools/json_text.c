@@ -15,6 +15,13 @@ int utf8_length(const char *characters)
     return length;
 }
 
+void utf8_trim(char *text)
+{
+    for (int length; (length = utf8_length(text)) > 0 && *text; text += length)
+        ;
+    *text = '\0';
+}
+
 void json_text(FILE *file, const char *text)
 {
     putc('"', file);

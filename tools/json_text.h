@@ -11,4 +11,7 @@ void json_text(FILE *file, const char *text);
  * surrogate … */
 int utf8_length(const char *text);
 
+/* End text before the first byte that is invalid: its last character may have been cut in the middle. */
+void utf8_trim(char *text);
+
 #endif

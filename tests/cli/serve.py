@@ -130,7 +130,11 @@ def conditions(server):
     for wanted, part in (('bytes=0-9', slice(0, 10)), ('bytes=100-', slice(100, None)), ('bytes=-7', slice(-7, None))):
         answer = ask(server, url, Range=wanted)
         expect(wanted, (answer.status, answer.body == first.body[part]), (206, True))
-    expect('outside', ask(server, url, Range='bytes=99999999-').status, 416)
+    outside = ask(server, url, Range='bytes=99999999-')
+    expect('outside', (outside.status, outside.body, outside.getheader('Content-Range')),
+           (416, b'', f'bytes */{len(first.body)}'))
+    expect('no type of nothing', outside.getheader('Content-Type'), None)
+    expect('HEAD has no ranges', ask(server, url, 'HEAD', Range='bytes=0-9').status, 200)
     expect('two ranges', ask(server, url, Range='bytes=0-1,4-5').status, 200)
     expect('If-Range', ask(server, url, Range='bytes=0-9', If_Range='"x"').status, 200)
     expect('others', len({ask(server, path).getheader('ETag') for path in (
@@ -177,8 +181,16 @@ def refused(server):
         expect(path[:60], answer.status, status)
         if os.getcwd().encode() in answer.body:
             print(path, 'tells of a folder:', answer.body)
+    for path, hint in (
+            ('/v1/none', "there is no room 'none'; /v1 lists them"),
+            ('/v1/small/Wall=oak;Floor.zoom=2/full.jpg', "Floor.zoom: there is no texture '2'; /v1 lists them"),
+            ('/v1/small/full.gif', 'pictures are not written as .gif; /v1 lists the formats'),
+            ('/v1/small/', 'a part of the path is empty: there are two slashes, or one at its end'),
+            ('/iiif/2/small/info.json', 'of IIIF there is version 3 of the Image API: /iiif/3/ID/info.json')):
+        expect(path, ask(server, path).body.decode(), hint + '\n')
     expect('POST', (ask(server, '/v1/small/full.jpg', 'POST').status), 405)
-    expect('Allow', ask(server, '/v1', 'DELETE').getheader('Allow'), 'GET, HEAD')
+    for path, methods in ('/v1', 'GET, HEAD'), ('/v1/uploads', 'POST, OPTIONS'):
+        expect('Allow', ask(server, path, 'DELETE').getheader('Allow'), methods)
     for text in b'GET\r\n\r\n', b'\x16\x03\x01\x02\x00\x01\x00\x01', b'GET / HTTP/9.9\r\n\r\n', b'\r\n' * 9 + b'\0\0':
         with socket.create_connection(('127.0.0.1', server.port), 10) as plain:
             plain.sendall(text), plain.shutdown(socket.SHUT_WR)
@@ -390,7 +402,8 @@ def end(server):
 
 OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-count', '2', '--upload-pixels', '1100000',
                        '--upload-age', '3600'],
-           'texts': ['--threads', '1'], 'refused': ['--timeout', '1'], 'crowd': ['--queue', '0', '--threads', '1'],
+           'texts': ['--threads', '1'], 'refused': ['--timeout', '1'],
+           'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
 for name in sys.argv[1:]:
     server = start('--textures', 'textures', *OPTIONS.get(name, []))

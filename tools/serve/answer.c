@@ -2,9 +2,10 @@
 #include "answer.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "json_text.h"
 
 Answer *answer_new(int status, const char *type, void *data, size_t bytes)
 {
@@ -21,6 +22,15 @@ Answer *answer_new(int status, const char *type, void *data, size_t bytes)
     return answer;
 }
 
+Answer *answer_of_text(int status, const char *type, FILE *file, char **text, const size_t *bytes)
+{
+    const int failed = ferror(file);
+    if (fclose(file) == 0 && !failed)
+        return answer_new(status, type, *text, *bytes);
+    free(*text);
+    return NULL;
+}
+
 Answer *answer_error(int status, const char *fmt, ...)
 {
     char reason[sizeof((Answer *)0)->reason], line[sizeof reason + 1];
@@ -28,6 +38,7 @@ Answer *answer_error(int status, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(reason, sizeof reason, fmt, args);
     va_end(args);
+    utf8_trim(reason);
     const int bytes = snprintf(line, sizeof line, "%s\n", reason);
     char *data = strdup(line);
     Answer *answer = data ? answer_new(status, "text/plain; charset=utf-8", data, (size_t)bytes) : NULL;

@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <retex/error.h>
 
 enum { ETAG_SIZE = 40 };
@@ -22,6 +23,8 @@ typedef struct Answer {
 
 /* data comes from malloc and is taken over. NULL if there is no memory; data is then freed. */
 Answer *answer_new(int status, const char *type, void *data, size_t bytes);
+/* Of what was printed into a stream of open_memstream, which is closed. NULL if there was no memory. */
+Answer *answer_of_text(int status, const char *type, FILE *file, char **text, const size_t *bytes);
 /* An error: its reason as a line of plain text. */
 Answer *answer_error(int status, const char *fmt, ...) RETEX_PRINTF(2, 3);
 /* The error of the library as an answer: whose fault it is says its code. */

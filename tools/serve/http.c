@@ -116,12 +116,18 @@ static const char *base_of(const Exchange *exchange, char text[256])
     return header_base(text, 256, header_of(exchange, "Host"), header_of(exchange, "X-Forwarded-Proto"));
 }
 
+/* Whether it is the URL to which images are sent. */
+static int is_of_uploads(const Exchange *exchange)
+{
+    return strcmp(exchange->url, "/v1/uploads") == 0;
+}
+
 static void add_headers(struct MHD_Response *response, const Exchange *exchange, int status)
 {
     const Answer *answer = exchange->answer;
     const int is_info = exchange->request.route == SERVE_IIIF_INFO && status == 200;
     char base[256], seconds[16];
-    if (status != 304 && status != 204)
+    if (answer->bytes && status != 304 && status != 416)
         add_header(response, "Content-Type", is_info ? iiif_info_type(header_of(exchange, "Accept")) : answer->type);
     add_cache_headers(response, exchange, status);
     add_header(response, "X-Content-Type-Options", "nosniff");
@@ -131,9 +137,8 @@ static void add_headers(struct MHD_Response *response, const Exchange *exchange,
     if (answer->location)
         add_header(response, "Location", answer->location);
     if (status == 405)
-        add_header(response, "Allow", "GET, HEAD");
+        add_header(response, "Allow", is_of_uploads(exchange) ? "POST, OPTIONS" : "GET, HEAD");
     if (status == 204) { /* what a page of another site asks before it sends an image */
-        add_header(response, "Allow", "POST, OPTIONS");
         add_header(response, "Access-Control-Allow-Methods", "POST");
         add_header(response, "Access-Control-Allow-Headers", "Content-Type");
     }
@@ -162,7 +167,7 @@ static int choose_part(Exchange *exchange, size_t *first, size_t *count, char co
         *count = 0;
         return 304;
     }
-    if (only_if && strcmp(only_if, answer->etag) != 0)
+    if (strcmp(exchange->method, "GET") != 0 || (only_if && strcmp(only_if, answer->etag) != 0))
         return 200;
     switch (header_range(header_of(exchange, "Range"), answer->bytes, first, &last)) {
     case RANGE_SOME:
@@ -306,11 +311,6 @@ static int begin_work(Exchange *exchange)
     return wait_for_work(exchange, key, base);
 }
 
-static int is_upload(const Exchange *exchange)
-{
-    return strcmp(exchange->method, "POST") == 0 && strcmp(exchange->url, "/v1/uploads") == 0;
-}
-
 /* An error where no image can be received. */
 static Answer *refuse_upload(Exchange *exchange)
 {
@@ -327,14 +327,13 @@ static Answer *refuse_upload(Exchange *exchange)
 /* An error where a request is none of those that are answered here, so that no body is read. */
 static Answer *refuse_headers(Exchange *exchange)
 {
-    const char *length = header_of(exchange, "Content-Length");
-    if (is_upload(exchange))
+    const char *method = exchange->method, *length = header_of(exchange, "Content-Length");
+    if (is_of_uploads(exchange) && strcmp(method, "POST") == 0)
         return refuse_upload(exchange);
-    if (strcmp(exchange->method, "OPTIONS") == 0 && strcmp(exchange->url, "/v1/uploads") == 0 &&
-        exchange->http->params.site->uploads)
+    if (is_of_uploads(exchange) && strcmp(method, "OPTIONS") == 0)
         return answer_new(204, "", NULL, 0);
-    if (strcmp(exchange->method, "GET") != 0 && strcmp(exchange->method, "HEAD") != 0)
-        return answer_error(405, "only GET and HEAD are known here");
+    if (strcmp(method, "GET") != 0 && strcmp(method, "HEAD") != 0)
+        return answer_error(405, "expected GET or HEAD, or POST of an image to /v1/uploads");
     if ((length && strcmp(length, "0") != 0) || header_of(exchange, "Transfer-Encoding"))
         return answer_error(413, "a request has no body here");
     return NULL;

@@ -83,12 +83,6 @@ void images_close(Images *images)
     free(images);
 }
 
-/* A name that has no folder in it, which leads nowhere else. */
-static int is_plain(const char *name)
-{
-    return serve_name_is_valid(name) && !strchr(name, '/');
-}
-
 static int find_in(const Images *images, const char *folder, const char *name, char *path, size_t size, FileId *id)
 {
     for (int i = -1; folder && (i < 0 || endings[i]); i++) {
@@ -101,7 +95,7 @@ static int find_in(const Images *images, const char *folder, const char *name, c
 
 int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id)
 {
-    if (!is_plain(name))
+    if (!serve_name_is_valid(name)) /* which has no folder in it, and leads nowhere else */
         return -1;
     return find_in(images, images->params.folder, name, path, size, id)
                ? find_in(images, images->params.uploads, name, path, size, id)

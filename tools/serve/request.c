@@ -14,13 +14,10 @@
 int serve_refuse(ServeRequest *request, int status, const char *fmt, ...)
 {
     va_list arguments;
-    size_t end = 0;
     va_start(arguments, fmt);
     vsnprintf(request->reason, sizeof request->reason, fmt, arguments);
     va_end(arguments);
-    for (int length; (length = utf8_length(request->reason + end)) > 0 && request->reason[end]; end += (size_t)length)
-        ;
-    request->reason[end] = '\0'; /* the last character may be cut in the middle */
+    utf8_trim(request->reason);
     return request->status = status;
 }
 
@@ -48,7 +45,7 @@ int serve_format_set(ServeRequest *request, const char *extension, unsigned form
             request->format = (ServeFormat)f;
             return 0;
         }
-    return serve_refuse(request, 400, "pictures are not written as .%s", extension);
+    return serve_refuse(request, 400, "pictures are not written as .%s; /v1 lists the formats", extension);
 }
 
 /* The format of the highest weight; of several, the smallest files. AVIF and WebP must be named, for a program that
@@ -66,7 +63,8 @@ static int choose_format(ServeRequest *request, const char *accept, unsigned for
         best = weight;
         request->format = order[i];
     }
-    return best > 0 ? 0 : serve_refuse(request, 406, "no picture is of a type that `Accept` allows");
+    return best > 0 ? 0
+                    : serve_refuse(request, 406, "no picture is of a type that `Accept` allows; /v1 lists the formats");
 }
 
 /* ---- names ---- */
@@ -345,6 +343,8 @@ static int parse_path(ServeRequest *request, char *parts[], int count, char *que
         return parse_picture(request, &edits, parts[count - 1], query, accept, formats);
     } else if (count >= 3 && strcmp(parts[0], "iiif") == 0 && strcmp(parts[1], "3") == 0) {
         return parse_iiif(request, parts + 2, count - 2, formats);
+    } else if (strcmp(parts[0], "iiif") == 0) {
+        return serve_refuse(request, 404, "of IIIF there is version 3 of the Image API: /iiif/3/ID/info.json");
     } else {
         return unknown_path(request);
     }
@@ -365,7 +365,10 @@ int serve_request_parse(ServeRequest *request, const char *url, const char *acce
     for (char *part = text + 1, *next; part; part = next) {
         next = url_cut(part, '/');
         if (!url_decode(part))
-            return serve_refuse(request, 400, "the path is not well formed");
+            return serve_refuse(request, 400,
+                                "the path is not well formed; expected UTF-8, percent-encoded, without ..");
+        if (!*part && url[1])
+            return serve_refuse(request, 404, "a part of the path is empty: there are two slashes, or one at its end");
         if (count == PARTS_MAX || !*part)
             return unknown_path(request);
         parts[count++] = part;

@@ -52,7 +52,7 @@ static Answer *key_of_images(const Site *site, ServeRequest *request, Text *key)
         if (spec->constant)
             continue;
         if (images_find(site->images, spec->image, path, sizeof path, &id))
-            return answer_error(404, "there is no texture '%s'", spec->image);
+            return answer_error(404, "%s: there is no texture '%s'; /v1 lists them", spec->target, spec->image);
         strcpy(spec->image, path);
         append(key, "\n%s", file_id_text(&id, text));
     }
@@ -68,7 +68,7 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     if (request->route == SERVE_ROOMS)
         return NULL;
     if (rooms_find(site->rooms, request->room, path, &id))
-        return answer_error(404, "there is no room '%s'", request->room);
+        return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
     append(&key, "\n%s\n%s\n%s", request->room, file_id_text(&id, id_text), request->edits);
     Answer *error = key_of_images(site, request, &key);
     if (is_picture(request->route)) {
@@ -278,17 +278,6 @@ static void write_room(FILE *file, const ServeRequest *request, const RetexSet *
     fputs("]}\n", file);
 }
 
-/* Collects what is printed into *file; NULL: no memory. */
-static Answer *take_text(FILE *file, char **text, const size_t *bytes, const char *type)
-{
-    const int failed = ferror(file);
-    if (fclose(file) != 0 || failed) {
-        free(*text);
-        return NULL;
-    }
-    return answer_new(200, type, *text, *bytes);
-}
-
 static Answer *make_text(const Site *site, const WorkItem *item, const Room *room)
 {
     char *text = NULL;
@@ -303,7 +292,7 @@ static Answer *make_text(const Site *site, const WorkItem *item, const Room *roo
         write_room(file, &item->request, room->set);
     else
         iiif_info_write(file, &item->request, item->base, room->set->width, room->set->height, picture_formats());
-    Answer *answer = take_text(file, &text, &bytes, "application/json");
+    Answer *answer = answer_of_text(200, "application/json", file, &text, &bytes);
     if (!failed)
         return answer;
     answer_release(answer);

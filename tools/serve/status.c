@@ -6,15 +6,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-static Answer *text_answer(FILE *file, char **text, const size_t *bytes, const char *type)
-{
-    const int failed = ferror(file);
-    if (fclose(file) == 0 && !failed)
-        return answer_new(200, type, *text, *bytes);
-    free(*text);
-    return NULL;
-}
-
 static void write_counts(FILE *file, const StatusSources *sources)
 {
     const Site *site = sources->site;
@@ -73,5 +64,5 @@ Answer *status_answer(const StatusSources *sources)
     metrics_write(file, sources->metrics);
     write_counts(file, sources);
     write_process(file);
-    return text_answer(file, &text, &bytes, "text/plain; version=0.0.4; charset=utf-8");
+    return answer_of_text(200, "text/plain; version=0.0.4; charset=utf-8", file, &text, &bytes);
 }

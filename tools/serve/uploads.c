@@ -259,10 +259,7 @@ static Answer *tell(const Uploads *uploads, int status, const char *name, size_t
         strftime(time_text, sizeof time_text, "\"%Y-%m-%dT%H:%M:%SZ\"", &parts);
     fprintf(file, "{\"texture\": \"%s\", \"width\": %d, \"height\": %d, \"bytes\": %zu, \"expires\": %s}\n", name,
             size[0], size[1], bytes, time_text);
-    if (fclose(file) == 0)
-        return answer_new(status, "application/json", text, length);
-    free(text);
-    return NULL;
+    return answer_of_text(status, "application/json", file, &text, &length);
 }
 
 static Answer *full(void)
@@ -298,7 +295,8 @@ Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_
     char name[UPLOAD_HASH_TEXT + 8], path[PATH_MAX];
     int size[2] = {0, 0};
     if (!ending)
-        return answer_error(415, "expected an image: JPEG, PNG, OpenEXR, TIFF, BMP, GIF or Radiance HDR");
+        return answer_error(
+            415, "expected an image, the file itself and no form: JPEG, PNG, OpenEXR, TIFF, BMP, GIF or Radiance HDR");
     snprintf(name, sizeof name, "%s.%s", hash, ending);
     if (snprintf(path, sizeof path, "%s/%s", uploads->params.folder, name) >= (int)sizeof path)
         return answer_error(500, "the server cannot keep this");
