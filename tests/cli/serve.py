@@ -241,6 +241,17 @@ def metrics(server):
     expect('memory', values['retex_serve_resident_bytes'] > 1e6 and values['retex_serve_rooms_bytes'] > 1e5, True)
 
 
+def documented(server):
+    """The man page names what the server prints: every key of its JSON, every metric and status."""
+    page = open(os.environ['SCENES'] + '/../man/retex-serve.1').read()
+    named = {name for line in re.findall(r'^\.(?:It )?Cm (.*)$', page, re.M) for name in re.split('[ ,.]+', line)}
+    room, image = json.loads(ask(server, '/v1/small').body), open('outside.jpg', 'rb').read()
+    printed = {*json.loads(ask(server, '/v1').body), *room, *room['targets'][0], *json.loads(send(server, image).body)}
+    printed |= set(re.findall(r'^# TYPE retex_serve_(\w+)', ask(server, '/metrics').body.decode(), re.M))
+    printed |= {key for line in open('log') for key in (*json.loads(line), json.loads(line)['cache'])}
+    expect('not in the man page', sorted(printed - named), [])
+
+
 # ---- uploads ----
 
 def send(server, body, path='/v1/uploads', method='POST', **headers):
@@ -402,7 +413,7 @@ def end(server):
 
 OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-count', '2', '--upload-pixels', '1100000',
                        '--upload-age', '3600'],
-           'texts': ['--threads', '1'], 'refused': ['--timeout', '1'],
+           'documented': ['--uploads', 'uploads'], 'texts': ['--threads', '1'], 'refused': ['--timeout', '1'],
            'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
 for name in sys.argv[1:]:

@@ -18,8 +18,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together texts cro
 > end
 
 # Images that clients send.
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads off
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads documented off
 > uploads
+> documented
 > off
 $ retex-serve rooms --uploads none --port 0
 ! retex-serve: error: --uploads: there is no folder none
