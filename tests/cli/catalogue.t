@@ -52,6 +52,13 @@ $ cp -r . ../good; echo x >>a.png; rm b.png; sed -i 's/^d.png/d.png,"rgb(1,1,1)"
 > retex-combine: 4 pictures, 1 kept, S
 > 5 of 5 pictures good
 > 8
+# A plan makes its trials in memory: it needs no folder, and tells the pictures' bytes.
+$ mkdir ../plan; for f in x.png y.jpg z.exr w.tif; do printf 'output,floor\n%s,brick.jpg\n' $f >../p; TMPDIR=/nowhere retex-combine s.exr --batch ../p --plan | sed -n 's/.* of \(.*\) and .*/\1/p'; ls $f 2>/dev/null; retex-combine -q s.exr --batch ../p --batch-root ../plan; stat -c %s ../plan/$f | awk '{ printf "%.3g kB\n", $1 / 1000 }'; done | uniq -c | sed 's/ [0-9.]* kB//'
+>       2
+>       2
+>       2
+>       2
+
 # A picture with the right size is damaged: only its checksum tells.
 $ printf x | dd of=a.png bs=1 seek=100 conv=notrunc 2>/dev/null; sh batch --verify; sh batch --resume 2>&1 | sh masked; sh batch --resume --verify 2>&1 | sh masked; sh batch --verify
 > a.png: damaged: its checksum is wrong

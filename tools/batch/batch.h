@@ -49,8 +49,8 @@ typedef struct BatchTool {
     int (*describe)(void *context, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS]);
     /* batch_run: get ready for the rows that batch_is_wanted, of which there are some. */
     int (*begin)(void *context, RetexError *err);
-    /* batch_run: make the picture of a row, silently in the file `trial` if that is not NULL. */
-    int (*make)(void *context, int row, const char *trial, RetexError *err);
+    /* batch_run: make the picture of a row; if `trial` is not NULL, silently in memory, which gets its bytes. */
+    int (*make)(void *context, int row, size_t *trial, RetexError *err);
 } BatchTool;
 
 /* BATCH_KEPT: the picture of an earlier run, with --resume */

@@ -1,26 +1,16 @@
 /* The course of a batch whose tool makes one picture at a time. See batch.h. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
 #include <retex/clock.h>
 
 #include "batch/batch.h"
 
-/* Make the picture of a row, look at its size and time, and remove it. */
+/* Make the picture of a row in memory, and look at its size and time. */
 static int try_row(const Batch *batch, int row, double *bytes, double *seconds, RetexError *err)
 {
-    char path[PATH_MAX];
-    const char *folder = getenv("TMPDIR"), *ending = strrchr(texture_table_output(&batch->table, row), '.');
+    size_t trial = 0;
     const double began = retex_clock_seconds();
-    snprintf(path, sizeof path, "%s/retex-plan-%ld%s", folder && *folder ? folder : "/tmp", (long)getpid(),
-             ending ? ending : "");
-    int code = batch->tool.make(batch->tool.context, row, path, err);
+    const int code = batch->tool.make(batch->tool.context, row, &trial, err);
     *seconds += retex_clock_seconds() - began;
-    *bytes += cli_file_size(path);
-    if (!code)
-        unlink(path);
+    *bytes += (double)trial;
     return code;
 }
 

@@ -54,6 +54,8 @@ int job_describe(const Job *job, const RetexTextureSpec *specs, int count, Batch
 /* Compute and write one picture. The expected error is written first, and removed if the picture cannot be written, so
  * that neither is left alone. */
 int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err);
+/* Compute a picture in memory, as it would be written to output, and tell how many bytes it has. */
+int job_try_picture(const Cli *cli, Job *job, const Row *row, const char *output, size_t *bytes, RetexError *err);
 /* Make the picture of a job whose set is open. */
 int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err);
 /* Print one line of JSON about a picture that was made. */

@@ -113,6 +113,24 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     return RETEX_OK;
 }
 
+int job_try_picture(const Cli *cli, Job *job, const Row *row, const char *output, size_t *bytes, RetexError *err)
+{
+    RetexPicture *picture = NULL;
+    const char *ending = strrchr(output, '.');
+    void *data = NULL;
+    int code = retex_picture_open_memory(&picture, ending ? ending + 1 : "exr", job->set->width, job->set->height, 3,
+                                         &job->write, err);
+    if (!code)
+        code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
+                               err);
+    if (code)
+        retex_picture_close(&picture, 0, NULL);
+    else
+        code = retex_picture_take(&picture, &data, bytes, err);
+    free(data);
+    return code;
+}
+
 void job_report(const Cli *cli, const char *output, double began, int done, int total)
 {
     if (!cli->json_progress)

@@ -85,21 +85,21 @@ static int begin(void *context, RetexError *err)
     return job_preload(table->cli, job, corrected, err);
 }
 
-static int make_row(void *context, int number, const char *trial, RetexError *err)
+static int make_row(void *context, int number, size_t *trial, RetexError *err)
 {
     Table *table = context;
     Job *job = table->job;
-    Cli cli = *table->cli;
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     char path[PATH_MAX];
     const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
     const Row row = {specs, count, table->kept.textures};
-    int code = kept_textures_load(&table->kept, job->set, specs, count, cli.threads, err);
-    if (!code && !trial)
+    int code = kept_textures_load(&table->kept, job->set, specs, count, table->cli->threads, err);
+    if (!code && trial)
+        return job_try_picture(table->cli, job, &row, texture_table_output(&job->batch.table, number), trial, err);
+    if (!code)
         code = batch_output(&job->batch, number, path, err);
-    cli.quiet |= trial != NULL;
-    return code ? code : job_make_picture(&cli, job, &row, trial ? trial : path, began, err);
+    return code ? code : job_make_picture(table->cli, job, &row, path, began, err);
 }
 
 /* The options that change pictures, in words, for the manifest. */
