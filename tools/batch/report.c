@@ -33,26 +33,41 @@ static void print_row(FILE *file, const Batch *batch, int row)
     }
 }
 
-/* Print the collected line with one write, so that output of other programs does not split it. */
-static void print_line(FILE *file, char **text)
+/* A line of JSON is collected and written at once, so that output of other programs does not split it. */
+typedef struct Line {
+    FILE *file;
+    char *text;
+    size_t bytes;
+} Line;
+
+/* Returns the line's file, NULL without memory. */
+static FILE *begin_line(Line *line)
 {
-    if (fclose(file) == 0)
-        fputs(*text, stderr);
-    free(*text);
+    line->text = NULL;
+    line->file = open_memstream(&line->text, &line->bytes);
+    if (line->file)
+        fputc('{', line->file);
+    return line->file;
+}
+
+static void print_line(Line *line)
+{
+    fputs("}\n", line->file);
+    if (fclose(line->file) == 0)
+        fputs(line->text, stderr);
+    free(line->text);
 }
 
 void batch_report_row(const Batch *batch, int row)
 {
-    char *text = NULL;
-    size_t bytes;
-    FILE *file = open_memstream(&text, &bytes);
+    Line line;
+    FILE *file = begin_line(&line);
     if (!file)
         return;
-    fprintf(file, "{");
     print_row(file, batch, row);
-    fprintf(file, ", \"done\": %d, \"total\": %d}\n", batch->kept + batch->made + batch->failed,
+    fprintf(file, ", \"done\": %d, \"total\": %d", batch->kept + batch->made + batch->failed,
             batch->end - batch->first);
-    print_line(file, &text);
+    print_line(&line);
 }
 
 /* The keys of the whole batch. */
@@ -71,15 +86,12 @@ static void print_totals(FILE *file, const Batch *batch)
 
 void batch_report_end(const Batch *batch)
 {
-    char *text = NULL;
-    size_t bytes;
-    FILE *file = open_memstream(&text, &bytes);
+    Line line;
+    FILE *file = begin_line(&line);
     if (!file)
         return;
-    fprintf(file, "{");
     print_totals(file, batch);
-    fprintf(file, "}\n");
-    print_line(file, &text);
+    print_line(&line);
 }
 
 /* ---- the report ---- */
