@@ -5,7 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <stdio.h>
-#include "path/sampler.h"
+#include "lib_bsdf.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
 
@@ -58,14 +58,9 @@ static Bsdf make(Case *c, double theta, float filter, float transmit)
 static double sampled_albedo(const Bsdf *b, int count)
 {
     double sum = 0;
-    Sampler sampler = sampler_start(7, 0, 0, 0);
     for (int k = 0; k < count; k++) {
-        float u, v, lobe, rest;
         BsdfSample s;
-        sampler.sample = (uint32_t)k;
-        sampler_pair(&sampler, 0, &u, &v);
-        sampler_pair(&sampler, 1, &lobe, &rest);
-        if (bsdf_sample(b, lobe, u, v, &s))
+        if (test_bsdf_sample(b, 7, k, &s))
             sum += rgb_luminance(split_apply(s.weight, rgb_grey(1)));
     }
     return sum / count;

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
-#include "path/sampler.h"
 #include "pattern/pattern.h"
+#include "lib_bsdf.h"
 #include "shade/material.h"
 
 enum { COSINES = 16, TURNS = 24, FINE = 24, SAMPLES = 1 << 16 }; /* bins, and points to a side of a bin */
@@ -66,15 +66,10 @@ static double whole(Split s)
 static double sample_all(const Bsdf *b, double bins[COSINES][TURNS])
 {
     double sum = 0;
-    Sampler sampler = sampler_start(3, 0, 0, 0);
     memset(bins, 0, COSINES * TURNS * sizeof **bins);
-    for (uint32_t k = 0; k < SAMPLES; k++) {
-        float u, v, lobe, rest;
+    for (int k = 0; k < SAMPLES; k++) {
         BsdfSample s;
-        sampler.sample = k;
-        sampler_pair(&sampler, 0, &u, &v);
-        sampler_pair(&sampler, 1, &lobe, &rest);
-        if (!bsdf_sample(b, lobe, u, v, &s))
+        if (!test_bsdf_sample(b, 3, k, &s))
             continue;
         assert_int_equal(s.transmitted, vec_dot(s.wi, b->geometric) < 0);
         sum += whole(s.weight);

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
+#include "lib_bsdf.h"
 #include "lib_scene_text.h"
 #include "path/leaves.h"
-#include "path/sampler.h"
 #include "path/shading.h"
 
 /* ---- energy ---- */
@@ -20,14 +20,9 @@
 static Rgb energy_of_samples(const Bsdf *b, Rgb albedo, int count)
 {
     Rgb sum = {0, 0, 0};
-    Sampler sampler = sampler_start(11, 0, 0, 0);
     for (int k = 0; k < count; k++) {
-        float u, v, lobe, rest;
         BsdfSample s;
-        sampler.sample = (uint32_t)k;
-        sampler_pair(&sampler, 0, &u, &v);
-        sampler_pair(&sampler, 1, &lobe, &rest);
-        if (!bsdf_sample(b, lobe, u, v, &s))
+        if (!test_bsdf_sample(b, 11, k, &s))
             continue;
         const int bent = s.transmitted && b->refracts && (s.pdf == 0 || b->disney);
         sum = rgb_add(sum, rgb_scale(split_apply(s.weight, albedo), bent ? b->eta * b->eta : 1));
