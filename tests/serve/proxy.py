@@ -1,5 +1,7 @@
 """tools/serve/nginx.conf with Debian's nginx, as an ordinary process: what it keeps, and what it does while the server
-behind it is gone."""
+behind it is slow or gone; images that visitors send."""
+import http.server
+import json
 import os
 import re
 import signal
@@ -7,6 +9,7 @@ import socket
 import subprocess
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 from serving import Server, Tap, end_with_the_checks, fetch, wait_until
 
@@ -20,7 +23,7 @@ def free_port():
 class Nginx:
     """nginx with the project's file, in which only places, ports and rates are others."""
 
-    def __init__(self, backend, work, rate="5000r/s"):
+    def __init__(self, backend, work, rate="5000r/s", uploads=False):
         self.port = free_port()
         folder = os.path.join(work, f"nginx-{self.port}")
         os.makedirs(folder)
@@ -32,6 +35,11 @@ class Nginx:
             if text.count(found) != 1:
                 raise RuntimeError(f"tools/serve/nginx.conf: no `{found}`")
             text = text.replace(found, replaced)
+        if uploads:  # the part that is a comment
+            text, count = re.subn(r"^    # location = /v1/uploads \{\n(    # .*\n)*?    # \}\n",
+                                  lambda part: re.sub("^    # ", "    ", part[0], flags=re.M), text, flags=re.M)
+            if count != 1:
+                raise RuntimeError("tools/serve/nginx.conf: no `location = /v1/uploads` in a comment")
         temporary = "".join(f"{name}_temp_path {folder}/{name};\n" for name in
                             ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
         user = "user root;\n" if os.geteuid() == 0 else ""
@@ -86,7 +94,8 @@ def check_refusals(nginx):
                 ("/metrics", "/", "/v1/%2e%2e/x", "/v1/small%2Ffull.jpg", "/v1/small/Floor=a%2Fb/full.jpg", "/v1/%00")]
     Tap.result(all(400 <= status < 500 for status in statuses), "nginx: metrics and strange paths are refused",
                str(statuses))
-    Tap.result(fetch(nginx.port, "/v1/small/64x.jpg", method="POST").status == 403, "nginx: only GET and HEAD")
+    statuses = [fetch(nginx.port, path, method="POST").status for path in ("/v1/small/64x.jpg", "/v1/uploads")]
+    Tap.result(statuses == [403, 403], "nginx: only GET and HEAD", str(statuses))
     fixed = [fetch(nginx.port, "/@2026-11.a/v1/small/Floor=fans;Wall=rgb(.1,.2%2c.3)/64x.jpg") for _ in range(2)]
     Tap.result(fixed[1].status == 200 and fixed[1]["Cache-Control"] == "public, max-age=31536000, immutable" and
                fixed[1]["X-Cache-Status"] == "HIT", "nginx: URLs with a release never change")
@@ -161,7 +170,71 @@ def check_rate(server, work):
     nginx.stop()
 
 
+def check_uploads(rooms, textures, work, log):
+    folder = os.path.join(work, "uploads-nginx")
+    os.makedirs(folder)
+    server = Server(rooms, textures, "--uploads", folder, "-q", log=log)
+    nginx = Nginx(server.port, work, uploads=True)
+    with open(os.path.join(textures, "brick.jpg"), "rb") as file:
+        image = file.read()
+    sent = fetch(nginx.port, "/v1/uploads", "POST", body=image)
+    name = json.loads(sent.body)["texture"] if sent.status == 201 else "none"
+    pictures = [fetch(nginx.port, f"/v1/small/Floor={texture}/64x.png").body for texture in (name, "brick")]
+    Tap.result(sent.status == 201 and pictures[0] == pictures[1], "nginx: an image that is sent is a texture",
+               f"{sent.status} {sent.body[:200]}")
+    statuses = [fetch(nginx.port, "/v1/uploads", method, body=body).status for method, body in
+                (("POST", iter([image[:5000], image[5000:]])), ("POST", bytes(15 << 20)), ("POST", bytes(17 << 20)),
+                 ("PUT", image), ("OPTIONS", None), ("GET", None))]
+    Tap.result(statuses == [200, 415, 413, 403, 204, 403], "nginx: images in chunks pass, large ones and others do not",
+               str(statuses))
+    nginx.stop()
+    slow = Nginx(server.port, work, rate="1r/s", uploads=True)
+    with ThreadPoolExecutor(12) as threads:
+        statuses = sorted(threads.map(lambda _: fetch(slow.port, "/v1/uploads", "POST", body=image).status, range(12)))
+    Tap.result(set(statuses) == {200, 429}, "nginx: too many images of one address are refused", str(statuses))
+    slow.stop()
+    server.stop()
+
+
+class SlowBackend(http.server.BaseHTTPRequestHandler):
+    """Answers after more seconds than nginx waits by default, as a cold room on a busy machine does."""
+    SECONDS, count = 65, 0
+
+    def do_GET(self):
+        SlowBackend.count += 1
+        self.rfile.read(int(self.headers.get("Content-Length", 0)))
+        time.sleep(self.SECONDS)
+        self.send_response(200)
+        for name, value in ("Content-Length", "4"), ("Cache-Control", "public, max-age=60"):
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(b"slow")
+
+    do_POST = do_GET
+
+    def log_message(self, *_):
+        pass
+
+
+def ask_slowly(work):
+    """Two ask for the same picture, one sends an image; returns what gives their statuses."""
+    backend = http.server.ThreadingHTTPServer(("127.0.0.1", 0), SlowBackend)
+    threading.Thread(target=backend.serve_forever, daemon=True).start()
+    nginx, threads = Nginx(backend.server_port, work, uploads=True), ThreadPoolExecutor(3)
+    answers = [threads.submit(fetch, nginx.port, path, method, timeout=200, body=body) for path, method, body in
+               (("/v1/slow/full.jpg", "GET", None), ("/v1/slow/full.jpg", "GET", None), ("/v1/uploads", "POST", b"x"))]
+
+    def statuses():
+        found = [answer.result().status for answer in answers]
+        nginx.stop()
+        backend.shutdown()
+        return found
+    return statuses
+
+
 def check(rooms, textures, work, log):
+    slow_statuses = ask_slowly(work)
+    check_uploads(rooms, textures, work, log)
     server = Server(rooms, textures, "-q", log=log)
     nginx = Nginx(server.port, work)
     try:
@@ -176,3 +249,7 @@ def check(rooms, textures, work, log):
     finally:
         nginx.stop()
         server.stop()
+    statuses = slow_statuses()
+    Tap.result(statuses == [200] * 3 and SlowBackend.count == 2,
+               f"nginx: waits longer than {SlowBackend.SECONDS} s for a picture, and for an image that is decoded",
+               f"{statuses}, {SlowBackend.count} requests")

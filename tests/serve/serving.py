@@ -89,10 +89,13 @@ class Reply:
         return self.headers.get(name, "")
 
 
-def fetch(port, path, method="GET", headers=None, timeout=60):
+def fetch(port, path, method="GET", headers=None, timeout=60, body=None):
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=timeout)
     try:
-        connection.request(method, path, headers=headers or {})
+        try:
+            connection.request(method, path, body, headers or {})
+        except (BrokenPipeError, ConnectionResetError):  # refused before all was sent; the answer is there to be read
+            pass
         reply = connection.getresponse()
         return Reply(reply.status, reply.headers, reply.read())
     finally:

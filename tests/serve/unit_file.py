@@ -18,6 +18,10 @@ def check(work):
         text = file.read()
     with open(path, "w", encoding="utf-8") as file:
         file.write(text.replace("/usr/local/bin/retex-serve", shutil.which("retex-serve")))
+    help_text = subprocess.run(["retex-serve", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    deadline = int(re.search(r"--deadline .*?default (\d+)", help_text, re.S)[1])
+    stop = int(re.search(r"^TimeoutStopSec=(\d+)$", text, re.M)[1])
+    Tap.result(stop >= deadline + 10, "systemd waits until the last picture is made and sent", f"{stop} {deadline}")
     verify = subprocess.run(["systemd-analyze", "--man=no", "verify", path], stderr=subprocess.PIPE, text=True)
     Tap.result(verify.returncode == 0 and not verify.stderr.strip(), "systemd-analyze verify: no complaint",
                verify.stderr)
