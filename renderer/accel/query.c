@@ -387,6 +387,7 @@ static inline int can_be_traced(const Ray *ray, double origin_size)
 static inline void start_query(Query *query, const Accel *accel, int side_by_side, QueryRay *rays)
 {
 #if defined(RETEX_EMBREE4)
+    (void)side_by_side; /* goes along with each query */
     rtcInitRayQueryContext(&query->context);
 #else
     rtcInitIntersectContext(&query->context);
