@@ -48,6 +48,11 @@ $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(L
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+$(BUILD)/obj/tests/fuzz/fuzz_gltf.o: RENDER_CFLAGS += $(IMPORT_CFLAGS)
+$(BUILD)/tests/fuzz/fuzz_gltf: $(BUILD)/obj/tests/fuzz/fuzz_gltf.o $(FUZZ_OBJECTS) $(IMPORT_OBJECTS) $(TOOL_OBJECTS) \
+	    $(LIBTEST) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 # It runs the tools, and has models from Assimp.
 $(BUILD)/tests/fuzz/fuzz_import: TEST_LIBS += -lassimp
 $(BUILD)/tests/fuzz/fuzz_import: | $(addprefix $(BUILD)/bin/,retex-import retex-render)

@@ -209,7 +209,7 @@ $ for m in short.glb empty.obj noise.fbx huge.gltf cycle.gltf faces.obj far.obj;
 > 2
 > 2
 > 2
-! retex-import: error: short.glb: No suitable reader found for the file format of file "short.glb".
+! retex-import: error: short.glb: its JSON text: premature end of input near '"bufferVi'
 ! retex-import: error: empty.obj: OBJ-file is too small.
 ! retex-import: error: noise.fbx: FBX-Parser unexpected end of file
 ! retex-import: error: huge.gltf: GLTF: Accessor with offset/length (0/4000000000) is out of range.
@@ -286,11 +286,40 @@ $ retex-import -q prism.gltf -o prism; grep -o 'interior.*' prism/prism.pov; ret
 ! retex-import: wrote velvet/velvet.pov
 # Integers that do not lie within their buffer are left to Assimp, which refuses them.
 $ retex-import -q packed.gltf -o packed; retex-import -q beyond.glb -o beyond; ls -d packed beyond
-! retex-import: error: packed.gltf: its meshes are compressed by EXT_meshopt_compression, which is not supported; export it without compression
+! retex-import: error: packed.gltf: its meshes are compressed by EXT_meshopt_compression, and cannot be read; export it without compression
 ! retex-import: error: beyond.glb: GLTF: count*stride 16 > maxSize 13 in accessors[1]
 ! ls: cannot access 'packed': No such file or directory
 ! ls: cannot access 'beyond': No such file or directory
 = 2
+# What Assimp would misread is the reference too: sparse accessors, strides of zero or with a point, names that are not
+# UTF-8 or have NULs, NULs behind the text, chunks behind the others. So are meshes compressed by Draco, and the eighth UV.
+$ for m in sparse_words.gltf sparse.gltf stride_zero.gltf stride_point.gltf latin.gltf nul.gltf padded.glb chunk_after.glb draco.gltf eighth.gltf; do sh look $m; sh same ${m%.*}.exr reference.exr; done
+# What cannot be read ends in one line.
+$ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_between.glb chunk_before.glb draco_torn.gltf meshopt.gltf; do retex-import $m -o odd; done; ls -d odd*
+! retex-import: error: sparse_beyond.gltf: Invalid sparse accessor. Byte offset for patching points outside allocated memory.
+! retex-import: error: stride_huge.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
+! retex-import: error: longs.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
+! retex-import: error: comma.gltf: its JSON text: string or '}' expected near '}'
+! retex-import: error: chunk_between.glb: No suitable reader found for the file format of file "chunk_between.glb".
+! retex-import: error: chunk_before.glb: No suitable reader found for the file format of file "chunk_before.glb".
+! retex-import: error: draco_torn.gltf: its meshes are compressed by KHR_draco_mesh_compression, and cannot be read; export it without compression
+! retex-import: error: meshopt.gltf: its meshes are compressed by EXT_meshopt_compression, and cannot be read; export it without compression
+! ls: cannot access 'odd*': No such file or directory
+= 2
+# Images that an extension names: WebP is read, a line tells of KTX2.
+$ for m in ktx webp; do retex-import -q $m.gltf -o $m; grep -c image_map $m/$m.pov; done
+> 0
+> 1
+! retex-import: warning: the extension KHR_texture_basisu is left out
+$ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov albedo webp/webp.pov -o red.exr && oiiotool -q red.exr --subimage albedo -o red.exr && make_values red.exr 0,0 | awk '{ print ($1 > .9 && $2 < .05 && $3 < .05) }'
+> 1
+# UV that are not there, and a third set of them: a line each.
+$ for m in ninth lacking without three; do retex-import -q $m.gltf -o uv_$m; done
+! retex-import: warning: of meshes without the set of UV that their images ask for, the first one is taken
+! retex-import: warning: of meshes without the set of UV that their images ask for, the first one is taken
+! retex-import: warning: images on meshes without UV show one colour
+! retex-import: warning: images of emission with a third set of UV are left out
+! retex-import: warning: normal maps with a third set of UV are left out
 # Lights of 3DS, z up: half of the angles of the cones, and the direction of the spot, (0, .6, -.8), as the file has it.
 $ retex-import -q lights.3ds -o lights; grep light_source lights/lights.pov
 > light_source { <1, 3, 2>, rgb <2, 1, 0.5> }

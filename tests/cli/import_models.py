@@ -292,6 +292,106 @@ packed['extensionsUsed'] = packed['extensionsRequired'] = ['EXT_meshopt_compress
 del packed['buffers'][0]['uri']
 write('packed.gltf', json.dumps(packed))
 
+# ---- what glTF files may have, and Assimp would misread ----
+
+
+def with_views(scene, data, *pieces):
+    """More buffer views at the end of the one buffer; returns the number of the first."""
+    first = len(scene['bufferViews'])
+    for piece in pieces:
+        scene['bufferViews'].append({'buffer': 0, 'byteOffset': len(data), 'byteLength': len(piece)})
+        data += piece + b'\0' * (-len(piece) % 4)
+    scene['buffers'] = [{'byteLength': len(data),
+                         'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}]
+    return first
+
+
+def changed(name, scene, *path, **to):
+    """Write a copy in which what the path leads to has other values."""
+    scene = at = json.loads(json.dumps(scene))
+    for key in path:
+        at = at[key]
+    at.update(to)
+    write(name, json.dumps(scene))
+
+
+def with_extension(extension, required, **of):
+    scene = dict(gltf(MATERIAL), extensionsUsed=[extension], **of)
+    return dict(scene, extensionsRequired=[extension]) if required else scene
+
+
+# Sparse accessors: all elements of one without a view, of integers and of floats; one element of another.
+whole = struct.pack('<8H', *(65535 * a for uv in uvs for a in uv))
+scene, data = integers(5123, whole, 4)
+first = with_views(scene, data, bytes(range(4)), whole)
+del scene['accessors'][1]['bufferView']
+scene['accessors'][1]['sparse'] = {'count': 4, 'indices': {'bufferView': first, 'componentType': 5121},
+                                   'values': {'bufferView': first + 1}}
+write('sparse_words.gltf', json.dumps(scene))
+changed('sparse_beyond.gltf', scene, 'accessors', 1, count=3)
+scene = gltf(MATERIAL)
+first = with_views(scene, buffer[:56] + b'\x12\x34\x56\x40' * 2 + buffer[64:], struct.pack('<I', 1), buffer[56:64])
+scene['accessors'][1]['sparse'] = {'count': 1, 'indices': {'bufferView': first, 'componentType': 5125},
+                                   'values': {'bufferView': first + 1}}
+write('sparse.gltf', json.dumps(scene))
+# Strides that are zero, written with a point, or larger than the buffer; a type that UV cannot have.
+scene, data = integers(5123, words, 4)
+changed('stride_zero.gltf', scene, 'bufferViews', 1, byteStride=0)
+changed('stride_point.gltf', scene, 'bufferViews', 1, byteStride=4.0)
+changed('stride_huge.gltf', scene, 'bufferViews', 1, byteStride=2**31)
+changed('longs.gltf', scene, 'accessors', 1, componentType=5125)
+# Text with a name in Latin-1 or with NULs, and one that is no JSON; a .glb with more chunks, and with the chunks in
+# another order.
+scene, data = integers(5121, octets, 4, True)
+text = json.dumps(scene)
+write('latin.gltf', text.replace('"wood"', '"w\xe4d"').encode('latin-1'))
+write('nul.gltf', text.replace('"wood"', '"w\\u0000d"'))
+write('comma.gltf', text[:-1] + ',}')
+del scene['buffers'][0]['uri']
+binary = glb(scene, data)
+write('padded.glb', binary.replace(b'}   ', b'}\0\0\0').replace(b'}  ', b'}\0\0').replace(b'} ', b'}\0'))
+end = 20 + struct.unpack('<I', binary[12:16])[0]
+more = struct.pack('<II', 4, 0x12345678) + b'more'
+for name, body in (('after', binary[12:] + more), ('between', binary[12:end] + more + binary[end:]),
+                   ('before', binary[end:] + binary[12:end])):
+    write('chunk_%s.glb' % name, struct.pack('<III', 0x46546c67, 2, 12 + len(body)) + body)
+# Images that extensions name: of WebP, a picture of one colour; of KTX2.
+write('red.webp', base64.b64decode(
+    'UklGRkQAAABXRUJQVlA4IDgAAABQAgCdASoIAAgAAAAAJaACdLoB+AH6AfwAB5AA/v9vVv/8sPx/Unn/yxD//xPTm8RU8r/+JkAAAA=='))
+for name, extension, image in (('webp', 'EXT_texture_webp', 'red.webp'), ('ktx', 'KHR_texture_basisu', 'wood.ktx2')):
+    write(name + '.gltf', json.dumps(with_extension(
+        extension, True, images=[{'uri': image}], textures=[{'extensions': {extension: {'source': 0}}}])))
+# Meshes compressed by Draco (by its own encoder), damaged, and by meshopt.
+DRACO = base64.b64decode(
+    'RFJBQ08CAgEBAAAABAIBAgAAAR//ARH/AREC/wAAAAAAAQAJAwAAAgEDCQIAAQIBAQEAAwMBMAEQAwAogpgAAAAAAP8/AAAAAAAA'
+    'AAAAAAAAAAAAAIA/DgEBAQADAwEgASADAPCDpgAAAAAA/w8AAAAAAAAAAAAAAACAPww=')
+for name, blob in (('draco', DRACO), ('draco_torn', DRACO[:60])):
+    scene = with_extension('KHR_draco_mesh_compression', True)
+    first = with_views(scene, buffer, blob)
+    for accessor in scene['accessors'][:3]:
+        del accessor['bufferView']
+    scene['meshes'][0]['primitives'][0]['extensions'] = {'KHR_draco_mesh_compression': {
+        'bufferView': first, 'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}}}
+    write(name + '.gltf', json.dumps(scene))
+scene = with_extension('EXT_meshopt_compression', False)
+for view in scene['bufferViews']:
+    view.update(buffer=1, extensions={'EXT_meshopt_compression': dict(view, count=4, byteStride=4, mode='ATTRIBUTES')})
+scene['buffers'].append({'byteLength': 92, 'extensions': {'EXT_meshopt_compression': {'fallback': True}}})
+write('meshopt.gltf', json.dumps(scene))
+# The image on the eighth set of UV, and the ninth; one on the second where there is one, or none; three sets at once.
+for name, sets, image in (('eighth', 8, 7), ('ninth', 9, 8), ('lacking', 1, 1), ('without', 0, 0)):
+    scene = gltf(dict(MATERIAL, pbrMetallicRoughness={
+        'baseColorTexture': {'index': 0, 'texCoord': image}, 'metallicFactor': 0}))
+    scene['meshes'][0]['primitives'][0]['attributes'] = dict(
+        {'POSITION': 0}, **{'TEXCOORD_%d' % k: 1 if k == sets - 1 else 3 for k in range(sets)})
+    write(name + '.gltf', json.dumps(scene))
+scene = gltf(dict(MATERIAL, pbrMetallicRoughness=both, normalTexture={'index': 0, 'texCoord': 2},
+                  emissiveTexture={'index': 1, 'texCoord': 2}, emissiveFactor=[1, 1, 1]), second_uv=True)
+scene['meshes'][0]['primitives'][0]['attributes']['TEXCOORD_2'] = 1
+scene['images'].append({'uri': 'leaning.png'})
+scene['textures'].append({'source': 1})
+write('three.gltf', json.dumps(scene))
+
 # An image that ends too early, and one that is none.
 write('torn.gltf', json.dumps(gltf(MATERIAL, F[:-30])))
 write('no_image.gltf', json.dumps(gltf(MATERIAL, F[:8] + b'no')))

@@ -97,7 +97,11 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
         return NULL;
     }
     if (is_model && import->is_gltf)
-        stream = gltf_with_floats(import, stream);
+        stream = gltf_prepare(import, stream);
+    if (!stream) {
+        free(file);
+        return NULL;
+    }
     *file = (struct aiFile){read_file, write_file, tell_file, file_size, seek_file, flush_file, (aiUserData)stream};
     return file;
 }

@@ -3,29 +3,66 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "import/internal.h"
+#include "json_text.h"
 
 uint32_t gltf_little(const unsigned char *p)
 {
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-json_t *gltf_load(FILE *in, int *is_binary)
+size_t gltf_rest_of(FILE *in)
 {
-    unsigned char head[20];
-    if (fread(head, 1, sizeof head, in) != sizeof head)
-        return NULL;
-    *is_binary = gltf_little(head) == GLTF_MAGIC;
-    if (!*is_binary) {
-        rewind(in);
-        return json_loadf(in, 0, NULL);
+    struct stat info;
+    const long at = ftell(in);
+    return at >= 0 && fstat(fileno(in), &info) == 0 && info.st_size > at ? (size_t)(info.st_size - at) : 0;
+}
+
+/* Assimp minds neither names in other encodings than UTF-8 nor NULs at the end. Returns 1 where bytes have changed;
+ * `text` ends with a NUL that is not counted. */
+static int repair(char *text, size_t *length)
+{
+    int any = 0;
+    while (*length && !text[*length - 1])
+        --*length;
+    for (size_t i = 0; i < *length;) {
+        const int bytes = utf8_length(text + i);
+        if (!bytes) {
+            text[i] = '?';
+            any = 1;
+        }
+        i += bytes ? (size_t)bytes : 1;
     }
-    const size_t length = gltf_little(head + 12);
-    char *text = gltf_little(head + 16) == GLTF_JSON_CHUNK ? malloc(length + 1) : NULL;
-    json_t *json = text && fread(text, 1, length, in) == length ? json_loadb(text, length, 0, NULL) : NULL;
+    return any;
+}
+
+GltfText gltf_load(FILE *in)
+{
+    GltfText got = {NULL, 0, 0, ""};
+    unsigned char head[20];
+    json_error_t why;
+    if (fread(head, 1, sizeof head, in) != sizeof head)
+        return got;
+    got.is_binary = gltf_little(head) == GLTF_MAGIC;
+    if (got.is_binary && gltf_little(head + 16) != GLTF_JSON_CHUNK) /* version 1, or damaged */
+        return got;
+    if (!got.is_binary)
+        rewind(in);
+    const size_t rest = gltf_rest_of(in), said = got.is_binary ? gltf_little(head + 12) : rest;
+    size_t length = said < rest ? said : rest;
+    char *text = malloc(length + 1);
+    length = text ? fread(text, 1, length, in) : 0;
+    if (text) {
+        text[length] = '\0';
+        got.is_repaired = repair(text, &length);
+        got.json = json_loadb(text, length, JSON_ALLOW_NUL, &why);
+    }
+    if (!got.json)
+        snprintf(got.why, sizeof got.why, "%s", text ? why.text : "out of memory");
     free(text);
-    return json;
+    return got;
 }
 
 double gltf_number(const json_t *object, const char *key, double otherwise)
@@ -126,6 +163,8 @@ static void note_specular_images(Import *import, const json_t *json)
 static void note_extensions(Import *import, const json_t *json)
 {
     static const char *const taken[] = {
+        "EXT_texture_webp",
+        "KHR_draco_mesh_compression",
         "KHR_lights_punctual",
         "KHR_materials_clearcoat",
         "KHR_materials_dispersion",
@@ -141,6 +180,7 @@ static void note_extensions(Import *import, const json_t *json)
         "KHR_texture_transform",
         "KHR_xmp",
         "KHR_xmp_json_ld",
+        "MSFT_texture_dds",
     };
     enum { TAKEN = sizeof taken / sizeof *taken, MOST = 16 };
     const json_t *used = json_object_get(json, "extensionsUsed");
@@ -155,45 +195,66 @@ static void note_extensions(Import *import, const json_t *json)
     }
 }
 
-static json_t *load_model(const Import *import)
+static GltfText load_model(const Import *import)
 {
-    int descriptor, is_binary;
+    int descriptor;
+    GltfText text = {NULL, 0, 0, "cannot be read"};
     RetexAccess access = RETEX_ACCESS_INIT;
     access.safe = import->options->safe;
     if (retex_access_open(&access, import->options->model, &descriptor, NULL))
-        return NULL;
+        return text;
     FILE *in = fdopen(descriptor, "rb");
-    json_t *json = in ? gltf_load(in, &is_binary) : NULL;
-    if (in)
+    if (in) {
+        text = gltf_load(in);
         fclose(in);
-    return json;
-}
-
-int gltf_is_compressed(const Import *import, char plain[NAME_SIZE])
-{
-    json_t *json = load_model(import);
-    const json_t *required = json_object_get(json, "extensionsRequired");
-    int is_compressed = 0;
-    for (size_t i = 0; i < json_array_size(required) && !is_compressed; i++) {
-        const char *name = json_string_value(json_array_get(required, i));
-        is_compressed = name && (strstr(name, "draco_mesh") || strstr(name, "meshopt"));
-        if (is_compressed)
-            import_plain(name, plain);
     }
-    json_decref(json);
-    return is_compressed;
+    return text;
 }
 
-void gltf_read(Import *import)
+/* Draco may be known to Assimp; then it is not what is wrong unless it says so. */
+static int names_compression(const json_t *extensions, char plain[NAME_SIZE])
 {
-    json_t *json = load_model(import);
-    take_materials(json, &import->gltf);
-    note_specular_images(import, json);
-    note_extensions(import, json);
-    take_cameras(json, &import->gltf);
-    take_lenses(json, &import->gltf);
-    gltf_take_lights(json, &import->gltf);
-    json_decref(json);
+    for (size_t i = 0; i < json_array_size(extensions); i++) {
+        const char *name = json_string_value(json_array_get(extensions, i));
+        if (name && ((strstr(name, "draco_mesh") && strstr(aiGetErrorString(), "raco")) || strstr(name, "meshopt"))) {
+            import_plain(name, plain);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int gltf_explain(const Import *import, RetexError *err)
+{
+    const GltfText text = load_model(import);
+    char plain[NAME_SIZE];
+    int code = RETEX_OK;
+    if (!text.json && text.why[0])
+        code = retex_fail(err, RETEX_EFORMAT, "%s: its JSON text: %s", import->options->model, text.why);
+    else if (names_compression(json_object_get(text.json, "extensionsRequired"), plain) ||
+             names_compression(json_object_get(text.json, "extensionsUsed"), plain))
+        code = retex_fail(err, RETEX_EFORMAT,
+                          "%s: its meshes are compressed by %s, and cannot be read; export it without compression",
+                          import->options->model, plain);
+    json_decref(text.json);
+    return code;
+}
+
+int gltf_read(Import *import, RetexError *err)
+{
+    const GltfText text = load_model(import);
+    if (!text.json && text.why[0])
+        return gltf_explain(import, err);
+    if (import->gltf_refused[0])
+        return retex_fail(err, RETEX_EFORMAT, "%s: %s", import->options->model, import->gltf_refused);
+    take_materials(text.json, &import->gltf);
+    note_specular_images(import, text.json);
+    note_extensions(import, text.json);
+    take_cameras(text.json, &import->gltf);
+    take_lenses(text.json, &import->gltf);
+    gltf_take_lights(text.json, &import->gltf);
+    json_decref(text.json);
+    return RETEX_OK;
 }
 
 void gltf_free(Gltf *gltf)

@@ -40,6 +40,8 @@ void import_leave_out(Import *import, LeftOut what)
         [LEFT_ANIMATION] = "animations are left out",
         [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
         [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
+        [LEFT_OTHER_UV] = "of meshes without the set of UV that their images ask for, the first one is taken",
+        [LEFT_NO_UV] = "images on meshes without UV show one colour",
         [LEFT_NOWHERE] = "objects whose place is no number are left out",
         [LEFT_LINES] = "points and lines are left out",
     };
@@ -109,11 +111,9 @@ static int read_model(Import *import, RetexError *err)
     if (!import->scene && strstr(aiGetErrorString(), "bad_alloc"))
         return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
                           options->model);
-    char compression[NAME_SIZE];
-    if (!import->scene && import->is_gltf && gltf_is_compressed(import, compression))
-        return retex_fail(err, RETEX_EFORMAT,
-                          "%s: its meshes are compressed by %s, which is not supported; export it without compression",
-                          options->model, compression);
+    const int code = !import->scene && import->is_gltf ? gltf_explain(import, err) : RETEX_OK;
+    if (code)
+        return code;
     if (!import->scene)
         return retex_fail(err, RETEX_EFORMAT, "%s: %.400s", options->model, aiGetErrorString());
     if (!import->scene->mRootNode || !import->scene->mNumMeshes || !import->scene->mNumMaterials)
@@ -380,7 +380,7 @@ int import_model(const ImportOptions *options, RetexError *err)
         code = read_model(&import, err);
     }
     if (!code && import.is_gltf)
-        gltf_read(&import);
+        code = gltf_read(&import, err);
     if (!code && import.is_3ds)
         tds_read(&import);
     if (!code)

@@ -68,6 +68,7 @@ typedef struct ImportMaterial {
     int uv_set;    /* of the meshes, which the image uses */
     int second_uv; /* the set that maps use which do not use the first; -1: none */
     int has_image;
+    int has_maps; /* images of any kind, so that UV matter */
     float vertex_factor[3]; /* of colours of vertices, where there is no image */
     int is_solid;  /* declared as a material, with an interior */
     int is_used;
@@ -111,6 +112,9 @@ struct Import {
     char denied[PATH_MAX]; /* the first file outside that the model asked for */
     int is_gltf, is_fbx, is_3ds;
     Gltf gltf;
+    int gltf_is_prepared;
+    FILE *gltf_prepared;    /* of gltf_prepare, or NULL */
+    char gltf_refused[200]; /* what it cannot say in other words, or "" */
     Names names, files; /* identifiers; names of files */
     Affine world;       /* from the model's space: axes and scale, before z is mirrored */
     ImportMaterial *materials;
@@ -134,6 +138,8 @@ typedef enum LeftOut {
     LEFT_ANIMATION,
     LEFT_SKIN,
     LEFT_AMBIENT_LIGHT,
+    LEFT_OTHER_UV,
+    LEFT_NO_UV,
     LEFT_NOWHERE,
     LEFT_LINES
 } LeftOut;
@@ -152,19 +158,27 @@ int files_find(Import *import, const char *name, char path[PATH_MAX], int *found
 /* gltf.c */
 enum { GLTF_MAGIC = 0x46546c67, GLTF_JSON_CHUNK = 0x4e4f534a, GLTF_BINARY_CHUNK = 0x004e4942 };
 uint32_t gltf_little(const unsigned char *bytes);
-/* The JSON text of a .gltf or .glb file; in a .glb, the binary chunk is next. NULL where there is none. */
-json_t *gltf_load(FILE *in, int *is_binary);
-/* gltf_floats.c */
-/* The file as it is, or in its place one without integers that Assimp would take for floats. */
-FILE *gltf_with_floats(Import *import, FILE *in);
-void gltf_read(Import *import);
-/* Whether the model requires an extension that compresses meshes, and its name. */
-int gltf_is_compressed(const Import *import, char plain[NAME_SIZE]);
+/* How many bytes of a file are left. */
+size_t gltf_rest_of(FILE *in);
+typedef struct GltfText {
+    json_t *json;               /* of a .gltf or .glb file; NULL: there is none */
+    int is_binary, is_repaired; /* repaired: bytes of the text that are no UTF-8 became question marks */
+    char why[160];              /* there is no JSON although there should be */
+} GltfText;
+/* In a .glb, the binary chunk is next. */
+GltfText gltf_load(FILE *in);
+/* What Assimp leaves out, into import->gltf. */
+int gltf_read(Import *import, RetexError *err);
+/* Fail where the file itself says better than Assimp why that cannot read it. */
+int gltf_explain(const Import *import, RetexError *err);
 void gltf_free(Gltf *gltf);
 double gltf_number(const json_t *object, const char *key, double otherwise);
 const json_t *gltf_extension(const json_t *of, const char *name);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);
+/* gltf_prepare.c */
+/* The file, or in its place one that says the same in words that Assimp reads well. NULL: it cannot be opened again. */
+FILE *gltf_prepare(Import *import, FILE *in);
 /* tds.c: into Assimp's cameras */
 void tds_read(Import *import);
 /* gltf_lights.c */

@@ -248,6 +248,7 @@ static void choose_uv_sets(ImportMaterial *to, const Surface *s)
             to->second_uv = maps[i]->uv_set;
     }
     to->uv_set = first < 0 ? 0 : first;
+    to->has_maps = first >= 0;
 }
 
 static int has_uv_of(const Writing *w, const Map *map)

@@ -186,12 +186,24 @@ static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const 
     fprintf(out, "\n  }\n");
 }
 
-static void write_both_uvs(FILE *out, const struct aiMesh *mesh, const ImportMaterial *material)
+/* The set that images ask for, or NULL. */
+static const struct aiVector3D *find_uvs(Import *import, const struct aiMesh *mesh, const ImportMaterial *material,
+                                         int set)
 {
-    const struct aiVector3D *first = mesh->mTextureCoords[material->uv_set],
-                            *second = material->second_uv >= 0 ? mesh->mTextureCoords[material->second_uv] : NULL;
-    if (!first)
-        first = mesh->mTextureCoords[0];
+    const struct aiVector3D *const *sets = (const struct aiVector3D *const *)mesh->mTextureCoords;
+    if (set < 0)
+        return NULL;
+    if (set < AI_MAX_NUMBER_OF_TEXTURECOORDS && sets[set])
+        return sets[set];
+    if (material->has_maps)
+        import_leave_out(import, sets[0] ? LEFT_OTHER_UV : LEFT_NO_UV);
+    return sets[0];
+}
+
+static void write_both_uvs(Import *import, FILE *out, const struct aiMesh *mesh, const ImportMaterial *material)
+{
+    const struct aiVector3D *first = find_uvs(import, mesh, material, material->uv_set),
+                            *second = find_uvs(import, mesh, material, material->second_uv);
     if (!first)
         return;
     write_uvs(out, "uv_vectors", first, mesh->mNumVertices);
@@ -230,7 +242,7 @@ static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err
     write_vectors(out, "vertex_vectors", mesh->mVertices, mesh->mNumVertices, 0);
     if (mesh->mNormals)
         write_vectors(out, "normal_vectors", mesh->mNormals, mesh->mNumVertices, 1);
-    write_both_uvs(out, mesh, material);
+    write_both_uvs(import, out, mesh, material);
     if (colors.of_vertex)
         write_colors(out, &colors, material);
     write_faces(out, mesh, count, &colors);

@@ -82,7 +82,7 @@ static int get_map(const Import *import, const struct aiMaterial *m, enum aiText
         return 0;
     memcpy(map->source, path.data, path.length);
     map->source[path.length] = '\0';
-    map->uv_set = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS ? (int)uv : 0;
+    map->uv_set = uv < AI_MAX_NUMBER_OF_TEXTURECOORDS ? (int)uv : AI_MAX_NUMBER_OF_TEXTURECOORDS; /* none has it */
     if (aiGetMaterialUVTransform(m, AI_MATKEY_UVTRANSFORM(type, index), &transform) == aiReturn_SUCCESS)
         map->place = uv_place(import, &transform);
     return 1;

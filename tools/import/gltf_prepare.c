@@ -1,0 +1,115 @@
+/* glTF files as Assimp reads them well: a file that says the same in other words takes the place of one that it would
+ * misread. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "import/gltf_floats.h"
+
+/* Images in formats that only an extension may name, where there is no other image in its place. Returns 1 if there
+ * are any. */
+static int take_images(json_t *json)
+{
+    static const char *const extensions[] = {"EXT_texture_webp", "MSFT_texture_dds"};
+    const json_t *textures = json_object_get(json, "textures");
+    int any = 0;
+    for (size_t i = 0; i < json_array_size(textures); i++) {
+        json_t *texture = json_array_get(textures, i);
+        for (size_t k = 0; k < sizeof extensions / sizeof *extensions; k++) {
+            json_t *source = json_object_get(gltf_extension(texture, extensions[k]), "source");
+            if (json_is_integer(source) && !json_object_get(texture, "source"))
+                any |= json_object_set(texture, "source", source) == 0;
+        }
+    }
+    return any;
+}
+
+static void put_word(FILE *out, size_t word)
+{
+    for (int byte = 0; byte < 4; byte++)
+        fputc((int)(word >> 8 * byte & 255), out);
+}
+
+static int add_buffer(const GltfFloats *f)
+{
+    if (!f->any)
+        return 1;
+    char *uri = gltf_encode_base64(&f->floats, "data:application/octet-stream;base64,");
+    json_t *buffers = json_object_get(f->json, "buffers");
+    if (!buffers) { /* all of them are sparse */
+        buffers = json_array();
+        json_object_set_new(f->json, "buffers", buffers);
+    }
+    const int code = uri ? json_array_append_new(
+                               buffers, json_pack("{s:I,s:s}", "byteLength", (json_int_t)f->floats.size, "uri", uri))
+                         : -1;
+    free(uri);
+    return code == 0;
+}
+
+/* Written as the file was: Assimp goes by the ending of its name. */
+static int write_file(const GltfFloats *f, FILE *out)
+{
+    const Bytes *inside = &f->buffers.inside;
+    char *text = add_buffer(f) ? json_dumps(f->json, JSON_COMPACT) : NULL;
+    const size_t length = text ? strlen(text) : 0, padded = (length + 3) / 4 * 4, rest = (inside->size + 3) / 4 * 4;
+    if (f->buffers.is_binary) {
+        put_word(out, GLTF_MAGIC), put_word(out, 2), put_word(out, 12 + 8 + padded + (rest ? 8 + rest : 0));
+        put_word(out, padded), put_word(out, GLTF_JSON_CHUNK);
+    }
+    fwrite(text ? text : "", 1, length, out);
+    for (size_t i = length; i < padded; i++)
+        fputc(' ', out);
+    if (f->buffers.is_binary && rest) {
+        put_word(out, rest), put_word(out, GLTF_BINARY_CHUNK);
+        fwrite(inside->bytes, 1, inside->size, out);
+        for (size_t i = inside->size; i < rest; i++)
+            fputc(0, out);
+    }
+    free(text);
+    return length > 0 && fflush(out) == 0 && !ferror(out);
+}
+
+/* NULL: the file will do as it is. */
+static FILE *write_prepared(Import *import, FILE *in)
+{
+    GltfText text = gltf_load(in);
+    GltfFloats f = {.json = text.json,
+                    .buffers = {.import = import, .json = text.json, .in = in, .is_binary = text.is_binary}};
+    FILE *out = NULL;
+    if (text.json) {
+        gltf_floats_convert(&f);
+        const int has_images = take_images(text.json);
+        if (f.any || has_images || text.is_repaired)
+            out = tmpfile();
+        if (out) {
+            gltf_buffers_read_inside(&f.buffers);
+            if (!write_file(&f, out)) {
+                fclose(out);
+                out = NULL;
+            }
+        }
+        if (!out && (f.any || has_images) && !f.refused[0])
+            snprintf(f.refused, sizeof f.refused, "no memory, or no place for a temporary file");
+        memcpy(import->gltf_refused, f.refused, sizeof f.refused);
+    }
+    gltf_buffers_free(&f.buffers);
+    free(f.floats.bytes);
+    json_decref(text.json);
+    return out;
+}
+
+FILE *gltf_prepare(Import *import, FILE *in)
+{
+    char path[64];
+    if (!import->gltf_is_prepared) { /* Assimp opens the file several times */
+        import->gltf_is_prepared = 1;
+        import->gltf_prepared = write_prepared(import, in);
+        rewind(in);
+    }
+    if (!import->gltf_prepared)
+        return in;
+    fclose(in);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fileno(import->gltf_prepared));
+    return fopen(path, "rb");
+}
