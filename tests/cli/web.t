@@ -10,6 +10,7 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 > package.json
 > picture-N.jpg
 > reduced-N.jpg
+> retex-room.d.ts
 > retex-room.js
 > room.json
 > 12
@@ -21,13 +22,21 @@ $ retex-pack s.exr --web out/room 2>&1 | awk 'NR == 2 { print ($10 <= 36500), ($
 
 # The manifest names all files with their sizes and checksums, and the sizes that were printed are theirs.
 $ retex-pack s.exr --web out/room 2>&1 | /usr/bin/python3 "$TESTS/../web/files.py" out/room
-> README.md index.html package.json retex-room.js room.json
+> README.md index.html package.json retex-room.d.ts retex-room.js room.json
 
 # The same bytes for any number of threads; from a pack too it can be made.
 $ retex-pack -q s.exr --web one --threads 1; diff -r one out/room && echo same
 > same
 $ retex-pack -q s.exr -o s.retex; retex-pack -q s.retex --web packed; ls packed | wc -l
-> 20
+> 21
+
+# From a pack without loss it is the set's own. In finer packs all is of the picture's size, and nothing is there to be
+# made compact; the message says what to take.
+$ retex-pack -q s.exr --lossless -o l.retex; retex-pack -q l.retex --web whole; diff -r whole one && echo same
+> same
+$ make_compact s.exr fine.exr broad=1 interreflection=1 gain=1; retex-pack fine.exr --web fine; test -e fine || echo nothing
+> nothing
+! retex-pack: error: this set cannot be written for browsers: reflected light has the picture's size, as in fine packs; take the set before packing
 
 # Recombined, it is the picture of retex-combine: originals, one texture, two, colours, placed ones.
 $ ln -s "$SCENES/textures" T; cp "$TESTS"/../web/*.py .
@@ -45,7 +54,7 @@ $ python3 -c 'import glob; n = glob.glob("one/indep-*")[0]; d = bytearray(open(n
 
 # Another room in the same folder: its files replace those of the old one, and no others. If it fails, the old one stays.
 $ retex-pack -q s.exr --quality 50 --web out/room 2>/dev/null; echo mine >out/room/mine-1.jpg; retex-pack s.exr --web out/room 2>&1 | /usr/bin/python3 "$TESTS/../web/files.py" out/room; rm out/room/mine-1.jpg
-> README.md index.html mine-1.jpg package.json retex-room.js room.json
+> README.md index.html mine-1.jpg package.json retex-room.d.ts retex-room.js room.json
 $ cp -r out/room kept; retex-pack -q s.exr --quality 50 --web out/room; for f in out/room/dep_Wall_sharp-*; do rm -rf kept/${f##*/}; mkdir kept/${f##*/}; done; find kept -type f | sort | xargs md5sum >before; retex-pack -q s.exr --quality 50 --web kept 2>&1 | sed 's/-[0-9a-f]*[.]jpg.*//'; find kept -type f | sort | xargs md5sum | cmp - before && echo kept
 > retex-pack: error: cannot write kept/dep_Wall_sharp
 > kept

@@ -3,12 +3,8 @@
 # package by npm. The room is rendered small. RETEX_NEWCOMER=whole renders it as the docs say, and clones and builds first;
 # the processor time of each step is printed.
 set -u
-. tests/lib/tap.sh
-if ! tools/setup.sh web >&2 2>&1; then
-    skip "a newcomer's first room" "chromium or python3-websocket is not installed"
-    finish
-    exit
-fi
+. tests/web/room.sh
+needs_browser "a newcomer's first room"
 tests=$here/tests/web
 cp "$scenes/textures/travertine.jpg" "$work/photo.jpg"
 commands() { sed -n '/^    make/,/^$/s/^    //p' "$here/docs/web.md"; }
@@ -75,7 +71,7 @@ kill "$room_server" "$own_server"
 if command -v npm >/dev/null; then
     (cd room && npm pack --silent --cache "$work/npm") >packed 2>said
     tar tzf "room/$(tail -n 1 packed)" | sort | tr '\n' ' ' >held
-    result "$([ "$(cat held)" = 'package/README.md package/package.json package/retex-room.js ' ] && echo 1)" "npm pack: $(cat held)"
+    result "$([ "$(cat held)" = 'package/README.md package/package.json package/retex-room.d.ts package/retex-room.js ' ] && echo 1)" "npm pack: $(cat held)"
 else
     skip "npm pack" "there is no npm"
 fi

@@ -1,11 +1,12 @@
 """Checks <retex-room> as part of other pages in headless Chromium, and prints TAP: element.py FOLDER.
 
-FOLDER has a room's folder, room/, and pictures, textures/."""
+FOLDER has folders of rooms, room/ and those of web-element.sh, and pictures, textures/."""
 import json
 import sys
 
 from browser import serve
 from page import PART, ROOM, Page, finish, result
+from trouble import check_trouble
 
 work = sys.argv[1]
 url = serve(work)
@@ -77,7 +78,7 @@ def check_methods(page):
     page.open(link.replace("plain.html", "no-link.html"))
     result(page.state()["textures"] == {}, "no-link: the address is not read")
     page.run(f"seen.length = 0; window.room = {ROOM}; room.remove(); document.body.append(room)")
-    result(page.until("seen.some(e => e[0] === 'complete')") and page.room("targets.length") == 2, "moved, it loads again")
+    result(page.until("seen.some(e => e[0] === 'complete')", 120) and page.room("targets.length") == 2, "moved, it loads again")
     page.run("seen.length = 0; room.setAttribute('src', 'nothing')")
     result(page.until("seen.some(e => e[0] === 'error')") and page.run("seen.at(-1)")[1]["message"] == page.message() != "",
            f"retex-error has the message: {page.message()}")
@@ -281,6 +282,8 @@ def main():
         check_sizes(page)
         check_drop(page)
         check_access(page)
+        page.size(1280, 800)
+        check_trouble(page, url, work, write)
         bad = [e["params"]["exceptionDetails"]["text"] for e in page.events if e.get("method") == "Runtime.exceptionThrown"]
         result(not bad, f"no script fails {bad or ''}")
     finally:

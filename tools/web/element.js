@@ -1,4 +1,5 @@
-class RetexRoom extends HTMLElement {
+/* Servers that render pages import the script too, and have no elements. */
+class RetexRoom extends (globalThis.HTMLElement || Object) {
   static observedAttributes = ["src"];
 
   constructor() {
@@ -12,14 +13,18 @@ class RetexRoom extends HTMLElement {
     this.selected = 0;
     this.loading = 0;
     this.listen(root);
+    this.$("[data-do=full]").hidden = !document.fullscreenEnabled;
+    this.restore = this.restore.bind(this);
   }
 
   connectedCallback() {
+    addEventListener("hashchange", this.restore);
     this.togglePanel(this.getAttribute("panel") !== "closed");
     if (!this.started && this.hasAttribute("src")) this.load();
   }
 
   disconnectedCallback() {
+    removeEventListener("hashchange", this.restore);
     this.abort?.abort();
     this.started = false;
   }
@@ -48,7 +53,7 @@ class RetexRoom extends HTMLElement {
     let image = null, label = "Original", kept = null;
     if (source instanceof Blob) {
       label = source.name || "Picture";
-      image = await decodeImage(source, label);
+      image = await decodePicture(source, label);
     } else if (source) {
       kept = String(source);
       image = parseColor(kept);
@@ -56,7 +61,7 @@ class RetexRoom extends HTMLElement {
       if (!image) {
         label = nameOf(kept);
         const bytes = await fetchBytes(new URL(kept, document.baseURI), this.abort.signal);
-        image = await decodeImage(new Blob([bytes]), label);
+        image = await decodePicture(new Blob([bytes], { type: /\.svg$/i.test(label) ? DRAWING : "" }), label);
       }
     }
     if (order !== this.textures[index].order) return; // another one has been chosen since
@@ -103,16 +108,23 @@ class RetexRoom extends HTMLElement {
 
   async setState(state) {
     this.setLight({ exposure: Number(state.light?.exposure) || 0, warmth: Number(state.light?.warmth) || 0 });
+    let failed;
     for (const name of this.targets) {
       const { source = null, ...options } = state.textures?.[name] || {};
-      await this.setTexture(name, source, options);
+      await this.setTexture(name, source, options).catch((error) => (failed ||= error));
     }
+    if (failed) throw failed;
+  }
+
+  /* What the room's state is called in links: several rooms of a page are told apart by their ids. */
+  get key() {
+    return `${encodeURIComponent(this.id || "room")}=`;
   }
 
   /* A link to the page with this room's state. Pictures from the visitor's own files are not in it. */
   get link() {
-    const url = new URL(location.href);
-    url.hash = "room=" + encodeURIComponent(JSON.stringify(this.getState()));
+    const url = new URL(location.href), others = url.hash.slice(1).split("&").filter((part) => part.includes("=") && !part.startsWith(this.key));
+    url.hash = [...others, this.key + encodeURIComponent(JSON.stringify(this.getState()))].join("&");
     return url.href;
   }
 
@@ -224,10 +236,15 @@ class RetexRoom extends HTMLElement {
     this.$("canvas").classList.add("shown");
     this.textures.forEach((_, i) => this.put(i));
     this.emit("retex-ready", { targets: this.targets });
-    const hash = /[#&]room=([^&]*)/.exec(location.hash);
-    if (!hash || kept || this.hasAttribute("no-link")) return;
+    if (!kept) await this.restore();
+  }
+
+  /* Take the state that the page's address has. */
+  async restore() {
+    const part = location.hash.slice(1).split("&").find((text) => text.startsWith(this.key));
+    if (!part || !this.renderer || this.hasAttribute("no-link")) return;
     try {
-      await this.setState(JSON.parse(decodeURIComponent(hash[1])));
+      await this.setState(JSON.parse(decodeURIComponent(part.slice(this.key.length))));
     } catch (error) {
       this.fail(`The link's textures could not be restored: ${error.message}`);
     }
@@ -314,6 +331,7 @@ class RetexRoom extends HTMLElement {
     [...row.children].forEach((button, i) => {
       button.setAttribute("aria-pressed", i === this.selected);
       button.disabled = !this.renderer?.canEdit(i);
+      button.title = this.renderer?.isSeen(i) === false ? "Not seen in this picture" : "";
     });
     if (!this.offered)
       this.offered = this.offers.map((source) => {
@@ -401,11 +419,14 @@ class RetexRoom extends HTMLElement {
       case "original": return this.setTexture(this.targets[this.selected], null);
       case "link": {
         const local = this.textures.some((t) => t.local);
+        let where = "Link copied.";
         history.replaceState(null, "", this.link);
         try {
           await navigator.clipboard.writeText(this.link);
-        } catch { /* the address bar has it */ }
-        return this.note(local ? "Link copied. Your own pictures are not in it." : "Link copied.");
+        } catch {
+          where = "The link is in the address bar.";
+        }
+        return this.note(local ? `${where} Your own pictures are not in it.` : where);
       }
       case "download": {
         const a = document.createElement("a"), comparing = this.comparing;
@@ -560,7 +581,7 @@ class RetexRoom extends HTMLElement {
       this.refresh();
       this.fail("The graphics card was needed elsewhere. The room comes back when it is free; reload the page if it does not.");
     });
-    canvas.addEventListener("webglcontextrestored", () => this.isConnected && this.load(this.textures));
+    canvas.addEventListener("webglcontextrestored", () => this.isConnected && this.load(this.textures[0] && this.textures));
     new ResizeObserver(() => this.panTo(this.zoom.x, this.zoom.y)).observe(stage);
   }
 
@@ -573,35 +594,42 @@ class RetexRoom extends HTMLElement {
 }
 
 
+const drawingContext = (width, height) => Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
+
 /* Two repeats as one picture: side by side, the right one moved down, or one above the other, the upper one moved right. */
 function shiftedRepeats(image, repeat) {
   const w = image.naturalWidth || image.width, h = image.naturalHeight || image.height, across = repeat === "half-drop";
-  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
-  canvas.width = across ? 2 * w : w;
-  canvas.height = across ? h : 2 * h;
+  const context = drawingContext(across ? 2 * w : w, across ? h : 2 * h);
   for (const [x, y] of across ? [[0, 0], [w, h >> 1], [w, (h >> 1) - h]] : [[0, h], [w >> 1, 0], [(w >> 1) - w, 0]])
     context.drawImage(image, x, y);
-  return canvas;
+  return context.canvas;
 }
 
 /* Whether a picture may show what lies below it. */
 function isClear(image) {
-  const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
-  canvas.width = canvas.height = 64;
+  const context = drawingContext(64, 64);
   context.drawImage(image, 0, 0, 64, 64);
   return context.getImageData(0, 0, 64, 64).data.some((x, i) => i % 4 === 3 && x < 255);
 }
 
-/* A large picture in a canvas whose longer side has so many pixels. */
-function smaller(image, most) {
-  const times = most / Math.max(image.naturalWidth, image.naturalHeight), canvas = document.createElement("canvas");
-  canvas.width = Math.max(1, Math.round(image.naturalWidth * times));
-  canvas.height = Math.max(1, Math.round(image.naturalHeight * times));
-  const context = canvas.getContext("2d");
-  context.imageSmoothingQuality = "high";
-  context.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return canvas;
+const DRAWING = "image/svg+xml";
+
+/* A visitor's picture. Drawings may have no size of their own. A JPEG file has no transparent parts, but if its end is
+ * missing the browser leaves some. */
+async function decodePicture(blob, name) {
+  const image = await decodeImage(blob, name), [first] = new Uint8Array(await blob.slice(0, 1).arrayBuffer());
+  if (first === 255 && isClear(image)) throw new Error(`${name} is damaged.`);
+  return blob.type === DRAWING ? smaller(image, 1024) : image;
 }
 
-if (!customElements.get("retex-room")) customElements.define("retex-room", RetexRoom);
+/* A picture in a canvas whose longer side has so many pixels. */
+function smaller(image, most) {
+  const times = most / Math.max(image.naturalWidth, image.naturalHeight);
+  const size = [image.naturalWidth, image.naturalHeight].map((x) => Math.max(1, Math.round(x * times))), context = drawingContext(...size);
+  context.imageSmoothingQuality = "high";
+  context.drawImage(image, 0, 0, ...size);
+  return context.canvas;
+}
+
+if (globalThis.customElements && !customElements.get("retex-room")) customElements.define("retex-room", RetexRoom);
 export { RetexRoom };

@@ -14,26 +14,41 @@ function crc32(bytes) {
   return ~crc >>> 0;
 }
 
+/* Connections that break and servers that are busy are tried again, after .5, 1, 2 and 4 seconds. */
 async function fetchBytes(url, signal, cache = "default") {
-  let answer;
-  try {
-    answer = await fetch(url, { signal, cache });
-  } catch (error) {
-    if (signal.aborted) throw error;
-    throw new Error(location.protocol === "file:" ? "This page must come from a web server, not from a file."
-      : `${nameOf(url)} could not be loaded.`);
+  for (let wait = 500; ; wait *= 2) {
+    let answer;
+    try {
+      answer = await fetch(url, { signal, cache });
+      if (answer.ok) return new Uint8Array(await answer.arrayBuffer());
+    } catch (error) {
+      if (signal.aborted) throw error;
+      if (location.protocol === "file:") throw new Error("This page must come from a web server, not from a file.");
+      if (wait > 4000) throw new Error(`${nameOf(url)} could not be loaded. Is there a connection?`);
+    }
+    if (answer && !answer.ok && (answer.status < 500 || wait > 4000)) throw new Error(`${nameOf(url)} is missing (status ${answer.status}).`);
+    await new Promise((resolve) => setTimeout(resolve, wait));
+    signal.throwIfAborted();
   }
-  if (!answer.ok) throw new Error(`${nameOf(url)} is missing (status ${answer.status}).`);
-  return new Uint8Array(await answer.arrayBuffer());
 }
 
-const nameOf = (url) => decodeURIComponent(String(url).split(/[?#]/)[0].split("/").pop());
+/* What people call the file of an address. */
+function nameOf(url) {
+  const name = /^(data|blob):/.test(url) ? "Picture" : String(url).split(/[?#]/)[0].split("/").pop();
+  try {
+    return decodeURIComponent(name);
+  } catch {
+    return name;
+  }
+}
 
-/* A file of the room, whose size and checksum the manifest has. */
+/* A file of the room, whose size and checksum the manifest has. A damaged one may be a cache's. */
 async function fetchChecked(base, entry, signal) {
-  const bytes = await fetchBytes(new URL(entry.file, base), signal);
-  if (bytes.length !== entry.bytes || crc32(bytes) !== entry.crc32) throw new Error(`${entry.file} is damaged.`);
-  return bytes;
+  for (const cache of ["default", "reload"]) {
+    const bytes = await fetchBytes(new URL(entry.file, base), signal, cache);
+    if (bytes.length === entry.bytes && crc32(bytes) === entry.crc32) return bytes;
+  }
+  throw new Error(`${entry.file} is damaged.`);
 }
 
 async function decodeImage(blob, name) {
@@ -41,8 +56,9 @@ async function decodeImage(blob, name) {
   image.src = URL.createObjectURL(blob);
   try {
     await image.decode();
+    if (!image.naturalWidth) throw image; // a drawing without a size
   } catch {
-    throw new Error(`${name || "The file"} is no picture that this browser reads.`);
+    throw new Error(`${name} is no picture that this browser reads.`);
   } finally {
     URL.revokeObjectURL(image.src);
   }

@@ -1,7 +1,6 @@
 // ---- colours ----
 
 const srgbDecode = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
-const srgbEncode = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
 
 /* "#rrggbb" as a display shows it, or "rgb(r,g,b)" with linear numbers from 0 to 1, as the tools take it. Or null. */
 function parseColor(text) {
@@ -13,8 +12,6 @@ function parseColor(text) {
 
 /* A file's name as people read it. */
 const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
-
-const toHex = (linear) => "#" + linear.map((x) => Math.round(255 * srgbEncode(Math.min(Math.max(x, 0), 1))).toString(16).padStart(2, "0")).join("");
 
 const plainTexture = () => ({
   source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff", flip: "", wrap: "repeat", repeat: "straight",
@@ -113,6 +110,10 @@ select { font: inherit; color: inherit; width: 130px; padding: 2px 8px; }
   .view { --high: 58cqh; } .wide .view { --high: calc(100cqh - 50px); }
 }
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+@media (forced-colors: active) {
+  .swatch, .colors input, .split { forced-color-adjust: none; } .name, .message, .tools { border: 1px solid; }
+  .panel [aria-pressed=true], .tools [aria-pressed=true] { outline: 3px solid Highlight; }
+}
 @media (prefers-color-scheme: dark) {
   :host { color: #eee; background: #1b1b1a; color-scheme: dark; --line: #fff3; --paper: #222221; --soft: #bbb; --accent: #8fc7b5; }
   .stage { background: #111; }

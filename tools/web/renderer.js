@@ -274,9 +274,13 @@ class Renderer {
       this.loaded.has(room.classes[c]) && (room.classes[c].scale > 1 || this.lights.has(room.classes[c].albedo))));
   }
 
+  isSeen(target) {
+    return this.room.classes.some((c) => c.target === target && c.records);
+  }
+
   /* Whether a target's own light is there. */
   canEdit(target) {
-    return this.room.groups.every((g, i) => g.target !== target || this.isReady(i));
+    return this.isSeen(target) && this.room.groups.every((g, i) => g.target !== target || this.isReady(i));
   }
 
   /* settings: by target how its texture lies, scale and tint as numbers; wrap: modes in u and v; share: of the image that

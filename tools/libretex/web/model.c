@@ -135,7 +135,7 @@ static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *
         else if (full < 0)
             full = mixture;
         else
-            return refuse(err, "a term has two factors of the picture's size");
+            return refuse(err, "reflected light has the picture's size, as in fine packs; take the set before packing");
         if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < model->finest)
             model->finest = scale_of(model, mixture);
     }

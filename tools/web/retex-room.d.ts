@@ -1,0 +1,62 @@
+/** A target's texture lies as these say; see README.md. */
+export interface RetexPlacing {
+  /** A number keeps the picture's proportions; a pair has the meaning of retex-combine's. */
+  scale?: number | [number, number];
+  /** Degrees. */
+  rotate?: number;
+  offset?: [number, number];
+  /** "#rrggbb" */
+  tint?: string;
+  repeat?: "straight" | "mirror" | "brick" | "half-drop";
+  /** "repeat", "mirror", "clamp" or "black", or two for u and v: "clamp,repeat". */
+  wrap?: string;
+  flip?: "" | "u" | "v" | "uv";
+  label?: string;
+}
+
+export interface RetexLight {
+  /** Stops. */
+  exposure: number;
+  /** -1 to 1. */
+  warmth: number;
+}
+
+export interface RetexState {
+  textures: Record<string, RetexPlacing & { source: string }>;
+  light: RetexLight;
+}
+
+/** Events of <retex-room>. */
+export interface RetexRoomEvents {
+  "retex-still": CustomEvent<{}>;
+  "retex-ready": CustomEvent<{ targets: string[] }>;
+  "retex-complete": CustomEvent<{}>;
+  "retex-change": CustomEvent<RetexState>;
+  "retex-select": CustomEvent<{ target: string }>;
+  "retex-draw": CustomEvent<{ milliseconds: number }>;
+  "retex-error": CustomEvent<{ message: string }>;
+}
+
+/** The element <retex-room src="FOLDER/">. */
+export class RetexRoom extends HTMLElement {
+  readonly targets: string[];
+  readonly complete: Promise<void>;
+  readonly link: string;
+  setTexture(target: string, source: Blob | string | null, options?: RetexPlacing): Promise<void>;
+  place(target: string, options: RetexPlacing): void;
+  setLight(light: Partial<RetexLight>): void;
+  getState(): RetexState;
+  setState(state: Partial<RetexState>): Promise<void>;
+  toBlob(type?: string, quality?: number): Promise<Blob | null>;
+  select(target: string): void;
+  addEventListener<K extends keyof RetexRoomEvents>(
+    type: K, listener: (event: RetexRoomEvents[K]) => unknown, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject,
+    options?: boolean | AddEventListenerOptions): void;
+}
+
+declare global {
+  interface HTMLElementTagNameMap {
+    "retex-room": RetexRoom;
+  }
+}
