@@ -67,7 +67,7 @@ $(BUILD)/tests/faults/shim.so: tests/faults/shim.c
 	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) -Wno-missing-prototypes -shared -fPIC $< -o $@ -ldl
 $(BUILD)/tests/faults/faults: tests/faults/faults.c
 	@mkdir -p $(@D)
-	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) $< -o $@
+	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) $< -o $@ -lz
 
 # What make bench-post measures by: each is one file.
 $(BUILD)/tests/bench/post_%: $(BUILD)/obj/tests/bench/post_%.o $(LIBRETEX) | $(BRIDGE)

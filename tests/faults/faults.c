@@ -6,7 +6,8 @@
  * all roads together. JOBS of the environment run at a time. Prints TAP, a result for each road.
  *
  * A run with a fault must end in exit 2 with one line of error, the old files whole, nothing left over; or, where the
- * fault does no harm, as the run without a fault did, to the bit. Of a batch a file may be either. */
+ * fault does no harm, as the run without a fault did, to the bit. Of a batch a file may be either. The manifest of a
+ * catalogue must have the checksum of each picture that it has, and the same command without a fault must go on. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -20,6 +21,8 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <zlib.h>
 
 enum {
     ROADS = 40,
@@ -46,6 +49,7 @@ typedef struct Road {
     char name[NAME], line[PATH], *words[WORDS], *input;
     int nfiles, status;
     int makes_folder;        /* which must not be there before */
+    int is_catalogue;        /* writes out/manifest */
     char files[FILES][NAME]; /* in out/, as the run without a fault leaves them */
     Bytes contents[FILES], output;
     long counts[KINDS][2];
@@ -145,6 +149,7 @@ static void read_roads(const char *path)
         }
         road->words[count] = NULL;
         road->makes_folder = strcmp(name, "import") == 0;
+        road->is_catalogue = strncmp(name, "catalogue", 9) == 0;
         snprintf(road->name, sizeof road->name, "%s", name);
         nroads++;
     }
@@ -186,23 +191,19 @@ static int has_checksum(const char *name)
     return dash && strspn(dash + 1, "0123456789abcdef") == 8 && dash[9] == '.';
 }
 
+static int is_manifest(const Road *road, const char *name)
+{
+    return road->is_catalogue && strcmp(name, "manifest") == 0;
+}
+
 /* Returns what waitpid says. */
-static int run(const Road *road, const char *fault)
+static int start(const Road *road, const char *fault)
 {
     int status;
     pid_t child;
 
-    empty_folder("out");
     empty_folder("tmp");
     empty_folder("log");
-    for (int k = 0; k < road->nfiles && !road->makes_folder; k++) {
-        char path[PATH];
-        snprintf(path, sizeof path, "out/%s", road->files[k]);
-        if (has_checksum(road->files[k]))
-            continue;
-        make_folders(path);
-        write_text(path, old_content);
-    }
     fflush(NULL);
     child = fork();
     if (child == 0)
@@ -210,6 +211,20 @@ static int run(const Road *road, const char *fault)
     if (child < 0 || waitpid(child, &status, 0) != child)
         die("cannot run", road->name);
     return status;
+}
+
+static int run(const Road *road, const char *fault)
+{
+    empty_folder("out");
+    for (int k = 0; k < road->nfiles && !road->makes_folder; k++) {
+        char path[PATH];
+        snprintf(path, sizeof path, "out/%s", road->files[k]);
+        if (has_checksum(road->files[k]) || is_manifest(road, road->files[k]))
+            continue;
+        make_folders(path);
+        write_text(path, old_content);
+    }
+    return start(road, fault);
 }
 
 static void list_files(Road *road)
@@ -287,7 +302,7 @@ static const char *judge_folder(const Road *road, const char *folder, int failed
 static const char *judge_files(const Road *road, int failed)
 {
     /* files that are made one by one, or put in place so */
-    int batch = strcmp(road->name, "batch") == 0 || strcmp(road->name, "import-again") == 0;
+    int batch = strcmp(road->name, "batch") == 0 || road->is_catalogue || strcmp(road->name, "import-again") == 0;
     const int web = strcmp(road->name, "pack-web") == 0;
 
     for (int k = 0; k < road->nfiles; k++) {
@@ -298,8 +313,8 @@ static const char *judge_files(const Road *road, int failed)
                 return "a file is left";
             continue;
         }
-        if (failed && has_checksum(road->files[k]))
-            continue; /* judge_folder finds it, if it is left */
+        if ((failed && has_checksum(road->files[k])) || is_manifest(road, road->files[k]))
+            continue; /* judge_folder finds it, if it is left; or judge_manifest looks at it */
         if (access(path, R_OK))
             return failed ? "the old file is gone" : "no output";
         Bytes now = read_all(path);
@@ -315,6 +330,63 @@ static const char *judge_files(const Road *road, int failed)
     return NULL;
 }
 
+/* Whether each picture that is in the manifest has the checksum there; all = 1: whether it has each picture. */
+static const char *judge_manifest(int all, const Road *road)
+{
+    Bytes manifest = access("out/manifest", F_OK) ? (Bytes){calloc(1, 1), 0} : read_all("out/manifest");
+    const char *what = NULL;
+    int found = 0;
+
+    for (char *line = manifest.data, *end; !what && (end = strchr(line, '\n')) != NULL; line = end + 1) {
+        char path[NAME];
+        unsigned long crc, bytes;
+        *end = '\0';
+        const char *made = strstr(line, ", \"bytes\": ");
+        if (!made || sscanf(line, "{\"output\": \"%63[^\"]", path) != 1 ||
+            sscanf(made, ", \"bytes\": %lu, \"crc32\": \"%lx\", \"seconds\": %*f}", &bytes, &crc) != 2)
+            continue; /* cut off */
+        Bytes picture = read_all(path);
+        if (picture.size != bytes || crc32(0, (const Bytef *)picture.data, (uInt)picture.size) != crc)
+            what = "the manifest lies";
+        free(picture.data);
+        found++;
+    }
+    free(manifest.data);
+    return what || !all || found == road->nfiles - 1 ? what : "the manifest lacks a picture";
+}
+
+static long manifest_bytes(void)
+{
+    struct stat info;
+    return stat("out/manifest", &info) ? 0 : (long)info.st_size;
+}
+
+/* Whether the same command, without a fault, makes what is missing after a failure, and nothing otherwise. */
+static const char *judge_resumed(const Road *road, int failed)
+{
+    const long before = manifest_bytes();
+    const int status = start(road, "none");
+    const char *what;
+
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != road->status)
+        return "does not go on";
+    if (!failed && manifest_bytes() != before)
+        return "makes a picture again";
+    what = judge_files(road, 0);
+    return what ? what : judge_manifest(1, road);
+}
+
+/* A picture or an image that cannot be read is not good, says --verify, and why. */
+static int is_verdict(const Road *road, int status)
+{
+    if (strcmp(road->name, "verify") != 0 || WEXITSTATUS(status) != 1)
+        return 0;
+    Bytes now = read_all("log/output");
+    int is_told = strstr(now.data, ": cannot ") != NULL;
+    free(now.data);
+    return is_told;
+}
+
 static const char *judge(const Road *road, int status)
 {
     const char *what;
@@ -322,19 +394,24 @@ static const char *judge(const Road *road, int status)
     if (WIFSIGNALED(status))
         return WTERMSIG(status) == SIGALRM ? "hangs" : "killed by a signal";
     int failed = WEXITSTATUS(status) == 2;
+    if (is_verdict(road, status))
+        return NULL;
     if (!failed && WEXITSTATUS(status) != road->status)
         return "another exit status";
     if (failed && (what = judge_message()) != NULL)
         return what;
     if ((what = judge_files(road, failed)) || (what = judge_folder(road, "out", failed)) ||
-        (what = judge_folder(road, "tmp", failed)))
+        (what = judge_folder(road, "tmp", failed)) ||
+        (road->is_catalogue && (what = judge_manifest(!failed, road)) != NULL))
         return what;
     if (failed)
-        return NULL;
+        return road->is_catalogue ? judge_resumed(road, 1) : NULL;
     Bytes now = read_all("log/output");
-    int equal = same(now, road->output.data, road->output.size);
+    int equal = strcmp(road->name, "plan") == 0 /* tells times */ || same(now, road->output.data, road->output.size);
     free(now.data);
-    return equal ? NULL : "another standard output";
+    if (!equal)
+        return "another standard output";
+    return road->is_catalogue ? judge_resumed(road, 0) : NULL;
 }
 
 /* ---- all faults ---- */
@@ -373,9 +450,9 @@ static int try_fault(const Road *road, const char *fault, const char *kind, cons
 {
     char fired[PATH];
     int status = run(road, fault);
-    const char *what = judge(road, status);
 
-    what_fired(fired);
+    what_fired(fired); /* before judge_resumed writes another report */
+    const char *what = judge(road, status);
     if (!what && getenv("FAULTS_TELL") && WEXITSTATUS(status) == 2)
         fprintf(out, "# told %s %s: %s", road->name, fired, read_all("log/errors").data);
     if (!what)

@@ -11,10 +11,12 @@ most=3 libraries=0
 (
     cd "$work/run" &&
     printf 'output,F\nout/a.png,t.jpg\nout/b.jpg,"rgb(.7,.2,.1)"\n' >table.csv &&
+    printf 'output,F\nmade/a.png,t.jpg\nmade/b.jpg,"rgb(.7,.2,.1)"\n' >made.csv &&
     retex-render -q --size 16x12 --spp 2 -t F good.pov -o set.exr &&
     retex-pack -q set.exr -o set.retex &&
     retex-combine -q set.exr --texture F='rgb(.3,.5,.2)' -o t.jpg &&
     retex-sample -q set.exr --texture F=t.jpg -o samples.exr &&
+    mkdir made && retex-combine -q set.exr --batch made.csv --manifest made/manifest &&
     retex-sample -q set.exr --texture F=t.jpg -o - >samples.stream
 ) || { echo "1..1"; echo "not ok 1 - inputs"; exit 1; }
 "$BUILD/tests/faults/faults" "$here/tests/faults/roads.txt" "$BUILD/tests/faults/shim.so" "$here/tests/faults/known.txt" \

@@ -132,6 +132,7 @@ SelectTypeParameters=CR_CPU
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
 ReturnToService=2
 KillWait=2
+MinJobAge=36000
 MpiDefault=none
 AccountingStorageType=accounting_storage/none
 JobCompType=jobcomp/none
@@ -179,7 +180,7 @@ by_slurm() {
     fi
     # shellcheck disable=SC2086
     set -- $("$recipes/render-slurm.sh" 8 slurm.exr $scene $view)
-    wait_for 120 '[ -e slurm.exr ]'
+    wait_for 600 '[ -e slurm.exr ]'
     is_same slurm.exr "Slurm: an array of 8 shards and its merge are one render"
 
     # In the middle of their rows, task 3 is requeued, as after the death of its node, and task 5 cancelled.
@@ -187,9 +188,9 @@ by_slurm() {
     retex-render -q $long_view $scene -o long.exr
     # shellcheck disable=SC2086
     set -- $("$recipes/render-slurm.sh" 8 again.exr $scene $long_view)
-    wait_for 120 'has_rows again.exr.shards/3.partial 400000' && scontrol requeue "${1}_3"
-    wait_for 120 'has_rows again.exr.shards/5.partial 400000' && scancel "${1}_5"
-    wait_for 120 'is_in_state "${1}_5" CANCELLED && is_in_state "${1}_3" COMPLETED && is_in_state "${1}_8" COMPLETED'
+    wait_for 600 'has_rows again.exr.shards/3.partial 400000' && scontrol requeue "${1}_3"
+    wait_for 600 'has_rows again.exr.shards/5.partial 400000' && scancel "${1}_5"
+    wait_for 600 'is_in_state "${1}_5" CANCELLED && is_in_state "${1}_3" COMPLETED && is_in_state "${1}_8" COMPLETED'
     result "$([ -e again.exr.shards/3 ] && [ ! -e again.exr.shards/5 ] && [ -e again.exr.shards/5.partial ] &&
         [ ! -e again.exr ] && echo 1)" "Slurm: a task that is cancelled costs its shard only"
     # The merge would wait for ever. The task goes on, and is followed by a new merge.
@@ -198,7 +199,7 @@ by_slurm() {
     set -- "$(SHARDS=8 sbatch --parsable --array=5 "$recipes/render.sbatch" again.exr $scene $long_view)"
     # shellcheck disable=SC2086
     SHARDS=8 sbatch --dependency="afterok:$1" "$recipes/merge.sbatch" again.exr $scene $long_view >/dev/null
-    wait_for 120 '[ -e again.exr ]'
+    wait_for 600 '[ -e again.exr ]'
     is_same again.exr "Slurm: the same bits after that" long.exr
 
     mkdir s

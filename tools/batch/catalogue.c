@@ -89,7 +89,8 @@ static int sources_of(Batch *batch, int row, char **text, RetexError *err)
     return batch_sources_text(text, &batch->sources, texture_table_output(&batch->table, row), specs, count, err);
 }
 
-/* The state of a row's picture. In --verify, a source that cannot be read makes it stale. */
+/* The state of a row's picture. In --verify, a source that cannot be read makes it stale; lack of memory says nothing
+ * about it. */
 static int find_state(Batch *batch, int row, char *reason, size_t size, RetexError *err)
 {
     char path[PATH_MAX], *sources = NULL;
@@ -99,7 +100,7 @@ static int find_state(Batch *batch, int row, char *reason, size_t size, RetexErr
     if (!code)
         batch->rows[row].state = batch_manifest_state(&batch->manifest, sources, path, batch->verify, reason, size);
     free(sources);
-    if (!code || !batch_only_verifies(batch))
+    if (!code || code == RETEX_ENOMEM || !batch_only_verifies(batch))
         return code;
     batch->rows[row].state = PICTURE_STALE;
     snprintf(reason, size, "%.500s", err->message);

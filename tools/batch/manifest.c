@@ -211,7 +211,21 @@ PictureState batch_manifest_state(const BatchManifest *manifest, const char *sou
     return reason[0] ? PICTURE_DAMAGED : PICTURE_GOOD;
 }
 
-/* Append text by one write. A line that a process left unfinished is ended first. */
+static int write_all(int descriptor, const char *text, size_t bytes)
+{
+    while (bytes) {
+        const ssize_t written = write(descriptor, text, bytes);
+        if (written < 0 && errno != EINTR)
+            return errno;
+        if (written == 0)
+            return EIO;
+        text += written > 0 ? written : 0;
+        bytes -= written > 0 ? (size_t)written : 0;
+    }
+    return 0;
+}
+
+/* Append text. A line that a process left unfinished is ended first. */
 static int append(const BatchManifest *manifest, const char *text, size_t bytes)
 {
     const int descriptor = manifest->descriptor - 1;
@@ -221,10 +235,8 @@ static int append(const BatchManifest *manifest, const char *text, size_t bytes)
         return errno;
     if (info.st_size > 0 && pread(descriptor, &last, 1, info.st_size - 1) < 0)
         return errno;
-    if (last != '\n' && write(descriptor, "\n", 1) < 0)
-        return errno;
-    const ssize_t written = write(descriptor, text, bytes);
-    return written < 0 ? errno : (size_t)written < bytes ? ENOSPC : 0;
+    const int code = last == '\n' ? 0 : write_all(descriptor, "\n", 1);
+    return code ? code : write_all(descriptor, text, bytes);
 }
 
 int batch_manifest_add(const BatchManifest *manifest, const char *sources, const char *path, double seconds,

@@ -1,7 +1,7 @@
 /* The manifest of a batch: a text file with a line of JSON for each picture that was made: what it was made from, and
  * its checksum. --resume and --verify compare it with the pictures and their sources.
  *
- * Lines are only appended, each by one write under a lock, so that many processes can share a manifest, and several
+ * Lines are only appended, each under a lock, so that many processes can share a manifest, and several
  * manifests can be joined. The last line of an output counts. A line that is cut off counts as absent. Lines are
  * compared as text, so that they have to stay as they were written. */
 #ifndef RETEX_BATCH_MANIFEST_H

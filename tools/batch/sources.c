@@ -83,6 +83,13 @@ static void print_placement(FILE *file, const RetexTextureSpec *s)
         fprintf(file, " colorspace=%s", s->colorspace);
 }
 
+/* Close a text in memory; 0 if a part of it is missing. */
+static int close_text(FILE *file)
+{
+    const int failed = ferror(file);
+    return fclose(file) == 0 && !failed;
+}
+
 /* The name and placement of a texture, and the checksum of its file. The name may have options: `room.retex?…`. */
 static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s, RetexError *err)
 {
@@ -97,15 +104,17 @@ static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s,
         code = sum_file(&sum, sums, name, s->access, err);
     FILE *file = code ? NULL : open_memstream(&text, &bytes);
     if (!file)
-        return code ? code : retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture's name");
+        return code ? code : RETEX_ENOMEM;
     if (s->constant)
         fprintf(file, "rgb(%.9g,%.9g,%.9g)", (double)s->color[0], (double)s->color[1], (double)s->color[2]);
     else
         fputs(s->image, file), print_placement(file, s), fprintf(file, " %s", sum);
-    if (fclose(file) == 0)
+    if (close_text(file))
         json_text(out, text);
+    else
+        code = RETEX_ENOMEM;
     free(text);
-    return RETEX_OK;
+    return code;
 }
 
 static int compare_targets(const void *a, const void *b)
@@ -148,7 +157,7 @@ int batch_sources_text(char **text, BatchSources *sources, const char *output, R
     *text = NULL;
     FILE *file = open_memstream(text, &bytes);
     int code = file ? print_sources(file, sources, output, specs, count, err) : RETEX_ENOMEM;
-    if (!file || fclose(file) != 0 || code == RETEX_ENOMEM)
+    if (!file || !close_text(file) || code == RETEX_ENOMEM)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for a line of the manifest");
     if (code) {
         free(*text);
