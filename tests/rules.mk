@@ -108,7 +108,8 @@ SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O
 	LDFLAGS='-fsanitize=$(1)'
 ADDRESS_SANITIZED = BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined)
 asan: # freed memory that is kept aside would count in tests of peak memory
-	ASAN_OPTIONS=quarantine_size_mb=16 $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check
+	ASAN_OPTIONS=quarantine_size_mb=16 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lib/lsan.supp:print_suppressions=0 \
+	    $(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check
 tsan:
 	TSAN_OPTIONS='ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
 	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check

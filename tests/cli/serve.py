@@ -331,6 +331,14 @@ def together(server):
     expect('bodies', (len(bodies), len(set(bodies))), (12, 1))
     expect('images', metric(server, 'images_read_total'), 2)
     expect('pictures', metric(server, 'cache_total{cache="miss"}'), 1)
+    shutil.copy('rooms/small.retex', 'rooms/cold.retex')  # pictures that need different parts of a room decoded
+    answers = []
+    urls = [f'/v1/cold/{edits}/full.png?crop={n},0,9,9' for n in range(8) for edits in
+            ('Floor=oak', 'Wall=brick', 'Floor=oak;Wall=brick')]
+    threads = [threading.Thread(target=lambda url=url: answers.append(ask(server, url))) for url in urls]
+    [thread.start() for thread in threads], [thread.join() for thread in threads]
+    expect('cold', {answer.status for answer in answers}, {200})
+    os.remove('rooms/cold.retex')
     connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
     for _ in range(3):
         connection.request('GET', '/v1/small/full.jpg')
@@ -424,4 +432,4 @@ for name in sys.argv[1:]:
     finally:
         if server.poll() is None:
             server.terminate()
-            server.wait()
+        expect('exit status', server.wait(), 0)

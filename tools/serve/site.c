@@ -161,24 +161,33 @@ static int open_textures(const Site *site, const ServeRequest *request, const Re
     return code;
 }
 
-/* The targets whose corrections a picture reads. */
+/* The targets whose corrections a picture reads. Of those that the set does not have, open_textures tells. */
 static void find_corrected(const ServeRequest *request, const RetexSet *set, int corrected[RETEX_MAX_TARGETS])
 {
     memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
-    for (int i = 0; i < request->nspecs && retex_correction_weight(set->ntargets, request->nspecs) > 0; i++)
-        corrected[retex_set_find_target(set, request->specs[i].target)] = 1;
+    for (int i = 0; i < request->nspecs && retex_correction_weight(set->ntargets, request->nspecs) > 0; i++) {
+        const int target = retex_set_find_target(set, request->specs[i].target);
+        if (target >= 0)
+            corrected[target] = 1;
+    }
 }
 
-/* The file of a picture: 0. Its targets are known to be there. */
-static int make_file(const Site *site, const ServeRequest *request, const PicturePlan *plan, const Room *room,
-                     int nthreads, void **data, size_t *bytes, RetexError *err)
+/* The file of a picture: 0. Opening textures looks at the parts of the set, so that no other thread may decode them
+ * meanwhile. */
+static int make_file(const Site *site, const ServeRequest *request, PicturePlan *plan, const Room *room, int nthreads,
+                     void **data, size_t *bytes, RetexError *err)
 {
     int corrected[RETEX_MAX_TARGETS];
+    Textures textures = {0};
     find_corrected(request, room->set, corrected);
     int code = rooms_begin_picture(site->rooms, room, corrected, err);
     if (code)
         return code;
-    code = picture_make(plan, nthreads, data, bytes, err);
+    plan->textures = textures.textures;
+    code = open_textures(site, request, room->set, &textures, err);
+    if (!code)
+        code = picture_make(plan, nthreads, data, bytes, err);
+    close_textures(site, &textures);
     rooms_end_picture(site->rooms, room);
     return code;
 }
@@ -193,20 +202,15 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                         .format = request.format,
                         .quality = quality_of(site, &request),
                         .deadline = item->deadline};
-    Textures textures = {0};
     RetexError err = {0};
     char etag[ETAG_SIZE];
     void *data = NULL;
     size_t bytes = 0;
     if (iiif_place(&request, room->set->width, room->set->height, &plan.place))
         return answer_error(request.status, "%s", request.reason);
-    plan.textures = textures.textures;
-    int code = make_etag(site, &request, &plan.place, room, etag)
-                   ? retex_fail(&err, RETEX_ENOTFOUND, "a texture is gone")
-                   : open_textures(site, &request, room->set, &textures, &err);
-    if (!code)
-        code = make_file(site, &request, &plan, room, nthreads, &data, &bytes, &err);
-    close_textures(site, &textures);
+    const int code = make_etag(site, &request, &plan.place, room, etag)
+                         ? retex_fail(&err, RETEX_ENOTFOUND, "a texture is gone")
+                         : make_file(site, &request, &plan, room, nthreads, &data, &bytes, &err);
     if (code)
         return answer_of_error(&err);
     Answer *answer = answer_new(200, serve_format_type(request.format), data, bytes);
