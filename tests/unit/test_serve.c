@@ -23,6 +23,22 @@
 #include "serve/uploads.h"
 #include "serve/work.h"
 
+/* ---- answers ---- */
+
+/* A message that is too long ends between two characters. */
+static void test_long_message(void **state)
+{
+    char text[2 * 150 + 1] = "";
+    (void)state;
+    for (int i = 0; i < 150; i++)
+        strcat(text, "\xc3\xa4");
+    Answer *answer = answer_error(404, "%s", text);
+    assert_int_equal(answer->bytes, 199);
+    assert_memory_equal(answer->data, text, 198);
+    assert_int_equal(((char *)answer->data)[198], '\n');
+    answer_release(answer);
+}
+
 /* ---- cache ---- */
 
 static Answer *some_bytes(size_t bytes, char fill)
@@ -546,9 +562,9 @@ static int enter_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),   cmocka_unit_test(test_etags),
-        cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),   cmocka_unit_test(test_shrink),
-        cmocka_unit_test(test_rooms),  cmocka_unit_test(test_images),
+        cmocka_unit_test(test_long_message), cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),
+        cmocka_unit_test(test_etags),        cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),
+        cmocka_unit_test(test_shrink),       cmocka_unit_test(test_rooms),  cmocka_unit_test(test_images),
         cmocka_unit_test(test_uploads),
     };
     return cmocka_run_group_tests(tests, enter_folder, test_remove_folder);
