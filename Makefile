@@ -15,6 +15,7 @@
 #   make bench-paper  size of the paper's AOVs and of ours; BENCH_DOCS=1: docs/paper-sizes.md
 #   make bench-storage    size and loss of sets and packs; BENCH_DOCS=1: docs/storage.md
 #   make bench-catalogues   pictures a second of --batch, and what a million a day takes; BENCH_DOCS=1: docs/catalogues.md
+#   make bench-serve  processor time of retex-serve's answers; BENCH_DOCS=1: docs/serve.csv, the figures of docs/serve.md
 #   make bench-scale  time per path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
 #   make parity       compare POV-Ray's sample scenes with POV-Ray; SCENES='chess2 camera/' selects scenes by parts of
 #                     their names; BENCH_DOCS=1: docs/parity.md

@@ -147,13 +147,15 @@ bench-scale: all
 
 # How long retextures take and how large sets are, as in the paper's tables; and size against loss of packs.
 POST_PROGRAMS := $(BUILD)/tests/bench/post_floor $(BUILD)/tests/bench/post_measure
-.PHONY: bench-post bench-storage bench-paper bench-catalogues
+.PHONY: bench-post bench-storage bench-paper bench-serve bench-catalogues
 bench-post: all $(POST_PROGRAMS)
 	@BUILD=$(BUILD) tests/bench/post/run.sh
 bench-storage: all fidelity-textures
 	@BUILD=$(BUILD) tests/bench/post/storage.sh
 bench-paper: all
 	@BUILD=$(BUILD) tests/bench/post/paper.sh
+bench-serve: all
+	@BUILD=$(BUILD) tests/bench/serve/run.sh
 bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 	@BUILD=$(BUILD) tests/bench/catalogues/run.sh
 

@@ -188,10 +188,46 @@ def speed_over_cycles():
     return f"{min(found):.1f} to {max(found):.1f} times"
 
 
+def served(what, name):
+    found, = rows("serve", what=what, figure=name)
+    return found["value"]
+
+
+def serve_cost(what):
+    """Processor time of an answer."""
+    value = float(served(what, "processor_ms"))
+    return f"{value / 1000:.1f} s" if value >= 1000 else f"{value:.0f} ms" if value >= 10 else f"{value:.2g} ms"
+
+
+def serve_bytes(what):
+    value = float(served(what, "bytes"))
+    return megabytes(value) if value >= 1e6 else f"{value / 1e3:.0f} KB"
+
+
+def serve_number(what, name, digits):
+    return f"{float(served(what, name)):.{int(digits)}f}"
+
+
+def serve_rate(what):
+    """New pictures a second of one core."""
+    return f"{1000 / float(served(what, 'processor_ms')):.0f}"
+
+
+def serve_clients_rate():
+    """Answers to many clients a second of processor time."""
+    rate, seconds, used = (float(served("clients", name)) for name in ("answers_per_s", "seconds", "processor_s"))
+    return f"{rate * seconds / used:.0f}"
+
+
+def serve_measured():
+    return served("measured", "by")
+
+
 FIGURES = {f.__name__: f for f in (fidelity_mean, fidelity_worst, fidelity_again, denoise_gain, post_size,
                                    post_seconds, post_memory, post_variants, catalogue_rate, overhead, overhead_of, paper_size, paper_psnr,
                                    paper_at, storage_loss, pack_differs, pack_loses, pack_gains, pack_grows,
-                                   lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles)}
+                                   lossless_shares, denoise_psnr, overhead_memory, speed_over_cycles, serve_cost, serve_bytes,
+                                   serve_number, serve_rate, serve_clients_rate, serve_measured)}
 
 
 def figure(name):

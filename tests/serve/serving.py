@@ -102,6 +102,11 @@ def fetch(port, path, method="GET", headers=None, timeout=60, body=None):
         connection.close()
 
 
+def metric(server, name):
+    found = re.search(f"^retex_serve_{re.escape(name)} (\\S+)$", fetch(server.port, "/metrics").body.decode(), re.M)
+    return float(found[1])
+
+
 def wait_until(condition, seconds=30):
     until = time.monotonic() + seconds
     while time.monotonic() < until:
