@@ -66,11 +66,11 @@ def main():
     _, figures = load.measure_clients(server, int(seconds), work)
     server.stop()
     costs.add("clients", seconds=int(seconds), **figures)
-    for rows in 5 * int(count), 2 * int(count):
+    for what, rows in ("batch", 5 * int(count)), ("batch-short", 2 * int(count)):
         ratios, same = load.measure_throughput(rooms, textures, work, log, rows)
         if not same:
             sys.exit("the server's pictures are not the batch's")
-        costs.add(f"batch-{rows}", least=ratios[0], median=ratios[1], most=ratios[-1])
+        costs.add(what, rows=rows, least=ratios[0], median=ratios[1], most=ratios[-1])
     with open(out, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["what", "figure", "value"])
