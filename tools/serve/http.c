@@ -256,12 +256,10 @@ static Answer *unchanged_answer(const char *etag)
     return answer;
 }
 
-static const char *is_unchanged(const Exchange *exchange, char etag[ETAG_SIZE])
+static int is_unchanged(const Exchange *exchange, char etag[ETAG_SIZE])
 {
     const char *had = header_of(exchange, "If-None-Match");
-    return had && site_known_etag(exchange->http->params.site, &exchange->request, etag) && header_has_etag(had, etag)
-               ? etag
-               : NULL;
+    return had && site_known_etag(exchange->http->params.site, &exchange->request, etag) && header_has_etag(had, etag);
 }
 
 /* Have the answer made: the connection is suspended until it is. 0: the exchange has its answer, or none for lack of

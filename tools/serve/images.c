@@ -1,7 +1,6 @@
 /* See images.h. */
 #include "images.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,12 +55,10 @@ static void close_image(Kept *kept)
 
 int images_open(Images **images, const ImagesParams *params, RetexError *err)
 {
-    struct stat info;
     *images = NULL;
-    if (params->folder && stat(params->folder, &info) != 0)
-        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", params->folder, strerror(errno));
-    if (params->folder && !S_ISDIR(info.st_mode))
-        return retex_fail(err, RETEX_EIO, "%s is no folder", params->folder);
+    int code = params->folder ? names_check_folder(params->folder, err) : RETEX_OK;
+    if (code)
+        return code;
     if (!(*images = calloc(1, sizeof **images)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for images");
     (*images)->params = *params;

@@ -80,5 +80,4 @@ void metrics_write(FILE *file, const Metrics *metrics)
     for (int use = CACHE_HIT; use < CACHE_USES; use++)
         fprintf(file, "retex_serve_cache_total{cache=\"%s\"} %llu\n", cache_use_name((CacheUse)use),
                 atomic_load(&metrics->caches[use]));
-    metrics_write_value(file, "connections", "gauge", "Open connections.", atomic_load(&metrics->connections));
 }

@@ -24,7 +24,6 @@ typedef struct Metrics {
     atomic_ullong buckets[METRICS_BUCKETS + 1]; /* not cumulative; the last one: longer than all */
     atomic_ullong microseconds, bytes;
     atomic_ullong caches[CACHE_USES];
-    atomic_int connections;
 } Metrics;
 
 /* route: a ServeRoute, or -1 for a request that has none */

@@ -2,6 +2,7 @@
 #include "names.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,6 +48,14 @@ static int add(Names *names, const char *name, int with_ending)
 static int compare(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+int names_check_folder(const char *folder, RetexError *err)
+{
+    struct stat info;
+    if (stat(folder, &info) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", folder, strerror(errno));
+    return S_ISDIR(info.st_mode) ? RETEX_OK : retex_fail(err, RETEX_EIO, "%s is no folder", folder);
 }
 
 int names_list(const char *folder, const char *const *endings, int with_ending,

@@ -1,7 +1,6 @@
 /* See rooms.h. */
 #include "rooms.h"
 
-#include <errno.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,12 +57,10 @@ static OpenRoom *open_room_of(const Room *room)
 
 int rooms_open(Rooms **rooms, const RoomsParams *params, RetexError *err)
 {
-    struct stat info;
     *rooms = NULL;
-    if (stat(params->folder, &info) != 0)
-        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", params->folder, strerror(errno));
-    if (!S_ISDIR(info.st_mode))
-        return retex_fail(err, RETEX_EIO, "%s is no folder", params->folder);
+    int code = names_check_folder(params->folder, err);
+    if (code)
+        return code;
     if (!(*rooms = calloc(1, sizeof **rooms)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for rooms");
     (*rooms)->params = *params;

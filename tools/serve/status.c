@@ -14,6 +14,7 @@ static void write_counts(FILE *file, const StatusSources *sources)
     const WorkCount work = work_count(sources->pictures);
     size_t pictures, picture_bytes;
     cache_count(site->pictures, &pictures, &picture_bytes);
+    metrics_write_value(file, "connections", "gauge", "Open connections.", sources->connections);
     metrics_write_value(file, "queue_length", "gauge", "Pictures that wait.", work.waiting);
     metrics_write_value(file, "queue_limit", "gauge", "Pictures that may wait.", work.limit);
     metrics_write_value(file, "working", "gauge", "Pictures that are being made.", work.running);
@@ -60,7 +61,6 @@ Answer *status_answer(const StatusSources *sources)
     FILE *file = open_memstream(&text, &bytes);
     if (!file)
         return NULL;
-    atomic_store(&sources->metrics->connections, sources->connections);
     metrics_write(file, sources->metrics);
     write_counts(file, sources);
     write_process(file);
