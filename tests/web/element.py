@@ -108,9 +108,11 @@ def check_sizes(page):
     page.shot("sizes")
     write("picture.html", "<retex-room src=room/ panel=closed></retex-room>")
     page.open(url + "picture.html")
-    result(page.run(f"{PART}('.panel').hidden && {PART}('.stage').offsetWidth === {ROOM}.offsetWidth"), "panel=\"closed\": the picture alone")
+    told = f"{PART}('[data-do=panel]').getAttribute('aria-expanded')"
+    result(page.run(f"{PART}('.panel').hidden && {PART}('.stage').offsetWidth === {ROOM}.offsetWidth && {told} === 'false'"),
+           "panel=\"closed\": the picture alone, and so the button says")
     page.press("[data-do=panel]")
-    result(page.run(f"!{PART}('.panel').hidden && {PART}('[data-do=panel]').getAttribute('aria-expanded') === 'true'"),
+    result(page.run(f"!{PART}('.panel').hidden && {told} === 'true'"),
            "and its button shows the controls")
     write("part.html", "<retex-room src=room/></retex-room>", "<style>retex-room::part(panel) { display: none }</style>")
     page.open(url + "part.html")
