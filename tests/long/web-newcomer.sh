@@ -45,7 +45,7 @@ step "$(cat pack.sh)" sh ./pack.sh
 serve() {
     (cd "$1" && exec python3 -u -m http.server 0 --bind 127.0.0.1) >"$2" 2>&1 &
     for _ in 1 2 3 4 5 6 7 8 9 10; do
-        grep -q 'port [0-9]' "$2" && return
+        grep -qs 'port [0-9]' "$2" && return
         sleep 1
     done
 }
