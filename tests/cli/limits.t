@@ -28,6 +28,9 @@ $ { echo '#declare O=sphere{0,.1}'; echo '#for(I,1,22) #declare O=union{object{O
 $ echo '#declare A=array[300000000]' >array.pov; retex-render --max-memory 1G array.pov -o x.exr
 ! retex-render: error: array.pov:1:27: the scene takes more than the 1024 MB of --max-memory
 = 2
+$ awk 'BEGIN { print "camera { location -9*z look_at 0 } light_source { -9*z, 1 }"; for (i = 0; i < 10000; i++) printf "mesh2 { vertex_vectors { 3, <%d,0,0>,<%d,1,0>,<%d,0,1> } texture_list { 3, texture { pigment { rgb <.%d,1,0> } },texture { pigment { rgb <.%d,1,0> } },texture { pigment { rgb <.%d,1,0> } } } face_indices { 1, <0,1,2>,0,1,2 } }\n", i, i, i, i % 5, i % 3, i % 7 }' >molecule.pov; retex-render -q --plain --max-memory 47M --threads 1 --spp 1 --size 8x6 molecule.pov -o x.exr && rm x.exr
+# Equal colours are kept once; others stay what they are, as in patterns.
+$ printf '%s\n' 'camera { orthographic location <19.5,19.5,-9> right 40*x up 40*y direction z }' '#for (I, 0, 39) #for (J, 0, 39) #declare C = rgb <I/40,J/40,.5>;' 'box { <I-.5,J-.5,0>, <I+.5,J+.5,1> pigment { #if (Pattern) gradient x color_map { [0 C] [1 C] } #else C #end } } #end #end' >colors.pov; for p in 0 1; do retex-render -q --plain --spp 1 --size 40x40 --ambient --aov albedo -D Pattern=$p colors.pov -o colors-$p.exr 2>&1 | grep -v black; done; retex-diff -q --part albedo --fail-abs 0.0001 colors-0.exr colors-1.exr
 $ printf '%s\n' '#for(I,0,N-1) sphere{I*x,1 pigment{image_map{png "big.png"}}} #end' >image.pov; make_peak peak retex-render --max-memory 500M -D N=1 image.pov -o x.exr; awk '{ print ($1 < 200 ? "little" : $1) }' peak
 > little
 ! retex-render: error: image.pov:2:1: image.pov:1: image_map: big.png: the picture is too large: 6000 x 6000 pixels, more than --max-memory has room for

@@ -384,10 +384,13 @@ static void statement(Sdl *sdl)
             statements[i].parse(sdl);
             return;
         }
+    const int has_name = sdl_peek(sdl)->kind == TOKEN_IDENT;
     const Object *object = accept_object(sdl);
     if (!object)
         sdl_expected(sdl, "an object, a light, a camera or a directive");
     place_object(sdl, object);
+    if (!has_name)
+        object_done(sdl, object);
 }
 
 const SdlBuilder scene_builder = {

@@ -63,6 +63,8 @@ typedef struct ParsedPigment {
     struct ParsedPigment *next; /* all there are */
 } ParsedPigment;
 
+#define PLAIN_PIGMENTS 1024
+
 typedef struct ParsedColorMap {
     ColorMap map;
     int parts, depth; /* entries, with those of its pigments' maps; how deep these are nested */
@@ -256,6 +258,9 @@ typedef struct Builder {
     int depth;            /* of nested statements being read */
     /* what is decoded from the working space at the end, each once */
     ParsedPigment *pigments;
+    ParsedPigment *plain_pigments[PLAIN_PIGMENTS]; /* of one colour, which textures share: by a hash of it */
+    ParsedPigment *spare_pigment;                  /* memory for the next one */
+    struct Object *spare_object;
     ParsedFinish *finishes;
     ParsedImage *images;
     int primitive_capacity, light_capacity, image_capacity;
@@ -313,6 +318,8 @@ int transform_is_identity(const Transform *t);
 ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
 ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
+/* The same, of a texture without uv_mapping, which would change it: it may be another texture's too. */
+ParsedPigment *parse_shared_pigment(Sdl *sdl, const ParsedPigment *from);
 const Pigment *parse_uv_pigment(Sdl *sdl); /* of the block `retex` and the like: on the shape's UV, with its braces */
 Rgbft pigment_mean(const Pigment *pigment);
 /* A pattern of textures, up to the end: the pattern as a pigment without colours, and its textures in map. */
@@ -536,6 +543,8 @@ void parse_photons(Sdl *sdl, unsigned *flags);
 /* caustics.c, at the end of reading: which light sources throw caustics, by which primitives. */
 void find_caustics(Sdl *sdl);
 void place_object(Sdl *sdl, const Object *object);
+/* Nothing needs the object any more: it is placed, and has no name. */
+void object_done(Sdl *sdl, const Object *object);
 void place_within(Sdl *sdl, const Object *object, const Inherited *around);
 int place_instance(Sdl *sdl, const Object *object, const Inherited *around); /* 0: it is to be placed by itself */
 unsigned flags_within(const Object *object, const Inherited *around);

@@ -9,12 +9,25 @@
 
 Object *object_new(Sdl *sdl, ObjectKind kind)
 {
-    Object *object = sdl_alloc(sdl, sizeof *object);
+    Builder *builder = builder_of(sdl);
+    Object *object = builder->spare_object;
+    builder->spare_object = NULL;
+    if (object)
+        memset(object, 0, sizeof *object);
+    else
+        object = sdl_alloc(sdl, sizeof *object);
     object->kind = kind;
     object->transform = transform_identity();
     object->line = sdl_peek(sdl)->line;
     object->parts = 1;
     return object;
+}
+
+/* Programs write long lists of shapes: each of them uses the memory of the one before. */
+void object_done(Sdl *sdl, const Object *object)
+{
+    if (object->kind == OBJECT_SHAPE && !object->clips && !object->bounds)
+        builder_of(sdl)->spare_object = (Object *)object;
 }
 
 /* ---- places ---- */

@@ -9,7 +9,10 @@
 ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
 {
     Builder *builder = builder_of(sdl);
-    ParsedPigment *pigment = sdl_alloc(sdl, sizeof *pigment);
+    ParsedPigment *pigment = builder->spare_pigment;
+    builder->spare_pigment = NULL;
+    if (!pigment)
+        pigment = sdl_alloc(sdl, sizeof *pigment);
     if (from)
         *pigment = *from;
     else
@@ -347,6 +350,39 @@ ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from)
 {
     sdl_expect(sdl, "{");
     return parse_pigment_body(sdl, from, '}');
+}
+
+static ParsedPigment **plain_slot(Builder *builder, const Rgbft *color)
+{
+    uint32_t words[sizeof *color / sizeof(uint32_t)], hash = 0;
+    memcpy(words, color, sizeof words);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        hash = (hash ^ words[i]) * 0x9e3779b1u;
+    return &builder->plain_pigments[hash >> 16 & (PLAIN_PIGMENTS - 1)];
+}
+
+/* Molecules have a colour at every corner of a face, and few colours: without this, pigments would be half of what such
+ * scenes need. */
+ParsedPigment *parse_shared_pigment(Sdl *sdl, const ParsedPigment *from)
+{
+    Builder *builder = builder_of(sdl);
+    ParsedPigment *pigment = parse_pigment(sdl, from);
+    if (pigment->pigment.kind != PIGMENT_COLOR || pigment->averaged || builder->pigments != pigment)
+        return pigment;
+    ParsedPigment **slot = plain_slot(builder, &pigment->pigment.color), *known = *slot, *next = pigment->next;
+    if (known) { /* the same but for its place in the file and in the list */
+        const int line = pigment->line;
+        pigment->line = known->line, pigment->next = known->next;
+        if (memcmp(pigment, known, sizeof *pigment) == 0) {
+            memset(pigment, 0, sizeof *pigment);
+            builder->spare_pigment = pigment;
+            builder->pigments = next;
+            return known;
+        }
+        pigment->line = line, pigment->next = next;
+    }
+    *slot = pigment;
+    return pigment;
 }
 
 ParsedPigment *parse_selector(Sdl *sdl, char end, ParsedTextureMap *map)

@@ -45,7 +45,8 @@ int accept_texture_part(Sdl *sdl, const ParsedTexture **texture)
     ParsedTexture *changed = plain_copy(sdl, *texture ? *texture : builder_of(sdl)->default_texture);
     sdl_next(sdl);
     if (pigment)
-        set_pigment(changed, parse_pigment(sdl, pigment_of(changed)));
+        set_pigment(changed,
+                    (changed->texture.uv_mapping ? parse_pigment : parse_shared_pigment)(sdl, pigment_of(changed)));
     else if (finish)
         changed->texture.finish = &parse_finish(sdl, finish_of(changed))->finish;
     else
