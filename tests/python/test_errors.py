@@ -1,4 +1,5 @@
 """Wrong inputs end in exceptions that say why."""
+import copy
 import os
 import pickle
 import shutil
@@ -131,6 +132,17 @@ def test_closed():
                  lambda: room.pack("x"), lambda: list(room.batch([{}])), lambda: room.can_denoise):
         lib.fails(ValueError, call)
     assert room.width == 64 and room.targets and np.isfinite(picture).all()
+
+
+def test_copies():
+    """Sets are neither copied nor pickled, samples not pickled"""
+    with retex.open("room.exr") as room:
+        for refused in (copy.copy, copy.deepcopy, pickle.dumps):
+            assert "open its file again" in str(lib.fails(TypeError, refused, room))
+        lib.fails(TypeError, pickle.dumps, room.sample({}))
+        texture = pickle.loads(pickle.dumps(retex.Texture("oak.jpg", scale=2)))
+        assert repr(texture) == repr(retex.Texture("oak.jpg", scale=2))
+        assert pickle.loads(pickle.dumps(room.targets)) == room.targets
 
 
 def test_warnings():

@@ -8,7 +8,7 @@ from collections import OrderedDict
 from ctypes import byref, c_void_p, sizeof
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Type, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optional, Tuple, Type, Union
 
 import numpy as np
 
@@ -86,6 +86,9 @@ class _Handle:
     def close(self) -> None:
         self._finalizer()
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("what the library keeps in memory cannot be pickled: write it to a file")
+
 
 class Samples:
     """New textures, filtered at the footprints of a set: the first half of a retexture. Set.sample() makes them."""
@@ -157,6 +160,9 @@ class Set:
     def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
                  trace: Optional[TracebackType]) -> None:
         self.close()
+
+    def __reduce__(self) -> NoReturn:  # of pickle and copy: two sets would close one handle
+        raise TypeError("a set cannot be pickled or copied: open its file again")
 
     def __repr__(self) -> str:
         names = ", ".join(target.name for target in self.targets)
