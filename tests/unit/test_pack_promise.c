@@ -95,7 +95,7 @@ static int take_rows(void *context, int y0, int y1, const float *rows, RetexErro
 static double untried(const RetexSet *pack, const RetexSet *set, int pattern)
 {
     const RetexSet *sets[] = {pack, set};
-    RetexImage texels, images[2] = {{0}};
+    RetexImage texels = {0}, images[2] = {{0}};
     RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL};
     RetexMetrics metrics;
     RetexError err = {0};
