@@ -150,7 +150,10 @@ def test_warnings():
     with retex.open("room.exr") as room, warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         room.combine({"Floor": (2, 2, 2)})
-        assert [warning.category for warning in told] == [retex.RetexWarning], told
+        retex.Texture((2, 2, 2))
+        room.sample({"Floor": (2, 2, 2)})
+        assert [warning.category for warning in told] == [retex.RetexWarning] * 2, told
+        assert {warning.filename for warning in told} == {__file__}, told  # the caller's line, not the package's
         warnings.simplefilter("error")
         lib.fails(retex.RetexWarning, room.combine, {"Floor": (2, 2, 2)})
         room.combine({"Floor": (0.5, 0.5, 0.5)})

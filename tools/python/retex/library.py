@@ -4,11 +4,12 @@ import ctypes
 import enum
 import os
 import pathlib
+import sys
 import threading
 import warnings
 from ctypes import CFUNCTYPE, POINTER, c_char, c_char_p, c_double, c_float, c_int, c_long, c_size_t, c_uint, c_uint64
 from ctypes import c_void_p
-from typing import Any, List, Optional
+from typing import Any, Dict, List, Optional, Tuple
 
 MAX_TARGETS = 8
 BAND = 64  # rows of a picture that are submitted at once
@@ -43,7 +44,7 @@ class Error(Exception):
         self.line = line
         self.column = column
 
-    def __reduce__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
         return type(self), (int(self.code), self.message, self.file, self.line, self.column)
 
 
@@ -133,7 +134,7 @@ _error = POINTER(RetexError)
 _image = POINTER(RetexImage)
 
 #: The arguments of each call but its last one, the error.
-CALLS = {
+CALLS: Dict[str, List[Any]] = {
     "retex_image_alloc": [_image, c_int, c_int, c_int],
     "retex_image_read": [_image, c_char_p, POINTER(RetexReadParams), c_int],
     "retex_image_write": [_image, c_char_p, POINTER(RetexWriteParams), c_int],
@@ -157,7 +158,7 @@ CALLS = {
     "retex_estimate_error": [c_void_p, c_void_p, _textures, POINTER(RetexCombineParams), c_void_p, c_void_p, c_int],
 }
 #: Calls that cannot fail: arguments and result.
-PLAIN = {
+PLAIN: Dict[str, Tuple[List[Any], Any]] = {
     "retex_image_free": ([_image], None),
     "retex_texture_close": ([_handle], None),
     "retex_texture_bytes": ([c_void_p], c_uint64),
@@ -169,10 +170,8 @@ PLAIN = {
 
 
 def _declare() -> None:
-    for name, arguments in CALLS.items():
-        function = getattr(lib, name)
-        function.argtypes, function.restype = arguments + [_error], c_int
-    for name, (arguments, result) in PLAIN.items():
+    calls: Dict[str, Tuple[List[Any], Any]] = {name: ([*arguments, _error], c_int) for name, arguments in CALLS.items()}
+    for name, (arguments, result) in {**calls, **PLAIN}.items():
         function = getattr(lib, name)
         function.argtypes, function.restype = arguments, result
 
@@ -219,14 +218,19 @@ def threads_of(threads: int) -> int:
 _told = threading.local()
 
 
-@WARN
-def warn(_context: Any, text: bytes) -> None:
-    """Keeps the library's warnings, which it tells in the calling thread."""
+def _keep_warning(_context: Any, text: bytes) -> None:
     _told.texts = getattr(_told, "texts", []) + [text.decode(errors="replace")]
+
+
+#: Keeps the library's warnings, which it tells in the calling thread.
+warn = WARN(_keep_warning)
 
 
 def pass_warnings() -> None:
     """Warn of what the library has told since the last time. Call where an exception does no harm."""
     texts, _told.texts = getattr(_told, "texts", []), []
+    level, frame = 1, sys._getframe()
+    while frame.f_back and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
     for text in texts:
-        warnings.warn(text, RetexWarning, stacklevel=4)
+        warnings.warn(text, RetexWarning, stacklevel=level)

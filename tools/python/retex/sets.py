@@ -1,5 +1,6 @@
 """Sets and packs: their targets, samples of new textures, pictures, batches, denoising and packing."""
 import contextlib
+import copy
 import ctypes
 import json
 import threading
@@ -71,7 +72,7 @@ class _Lock:
                 self._changed.notify_all()
 
 
-def _close(name: str, address: int) -> None:
+def _close(name: str, address: Optional[int]) -> None:
     getattr(lib, name)(byref(c_void_p(address)))
 
 
@@ -171,7 +172,7 @@ class Set:
     @property
     def manifest(self) -> Dict[str, Any]:
         """All that the set says about itself: a copy of its manifest, see retex-set(5)."""
-        return json.loads(json.dumps(self._manifest))
+        return copy.deepcopy(self._manifest)
 
     @property
     def width(self) -> int:
@@ -205,9 +206,15 @@ class Set:
             first, second = target.get(name, (0.0, 0.0))
             return float(first), float(second)
 
+        def colour(red: float, green: float, blue: float) -> Tuple[float, float, float]:
+            return red, green, blue
+
+        def both(u: bool, v: bool) -> Tuple[bool, bool]:
+            return u, v
+
         return [Target(name=target["name"], idents=tuple(filter(None, target["idents"].split(","))),
-                       share=target["share"], mean_albedo=tuple(target["mean_albedo"]),
-                       periodic=tuple(target["periodic"]), uv_min=pair(target, "uv_min"),
+                       share=target["share"], mean_albedo=colour(*target["mean_albedo"]),
+                       periodic=both(*target["periodic"]), uv_min=pair(target, "uv_min"),
                        uv_max=pair(target, "uv_max"), uv_scale=pair(target, "uv_scale"))
                 for target in self._manifest["targets"]]
 
@@ -237,7 +244,7 @@ class Set:
 
     def _load(self, pointer: c_void_p, name: str, texture: Texture, threads: int) -> _Handle:
         """Load a texture for a target. An array takes the place of a colour, by which the target is checked."""
-        loaded = (c_void_p * MAX_TARGETS)()
+        loaded: Any = (c_void_p * MAX_TARGETS)()
         array = texture.array is not None
         spec = (Texture((0, 0, 0)) if array else texture).spec(name)
         specs = (RetexTextureSpec * 1)(spec)
@@ -248,8 +255,9 @@ class Set:
                 handle, loaded[target] = c_void_p(loaded[target]), None
                 return _Handle(handle, "retex_texture_close")
         finally:
-            for address in filter(None, loaded):
-                _close("retex_texture_close", address)
+            for address in loaded:
+                if address:
+                    _close("retex_texture_close", address)
         made = _Handle(texture.create(name, threads), "retex_texture_close")
         call("retex_textures_move", made.pointer, pointer, target)
         return made
