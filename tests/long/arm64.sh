@@ -66,7 +66,7 @@ cat >"$arm/run" <<END
 #!/bin/sh
 exec env "RETEX_BRIDGE=$arm/lib/libretex-oiio.so" CMOCKA_MESSAGE_OUTPUT=TAP qemu-aarch64 \\
     "$root/lib/ld-linux-aarch64.so.1" --library-path \\
-    "$root/lib/aarch64-linux-gnu:$root$libraries:$root$libraries/blas:$root$libraries/lapack" "\$@"
+    "$root/lib/aarch64-linux-gnu:$root$libraries:$root/usr/lib:$root$libraries/blas:$root$libraries/lapack" "\$@"
 END
 chmod +x "$arm/run"
 export arm work
