@@ -32,7 +32,7 @@ enum {
     NAME = 64,
     PATH = 512,
     TEXT = 1 << 14,
-    SECONDS = 30,
+    SECONDS = 120, /* a busy machine may need half a minute */
     JOBS_MOST = 16
 };
 

@@ -8,8 +8,9 @@ PATH=$(echo "$PATH" | tr : '\n' | grep -v ccache | paste -s -d :)
 unset MAKEFLAGS CCACHE_NOHASHDIR
 # built FOLDER: the library's name there
 built() {
+    mkdir -p "$work/$1"
+    tar -c --exclude=./.git --exclude=./build . | tar -x -C "$work/$1"
     mkdir -p "$work/$1/build"
-    git ls-files -z | tar -c --null -T - | tar -x -C "$work/$1"
     cp "$BUILD/config.mk" "$work/$1/build"
     (cd "$work/$1" && BUILD=build CCACHE_DISABLE=1 make -j2 CFLAGS='-O0 -g' build/lib/libretex.so.1) >"$work/log" 2>&1 ||
         tail -n 3 "$work/log" >&2
