@@ -351,6 +351,10 @@ del scene['buffers'][0]['uri']
 binary = glb(scene, data)
 write('padded.glb', binary.replace(b'}   ', b'}\0\0\0').replace(b'}  ', b'}\0\0').replace(b'} ', b'}\0'))
 end = 20 + struct.unpack('<I', binary[12:16])[0]
+text = json.dumps(scene).encode().rstrip() + b' '
+text += b' ' * (len(text) % 4 == 0)
+odd = struct.pack('<II', len(text), 0x4e4f534a) + text + binary[end:]
+write('unaligned.glb', struct.pack('<III', 0x46546c67, 2, 12 + len(odd)) + odd)
 more = struct.pack('<II', 4, 0x12345678) + b'more'
 for name, body in (('after', binary[12:] + more), ('between', binary[12:end] + more + binary[end:]),
                    ('before', binary[end:] + binary[12:end])):

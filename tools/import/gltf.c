@@ -57,6 +57,7 @@ GltfText gltf_load(FILE *in)
     if (text) {
         text[length] = '\0';
         got.is_repaired = repair(text, &length);
+        got.is_repaired |= got.is_binary && said % 4 != 0; /* Assimp takes the next chunk to be aligned */
         got.json = json_loadb(text, length, JSON_ALLOW_NUL, &why);
     }
     if (!got.json)

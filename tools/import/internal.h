@@ -162,7 +162,7 @@ uint32_t gltf_little(const unsigned char *bytes);
 size_t gltf_rest_of(FILE *in);
 typedef struct GltfText {
     json_t *json;               /* of a .gltf or .glb file; NULL: there is none */
-    int is_binary, is_repaired; /* repaired: bytes of the text that are no UTF-8 became question marks */
+    int is_binary, is_repaired; /* repaired: Assimp does not read it as it is */
     char why[160];              /* there is no JSON although there should be */
 } GltfText;
 /* In a .glb, the binary chunk is next. */
