@@ -55,6 +55,13 @@ static int save_report(Batch *batch, RetexError *err)
     return due ? batch_report_write(batch, err) : RETEX_OK;
 }
 
+void batch_owe_report(Batch *batch)
+{
+    pthread_mutex_lock(&lock);
+    batch->report_due = batch->report != NULL;
+    pthread_mutex_unlock(&lock);
+}
+
 /* Write the report, and print an error if that fails. */
 static int write_report(Batch *batch)
 {
@@ -97,7 +104,9 @@ static void write_report_at_end(const char *why)
 
 void batch_open(Batch *batch, const Cli *cli, const char *path)
 {
+    pthread_mutex_lock(&lock);
     running = batch;
+    pthread_mutex_unlock(&lock);
     atexit(write_last_report);
     watchdog_at_end(write_report_at_end);
     batch->cli = cli;

@@ -100,6 +100,8 @@ void batch_open(Batch *batch, const Cli *cli, const char *path);
  * to files that are not inputs announced by cli_reads and not each other. Mistakes are added to the table, as the
  * tool's own are. */
 void batch_check(Batch *batch, const RetexWriteParams *params);
+/* The batch has been checked: from now on its report is written however the program ends. */
+void batch_owe_report(Batch *batch);
 /* If the table has mistakes: print them, write the report, and exit with CLI_FAIL. */
 void batch_refuse_mistakes(Batch *batch);
 /* After a successful check: print the pictures that would be made to standard output. */

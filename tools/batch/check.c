@@ -206,5 +206,5 @@ void batch_check(Batch *batch, const RetexWriteParams *params)
                batch->report); /* last, so that a report that is one of the files above is refused */
     if (batch->report && retex_set_write_check(batch->report, &err))
         cli_die(batch->cli, "--report: %s", err.message);
-    batch->report_due = batch->report != NULL;
+    batch_owe_report(batch);
 }
