@@ -348,11 +348,12 @@ write('latin.gltf', text.replace('"wood"', '"w\xe4d"').encode('latin-1'))
 write('nul.gltf', text.replace('"wood"', '"w\\u0000d"'))
 write('comma.gltf', text[:-1] + ',}')
 del scene['buffers'][0]['uri']
+while len(json.dumps(scene)) % 4 != 1:
+    scene['asset']['generator'] = scene['asset'].get('generator', '') + 'x'
 binary = glb(scene, data)
-write('padded.glb', binary.replace(b'}   ', b'}\0\0\0').replace(b'}  ', b'}\0\0').replace(b'} ', b'}\0'))
 end = 20 + struct.unpack('<I', binary[12:16])[0]
-text = json.dumps(scene).encode().rstrip() + b' '
-text += b' ' * (len(text) % 4 == 0)
+text = json.dumps(scene).encode()
+write('padded.glb', binary[:20] + text + b'\0' * 3 + binary[end:])
 odd = struct.pack('<II', len(text), 0x4e4f534a) + text + binary[end:]
 write('unaligned.glb', struct.pack('<III', 0x46546c67, 2, 12 + len(odd)) + odd)
 more = struct.pack('<II', 4, 0x12345678) + b'more'
