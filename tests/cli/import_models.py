@@ -347,6 +347,8 @@ text = json.dumps(scene)
 write('latin.gltf', text.replace('"wood"', '"w\xe4d"').encode('latin-1'))
 write('nul.gltf', text.replace('"wood"', '"w\\u0000d"'))
 write('comma.gltf', text[:-1] + ',}')
+# of floats, so that nothing but its text is a reason to write it anew
+scene, data = gltf(MATERIAL), buffer
 del scene['buffers'][0]['uri']
 while len(json.dumps(scene)) % 4 != 1:
     scene['asset']['generator'] = scene['asset'].get('generator', '') + 'x'
