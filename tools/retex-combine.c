@@ -13,6 +13,7 @@ static const CliOption options[] = {
     {"view", 0, "NAME", "OCIO view of that display", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
     {"quality", 0, "N", "quality of a JPEG, 1 to 100; default 95", 0},
+    {"depth", 0, "8|16", "bits of a PNG, TIFF or other file of integers; default 8, of TIFF and DPX 16", 0},
     {"cross", 0, "0|2|3", "use cross terms of paths with at most this many hits; default 3", 0},
     {"error", 0, "FILE.exr", "write the expected error against a new render, per pixel", 0},
     {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0},
@@ -42,6 +43,10 @@ static void parse(Cli *cli, Job *job)
             job->write.colorspace = cli->value;
         } else if (strcmp(option->name, "quality") == 0) {
             job->write.quality = (int)cli_integer(cli, option, 1, 100);
+        } else if (strcmp(option->name, "depth") == 0) {
+            job->write.depth = (int)cli_integer(cli, option, 8, 16);
+            if (job->write.depth != 8 && job->write.depth != 16)
+                cli_die(cli, "--depth: expected 8 or 16, not '%s'", cli->value);
         } else if (strcmp(option->name, "cross") == 0) {
             job->combine.cross = (int)cli_integer(cli, option, 0, 3);
             if (job->combine.cross == 1)

@@ -68,7 +68,7 @@ $ printf x | dd of=a.png bs=1 seek=100 conv=notrunc 2>/dev/null; sh batch --veri
 > retex-combine: 1 picture, 4 kept, S
 > 5 of 5 pictures good
 # Other sources: the set, an image that keeps its name, the options, the samples, the version; an image that is gone.
-$ make_set s.exr 48 32 2; sh batch --verify | cut -c 1-60; cp ../good/s.exr .; cp brick.jpg oak.jpg; sh batch --verify; cp ../good/oak.jpg .; sh batch --verify --quality 80 | tail -2; sh batch --verify --texture wall=brick.jpg; retex-sample -q s.exr --texture floor=oak.jpg -o x.exr; retex-combine s.exr x.exr --batch t --manifest m --verify | tail -2; sed 's/"version": "0/"version": "7/' m >m7; retex-combine s.exr --batch t --manifest m7 --verify | tail -2; rm oak.jpg; sh batch --verify; sh batch --resume; cp ../good/oak.jpg .; sh batch --verify
+$ make_set s.exr 48 32 2; sh batch --verify | cut -c 1-60; cp ../good/s.exr .; cp brick.jpg oak.jpg; sh batch --verify; cp ../good/oak.jpg .; sh batch --verify --quality 80 | tail -2; sh batch --verify --depth 8 | tail -1; sh batch --verify --texture wall=brick.jpg; retex-sample -q s.exr --texture floor=oak.jpg -o x.exr; retex-combine s.exr x.exr --batch t --manifest m --verify | tail -2; sed 's/"version": "0/"version": "7/' m >m7; retex-combine s.exr --batch t --manifest m7 --verify | tail -2; rm oak.jpg; sh batch --verify; sh batch --resume; cp ../good/oak.jpg .; sh batch --verify
 > a.png: stale: the set has changed
 > b.png: stale: the set has changed
 > c.jpg: stale: the set has changed
@@ -79,6 +79,7 @@ $ make_set s.exr 48 32 2; sh batch --verify | cut -c 1-60; cp ../good/s.exr .; c
 > c.jpg: stale: its row or an image of it has changed
 > 3 of 5 pictures good; 2 stale
 > e.png: stale: the options have changed
+> 0 of 5 pictures good; 5 stale
 > 0 of 5 pictures good; 5 stale
 > a.png: stale: its row or an image of it has changed
 > d.png: stale: its row or an image of it has changed

@@ -6,6 +6,26 @@ $ retex-combine -q s.exr --texture floor=brick.jpg >out.exr; retex-diff -q out.e
 $ retex-combine -q s.exr -o original.exr; retex-diff -q original.exr fused.exr --fail-psnr 60
 = 1
 $ for f in x.png x.jpg x.tif x.hdr x.exr; do retex-combine -q s.exr --texture floor=brick.jpg -o $f && retex-diff -q $f fused.exr --fail-psnr 20 || echo $f; done
+# --depth 16: a PNG as fine as a TIFF of 16 bits, and finer than one of 8; --depth 8 is PNG's default.
+$ for d in 8 16; do for f in png tif; do retex-combine -q s.exr --texture floor=brick.jpg --depth $d -o d$d.$f; done; oiiotool --info d$d.png d$d.tif | sed 's/ *: */: /; s/  */ /g'; done; cmp d8.png x.png; retex-diff -q d16.png d16.tif --fail-abs 0; retex-diff -q d16.png fused.exr --fail-psnr 90; retex-diff -q d8.png fused.exr --fail-psnr 62; echo $?; rm d8.* d16.*
+> d8.png: 48 x 32, 3 channel, uint8 png
+> d8.tif: 48 x 32, 3 channel, uint8 tiff
+> d16.png: 48 x 32, 3 channel, uint16 png
+> d16.tif: 48 x 32, 3 channel, uint16 tiff
+> 1
+$ for f in sgi jp2 dpx; do retex-combine -q s.exr --depth 16 -o d16.$f; oiiotool --info d16.$f | sed 's/ *: */: /; s/  */ /g'; done; rm d16.*
+> d16.sgi: 48 x 32, 3 channel, uint16 sgi
+> d16.jp2: 48 x 32, 3 channel, uint16 jpeg2000
+> d16.dpx: 48 x 32, 3 channel, uint16 dpx
+$ retex-combine -q s.exr --depth 12 -o y.png; for f in jpg exr hdr webp bmp; do retex-combine -q s.exr --depth 16 -o y.$f; done; ls y.*
+! retex-combine: error: --depth: expected 8 or 16, not '12'
+! retex-combine: error: y.jpg: this format has 8 bits; try .png or .tif
+! retex-combine: error: y.exr: this format keeps floats: it has no depth to choose
+! retex-combine: error: y.hdr: this format keeps floats: it has no depth to choose
+! retex-combine: error: y.webp: this format has 8 bits; try .png or .tif
+! retex-combine: error: y.bmp: this format has 8 bits; try .png or .tif
+! ls: cannot access 'y.*': No such file or directory
+= 2
 # --quality is that of the JPEG: smaller files, farther from the picture; 95 where it is not given.
 $ for q in 20 60 95; do retex-combine -q s.exr --texture floor=brick.jpg --quality $q -o q$q.jpg; done; cmp q95.jpg x.jpg; test $(stat -c %s q20.jpg) -lt $(stat -c %s q60.jpg) && test $(stat -c %s q60.jpg) -lt $(stat -c %s q95.jpg) && echo larger; rm q*.jpg
 > larger

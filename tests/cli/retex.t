@@ -116,6 +116,8 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >       --view NAME             OCIO view of that display
 >       --colorspace NAME       write in this OCIO colour space instead
 >       --quality N             quality of a JPEG, 1 to 100; default 95
+>       --depth 8|16            bits of a PNG, TIFF or other file of integers;
+>                               default 8, of TIFF and DPX 16
 >       --cross 0|2|3           use cross terms of paths with at most this many
 >                               hits; default 3
 >       --error FILE.exr        write the expected error against a new render,

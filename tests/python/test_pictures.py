@@ -194,6 +194,11 @@ def test_files():
     for name in ("a.png", "a.jpg"):
         with open(name, "rb") as file:
             assert retex.encode(picture, name[2:]) == file.read(), name
+    lib.run("retex-combine", "-q", "room.exr", "--texture", "Floor=" + OAK, "--depth", "16", "-o", "fine.png")
+    with open("fine.png", "rb") as file:
+        assert retex.encode(picture, "png", depth=16) == file.read()
+    retex.write(picture, "same.png", depth=16)
+    assert np.abs(retex.read("same.png")[:, :, :3] - np.clip(picture, 0, 1)).max() < 2e-5
     assert len(retex.encode(picture, "jpg", quality=20)) < len(retex.encode(picture, "jpg"))
     assert np.array_equal(as_written(retex.read("a.exr")[:, :, :3]), as_written(picture))
     assert (retex.read("a.exr")[:, :, 3] == 1).all()

@@ -214,12 +214,27 @@ static void test_pixels_are_those_of_one_go(void **state)
     (void)state;
     static const struct {
         const char *ending, *view, *colorspace;
-        int quality;
-    } ways[] = {{"jpg", NULL, NULL, 95},      {"jpg", NULL, NULL, 89},   {"jpg", NULL, NULL, 1},
-                {"jpg", NULL, "ACEScct", 90}, {"JPEG", "Raw", NULL, 80}, {"png", NULL, NULL, 95},
-                {"png", NULL, "ACEScct", 95}, {"PNG", "Raw", NULL, 95},  {"tif", NULL, NULL, 95},
-                {"tif", NULL, "ACEScct", 95}, {"tga", NULL, NULL, 95},   {"bmp", NULL, "sRGB", 95},
-                {"exr", NULL, "ACEScg", 95},  {"pfm", NULL, NULL, 95},   {"webp", NULL, NULL, 90}};
+        int quality, depth;
+    } ways[] = {{.ending = "jpg", .quality = 95},
+                {.ending = "jpg", .quality = 89},
+                {.ending = "jpg", .quality = 1},
+                {.ending = "jpg", .colorspace = "ACEScct", .quality = 90},
+                {.ending = "JPEG", .view = "Raw", .quality = 80},
+                {.ending = "png", .quality = 95},
+                {.ending = "png", .quality = 95, .depth = 8},
+                {.ending = "png", .quality = 95, .depth = 16},
+                {.ending = "png", .colorspace = "ACEScct", .quality = 95},
+                {.ending = "png", .colorspace = "ACEScct", .quality = 95, .depth = 16},
+                {.ending = "PNG", .view = "Raw", .quality = 95},
+                {.ending = "PNG", .view = "Raw", .quality = 95, .depth = 16},
+                {.ending = "tif", .quality = 95},
+                {.ending = "tif", .quality = 95, .depth = 8},
+                {.ending = "tif", .colorspace = "ACEScct", .quality = 95},
+                {.ending = "tga", .quality = 95},
+                {.ending = "bmp", .colorspace = "sRGB", .quality = 95},
+                {.ending = "exr", .colorspace = "ACEScg", .quality = 95},
+                {.ending = "pfm", .quality = 95},
+                {.ending = "webp", .quality = 90}};
     for (int s = 0; s < SIZES; s++)
         for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
             for (int channels = 1; channels <= 4; channels += channels == 1 ? 2 : 1) {
@@ -229,6 +244,7 @@ static void test_pixels_are_those_of_one_go(void **state)
                 params.view = ways[k].view;
                 params.colorspace = ways[k].colorspace;
                 params.quality = ways[k].quality;
+                params.depth = ways[k].depth;
                 snprintf(ours, sizeof ours, "ours.%s", ways[k].ending);
                 snprintf(theirs, sizeof theirs, "theirs.%s", ways[k].ending);
                 paint(&im, sizes[s][0], sizes[s][1], channels);

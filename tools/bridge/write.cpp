@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -38,13 +39,21 @@ std::string ending(const std::string &path)
     return path.substr(dot + 1);
 }
 
-Depth depth_of(const std::string &format)
+// bits: what the caller asks for, 0 for the format's own.
+Depth depth_of(const std::string &format, int bits)
 {
-    if (format == "openexr")
+    static const std::set<std::string> floats = {"hdr", "fits", "zfile", "pfm"};
+    static const std::set<std::string> sixteen = {"tiff", "dpx", "png", "jpeg2000", "sgi", "iff", "rla"};
+    const bool is_half = format == "openexr";
+    if (bits && (is_half || floats.count(format)))
+        throw Failure(RETEX_EUNSUPPORTED, "this format keeps floats: it has no depth to choose");
+    if (bits == 16 && !sixteen.count(format))
+        throw Failure(RETEX_EUNSUPPORTED, "this format has 8 bits; try .png or .tif");
+    if (is_half)
         return Depth::Half;
-    if (format == "hdr" || format == "fits" || format == "zfile")
+    if (floats.count(format))
         return Depth::Float;
-    if (format == "tiff" || format == "dpx")
+    if (bits ? bits == 16 : format == "tiff" || format == "dpx")
         return Depth::Sixteen;
     return Depth::Eight;
 }
@@ -269,7 +278,7 @@ std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int heig
     plan->width = width;
     plan->height = height;
     plan->channels = plan->stored = channels;
-    plan->depth = pfm ? Depth::Float : depth_of(plan->format);
+    plan->depth = depth_of(plan->format, params.depth);
     plan->quality = std::min(100, std::max(1, params.quality));
     plan->names_colorspace = params.colorspace && *params.colorspace;
     if (channels == 4 && (pfm || !out->supports("alpha")))
@@ -385,7 +394,7 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
 // Check the transform only if the user named a part of it; the built-in default is valid.
 void check_picture(const char *path, const RetexWriteParams &params)
 {
-    Depth depth = is_pfm(path) ? Depth::Float : depth_of(find_writer(path)->format_name());
+    Depth depth = depth_of(is_pfm(path) ? "pfm" : find_writer(path)->format_name(), params.depth);
     bool named = params.display || params.view || params.colorspace;
     if (named || std::getenv("OCIO"))
         encoding(params, depth);

@@ -111,9 +111,11 @@ static const char *describe_options(const Job *job, char *text, size_t size)
     RetexError err = {0};
     if (config && *config)
         (void)retex_file_sum(&sum, config, NULL, &err); /* one that cannot be read is an error of the pictures */
-    snprintf(text, size, "quality=%d cross=%d display=%s view=%s colorspace=%s ocio=%08x", write->quality,
-             job->combine.cross, write->display ? write->display : "", write->view ? write->view : "",
-             write->colorspace ? write->colorspace : "", (unsigned)sum.crc);
+    int length = snprintf(text, size, "quality=%d cross=%d display=%s view=%s colorspace=%s ocio=%08x", write->quality,
+                          job->combine.cross, write->display ? write->display : "", write->view ? write->view : "",
+                          write->colorspace ? write->colorspace : "", (unsigned)sum.crc);
+    if (write->depth && length >= 0 && (size_t)length < size)
+        snprintf(text + length, size - (size_t)length, " depth=%d", write->depth);
     return text;
 }
 

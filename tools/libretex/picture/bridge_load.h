@@ -93,7 +93,7 @@ typedef struct RetexBridgeHost {
     int (*to_rec709)(const float chromaticities[8], double matrix[3][3]); /* retex_color_tag_to_rec709 */
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 8
+#define RETEX_BRIDGE_ABI 9
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,

@@ -51,12 +51,37 @@ int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *da
 
 /* --- colours --- */
 
+static void to_srgb(void *codes, int bits, const float *values, size_t count)
+{
+    if (bits == 8)
+        retex_srgb_codes_8(codes, values, count);
+    else
+        retex_srgb_codes_16(codes, values, count);
+}
+
+/* RGBA from codes of its colours, and alpha without the curve. */
+static void join_alpha(void *codes, int bits, const void *color_codes, const float *rows, size_t pixels)
+{
+    const size_t bytes = (size_t)bits / 8;
+    unsigned char *to = codes;
+    const unsigned char *from = color_codes;
+
+    for (size_t i = 0; i < pixels; i++, to += 4 * bytes, from += 3 * bytes) {
+        const unsigned alpha = retex_linear_code(rows[4 * i + 3], bits);
+        memcpy(to, from, 3 * bytes);
+        if (bits == 8)
+            to[3] = (unsigned char)alpha;
+        else
+            memcpy(to + 3 * bytes, &(uint16_t){(uint16_t)alpha}, bytes);
+    }
+}
+
 /* Converts alpha without the curve, or drops it. */
-static int convert_alpha(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, size_t pixels,
+static int convert_alpha(RetexPicture *picture, void *codes, int bits, int channels, const float *rows, size_t pixels,
                          RetexError *err)
 {
     float *colors = malloc(pixels * 3 * sizeof *colors);
-    uint8_t *color_codes = channels == 3 ? codes : malloc(pixels * 3);
+    void *color_codes = channels == 3 ? codes : malloc(pixels * 3 * (size_t)bits / 8);
     const int status =
         colors && color_codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
@@ -64,11 +89,9 @@ static int convert_alpha(RetexPicture *picture, uint8_t *codes, int channels, co
         for (size_t i = 0; i < pixels; i++)
             for (size_t c = 0; c < 3; c++)
                 colors[3 * i + c] = channels == 3 ? rows[4 * i + c] * rows[4 * i + 3] : rows[4 * i + c];
-        retex_srgb_codes_8(color_codes, colors, 3 * pixels);
-        for (size_t i = 0; channels == 4 && i < pixels; i++) {
-            memcpy(codes + 4 * i, color_codes + 3 * i, 3);
-            codes[4 * i + 3] = (uint8_t)retex_linear_code(rows[4 * i + 3], 8);
-        }
+        to_srgb(color_codes, bits, colors, 3 * pixels);
+        if (channels == 4)
+            join_alpha(codes, bits, color_codes, rows, pixels);
     }
     free(colors);
     if (color_codes != codes)
@@ -76,8 +99,8 @@ static int convert_alpha(RetexPicture *picture, uint8_t *codes, int channels, co
     return status;
 }
 
-int retex_picture_codes_8(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, int nrows,
-                          RetexError *err)
+int retex_picture_codes(RetexPicture *picture, void *codes, int bits, int channels, const float *rows, int nrows,
+                        RetexError *err)
 {
     const size_t pixels = (size_t)picture->width * (size_t)nrows;
 
@@ -89,7 +112,7 @@ int retex_picture_codes_8(RetexPicture *picture, uint8_t *codes, int channels, c
             return retex_bridge_convert(picture->plan, rows, (long)pixels, codes, err);
     }
     if (picture->channels == 4)
-        return convert_alpha(picture, codes, channels, rows, pixels, err);
-    retex_srgb_codes_8(codes, rows, pixels * (size_t)channels);
+        return convert_alpha(picture, codes, bits, channels, rows, pixels, err);
+    to_srgb(codes, bits, rows, pixels * (size_t)channels);
     return 0;
 }

@@ -65,9 +65,10 @@ int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, 
 
 /* Wait for the bridge's plan. */
 int retex_picture_plan(RetexPicture *picture, RetexError *err);
-/* Convert rows to 8-bit codes for the display, or the space that params name; channels are those of the file. A picture
- * with more channels than the file loses its alpha and is shown over black. */
-int retex_picture_codes_8(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, int nrows,
-                          RetexError *err);
+/* Convert rows to codes of 8 or 16 bits, those in the machine's byte order, for the display, or the space that params
+ * name; channels are those of the file. A picture with more channels than the file loses its alpha and is shown over
+ * black. */
+int retex_picture_codes(RetexPicture *picture, void *codes, int bits, int channels, const float *rows, int nrows,
+                        RetexError *err);
 
 #endif

@@ -204,7 +204,7 @@ static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexEr
     int status = codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
     if (!status)
-        status = retex_picture_codes_8(picture, codes, channels, rows, lines, err);
+        status = retex_picture_codes(picture, codes, 8, channels, rows, lines, err);
     if (!status)
         status = encode_band(picture, band, codes, err);
     free(codes);

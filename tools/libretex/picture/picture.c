@@ -60,6 +60,12 @@ static int check_params(const char *path, const RetexWriteParams *params, RetexE
 {
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    if (params->depth != 0 && params->depth != 8 && params->depth != 16)
+        return retex_fail(err, RETEX_EINVAL, "depth is 8 or 16, not %d", params->depth);
+    if (params->depth && is_exr(path, params))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: this format keeps floats: it has no depth to choose", path);
+    if (params->depth == 16 && own_format(path) == &retex_picture_jpeg)
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: this format has 8 bits; try .png or .tif", path);
     if (!is_exr(path, params) && strcmp(path, "-") == 0)
         return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
                           params->colorspace);

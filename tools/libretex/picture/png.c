@@ -1,7 +1,7 @@
-/* PNG of 8 bits, band by band. Each band is filtered and deflated separately, as a part of one zlib stream: it begins
- * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of the stream is combined
- * from those of the bands. Renders have noise in their low bits, where filters leave little to compress: with the best
- * of all filters ISA-L's fast level gives files as small as zlib's level 6, in much less time. */
+/* PNG of 8 or 16 bits, band by band. Each band is filtered and deflated separately, as a part of one zlib stream: it
+ * begins and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of the stream is
+ * combined from those of the bands. Renders have noise in their low bits, where filters leave little to compress: with
+ * the best of all filters ISA-L's fast level gives files as small as zlib's level 6, in much less time. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +41,11 @@ static size_t add_chunk(unsigned char *to, const char *type, const void *data, s
     return close_chunk(to, type, bytes);
 }
 
+static int bits_of(const RetexPicture *picture)
+{
+    return picture->params.depth ? picture->params.depth : 8;
+}
+
 /* Writes everything before the pixels. Colours that went through a display transform are tagged as sRGB; gamma and
  * primaries are for readers that do not know that tag. */
 static size_t write_header(unsigned char *to, const RetexPicture *picture)
@@ -48,7 +53,8 @@ static size_t write_header(unsigned char *to, const RetexPicture *picture)
     static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     static const uint32_t gamma = 45455, primaries[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
     static const unsigned char color_types[5] = {[1] = 0, [3] = 2, [4] = 6}, intent = 3;
-    unsigned char header[13] = {[8] = 8, [9] = color_types[picture->channels]}, numbers[32];
+    unsigned char header[13] = {[8] = (unsigned char)bits_of(picture), [9] = color_types[picture->channels]};
+    unsigned char numbers[32];
     size_t at = sizeof signature;
 
     memcpy(to, signature, sizeof signature);
@@ -67,9 +73,25 @@ static size_t write_header(unsigned char *to, const RetexPicture *picture)
     return at;
 }
 
+static size_t pixel_bytes(const RetexPicture *picture)
+{
+    return (size_t)picture->channels * (size_t)bits_of(picture) / 8;
+}
+
 static size_t line_bytes(const RetexPicture *picture)
 {
-    return (size_t)picture->width * (size_t)picture->channels;
+    return (size_t)picture->width * pixel_bytes(picture);
+}
+
+/* PNG stores the high byte first. */
+static void order_bytes(unsigned char *codes, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint16_t code;
+        memcpy(&code, codes + 2 * i, sizeof code);
+        codes[2 * i] = (unsigned char)(code >> 8);
+        codes[2 * i + 1] = (unsigned char)code;
+    }
 }
 
 /* Filters lines; the first line of a band must not use the line above, which is in another band. */
@@ -81,7 +103,7 @@ static int filter_lines(unsigned char *filtered, const RetexPicture *picture, co
     for (int y = 0; trial && y < lines; y++) {
         const uint8_t *line = codes + (size_t)y * bytes;
         retex_png_filter(filtered + (size_t)y * (bytes + 1), trial, line, y ? line - bytes : NULL, bytes,
-                         (size_t)picture->channels);
+                         pixel_bytes(picture));
     }
     free(trial);
     return trial != NULL;
@@ -137,7 +159,9 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
     int status = codes && filtered ? 0 : RETEX_ENOMEM;
 
     if (!status) {
-        status = retex_picture_codes_8(picture, codes, picture->channels, rows, lines, err);
+        status = retex_picture_codes(picture, codes, bits_of(picture), picture->channels, rows, lines, err);
+        if (!status && bits_of(picture) == 16)
+            order_bytes(codes, line_bytes(picture) / 2 * (size_t)lines);
         if (!status && !filter_lines(filtered, picture, codes, lines))
             status = RETEX_ENOMEM;
     }

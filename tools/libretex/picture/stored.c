@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "picture/format.h"
-#include "picture/srgb_codes.h"
 
 static size_t row_samples(const RetexPicture *picture)
 {
@@ -47,11 +46,9 @@ static int stored_band(RetexPicture *picture, int band, const float *rows, Retex
         return status;
     const size_t row = row_samples(picture), first = row * (size_t)band * RETEX_PICTURE_BAND;
     unsigned char *samples = (unsigned char *)picture->state + first * (size_t)(picture->stored.bits / 8);
-    if (picture->stored.bits == 8)
-        status = retex_picture_codes_8(picture, samples, picture->stored.channels, rows, lines, err);
-    else if (picture->stored.bits == 16 && picture->stored.is_srgb && picture->stored.channels == picture->channels &&
-             picture->channels != 4)
-        retex_srgb_codes_16((uint16_t *)(void *)samples, rows, row * (size_t)lines);
+    if (picture->stored.bits <= 16)
+        status =
+            retex_picture_codes(picture, samples, picture->stored.bits, picture->stored.channels, rows, lines, err);
     else
         status = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
     return status ? status : retex_picture_submit_band(picture, band, NULL, 0, err);

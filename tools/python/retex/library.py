@@ -83,7 +83,7 @@ class RetexReadParams(ctypes.Structure):
 
 class RetexWriteParams(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("display", c_char_p), ("view", c_char_p), ("colorspace", c_char_p),
-                ("quality", c_int), ("is_data", c_int)]
+                ("quality", c_int), ("is_data", c_int), ("depth", c_int)]
 
 
 class RetexCombineParams(ctypes.Structure):

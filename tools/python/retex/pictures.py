@@ -48,9 +48,9 @@ def image_of(array: npt.ArrayLike) -> Tuple[RetexImage, Picture]:
 
 
 def _write_params(quality: int, display: Optional[str], view: Optional[str], colorspace: Optional[str],
-                  is_data: bool) -> RetexWriteParams:
+                  is_data: bool, depth: int) -> RetexWriteParams:
     return RetexWriteParams(sizeof(RetexWriteParams), text_bytes(display), text_bytes(view), text_bytes(colorspace),
-                            quality, is_data)
+                            quality, is_data, depth)
 
 
 def read(path: Path, *, colorspace: Optional[str] = None, threads: int = 0) -> Picture:
@@ -65,20 +65,22 @@ def read(path: Path, *, colorspace: Optional[str] = None, threads: int = 0) -> P
 
 
 def write(picture: npt.ArrayLike, path: Path, *, quality: int = 95, display: Optional[str] = None,
-          view: Optional[str] = None, colorspace: Optional[str] = None, is_data: bool = False, threads: int = 0) -> None:
+          view: Optional[str] = None, colorspace: Optional[str] = None, is_data: bool = False, depth: int = 0,
+          threads: int = 0) -> None:
     """Write a picture; its format follows the name's ending. 8- and 16-bit formats go through the display's curve, or
-    `display`, `view` or `colorspace` of the OpenColorIO config; float formats stay scene-linear. The file is complete
-    or not there."""
+    `display`, `view` or `colorspace` of the OpenColorIO config; float formats stay scene-linear. `depth` is 8 or 16
+    bits for a PNG or another file of integers, 0 for what the format usually has. The file is complete or not there."""
     image, _pixels = image_of(picture)
-    params = _write_params(quality, display, view, colorspace, is_data)
+    params = _write_params(quality, display, view, colorspace, is_data, depth)
     call("retex_image_write", byref(image), path_bytes(path), byref(params), threads_of(threads))
 
 
 def encode(picture: npt.ArrayLike, format: str = "png", *, quality: int = 95,  # pylint: disable=redefined-builtin
-           display: Optional[str] = None, view: Optional[str] = None, colorspace: Optional[str] = None) -> bytes:
+           display: Optional[str] = None, view: Optional[str] = None, colorspace: Optional[str] = None,
+           depth: int = 0) -> bytes:
     """The bytes of the file that write() would make; `format` is the ending of its name, such as "jpg"."""
     image, pixels = image_of(picture)
-    params = _write_params(quality, display, view, colorspace, False)
+    params = _write_params(quality, display, view, colorspace, False, depth)
     handle, data, size = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_size_t()
     call("retex_picture_open_memory", byref(handle), text_bytes(format), image.width, image.height, image.channels,
          byref(params))

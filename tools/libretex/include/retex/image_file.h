@@ -46,8 +46,9 @@ typedef struct RetexWriteParams {
     int quality;            /* of JPEG, 1..100; default 95 */
     int is_data;            /* 1: numbers that are no colours, which an EXR stores as they are and says so; other
                                formats go by what is above. Default 0 */
+    int depth;              /* bits of integers: 8 or 16. Default 0 = the format's: 16 of TIFF and DPX, 8 of others */
 } RetexWriteParams;
-#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0 }
+#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0, 0 }
 
 /* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
  * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
