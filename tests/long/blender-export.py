@@ -28,7 +28,7 @@ def principled(name, color, picture=None, **inputs):
     shader = tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (*color, 1)
     for key, value in inputs.items():
-        shader.inputs[key].default_value = value
+        shader.inputs[key.replace("_", " ")].default_value = value
     if picture:
         node = tree.nodes.new("ShaderNodeTexImage")
         node.image = picture
@@ -81,6 +81,9 @@ rounded = ball.modifiers.new("round", "SUBSURF")
 rounded.levels, rounded.render_levels = 0, 3
 metal = add(mesh.primitive_uv_sphere_add, principled("metal", (.9, .7, .3), Metallic=1, Roughness=.3), radius=.35,
             location=(.2, -1, .35))
+bpy.ops.object.shade_smooth()
+add(mesh.primitive_uv_sphere_add, principled("lacquer", (.02, .02, .02), Specular=0, Roughness=1, Clearcoat=1,
+                                             Clearcoat_Roughness=.3), radius=.5, location=(1.4, -1.6, .5))
 bpy.ops.object.shade_smooth()
 hidden = add(mesh.primitive_cube_add, metal.data.materials[0], size=1, location=(0, -2, 1))
 hidden.hide_render = True

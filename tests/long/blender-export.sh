@@ -33,6 +33,7 @@ retex-combine -q "$work/room/room.exr" -o "$work/plain.exr"
 most=$(regions "$work/cycles.exr" "$work/plain.exr")
 echo "# largest difference of a region from Cycles: $most"
 result "$(at_most "${most:-1}" 0.05)" "regions within 5 % of Cycles"
+result "$(grep -c 'clearcoat 0.25 ' "$work/room/room.pov")" "a coat of Blender 3 is a quarter of a coat"
 result "$(retex-info "$work/room/room.exr" | grep -c Floor_1 | awk '{ print ($1 > 0) }')" "the ticked material is the target"
 retex-combine -q "$work/room/room.exr" --texture 'Floor_1=rgb(0.7,0.1,0.1)' -o "$work/red.exr"
 retex-render -q --plain --spp 256 --size 96x72 -t Floor_1 --replace 'Floor_1=rgb(0.7,0.1,0.1)' "$work/room/room.pov" \

@@ -240,6 +240,11 @@ def prepare_material(stack, material, warn):
     transmission, ior = socket_of(shader, "Transmission"), shader.inputs["IOR"]
     if bpy.app.version < (4, 0, 0) and not (transmission.is_linked or transmission.default_value or ior.is_linked):
         set_for_now(stack, ior, "default_value", 1.5)  # Specular alone is the reflectance, which glTF's index is of
+    coat = shader.inputs.get("Clearcoat")  # before Blender 4, where 1 is a quarter of a coat
+    if coat and coat.is_linked:
+        warn(f"material '{material.name}': its clear coat comes from nodes: it is four times as strong")
+    elif coat:
+        set_for_now(stack, coat, "default_value", coat.default_value / 4)
     alpha = shader.inputs["Alpha"]
     if (alpha.is_linked or alpha.default_value < 1) and getattr(material, "blend_method", "") == "OPAQUE":
         set_for_now(stack, material, "blend_method", "BLEND")  # Cycles knows no blend modes
