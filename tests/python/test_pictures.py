@@ -85,6 +85,24 @@ def test_arrays():
         assert np.array_equal(room.combine({"Floor": grey[:, :, 0]}), room.combine({"Floor": grey}))
 
 
+def test_integer_arrays():
+    """Arrays of 8 and 16 bits are what such files are"""
+    numbers_of = np.random.default_rng(1)
+    with retex.open("room.exr") as room:
+        for dtype, kind, ending in ((np.uint8, oiio.UINT8, "png"), (np.uint16, oiio.UINT16, "tif")):
+            for channels in (1, 3, 4):
+                array = numbers_of.integers(0, np.iinfo(dtype).max, (19, 23, channels), endpoint=True).astype(dtype)
+                name = f"integers-{channels}.{ending}"
+                spec = oiio.ImageSpec(23, 19, channels, kind)
+                spec.attribute("oiio:UnassociatedAlpha", 1)
+                output = oiio.ImageOutput.create(name)
+                assert output.open(name, spec) and output.write_image(array) and output.close()
+                textures = [room.combine({"Floor": source}) for source in (array, name)]
+                # a file's texels are kept as integers of 16 bits
+                assert np.abs(textures[0] - textures[1]).max() < 1e-4, name
+                assert np.abs(textures[0] - room.combine({"Floor": array / np.iinfo(dtype).max})).max() > .01, name
+
+
 def test_width_of_array():
     """An array with a width in scene units"""
     lib.run("retex-render", "-q", "--size", "64x40", "--spp", "4", "-t", "Floor", "-o", "cornell.exr",

@@ -18,10 +18,23 @@ def _pair(value: Pair) -> str:
     return ",".join(f"{float(number)!r}" for number in (value if isinstance(value, (tuple, list)) else (value,)))
 
 
+def _linear(array: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
+    """Integers of 8 and 16 bits decoded by the curve of sRGB (IEC 61966-2-1), alpha without it; others as they are."""
+    if array.dtype not in (np.uint8, np.uint16):
+        return array
+    codes = np.linspace(0, 1, int(np.iinfo(array.dtype).max) + 1)
+    curve = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055)**2.4).astype(np.float32)
+    texels = curve[array]
+    if array.ndim == 3 and array.shape[2] == 4:
+        texels[:, :, 3] = codes[array[:, :, 3]]
+    return texels
+
+
 class Texture:
     """A texture for a target. All but `image` is as for --texture of retex-sample(1):
 
-    image       a file's name; a colour, three scene-linear numbers; or a numpy array, scene-linear, row 0 at the top
+    image       a file's name; a colour, three scene-linear numbers; or a numpy array, row 0 at the top: of floats,
+                scene-linear; of uint8 or uint16, sRGB from 0 to the highest number, as such files are
     scale       repeats in a unit of UV; a pair for u and v
     rotate      degrees, counter-clockwise
     offset      in repeats of the texture
@@ -29,9 +42,9 @@ class Texture:
     wrap        "repeat", "mirror", "clamp" or "black"; a pair for u and v
     repeat      "straight", "brick", "half-drop" or "mirror"
     width       of one repeat in scene units; a pair for width and height
-    colorspace  of the image, if its file does not say it; of arrays always scene-linear
+    colorspace  of the image, if its file does not say it; arrays have theirs by their type
 
-    An array is not copied until a set uses it: do not change it before."""
+    An array of floats is not copied until a set uses it: do not change it before."""
 
     def __init__(self, image: Source, *, scale: Optional[Pair] = None, rotate: Optional[float] = None,
                  offset: Optional[Tuple[float, float]] = None, flip: Optional[str] = None,
@@ -52,8 +65,8 @@ class Texture:
         elif np.ndim(image) == 1 and len(image) == 3:
             self.image = "rgb({!r},{!r},{!r})".format(*(float(channel) for channel in image))
         elif isinstance(image, np.ndarray):
-            self.image, self.array = "an array", image
-            image_of(image)
+            self.image, self.array = "an array", _linear(image)
+            image_of(self.array)
         else:
             raise TypeError("a texture is a file's name, a colour of three numbers or a numpy array")
         self.spec("a target")
