@@ -4,9 +4,11 @@ Prints what run.sh measured, and what follows from it for a million pictures a d
 CSV.
 """
 import csv
+import itertools
 import json
 import math
 import sys
+import textwrap
 from statistics import median
 
 COLUMNS = ["kind", "what", "way", "turns", "pictures", "wall_s", "wall_s_min", "wall_s_max", "cpu_s", "cpu_s_min",
@@ -120,6 +122,17 @@ def figures(records):
             yield dict(keys, pictures=runs[0].get("pictures", ""), file_bytes=runs[0]["bytes"])
 
 
+def is_prose(line):
+    return line != "" and line[0] not in "|#"
+
+
+def say(template, **values):
+    """Prints a text with its paragraphs filled anew; lines of tables and headings stay as they are."""
+    for prose, lines in itertools.groupby(template.format(**values).split("\n"), is_prose):
+        print(textwrap.fill(" ".join(lines), 120, break_long_words=False, break_on_hyphens=False)
+              if prose else "\n".join(lines))
+
+
 def megabytes(row):
     return f"{row['peak_memory_bytes'] / 1e6:.0f}"
 
@@ -142,8 +155,8 @@ def main(records, table, head, size, spp):
 
     some = by["pictures", "one", "1-thread"]
     turns = some["turns"]
-    print(BEGIN.format(head=head, size=size, pictures=some["pictures"],
-                       turns_text=f"Medians of {turns} turns." if turns > 1 else "One turn."))
+    say(BEGIN, head=head, size=size, pictures=some["pictures"],
+        turns_text=f"Medians of {turns} turns." if turns > 1 else "One turn.")
     for what, text in WHATS.items():
         for way, by_what in WAYS.items():
             r = by["pictures", what, way]
@@ -152,27 +165,28 @@ def main(records, table, head, size, spp):
                   f"{megabytes(r)} |")
     each = {what: by["pictures", what, "1-thread"]["cpu_s"] / some["pictures"] for what in WHATS}
     again = {"one": by["render", "Floor", "2-threads"]["cpu_s"], "two": by["render", "Floor Wall", "2-threads"]["cpu_s"]}
-    rates = [by["pictures", "one", "2-threads"]["wall_s"] / by["pictures", "one", "2-processes"]["wall_s"],
-             each["one"] / each["placements"]]
-    print(AGAIN.format(spp=spp, processes_text=(
-        f"Two processes of one thread make {rates[0]:.2f} times as many pictures by the clock as one process of two "
-        "threads." + (" Take `--threads 1` and as many processes as cores." if rates[0] > 1.05 else "")),
-        images_text=f"A new image takes {rates[1]:.2f} times the processor time of one that has stayed." +
-        (" Sort tables by their images." if rates[1] > 1.05 else "")))
+    processes = {what: by["pictures", what, "2-threads"]["wall_s"] / by["pictures", what, "2-processes"]["wall_s"]
+                 for what in ("one", "two")}
+    stays = each["one"] / each["placements"]
+    say(AGAIN, spp=spp, processes_text=(
+        f"Two processes of one thread make {processes['one']:.2f} times as many pictures by the clock as one process "
+        f"of two threads with one target, and {processes['two']:.2f} times with two."),
+        images_text=f"A new image takes {stays:.2f} times the processor time of one that has stayed." +
+        (" Sort tables by their images." if stays > 1.05 else ""))
     for what, name in (("one", "one target"), ("two", "two targets")):
         print(f"| {name} | {again[what]:.1f} | {each[what]:.3f} | {again[what] / each[what]:.0f} |")
 
     made = by["step", "make", ""]
     views = sum(r["kind"] == "step" and r["what"] == "make" for r in recorded)
-    print(BESIDE.format(spp=spp, total=made["pictures"], views=views, rows=made["pictures"] // views))
+    say(BESIDE, spp=spp, total=made["pictures"], views=views, rows=made["pictures"] // views)
     for what, text in STEPS.items():
         r = by["step", what, ""]
         print(f"| {text} | {r['cpu_s']:.1f} | {r['wall_s']:.1f} | {megabytes(r)} |")
 
     manifest = by["manifest", "", ""]
     line = manifest["file_bytes"] / manifest["pictures"]
-    print(PAPER.format(each=1000 * made["cpu_s"] / made["pictures"], line=line, one=each["one"], two=each["two"],
-                       one_a_day=int(float(f"{DAY / each['one']:.2g}")), two_a_day=int(float(f"{DAY / each['two']:.2g}"))))
+    say(PAPER, each=1000 * made["cpu_s"] / made["pictures"], line=line, one=each["one"], two=each["two"],
+        one_a_day=int(float(f"{DAY / each['one']:.2g}")), two_a_day=int(float(f"{DAY / each['two']:.2g}")))
     costs = [each["one"], each["two"], again["one"]]
     hours = [MILLION * cost / 3600 for cost in costs]
     print(f"| core hours | {' | '.join(three(h) for h in hours)} |")
@@ -182,16 +196,16 @@ def main(records, table, head, size, spp):
     jpeg = some["file_bytes"] / some["pictures"] / 1e6
     kept = MILLION * jpeg / 1e3
     rate = kept * 1e3 / DAY
-    print(STORAGE.format(machines_text=f"With machines of {CORES} cores, and one more that may fail, that is "
-                         f"{machines[0] + 1} for one target, {machines[1] + 1} for two, and {machines[2] + 1:,} to "
-                         "render again.",
-                         jpeg=jpeg, kept=kept, line=line, manifest=MILLION * line / 1e9,
-                         pack=by["pack", "Floor", ""]["file_bytes"] / 1e6, rate=rate, peak=7 * rate,
-                         network="less" if 7 * rate < 125 else "more"))
+    say(STORAGE, machines_text=f"With machines of {CORES} cores, and one more that may fail, that is "
+        f"{machines[0] + 1} for one target, {machines[1] + 1} for two, and {machines[2] + 1:,} to "
+        "render again.",
+        jpeg=jpeg, kept=kept, line=line, manifest=MILLION * line / 1e9,
+        pack=by["pack", "Floor", ""]["file_bytes"] / 1e6, rate=rate, peak=7 * rate,
+        network="less" if 7 * rate < 125 else "more")
     for hit in (0, 0.5, 0.9, 0.99):
         share = round(1 - hit, 2)
         print(f"| {hit:g} | {round(MILLION * share):,} | {three(hours[0] * share)} | {three(kept * share)} GB |")
-    print(END.format(one=each["one"], hours=24000 * each["one"] / 3600, kept=24 * jpeg))
+    say(END, one=each["one"], hours=24000 * each["one"] / 3600, kept=24 * jpeg)
 
 
 main(*sys.argv[1:])
