@@ -108,6 +108,36 @@ static double growth(const JuliaFractal *f, Quad z, double norm)
     }
 }
 
+/* The most that iterate k may be for the last one to be small. A power of a quaternion has the power of its size;
+ * products of hypercomplex numbers may be smaller than their factors. */
+static double most_of(const JuliaFractal *f, int k)
+{
+    double most = sqrt(f->limit);
+
+    for (; !f->hypercomplex && k < f->iterations; k++) {
+        const double power =
+            most + sqrt(norm_of((Quad){{f->constant[0], f->constant[1], f->constant[2], f->constant[3]}}));
+        most = f->function == JULIA_sqr ? sqrt(power) : cbrt(power);
+    }
+    return most;
+}
+
+/* How far away the set is where iterate k is not small: half the estimate for powers iterated for ever, |z| log |z| /
+ * |dz|. The set of a few iterations is larger, and other functions grow otherwise: then no more than by how much the
+ * iterate is too large. slope: of that iterate, squared. */
+static double distance_estimate(const JuliaFractal *f, int k, double size, double slope)
+{
+    enum { FEW = 4 };
+    const double estimate = 0.25 * log(size) * sqrt(size / slope);
+    const int is_power = f->function == JULIA_sqr || f->function == JULIA_cube;
+
+    if (!isfinite(size))
+        return 0;
+    if (is_power && f->iterations - k >= FEW)
+        return estimate;
+    return fmin(estimate, (sqrt(size) - most_of(f, k)) / sqrt(slope));
+}
+
 /* The first iterate that is not small, from 1 on; 0: all are. *distance: about how far away the set is. Compiled twice,
  * for most of the time goes into squares of quaternions. */
 static inline int escape_of(const JuliaFractal *f, int is_square, Vec3 p, double *distance)
@@ -119,7 +149,7 @@ static inline int escape_of(const JuliaFractal *f, int is_square, Vec3 p, double
         const double size = norm_of(z);
         if (!(size <= f->limit)) {
             if (distance)
-                *distance = isfinite(size) ? 0.25 * log(size) * sqrt(size / slope) : 0;
+                *distance = distance_estimate(f, k, size, slope);
             return k;
         }
         if (k == f->iterations)

@@ -199,7 +199,7 @@ static int is_manifest(const Road *road, const char *name)
 /* Returns what waitpid says. */
 static int start(const Road *road, const char *fault)
 {
-    int status;
+    int status = -1;
     pid_t child;
 
     empty_folder("tmp");

@@ -88,7 +88,8 @@ static inline int test_shape_crossings(const Primitive *p, Vec3 centre, double s
     for (int i = 0; i < rays; i++) {
         TestCrossing list[TEST_CROSSINGS];
         const double away = size * (i % 3 == 0 ? test_random(state) : i % 3 == 1 ? 3 : 1000);
-        const Vec3 aim = vec_mad(centre, test_direction(state), 0.7 * size * test_random(state));
+        const double aside = 0.7 * size * test_random(state); /* first, by every compiler */
+        const Vec3 aim = vec_mad(centre, test_direction(state), aside);
         Ray ray = {.tmin = 0, .tmax = INFINITY};
         ray.direction = test_direction(state);
         if (i % 10 < 3) {

@@ -124,22 +124,67 @@ static void test_iterations(void **state)
 static void test_crossings(void **state)
 {
     static const double scales[] = {1e-4, 1, 1e5};
-    uint32_t random = 2;
+    static const struct {
+        const char *function;
+        int iterations;
+        double size;
+    } kinds[] = {{"sqr", 5, 1.4}, {"sqr", 2, 1.4}, {"hypercomplex sinh", 3, 4}};
+    uint32_t random = 3;
     int all = 0;
     (void)state;
-    for (int n = 0; n < 6; n++) {
+    for (int n = 0; n < 9; n++) {
         char text[300];
         snprintf(text, sizeof text,
                  V37
                  "julia_fractal{<.1,.2,-.3,.15> %s max_iteration %d precision 1000 scale %g rotate 30 translate %g}",
-                 n < 3 ? "sqr" : "hypercomplex sinh", n < 3 ? 5 : 3, scales[n % 3], n == 1 ? 30. : 0);
+                 kinds[n / 3].function, kinds[n / 3].iterations, scales[n % 3], n == 1 ? 30. : 0);
         Scene *scene = parse(text);
         const Primitive *p = only(scene);
-        all += test_shape_crossings(p, transform_point(&p->transform, vec3(0, 0, 0)), (n < 3 ? 1.4 : 4) * scales[n % 3],
+        all += test_shape_crossings(p, transform_point(&p->transform, vec3(0, 0, 0)), kinds[n / 3].size * scales[n % 3],
                                     60, 2e-3, &random);
         scene_close(&scene);
     }
     assert_true(all > 300);
+}
+
+/* How many points of the ray, a thousandth apart, are inside in a row. */
+static int steps_inside(const Primitive *p, Ray ray)
+{
+    int run = 0, longest = 0;
+
+    for (int k = 0; k < 6000; k++) {
+        run = test_inside(p, vec_mad(ray.origin, ray.direction, 1e-3 * k)) ? run + 1 : 0;
+        longest = run > longest ? run : longest;
+    }
+    return longest;
+}
+
+/* At the rim of a set of few iterations, which is larger than that of many: rays that are inside for four of the
+ * shape's steps hit it. */
+static void test_grazing_rays(void **state)
+{
+    (void)state;
+    for (int iterations = 2; iterations <= 5; iterations++) {
+        char text[200];
+        Ray ray = {vec3(1.5, 0.7, -3), vec3(0, 0, 1), 0, INFINITY};
+        int grazing = 0, face;
+        double t;
+        snprintf(text, sizeof text, V37 "julia_fractal{<.1,.2,-.3,.15> sqr max_iteration %d precision 1000}",
+                 iterations);
+        Scene *scene = parse(text);
+        const Primitive *p = only(scene);
+        while (!steps_inside(p, ray))
+            ray.origin.x -= 0.005;
+        for (int i = 0; i < 100; i++) {
+            ray.origin.x += 1e-4 * (i < 50 ? 1 : -3);
+            const int steps = steps_inside(p, ray);
+            grazing += steps >= 4;
+            if (steps >= 4 && !shape_intersect(p, &ray, &t, &face))
+                fail_msg("%d iterations: a ray at %g misses, inside for %d steps", iterations, ray.origin.x, steps);
+        }
+        assert_true(grazing > 20);
+        scene_close(&scene);
+    }
 }
 
 static void test_errors(void **state)
@@ -157,7 +202,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_povray), cmocka_unit_test(test_normals_against_povray),
         cmocka_unit_test(test_iterations),     cmocka_unit_test(test_crossings),
-        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_grazing_rays),   cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
