@@ -340,6 +340,37 @@ changed('stride_zero.gltf', scene, 'bufferViews', 1, byteStride=0)
 changed('stride_point.gltf', scene, 'bufferViews', 1, byteStride=4.0)
 changed('stride_huge.gltf', scene, 'bufferViews', 1, byteStride=2**31)
 changed('longs.gltf', scene, 'accessors', 1, componentType=5125)
+
+
+def morphed(of_nodes):
+    """The card at the weights -0.5 and 0.25 of two morph targets, which move its vertices and normals."""
+    scene, moves = gltf(MATERIAL), ((.5, -1, 2), (3, 1, -4))
+    vectors = [[(x + .5 * moves[0][k] - .25 * moves[1][k]) for k, x in enumerate(p)] for p in positions]
+    vectors += [(0, .5, .5)] * 4
+    for move, turn in zip(moves, ((0, .5, -.5), (0, -1, 1))):
+        vectors += [move] * 4 + [turn] * 4
+    data = buffer + b''.join(struct.pack('<3f', *v) for v in vectors)
+    for k in range(6):
+        scene['bufferViews'].append({'buffer': 0, 'byteOffset': len(buffer) + 48 * k, 'byteLength': 48})
+        scene['accessors'].append({'bufferView': 3 + k, 'componentType': 5126, 'count': 4, 'type': 'VEC3',
+                                   'min': [-9] * 3, 'max': [9] * 3})
+    primitive = scene['meshes'][0]['primitives'][0]
+    primitive['attributes'].update(POSITION=4, NORMAL=5)
+    primitive['targets'] = [{'POSITION': 6, 'NORMAL': 7}, {'POSITION': 8, 'NORMAL': 9}]
+    scene['buffers'][0] = {'byteLength': len(data), 'uri': 'data:application/octet-stream;base64,' +
+                           base64.b64encode(data).decode()}
+    for owner in scene['nodes'][:2] if of_nodes else scene['meshes']:
+        owner['weights'] = [-.5, .25]
+    if of_nodes:
+        scene['meshes'][0]['weights'] = [1, 1]
+    return scene
+
+
+scene = gltf(MATERIAL)
+scene['meshes'][0]['primitives'][0]['targets'] = [{'POSITION': 0}]
+write('morph_rest.gltf', json.dumps(scene))  # weights are 0 unless the file says so
+write('morph.gltf', json.dumps(morphed(False)))
+write('morph_nodes.gltf', json.dumps(morphed(True)))
 # Text with a name in Latin-1 or with NULs, and one that is no JSON; a .glb with more chunks, and with the chunks in
 # another order.
 scene, data = integers(5121, octets, 4, True)

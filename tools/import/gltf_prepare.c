@@ -24,6 +24,29 @@ static int take_images(json_t *json)
     return any;
 }
 
+/* A node's own weights of morph targets go into a mesh of its own, for Assimp reads those of meshes alone. Returns 1 if
+ * there are any. */
+static int take_weights(json_t *json)
+{
+    const json_t *nodes = json_object_get(json, "nodes");
+    json_t *meshes = json_object_get(json, "meshes");
+    int any = 0;
+    for (size_t i = 0; i < json_array_size(nodes); i++) {
+        json_t *node = json_array_get(nodes, i), *weights = json_object_get(node, "weights");
+        const json_t *index = json_object_get(node, "mesh");
+        const json_int_t place = json_is_integer(index) ? json_integer_value(index) : -1;
+        json_t *mesh = place < 0 ? NULL : json_array_get(meshes, (size_t)place);
+        if (!json_array_size(weights) || !mesh || json_equal(weights, json_object_get(mesh, "weights")))
+            continue;
+        json_t *own = json_copy(mesh), *at = json_integer((json_int_t)json_array_size(meshes));
+        any |= json_object_set(own, "weights", weights) == 0 && json_array_append(meshes, own) == 0 &&
+               json_object_set(node, "mesh", at) == 0;
+        json_decref(own);
+        json_decref(at);
+    }
+    return any;
+}
+
 static void put_word(FILE *out, size_t word)
 {
     for (int byte = 0; byte < 4; byte++)
@@ -79,8 +102,8 @@ static FILE *write_prepared(Import *import, FILE *in)
     FILE *out = NULL;
     if (text.json) {
         gltf_floats_convert(&f);
-        const int has_images = take_images(text.json);
-        if (f.any || has_images || text.is_repaired)
+        const int has_images = take_images(text.json), has_weights = take_weights(text.json);
+        if (f.any || has_images || has_weights || text.is_repaired)
             out = tmpfile();
         if (out) {
             gltf_buffers_read_inside(&f.buffers);
@@ -89,7 +112,7 @@ static FILE *write_prepared(Import *import, FILE *in)
                 out = NULL;
             }
         }
-        if (!out && (f.any || has_images) && !f.refused[0])
+        if (!out && (f.any || has_images || has_weights) && !f.refused[0])
             snprintf(f.refused, sizeof f.refused, "no memory, or no place for a temporary file");
         memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     }

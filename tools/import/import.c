@@ -39,6 +39,7 @@ void import_leave_out(Import *import, LeftOut what)
         [LEFT_SHEEN_ROUGHNESS_MAP] = "of images of the roughness of sheen, the mean is taken",
         [LEFT_ANIMATION] = "animations are left out",
         [LEFT_SKIN] = "skins are left out: meshes stay as they were bound",
+        [LEFT_MORPHS] = "shape keys are left out: meshes keep their basic shape",
         [LEFT_AMBIENT_LIGHT] = "ambient lights are left out",
         [LEFT_OTHER_UV] = "of meshes without the set of UV that their images ask for, the first one is taken",
         [LEFT_NO_UV] = "images on meshes without UV show one colour",
@@ -379,6 +380,8 @@ int import_model(const ImportOptions *options, RetexError *err)
         set_world(&import);
         code = read_model(&import, err);
     }
+    if (!code)
+        code = morphs_apply(&import, err);
     if (!code && import.is_gltf)
         code = gltf_read(&import, err);
     if (!code && import.is_3ds)

@@ -137,6 +137,7 @@ typedef enum LeftOut {
     LEFT_VERTEX_COLORS,
     LEFT_ANIMATION,
     LEFT_SKIN,
+    LEFT_MORPHS,
     LEFT_AMBIENT_LIGHT,
     LEFT_OTHER_UV,
     LEFT_NO_UV,
@@ -179,6 +180,8 @@ const json_t *gltf_extras(const json_t *node);
 /* gltf_prepare.c */
 /* The file, or in its place one that says the same in words that Assimp reads well. NULL: it cannot be opened again. */
 FILE *gltf_prepare(Import *import, FILE *in);
+/* morphs.c: into Assimp's meshes */
+int morphs_apply(Import *import, RetexError *err);
 /* tds.c: into Assimp's cameras */
 void tds_read(Import *import);
 /* gltf_lights.c */
