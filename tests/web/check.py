@@ -78,11 +78,12 @@ def check_pictures(page):
     reference(f"{work}/combined.png")
     decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
     result(decibels >= 38, f"before and after: the picture before is as the set has it, {decibels:.2f} dB")
-    begin = page.run("performance.now()")
+    begin, used = page.run("performance.now()"), page.processor_seconds()
     for i in range(4):
         page.put("Floor", f"textures/{textures[i]}.jpg")
         page.room("toBlob().then(() => 1)")
-    print(f"# a swap: {(page.run('performance.now()') - begin) / 4:.0f} ms, with Chromium's software renderer")
+    print(f"# a swap: {(page.run('performance.now()') - begin) / 4:.0f} ms, {(page.processor_seconds() - used) / 4:.2f} s of "
+          "processor time, with Chromium's software renderer")
 
 
 def check_placing(page):
