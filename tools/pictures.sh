@@ -110,7 +110,7 @@ fi
 examples=/usr/share/doc/povray/examples
 if [ -d "$examples" ] && command -v povray >/dev/null; then
     rows=
-    while read -r what scene target texture; do
+    while read -r what scene target texture _; do
         case $what in '#'*) continue ;; esac
         base=$sets/sample-$what
         sample() { retex-render -q --lenient --size 240x180 --spp "$spp" "$@" --denoise "$examples/$scene.pov"; }
