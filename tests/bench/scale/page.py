@@ -24,7 +24,8 @@ LIMIT = 8e9
 INTRODUCTION = """# How costs grow
 
 This page shows how the cost of a path grows with a scene or picture, for the plain picture and for a set. The cost is
-processor time in microseconds. What a catalogue of many pictures costs is in [catalogues.md](catalogues.md). {head}
+processor time in microseconds. What a catalogue of many pictures costs is in [catalogues.md](catalogues.md).
+{head}
 Each figure is the median of {turns}, with the least and largest in brackets.
 [scale.csv](scale.csv) has the same figures.
 
