@@ -159,12 +159,11 @@ def pack_grows(quality, base):
 
 
 def lossless_shares():
-    """Of the EXR set, without originals."""
-    def sizes(method):
-        return {(r["scene"], r["layout"]): int(r["bytes_without_originals"])
-                for r in rows("storage", set="denoised", method=method)}
-    sets = sizes("exr")
-    found = [100 * size / sets[key] for key, size in sizes("lossless").items()]
+    """Of the EXR set, denoised and as rendered, with originals."""
+    def size(what, targets):
+        return one("post", "file_bytes", kind="size", scene="living-room", targets=targets, what=what)
+    found = [100 * size("lossless" + ending, targets) / size("exr" + ending, targets)
+             for targets in ("one", "two") for ending in ("", "-rendered")]
     return f"{min(found):.0f} to {max(found):.0f} percent"
 
 
