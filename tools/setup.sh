@@ -1,10 +1,11 @@
 #!/bin/sh
 # Installs the Debian packages that retex needs to be built (`setup.sh build`), tested (`setup.sh test`; `setup.sh serve`
 # for retex-serve with nginx and many clients, `setup.sh web` for the player in a browser, `setup.sh cluster` for parts
-# of work on several machines) or compared with POV-Ray (`setup.sh parity`).
+# of work on several machines), made into Debian packages (`setup.sh deb`) or compared with POV-Ray (`setup.sh parity`).
 #
 # If nothing is missing, it prints nothing and exits with 0. It installs packages as root, or by sudo where sudo needs no
-# password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1.
+# password or runs on a terminal. Otherwise it prints the command that installs them, and exits with 1. With --list it
+# only prints the names of all packages that it would look for.
 # `setup.sh config` prints the contents of $(BUILD)/config.mk: flags for compilers and linkers, found by pkg-config.
 set -eu
 
@@ -56,6 +57,12 @@ file /usr/share/bash-completion/bash_completion bash-completion
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
 '
+needs_deb="$needs_build
+command dpkg-buildpackage dpkg-dev
+command dh debhelper
+file /usr/share/perl5/Debian/Debhelper/Sequence/python3.pm dh-python
+file /usr/bin/python3 python3
+"
 needs_web='
 command chromium chromium
 python websocket python3-websocket
@@ -171,15 +178,17 @@ config() {
 }
 
 case ${1-} in
-build) install_missing "$needs_build" ;;
-test) install_missing "$needs_test" ;;
-parity) install_missing "$needs_parity" ;;
-serve) install_missing "$needs_serve" ;;
-web) install_missing "$needs_web" ;;
-cluster) install_missing "$needs_cluster" ;;
 config) config ;;
+build | test | deb | parity | serve | web | cluster)
+    eval "list=\$needs_$1"
+    if [ "${2-}" = --list ]; then
+        echo "$list" | awk 'NF { print $3 }' | sort -u
+    else
+        install_missing "$list"
+    fi
+    ;;
 *)
-    echo "usage: $0 build | test | parity | serve | web | cluster | config" >&2
+    echo "usage: $0 build | test | deb | parity | serve | web | cluster [--list], or $0 config" >&2
     exit 2
     ;;
 esac

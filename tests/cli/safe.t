@@ -81,6 +81,31 @@ $ for safe in '' 0 1 yes; do RETEX_SAFE=$safe retex-render -q --plain --spp 1 --
 > '0' 0
 > '1' 2
 > 'yes' 2
+# Fonts, density files, height fields, .ini files and what these name are files like others.
+$ cd a; cp "$TESTS/../data/density.df3" up.df3; cp "$(find /usr/share/fonts -name timrom.ttf | head -1)" up.ttf; printf 'Width=9\n' >up.ini; cp b/in.pov up.pov; scene() { printf '%s\nbackground { rgb 1 }\n' "$2" >"b/$1"; }; scene font.pov 'text { ttf "../up.ttf" "A" .1, 0 }'; scene df3.pov 'box { 0, 1 hollow pigment { rgbt 1 } interior { media { emission 1 density { density_file df3 "../up.df3" } } } }'; scene field.pov 'height_field { png "../up.png" }'; ini() { printf "$2=$3\nInput_File_Name=in.pov\n" >b/$1.ini; }; ini scene Input_File_Name ../up.pov; ini ini Include_Ini ../up.ini; ini library Library_Path ..; ini output Output_File_Name ../x.png; echo Input_File_Name=../up.pov >b/scene.ini
+$ for n in font.pov df3.pov field.pov scene.ini ini.ini library.ini output.ini; do retex-render --safe -q --plain --spp 1 --size 8x8 a/b/$n -o x.exr; echo $n $?; done
+> font.pov 0
+> df3.pov 2
+> field.pov 2
+> scene.ini 2
+> ini.ini 2
+> library.ini 2
+> output.ini 2
+! retex-render: a/b/font.pov:1: warning: the font `../up.ttf` is not in the folders that may be read: cyrvetic.ttf is used
+! retex-render: error: a/b/df3.pov:1:95: the density_file `../up.df3` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: a/b/field.pov:1:20: the image `../up.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: a/b/scene.ini:1: Input_File_Name: ../up.pov is outside the folder of the .ini file (--safe)
+! retex-render: error: a/b/ini.ini:1: the file: ../up.ini is outside the folder of the .ini file (--safe)
+! retex-render: error: a/b/library.ini:1: Library_Path: .. is outside the folder of the .ini file (--safe)
+! retex-render: error: a/b/output.ini:1: Output_File_Name: an .ini file names no output (--safe): give -o
+$ for n in font.pov df3.pov field.pov ini.ini library.ini output.ini; do retex-render -I a -q --plain --spp 1 --size 8x8 a/b/$n -o x.exr; echo $n $?; done
+> font.pov 0
+> df3.pov 0
+> field.pov 0
+> ini.ini 0
+> library.ini 0
+> output.ini 0
+
 # What a scene writes stays in memory.
 $ printf '#fopen F "written.inc" write\n#write(F, "#declare Radius = 1;")\n#fclose F\n#include "written.inc"\nsphere { 0, Radius }\nbackground { rgb 1 }\n' >a/b/write.pov; retex-render --safe -q --plain --spp 1 --size 8x8 a/b/write.pov -o x.exr; ls a/b/written.inc written.inc 2>/dev/null
 = 2

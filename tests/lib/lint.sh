@@ -10,6 +10,7 @@
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
+#   - tools/setup.sh installs what the Debian packages are built with
 #   - figures that README and man pages quote are those of docs/*.csv
 #   - mutants: the text of each is in its file, and its tests exist
 # --tap: as one test of make check.
@@ -184,6 +185,13 @@ done
 for script in $(git ls-files '*.sh') .ci/run; do
     sh -n "$script" || complain "$script"
 done
+# Build-Depends, but for what only tests need; three of these names are provided by other packages.
+listed=$(tools/setup.sh deb --list)
+found=$(sed -n '/^Build-Depends:/,/^$/p' debian/control | sed -e 's/^Build-Depends://' -e '/<!nocheck>/d' |
+    sed -e 's/debhelper-compat (= 13)/debhelper/; s/dh-sequence-python3/dh-python/; s/pkgconf,/pkg-config,/' |
+    tr -d ' ,' | grep -vxF "$listed" | grep .)
+[ -z "$found" ] || complain "in Build-Depends of debian/control, but not in tools/setup.sh: $found"
+
 quoted=$(/usr/bin/python3 -B tests/figures/quote.py --check) || complain "$quoted"
 complaints=$(tests/mutants/run.py --lint) || complain "$complaints"
 if [ "${1-}" = --tap ]; then
