@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -263,6 +264,10 @@ static void take_name(const Cli *cli, char folder[PATH_MAX], char name[NAME_MAX 
     if (strcmp(cli->output, "-") == 0 || !*last || strcmp(last, ".") == 0 || strcmp(last, "..") == 0 ||
         strlen(last) > NAME_MAX - 16)
         cli_die(cli, "-o %s: expected the name of a folder to make", cli->output);
+    const size_t length_of_last = strlen(last);
+    if (length_of_last > 4 && strcasecmp(last + length_of_last - 4, ".pov") == 0)
+        cli_die(cli, "-o %s: expected the name of a folder to make, without .pov: -o %.*s makes %.*s/%.*s.pov",
+                cli->output, (int)length - 4, folder, (int)length - 4, folder, (int)length_of_last - 4, last);
     strcpy(name, last);
     for (const char *c = name; *c; c++)
         if (*c == '"' || *c == '\\' || (unsigned char)*c < 32)

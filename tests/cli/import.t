@@ -248,6 +248,13 @@ $ retex-import card.glb -o .
 $ retex-import card.glb -o -
 ! retex-import: error: -o -: expected the name of a folder to make
 = 2
+$ retex-import card.glb -o room.pov
+! retex-import: error: -o room.pov: expected the name of a folder to make, without .pov: -o room makes room/room.pov
+= 2
+$ retex-import card.glb -f -o rooms/Hall.POV/; ls -d room*
+! retex-import: error: -o rooms/Hall.POV/: expected the name of a folder to make, without .pov: -o rooms/Hall makes rooms/Hall/Hall.pov
+! ls: cannot access 'room*': No such file or directory
+= 2
 $ retex-import -o x
 ! retex-import: error: no model given
 = 2

@@ -56,6 +56,35 @@ def look_up(model):
     model['scenes'][0]['nodes'].append(len(nodes) - 1)
 
 
+def falloff(constant, linear, quadratic):
+    """The same plane and camera in Collada, and a lamp whose light is divided by c + l d + q d^2."""
+    return '''<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_lights><light id="l"><technique_common><point><color>1 1 1</color>
+<constant_attenuation>%g</constant_attenuation><linear_attenuation>%g</linear_attenuation>
+<quadratic_attenuation>%g</quadratic_attenuation></point></technique_common></light></library_lights>
+<library_cameras><camera id="c"><optics><technique_common><perspective><yfov>6</yfov><aspect_ratio>1</aspect_ratio>
+<znear>.1</znear><zfar>9</zfar></perspective></technique_common></optics></camera></library_cameras>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong><diffuse><color>.5 .5 .5 1</color></diffuse>
+<specular><color>0 0 0 1</color></specular></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">-9 0 9 9 0 9 9 0 -9 -9 0 -9</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="2" material="w"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2 0 2 3</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="S">
+<node id="plane"><instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="w" target="#m"/>
+</technique_common></bind_material></instance_geometry></node>
+<node id="lamp"><translate>0 2 0</translate><instance_light url="#l"/></node>
+<node id="eye"><translate>0 4 0</translate><rotate>1 0 0 -90</rotate><instance_camera url="#c"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>
+''' % (constant, linear, quadratic)
+
+
 def write_all():
     point, sun = {'type': 'point', 'intensity': 20}, {'type': 'directional', 'intensity': 3}
     spot = {'type': 'spot', 'intensity': 20, 'spot': {'innerConeAngle': 0, 'outerConeAngle': .8}}
@@ -86,6 +115,10 @@ def write_all():
             json.dump(text, open(name + '.gltf', 'w'))
             open('plane.bin', 'wb').write(buffer)
             print(name, radiance, file=out)
+        for name, c, l, q in (('even', 1.25, 0, 0), ('squared', 0, 0, .5), ('shifted', 1.5, 0, .25),
+                              ('slow', .5, .75, 0)):
+            open(name + '.dae', 'w').write(falloff(c, l, q))
+            print(name, .5 / (c + l * HEIGHT + q * HEIGHT**2), file=out)
     lens = {'extras': {'retex': {'shift': [.25, -.5], 'lens_radius': .05, 'focus_distance': 3}}}
     json.dump(model([lamp('a')], [point], lens, .6)[0], open('lens.gltf', 'w'))
 

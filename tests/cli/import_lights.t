@@ -15,6 +15,17 @@ $ for m in ball area; do retex-import -q --scale 10 $m.gltf -o big-$m && retex-r
 > ball as expected
 > area as expected
 
+# Falloff of Collada's lights; that scales too.
+$ for m in even squared shifted slow; do for s in 1 10; do retex-import -q --scale $s $m.dae -o $m-$s && retex-render -q --plain --spp 4 --size 32x32 $m-$s/$m-$s.pov -o $m-$s.exr && /usr/bin/python3 $TESTS/import_lights.py $m $m-$s.exr; done; done
+> even as expected
+> even as expected
+> squared as expected
+> squared as expected
+> shifted as expected
+> shifted as expected
+> slow as expected
+> slow as expected
+
 # An area light is in no light's way: the ceiling above it is lit by all of the floor.
 $ for m in empty behind; do retex-import -q $m.gltf -o $m && retex-render -q --plain --spp 64 --size 32x32 $m/$m.pov -o $m.exr; done; /usr/bin/python3 $TESTS/import_lights.py behind behind.exr empty.exr
 > behind as expected

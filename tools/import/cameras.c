@@ -5,14 +5,27 @@
 
 #include "import/internal.h"
 
-/* Position, direction and up of a camera in the scene. Returns 0 where they are no numbers. */
-static int place(const Import *import, const struct aiCamera *camera, double at[3], double to[3], double up[3])
+static int count_cameras(const Import *import)
 {
-    const Affine node = import_own_transform(import, camera->mName.data);
+    return import->is_gltf ? import->gltf.ncameras : (int)import->scene->mNumCameras;
+}
+
+static const char *camera_name(const Import *import, int index)
+{
+    return import->is_gltf ? import->gltf.cameras[index].name : import->scene->mCameras[index]->mName.data;
+}
+
+/* Position, direction and up of a camera in the scene. Returns 0 where they are no numbers. */
+static int place(const Import *import, int index, double at[3], double to[3], double up[3])
+{
+    const struct aiCamera *camera = import->is_gltf ? NULL : import->scene->mCameras[index];
+    const Affine node = camera ? import->camera_places[index].world : import->gltf.cameras[index].place;
     const struct aiVector3D zero = {0, 0, 0}, ahead = {0, 0, -1}, above = {0, 1, 0};
-    const struct aiVector3D *p = import->is_gltf ? &zero : &camera->mPosition;
-    const struct aiVector3D *d = import->is_gltf ? &ahead : &camera->mLookAt;
-    const struct aiVector3D *u = import->is_gltf ? &above : &camera->mUp;
+    const struct aiVector3D *p = camera ? &camera->mPosition : &zero;
+    const struct aiVector3D *d = camera ? &camera->mLookAt : &ahead;
+    const struct aiVector3D *u = camera ? &camera->mUp : &above;
+    if (camera && !import->camera_places[index].is_known)
+        return 0;
     affine_point(&node, (double[3]){(double)p->x, (double)p->y, (double)p->z}, at);
     affine_vector(&node, (double[3]){(double)d->x, (double)d->y, (double)d->z}, to);
     affine_vector(&node, (double[3]){(double)u->x, (double)u->y, (double)u->z}, up);
@@ -33,13 +46,17 @@ typedef struct View {
 
 static View view_of(const Import *import, int index)
 {
-    const struct aiCamera *camera = import->scene->mCameras[index];
-    View view = {(double)camera->mAspect, (double)camera->mHorizontalFOV, 2 * (double)camera->mOrthographicWidth};
-    if (index < import->gltf.ncameras) {
+    View view;
+    if (import->is_gltf) {
         const GltfCamera *gltf = &import->gltf.cameras[index];
         view.width = gltf->width;
         view.aspect = gltf->width > 0 && gltf->height > 0 ? gltf->width / gltf->height : gltf->aspect;
         view.angle = 2 * atan(tan(gltf->angle / 2) * (view.aspect > 0 ? view.aspect : 4.0 / 3));
+    } else {
+        const struct aiCamera *camera = import->scene->mCameras[index];
+        view.width = 2 * (double)camera->mOrthographicWidth;
+        view.aspect = (double)camera->mAspect;
+        view.angle = (double)camera->mHorizontalFOV;
     }
     if (!(view.aspect > 0.01 && view.aspect < 100))
         view.aspect = 4.0 / 3;
@@ -109,11 +126,11 @@ static void print_lens(const Import *import, FILE *out, const GltfCamera *camera
 static int write_camera(const Import *import, int index, const char *name, FILE *out)
 {
     static const GltfCamera plain;
-    const GltfCamera *gltf = index < import->gltf.ncameras ? &import->gltf.cameras[index] : &plain;
+    const GltfCamera *gltf = import->is_gltf ? &import->gltf.cameras[index] : &plain;
     const View view = view_of(import, index);
     const int is_shifted = view.width == 0 && (gltf->shift[0] != 0 || gltf->shift[1] != 0);
     double at[3], to[3], up[3];
-    if (!place(import, import->scene->mCameras[index], at, to, up))
+    if (!place(import, index, at, to, up))
         return 0;
     if (view.width > 0)
         move_orthographic(&view, at, to, up, gltf->shift, import->options->scale);
@@ -161,24 +178,35 @@ static void write_framing(const Import *import, FILE *out)
 
 typedef struct Cameras {
     char (*names)[NAME_SIZE]; /* "" = its place is no number */
-    unsigned count;
+    int count;
 } Cameras;
 
-/* The camera that --camera asks for; else the first. Returns -1 where there is none. */
+/* How a camera may be named, the best first. */
+static int answers_to(const Import *import, const Cameras *cameras, int index, const char *asked, int form)
+{
+    char *end;
+    const long number = strtol(asked, &end, 10);
+    return cameras->names[index][0] && (form == 0   ? strcmp(asked, camera_name(import, index)) == 0
+                                        : form == 1 ? strcmp(asked, cameras->names[index]) == 0
+                                                    : !*end && number == (long)index + 1);
+}
+
+/* The camera that --camera asks for, the first of that name; else the first of all. Returns -1 where there is none. */
 static int choose(const Import *import, const Cameras *cameras, int *chosen, RetexError *err)
 {
+    enum { FORMS = 3 };
     const char *asked = import->options->camera;
-    char *end;
-    const long number = asked ? strtol(asked, &end, 10) : 0;
     *chosen = -1;
-    for (unsigned i = cameras->count; i-- > 0;)
-        if (cameras->names[i][0] &&
-            (!asked || (!*end && number == (long)i + 1) || strcmp(asked, import->scene->mCameras[i]->mName.data) == 0 ||
-             strcmp(asked, cameras->names[i]) == 0))
-            *chosen = (int)i;
+    for (int i = cameras->count; i-- > 0 && !asked;)
+        if (cameras->names[i][0])
+            *chosen = i;
+    for (int form = 0; form < FORMS && asked && *chosen < 0; form++)
+        for (int i = cameras->count; i-- > 0;)
+            if (answers_to(import, cameras, i, asked, form))
+                *chosen = i;
     if (*chosen >= 0 || !asked)
         return RETEX_OK;
-    return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %u camera%s%s%.100s", asked, cameras->count,
+    return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %d camera%s%s%.100s", asked, cameras->count,
                       cameras->count == 1 ? "" : "s", cameras->count ? ", the first is " : "",
                       cameras->count ? cameras->names[0] : "");
 }
@@ -187,11 +215,11 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
 {
     char name[TEXT_SIZE + 8];
     int chosen;
-    for (unsigned i = 0; i < cameras->count; i++) {
-        snprintf(name, sizeof name, "Camera_%s", import->scene->mCameras[i]->mName.data);
+    for (int i = 0; i < cameras->count; i++) {
+        snprintf(name, sizeof name, "Camera_%s", camera_name(import, i));
         if (!names_make(&import->names, name, "Camera", cameras->names[i]))
             return retex_fail(err, RETEX_ENOMEM, "out of memory");
-        if (!write_camera(import, (int)i, cameras->names[i], out))
+        if (!write_camera(import, i, cameras->names[i], out))
             cameras->names[i][0] = '\0';
     }
     const int code = choose(import, cameras, &chosen, err);
@@ -203,14 +231,15 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
     }
     fprintf(out, "camera { %s }\n\n", cameras->names[chosen]);
     if (cameras->count > 1)
-        import_tell(import, IMPORT_INFO, "camera %d of %u is used, %s; --camera takes another one", chosen + 1,
+        import_tell(import, IMPORT_INFO, "camera %d of %d is used, %s; --camera takes another one", chosen + 1,
                     cameras->count, cameras->names[chosen]);
     return RETEX_OK;
 }
 
 int cameras_write(Import *import, FILE *out, RetexError *err)
 {
-    Cameras cameras = {calloc(import->scene->mNumCameras + 1, sizeof *cameras.names), import->scene->mNumCameras};
+    Cameras cameras = {.count = count_cameras(import)};
+    cameras.names = calloc((size_t)cameras.count + 1, sizeof *cameras.names);
     if (!cameras.names)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
     fprintf(out, "// ---- camera ----\n\n");

@@ -1,5 +1,4 @@
-/* What Assimp leaves out of glTF files: strengths of emission, angles of view as they are written, all lights, and
- * extras for this tool. */
+/* What Assimp leaves out of glTF files: strengths of emission and the like, and extras for this tool. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,41 +113,6 @@ static void take_materials(const json_t *json, Gltf *gltf)
     }
 }
 
-static void take_cameras(const json_t *json, Gltf *gltf)
-{
-    const json_t *cameras = json_object_get(json, "cameras");
-    const size_t count = json_array_size(cameras);
-    gltf->cameras = calloc(count + 1, sizeof *gltf->cameras);
-    for (size_t i = 0; gltf->cameras && i < count; i++) {
-        const json_t *camera = json_array_get(cameras, i), *perspective = json_object_get(camera, "perspective");
-        const json_t *orthographic = json_object_get(camera, "orthographic");
-        GltfCamera *to = &gltf->cameras[i];
-        to->angle = gltf_number(perspective, "yfov", 0);
-        to->aspect = gltf_number(perspective, "aspectRatio", 0);
-        to->width = 2 * gltf_number(orthographic, "xmag", 0);
-        to->height = 2 * gltf_number(orthographic, "ymag", 0);
-        gltf->ncameras = (int)i + 1;
-    }
-}
-
-/* The lens, of the nodes of cameras. */
-static void take_lenses(const json_t *json, Gltf *gltf)
-{
-    const json_t *nodes = json_object_get(json, "nodes");
-    for (size_t i = 0; i < json_array_size(nodes); i++) {
-        const json_t *node = json_array_get(nodes, i), *camera = json_object_get(node, "camera");
-        const json_t *extras = gltf_extras(node), *shift = json_object_get(extras, "shift");
-        const json_int_t index = json_is_integer(camera) ? json_integer_value(camera) : -1;
-        if (!extras || index < 0 || index >= gltf->ncameras)
-            continue;
-        GltfCamera *to = &gltf->cameras[index];
-        for (size_t k = 0; k < 2; k++)
-            to->shift[k] = fmin(fmax(json_number_value(json_array_get(shift, k)), -100), 100);
-        to->lens_radius = fmax(gltf_number(extras, "lens_radius", 0), 0);
-        to->focus_distance = fmax(gltf_number(extras, "focus_distance", 0), 0);
-    }
-}
-
 /* Images of the reflectance, which Assimp does not know of. */
 static void note_specular_images(Import *import, const json_t *json)
 {
@@ -251,11 +215,9 @@ int gltf_read(Import *import, RetexError *err)
     take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
     note_extensions(import, text.json);
-    take_cameras(text.json, &import->gltf);
-    take_lenses(text.json, &import->gltf);
-    gltf_take_lights(text.json, &import->gltf);
+    const int done = gltf_take_cameras(import, text.json) && gltf_take_lights(import, text.json);
     json_decref(text.json);
-    return RETEX_OK;
+    return done ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");
 }
 
 void gltf_free(Gltf *gltf)

@@ -1,4 +1,4 @@
-/* Lights of a glTF file: of its nodes, for Assimp keeps one node of each light, and what extras say of their size. */
+/* Lights of a glTF file: of its nodes, and what extras say of their size. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,11 +25,15 @@ static void take_color(const json_t *color, double factor, double to[3])
     }
 }
 
-static int take_punctual(const json_t *json, const json_t *node, GltfLight *to)
+static const json_t *punctual_of(const json_t *json, const json_t *node)
 {
-    const json_t *place = json_object_get(gltf_extension(node, "KHR_lights_punctual"), "light");
+    const json_t *index = json_object_get(gltf_extension(node, "KHR_lights_punctual"), "light");
     const json_t *lights = json_object_get(gltf_extension(json, "KHR_lights_punctual"), "lights");
-    const json_t *light = json_is_integer(place) ? json_array_get(lights, (size_t)json_integer_value(place)) : NULL;
+    return json_is_integer(index) ? json_array_get(lights, (size_t)json_integer_value(index)) : NULL;
+}
+
+static int take_punctual(const json_t *json, const json_t *node, const json_t *light, GltfLight *to)
+{
     const char *type = json_string_value(json_object_get(light, "type"));
     const json_t *spot = json_object_get(light, "spot"), *extras = gltf_extras(node);
     if (!type)
@@ -65,22 +69,30 @@ static int take_area(const json_t *node, GltfLight *to)
     return to->width > 0 && to->height > 0 && isfinite(to->width + to->height);
 }
 
-void gltf_take_lights(const json_t *json, Gltf *gltf)
+static int take_light(Import *import, const json_t *json, const json_t *node, const Affine *place, void *context)
 {
-    const json_t *nodes = json_object_get(json, "nodes");
-    const size_t count = json_array_size(nodes);
-    gltf->lights = calloc(count + 1, sizeof *gltf->lights);
-    for (size_t i = 0; gltf->lights && i < count; i++) {
-        const json_t *node = json_array_get(nodes, i);
-        GltfLight *to = &gltf->lights[gltf->nlights];
-        *to = (GltfLight){0};
-        const char *name = json_string_value(json_object_get(node, "name"));
-        if (name)
-            snprintf(to->node, sizeof to->node, "%.*s", (int)sizeof to->node - 1, name);
-        else
-            snprintf(to->node, sizeof to->node, "nodes_%zu", i);
-        gltf->nlights += take_punctual(json, node, to) || take_area(node, to);
+    Gltf *gltf = &import->gltf;
+    size_t *capacity = context;
+    const json_t *punctual = punctual_of(json, node);
+    GltfLight light = {.place = *place};
+    if (!take_punctual(json, node, punctual, &light) && !take_area(node, &light))
+        return 1;
+    if ((size_t)gltf->nlights == *capacity) {
+        GltfLight *more = realloc(gltf->lights, (2 * *capacity + 4) * sizeof *more);
+        if (!more)
+            return 0;
+        gltf->lights = more;
+        *capacity = 2 * *capacity + 4;
     }
+    gltf_node_name(json, node, punctual, light.name);
+    gltf->lights[gltf->nlights++] = light;
+    return 1;
+}
+
+int gltf_take_lights(Import *import, const json_t *json)
+{
+    size_t capacity = 0;
+    return gltf_visit_nodes(import, json, take_light, &capacity);
 }
 
 /* ---- writing ---- */
@@ -159,7 +171,7 @@ static void write_lamp(const Import *import, const double at[3], const double to
 
 static void write_light(Import *import, const GltfLight *light, double user, FILE *out)
 {
-    const Affine node = import_node_transform(import, light->node);
+    const Affine node = light->place;
     const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     double at[3], to[3];
     char plain[NAME_SIZE];
@@ -173,7 +185,7 @@ static void write_light(Import *import, const GltfLight *light, double user, FIL
     }
     for (int k = 0; k < 3; k++)
         to[k] /= length;
-    fprintf(out, "// %s\n", import_plain(light->node, plain));
+    fprintf(out, "// %s\n", import_plain(light->name, plain));
     if (light->type == aiLightSource_AREA)
         write_area(&node, light, user, out);
     else if (light->type == aiLightSource_DIRECTIONAL)

@@ -47,6 +47,25 @@ static int take_weights(json_t *json)
     return any;
 }
 
+static int without(json_t *of, const char *key)
+{
+    return json_object_get(of, key) && json_object_del(of, key) == 0;
+}
+
+/* Cameras and lights, which Assimp knows by the names of nodes alone, and refuses where these are the same. They are
+ * taken from nodes themselves (gltf_nodes.c). Returns 1 if there were any. */
+static int drop_cameras_and_lights(json_t *json)
+{
+    static const char *const lights = "KHR_lights_punctual";
+    const json_t *nodes = json_object_get(json, "nodes");
+    int any = without(json, "cameras") | without(json_object_get(json, "extensions"), lights);
+    for (size_t i = 0; i < json_array_size(nodes); i++) {
+        json_t *node = json_array_get(nodes, i);
+        any |= without(node, "camera") | without(json_object_get(node, "extensions"), lights);
+    }
+    return any;
+}
+
 static void put_word(FILE *out, size_t word)
 {
     for (int byte = 0; byte < 4; byte++)
@@ -102,8 +121,9 @@ static FILE *write_prepared(Import *import, FILE *in)
     FILE *out = NULL;
     if (text.json) {
         gltf_floats_convert(&f);
-        const int has_images = take_images(text.json), has_weights = take_weights(text.json);
-        if (f.any || has_images || has_weights || text.is_repaired)
+        const int is_changed =
+            take_images(text.json) | take_weights(text.json) | drop_cameras_and_lights(text.json) | f.any;
+        if (is_changed || text.is_repaired)
             out = tmpfile();
         if (out) {
             gltf_buffers_read_inside(&f.buffers);
@@ -112,7 +132,7 @@ static FILE *write_prepared(Import *import, FILE *in)
                 out = NULL;
             }
         }
-        if (!out && (f.any || has_images || has_weights) && !f.refused[0])
+        if (!out && is_changed && !f.refused[0])
             snprintf(f.refused, sizeof f.refused, "no memory, or no place for a temporary file");
         memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     }

@@ -45,6 +45,7 @@ void import_leave_out(Import *import, LeftOut what)
         [LEFT_NO_UV] = "images on meshes without UV show one colour",
         [LEFT_NOWHERE] = "objects whose place is no number are left out",
         [LEFT_LINES] = "points and lines are left out",
+        [LEFT_SAME_NAME] = "cameras and lights that cannot be told from others of the same name are left out",
     };
     if (import->left_out >> what & 1)
         return;
@@ -80,11 +81,33 @@ static void set_world(Import *import)
     import->world = up == 'z' ? z_up : y_up;
 }
 
+static const struct aiScene *read_by_assimp(Import *import, unsigned flags)
+{
+    struct aiPropertyStore *properties = aiCreatePropertyStore();
+    struct aiFileIO *io = files_io(import);
+    const struct aiScene *scene = NULL;
+    if (properties && io) {
+        aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, aiComponent_TANGENTS_AND_BITANGENTS);
+        aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, (ai_real)import->options->smooth);
+        scene = aiImportFileExWithProperties(import->options->model, flags, io, properties);
+    }
+    if (properties)
+        aiReleasePropertyStore(properties);
+    files_close_io(io);
+    return scene;
+}
+
+/* Assimp's check refuses cameras and lights that share a name, though it can read them: see places.c. */
+static int names_are_refused(void)
+{
+    return strstr(aiGetErrorString(), "aiScene::mLights") || strstr(aiGetErrorString(), "aiScene::mCameras");
+}
+
 static int read_model(Import *import, RetexError *err)
 {
     const ImportOptions *options = import->options;
-    unsigned flags = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords |
-                     aiProcess_ValidateDataStructure | aiProcess_RemoveComponent;
+    unsigned flags = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords | aiProcess_RemoveComponent;
     import->is_gltf = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb");
     import->is_fbx = has_ending(options->model, ".fbx");
     import->is_3ds = has_ending(options->model, ".3ds");
@@ -94,22 +117,15 @@ static int read_model(Import *import, RetexError *err)
         flags |= aiProcess_GlobalScale;
     if (options->smooth > 0)
         flags |= aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices;
-    struct aiPropertyStore *properties = aiCreatePropertyStore();
-    struct aiFileIO *io = files_io(import);
-    if (!properties || !io)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_RVC_FLAGS, aiComponent_TANGENTS_AND_BITANGENTS);
-    aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, (ai_real)options->smooth);
-    import->scene = aiImportFileExWithProperties(options->model, flags, io, properties);
-    aiReleasePropertyStore(properties);
-    files_close_io(io);
+    import->scene = read_by_assimp(import, flags | aiProcess_ValidateDataStructure);
+    if (!import->scene && names_are_refused())
+        import->scene = read_by_assimp(import, flags);
     if (import->denied[0])
         return retex_fail(err, RETEX_EACCESS,
                           "%s: the model names the file `%s`, which is outside of its folder; "
                           "-I DIR adds folders that may be read",
                           options->model, import->denied);
-    if (!import->scene && strstr(aiGetErrorString(), "bad_alloc"))
+    if (!import->scene && (strstr(aiGetErrorString(), "bad_alloc") || !*aiGetErrorString()))
         return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
                           options->model);
     const int code = !import->scene && import->is_gltf ? gltf_explain(import, err) : RETEX_OK;
@@ -173,37 +189,6 @@ static int visit_nodes(Import *import, Visit *visit, void *context)
     }
     free(places);
     return 1;
-}
-
-typedef struct Search {
-    const char *name;
-    Affine world;
-    int found;
-} Search;
-
-static void compare_name(Import *import, const struct aiNode *node, const Affine *world, void *context)
-{
-    Search *search = context;
-    (void)import;
-    if (!search->found && strcmp(node->mName.data, search->name) == 0) {
-        search->world = *world;
-        search->found = 1;
-    }
-}
-
-Affine import_node_transform(const Import *import, const char *name)
-{
-    Search search = {name, import->world, 0};
-    visit_nodes((Import *)import, compare_name, &search);
-    return search.world;
-}
-
-Affine import_own_transform(const Import *import, const char *name)
-{
-    if (!import->is_3ds)
-        return import_node_transform(import, name);
-    const Affine root = affine_from(&import->scene->mRootNode->mTransformation);
-    return affine_multiply(&import->world, &root);
 }
 
 static void add_bounds(Import *import, const struct aiNode *node, const Affine *world, void *context)
@@ -384,6 +369,8 @@ int import_model(const ImportOptions *options, RetexError *err)
         code = morphs_apply(&import, err);
     if (!code && import.is_gltf)
         code = gltf_read(&import, err);
+    if (!code)
+        code = places_find(&import, err);
     if (!code && import.is_3ds)
         tds_read(&import);
     if (!code)
@@ -400,6 +387,8 @@ int import_model(const ImportOptions *options, RetexError *err)
     gltf_free(&import.gltf);
     names_free(&import.names);
     names_free(&import.files);
+    free(import.light_places);
+    free(import.camera_places);
     free(import.materials);
     free(import.meshes);
     return code;

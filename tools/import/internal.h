@@ -74,17 +74,21 @@ typedef struct ImportMaterial {
     int is_used;
 } ImportMaterial;
 
-/* Of a glTF file: what Assimp leaves out. */
+/* Cameras and lights of a glTF file are those of its nodes. Assimp knows nodes by their names only, which may be
+ * missing or the same, and one node of each camera or light. */
 typedef struct GltfCamera {
+    char name[TEXT_SIZE];               /* of the node; see gltf_node_name */
+    Affine place;                       /* of the node, in the scene; z not mirrored */
     double angle, aspect;               /* from top to bottom, in radians; width by height. 0 = not there */
     double width, height;               /* of an orthographic one, or 0 */
     double shift[2];                    /* of the lens, in widths and heights of the picture */
     double lens_radius, focus_distance; /* 0 = sharp everywhere */
 } GltfCamera;
 
-/* A node's light: Assimp keeps one node of each. Lengths are in the node's space, angles in radians. */
+/* Lengths are in the node's space, angles in radians. */
 typedef struct GltfLight {
-    char node[TEXT_SIZE];
+    char name[TEXT_SIZE]; /* of the node */
+    Affine place;
     enum aiLightSourceType type;
     double color[3];         /* W/sr or W/m2 where the file has watts; of an area, radiance */
     double inner, outer;     /* of a spot: half angles */
@@ -103,6 +107,11 @@ typedef struct Gltf {
     int nmaterials, ncameras, nlights;
 } Gltf;
 
+typedef struct ImportPlace {
+    Affine world; /* z not mirrored */
+    int is_known; /* 0: left out, which is told */
+} ImportPlace;
+
 struct Import {
     const ImportOptions *options;
     const struct aiScene *scene;
@@ -117,6 +126,7 @@ struct Import {
     char gltf_refused[200]; /* what it cannot say in other words, or "" */
     Names names, files; /* identifiers; names of files */
     Affine world;       /* from the model's space: axes and scale, before z is mirrored */
+    ImportPlace *light_places, *camera_places; /* of Assimp's lights and cameras */
     ImportMaterial *materials;
     char (*meshes)[NAME_SIZE]; /* identifiers; "" = without surface */
     double low[3], high[3];    /* of the scene as written */
@@ -142,7 +152,8 @@ typedef enum LeftOut {
     LEFT_OTHER_UV,
     LEFT_NO_UV,
     LEFT_NOWHERE,
-    LEFT_LINES
+    LEFT_LINES,
+    LEFT_SAME_NAME
 } LeftOut;
 
 void import_leave_out(Import *import, LeftOut what);
@@ -184,8 +195,17 @@ FILE *gltf_prepare(Import *import, FILE *in);
 int morphs_apply(Import *import, RetexError *err);
 /* tds.c: into Assimp's cameras */
 void tds_read(Import *import);
-/* gltf_lights.c */
-void gltf_take_lights(const json_t *json, Gltf *gltf);
+/* gltf_nodes.c */
+/* A node of the scene that the file shows, with its transform, z not mirrored. Returns 0 to stop. */
+typedef int GltfVisit(Import *import, const json_t *json, const json_t *node, const Affine *place, void *context);
+/* Returns 0 without memory, or where a visit stopped. */
+int gltf_visit_nodes(Import *import, const json_t *json, GltfVisit *visit, void *context);
+/* Its name, else that of the camera or light that it has, else its number. */
+void gltf_node_name(const json_t *json, const json_t *node, const json_t *has, char name[TEXT_SIZE]);
+/* gltf_cameras.c. Returns 0 without memory. */
+int gltf_take_cameras(Import *import, const json_t *json);
+/* gltf_lights.c. Returns 0 without memory. */
+int gltf_take_lights(Import *import, const json_t *json);
 /* Returns 1 if there are any. */
 int gltf_lights_write(Import *import, double user, FILE *out);
 
@@ -218,10 +238,10 @@ int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3]);
 int lights_write(Import *import, FILE *out, RetexError *err);
 /* cameras.c */
 int cameras_write(Import *import, FILE *out, RetexError *err);
-/* The world transform of the first node of that name, z not mirrored. */
-Affine import_node_transform(const Import *import, const char *name);
-/* That of a camera or light, which is relative to its node, but in 3DS files to all of the scene. */
-Affine import_own_transform(const Import *import, const char *name);
+/* places.c */
+/* Where cameras and lights are that Assimp has read: it tells their nodes by names, which may be the same. Those that
+ * cannot be told apart are left out, and told. */
+int places_find(Import *import, RetexError *err);
 /* Text for a comment, without control characters. */
 const char *import_plain(const char *text, char plain[NAME_SIZE]);
 

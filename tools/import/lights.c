@@ -61,7 +61,7 @@ static double exposure(const Import *import)
         const struct aiLight *light = import->scene->mLights[i];
         const struct aiVector3D *p = &light->mPosition;
         const struct aiColor3D *c = &light->mColorDiffuse;
-        const Affine node = import_own_transform(import, light->mName.data);
+        const Affine node = import->light_places[i].world;
         double at[3], squared = 0, color = fmax((double)c->r, fmax((double)c->g, (double)c->b));
         affine_point(&node, (double[3]){(double)p->x, (double)p->y, (double)p->z}, at);
         at[2] = -at[2];
@@ -71,15 +71,16 @@ static double exposure(const Import *import)
             const Falloff f = falloff_of(import, light);
             color *= f.factor * (f.power > 0 ? 2 / (1 + pow(sqrt(squared) / f.distance, f.power)) : 1);
         }
-        if (!is_left_out(light) && isfinite(color))
+        if (!is_left_out(light) && import->light_places[i].is_known && isfinite(color))
             sum += color;
     }
     return sum > 0 && (sum > 4 || sum < 0.1) ? 1 / sum : 1;
 }
 
-static void write_light(Import *import, const struct aiLight *light, double user, FILE *out)
+static void write_light(Import *import, unsigned index, double user, FILE *out)
 {
-    const Affine node = import_own_transform(import, light->mName.data);
+    const struct aiLight *light = import->scene->mLights[index];
+    const Affine node = import->light_places[index].world;
     const double p[3] = {(double)light->mPosition.x, (double)light->mPosition.y, (double)light->mPosition.z};
     const double d[3] = {(double)light->mDirection.x, (double)light->mDirection.y, (double)light->mDirection.z};
     double at[3], to[3], middle[3], radius = 0;
@@ -160,7 +161,9 @@ static int write_lights(Import *import, FILE *out)
             import_leave_out(import, LEFT_AMBIENT_LIGHT);
             continue;
         }
-        write_light(import, light, scaled * import->options->lights, out);
+        if (!import->light_places[i].is_known)
+            continue;
+        write_light(import, i, scaled * import->options->lights, out);
         any = 1;
     }
     return any;

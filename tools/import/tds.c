@@ -1,6 +1,6 @@
 /* What Assimp leaves out of 3DS files: where cameras look, their roll and lens; and the cone of spot lights, to whose
  * outer angle it adds the inner one. It also moves cameras and lights twice, by their node and by themselves; see
- * import_own_transform. */
+ * places.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +8,12 @@
 #include "import/internal.h"
 
 enum { MAIN = 0x4d4d, EDITOR = 0x3d3d, OBJECT = 0x4000, LIGHT = 0x4600, SPOT = 0x4610, CAMERA = 0x4700 };
+
+/* Which of Assimp's cameras and lights were told of. Names may be the same: then the first that was not. */
+typedef struct Told {
+    const struct aiScene *scene;
+    unsigned char *cameras, *lights;
+} Told;
 
 /* The rest of a file, or of a chunk. */
 typedef struct Bytes {
@@ -55,7 +61,7 @@ static struct aiVector3D up_of(const double ahead[3], double roll)
 }
 
 /* Position, target, roll in degrees, and the lens, which is 2400 by its angle in degrees. */
-static void take_camera(const struct aiScene *scene, const char *name, Bytes chunk)
+static void take_camera(Told *told, const char *name, Bytes chunk)
 {
     double v[8], ahead[3], length = 0;
     if (chunk.left < sizeof(float) * 8)
@@ -66,10 +72,13 @@ static void take_camera(const struct aiScene *scene, const char *name, Bytes chu
         ahead[k] = v[3 + k] - v[k];
         length += ahead[k] * ahead[k];
     }
-    for (unsigned i = 0; i < scene->mNumCameras; i++) {
-        struct aiCamera *camera = scene->mCameras[i];
-        if (strcmp(camera->mName.data, name) != 0 || !(length > 0) || !isfinite(length + v[6] + v[7]))
+    for (unsigned i = 0; i < told->scene->mNumCameras; i++) {
+        struct aiCamera *camera = told->scene->mCameras[i];
+        if (told->cameras[i] || strcmp(camera->mName.data, name) != 0)
             continue;
+        told->cameras[i] = 1;
+        if (!(length > 0) || !isfinite(length + v[6] + v[7]))
+            return;
         for (int k = 0; k < 3; k++)
             ahead[k] /= sqrt(length);
         camera->mPosition = (struct aiVector3D){(ai_real)v[0], (ai_real)v[1], (ai_real)v[2]};
@@ -82,25 +91,30 @@ static void take_camera(const struct aiScene *scene, const char *name, Bytes chu
 }
 
 /* Of a light: its position, then chunks. A spot has its target and the angles of both cones, in degrees. */
-static void take_light(const struct aiScene *scene, const char *name, Bytes light)
+static void take_light(Told *told, const char *name, Bytes light)
 {
+    const struct aiScene *scene = told->scene;
     unsigned long kind;
+    unsigned number = 0;
     Bytes chunk;
-    if (light.left < sizeof(float) * 3)
+    while (number < scene->mNumLights &&
+           (told->lights[number] || strcmp(scene->mLights[number]->mName.data, name) != 0))
+        number++;
+    if (number == scene->mNumLights || light.left < sizeof(float) * 3)
         return;
+    told->lights[number] = 1;
     light.at += sizeof(float) * 3, light.left -= sizeof(float) * 3;
     while (next_chunk(&light, &kind, &chunk)) {
         if (kind != SPOT || chunk.left < sizeof(float) * 5)
             continue;
         chunk.at += sizeof(float) * 4, chunk.left -= sizeof(float) * 4;
         const double outer = take_float(&chunk) * PI / 180;
-        for (unsigned i = 0; i < scene->mNumLights; i++)
-            if (strcmp(scene->mLights[i]->mName.data, name) == 0 && isfinite(outer))
-                scene->mLights[i]->mAngleOuterCone = (float)outer;
+        if (isfinite(outer))
+            scene->mLights[number]->mAngleOuterCone = (float)outer;
     }
 }
 
-static void take_object(const struct aiScene *scene, Bytes object)
+static void take_object(Told *told, Bytes object)
 {
     const char *name = (const char *)object.at;
     const size_t length = strnlen(name, object.left);
@@ -111,13 +125,13 @@ static void take_object(const struct aiScene *scene, Bytes object)
     object.at += length + 1, object.left -= length + 1;
     while (next_chunk(&object, &kind, &chunk))
         if (kind == CAMERA)
-            take_camera(scene, name, chunk);
+            take_camera(told, name, chunk);
         else if (kind == LIGHT)
-            take_light(scene, name, chunk);
+            take_light(told, name, chunk);
 }
 
 /* Chunks of the editor, which are in the main one. */
-static void take_file(const struct aiScene *scene, Bytes file)
+static void take_file(Told *told, Bytes file)
 {
     unsigned long kind;
     Bytes main, editor, object;
@@ -126,7 +140,7 @@ static void take_file(const struct aiScene *scene, Bytes file)
     while (next_chunk(&main, &kind, &editor))
         while (kind == EDITOR && next_chunk(&editor, &kind, &object)) {
             if (kind == OBJECT)
-                take_object(scene, object);
+                take_object(told, object);
             kind = EDITOR;
         }
 }
@@ -142,8 +156,12 @@ void tds_read(Import *import)
     FILE *in = fdopen(descriptor, "rb");
     const long size = in && fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
     unsigned char *data = size > 0 ? malloc((size_t)size) : NULL;
-    if (data && fseek(in, 0, SEEK_SET) == 0 && fread(data, 1, (size_t)size, in) == (size_t)size)
-        take_file(import->scene, (Bytes){data, (size_t)size});
+    Told told = {import->scene, calloc(import->scene->mNumCameras + 1, 1), calloc(import->scene->mNumLights + 1, 1)};
+    if (data && told.cameras && told.lights && fseek(in, 0, SEEK_SET) == 0 &&
+        fread(data, 1, (size_t)size, in) == (size_t)size)
+        take_file(&told, (Bytes){data, (size_t)size});
+    free(told.cameras);
+    free(told.lights);
     free(data);
     if (in)
         fclose(in);
