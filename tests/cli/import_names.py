@@ -180,7 +180,7 @@ def collada(name, inner, library=''):
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
 <library_lights><light id="l"><technique_common><point><color>1 1 1</color></point></technique_common></light>
-</library_lights><library_cameras><camera id="c"><optics><technique_common><perspective><yfov>40</yfov><aspect_ratio>1
+<light id="o"><technique_common><point><color>1 .5 0</color></point></technique_common></light></library_lights><library_cameras><camera id="c"><optics><technique_common><perspective><yfov>40</yfov><aspect_ratio>1
 </aspect_ratio><znear>.1</znear><zfar>9</zfar></perspective></technique_common></optics></camera></library_cameras>
 %s<library_geometries><geometry id="g" name="card"><mesh>
 <source id="p"><float_array id="pa" count="12">%s</float_array><technique_common>
@@ -207,22 +207,24 @@ def cards_dae():
 
 
 def studio_dae():
-    """Nodes may have neither id nor name, and a sid may be used again elsewhere; a node may have two lights."""
+    """Nodes may have neither id nor name, and a sid may be used again elsewhere; a node may have two lights. What is
+    below a node comes before it: of the three lamps, the orange one is the first for Assimp."""
     def node(more, at, *inside):
         return '<node %s><translate>%g %g %g</translate>%s</node>' % (more, *at, ''.join(inside))
     lamp, eye, card = '<instance_light url="#l"/>', '<instance_camera url="#c"/>', '<instance_geometry url="#g"/>'
     inner = node('id="card"', (0, 0, 0), card)
     inner += node('', (1, 2, 3), lamp) + node('', (2, 2, 3), lamp)
-    inner += node('sid="lamp"', (3, 2, 3), lamp, node('sid="lamp"', (1, 0, 0), lamp))
+    inner += node('sid="lamp"', (3, 2, 3), lamp, node('sid="lamp"', (1, 0, 0), '<instance_light url="#o"/>'))
     inner += node('sid="lamp"', (5, 2, 3), lamp)
     inner += node('id="two"', (6, 2, 3), lamp, lamp)
     inner += node('sid="eye"', (7, 2, 3), eye) + node('sid="eye"', (8, 2, 3), eye)
     collada('studio_dae.dae', inner)
-    return [['light', x, 2, -3] for x in (1, 2, 3, 4, 5, 6, 6)] + [['camera', x, 2, -3] for x in (7, 8)]
+    return [['orange' if x == 4 else 'light', x, 2, -3] for x in (1, 2, 3, 4, 5, 6, 6)] + [
+        ['camera', x, 2, -3] for x in (7, 8)]
 
 
 def fbx(name, lamps, eyes, child=None):
-    """Lamps and eyes: names and places. child: the lamp that is below the first one."""
+    """Lamps and eyes: names and places. child: the orange lamp that is below the first one."""
     objects, links = [], []
 
     def model(kind, title, at, attribute, below=0):
@@ -240,7 +242,7 @@ def fbx(name, lamps, eyes, child=None):
            '  P: "Intensity", "Number", "", "A",100\n }\n}')
     first = [model('Light', title, at, lit) for title, at in lamps][0]
     if child:
-        model('Light', *child, lit, first)
+        model('Light', *child, lit.replace('P: "I', 'P: "Color", "Color", "", "A",1,0.5,0\n  P: "I'), first)
     for title, at in eyes:
         model('Camera', title, at, 'NodeAttribute: %d, "NodeAttribute::", "Camera" {\n Properties70: {\n'
               '  P: "FieldOfView", "FieldOfView", "", "A",40\n }\n}')
@@ -260,7 +262,7 @@ def write_all():
     expected['studio_dae'] = studio_dae()
     lamps = [('A', (100, 200, 300)), ('A', (-100, 200, 300)), ('A', (0, 300, 300))]
     fbx('lamps_fbx', lamps, [], ('A', (0, 0, 50)))
-    expected['lamps_fbx'] = [['light', 1, 2, -3], ['light', -1, 2, -3], ['light', 0, 3, -3], ['light', 1, 2, -3.5]]
+    expected['lamps_fbx'] = [['light', 1, 2, -3], ['light', -1, 2, -3], ['light', 0, 3, -3], ['orange', 1, 2, -3.5]]
     fbx('shared_fbx', lamps[:1], [('A', (0, 500, 500))])
     expected['shared_fbx'] = []
     for kind in ('colors', 'images', 'folders'):
@@ -288,7 +290,8 @@ def places(name):
         r'#declare \w+ = camera \{\s*location ' + number + r'.*?look_at ' + number, text, re.S)]
     for at, rest in re.findall(r'^light_source \{ ' + number + r'(.*)$', text, re.M):
         to = re.search('point_at ' + number, rest)
-        found.append(['light', *vector(at), *(np.subtract(vector(to[1]), vector(at)).tolist() if to else [])])
+        color = vector(re.search('rgb ' + number, rest)[1])
+        found.append(['orange' if color[1] < .9 * color[0] else 'light', *vector(at), *(np.subtract(vector(to[1]), vector(at)).tolist() if to else [])])
     with open('expected.json') as text:
         wanted = json.load(text)[name]
     left = list(found)

@@ -5,12 +5,13 @@ $ /usr/bin/python3 $TESTS/import_names.py
 # Cameras and lights of glTF: of each node of the scene that is shown, whatever its name.
 $ for m in named unnamed empty same alike numbers; do retex-import -q $m.gltf -o $m && /usr/bin/python3 $TESTS/import_names.py places $m; done
 # They light the scene, and can be chosen by name before number.
-$ retex-import numbers.gltf --camera 2 -o second | head -n 0; grep '^camera' second/second.pov; retex-import -q numbers.gltf --camera 3 -o third; grep '^camera' third/third.pov
+$ retex-import -v numbers.gltf --camera 1 -o one; retex-import -q numbers.gltf --camera 2 -o two; retex-import -q numbers.gltf --camera 3 -o three; grep -h '^camera' one/one.pov two/two.pov three/three.pov
+> camera { Camera_1 }
 > camera { Camera_2 }
 > camera { Camera_1 }
-! retex-import: camera 2 of 3 is used, Camera_2; --camera takes another one
+! retex-import: camera 3 of 3 is used, Camera_1; --camera takes another one
 ! retex-import: 1 material, 1 mesh, 1 object, 2 triangles
-! retex-import: wrote second/second.pov
+! retex-import: wrote one/one.pov
 
 # Of Collada and FBX: the same, unless a camera and a light have one name, which Assimp then does not tell apart.
 $ for m in studio_dae.dae lamps_fbx.fbx; do retex-import -q $m -o ${m%.*} && /usr/bin/python3 $TESTS/import_names.py places ${m%.*}; done
