@@ -8,10 +8,12 @@
 namespace plugins
 {
 
-Budget::Budget()
+Budget::Budget(bool safe)
 {
     RetexError err{};
     must(retex_limits_environment(&limits_, &err), err);
+    if (safe)
+        retex_limits_safe(&limits_);
     must(retex_budget_create(&budget_, &err), err);
     retex_budget_set_limits(budget_, &limits_);
 }

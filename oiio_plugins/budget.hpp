@@ -1,5 +1,5 @@
 // The limits of reading one name: RETEX_MAX_MEMORY, RETEX_MAX_TIME, RETEX_MAX_PIXELS and RETEX_MAX_STEPS of the
-// environment, with the defaults of the tools.
+// environment, with the defaults of the tools, with or without --safe.
 #ifndef OIIO_PLUGINS_BUDGET_HPP
 #define OIIO_PLUGINS_BUDGET_HPP
 
@@ -11,7 +11,7 @@ namespace plugins
 class Budget
 {
   public:
-    Budget(); // throws Failure if a number in the environment is invalid
+    explicit Budget(bool safe); // throws Failure if a number in the environment is invalid
     ~Budget();
     Budget(const Budget &) = delete;
     Budget &operator=(const Budget &) = delete;

@@ -32,12 +32,6 @@ class PackSet
     {
         RetexError err{};
         must(retex_set_open(path.c_str(), &set_, nullptr, 0, &err), err);
-        try {
-            Budget().check_size(set_->width, set_->height);
-        } catch (...) {
-            retex_set_close(&set_);
-            throw;
-        }
     }
     ~PackSet()
     {
@@ -64,9 +58,8 @@ class PackSet
         return *whole_;
     }
     // The picture with these textures; without any, the picture as rendered, as far as the set has it.
-    RetexImage picture(std::vector<RetexTextureSpec> specs, int threads)
+    RetexImage picture(std::vector<RetexTextureSpec> specs, const Budget &budget, int threads)
     {
-        Budget budget;
         for (RetexTextureSpec &spec : specs)
             spec.budget = budget.begin();
         RetexError err{};
@@ -200,9 +193,11 @@ class PackSource final : public Source
 {
   public:
     PackSource(const std::string &path, const Arguments &arguments, int threads)
-        : own_(path, wants_safe(arguments)), textures_(parse_textures(arguments, own_)), threads_(threads),
-          key_((own_.access()->safe ? "safe:" : "") + path), stamp_(file_stamp(path)), set_(open_set(path))
+        : own_(path, wants_safe(arguments)), budget_(own_.access()->safe), textures_(parse_textures(arguments, own_)),
+          threads_(threads), key_((own_.access()->safe ? "safe:" : "") + path), stamp_(file_stamp(path)),
+          set_(open_set(path))
     {
+        budget_.check_size(set_->description().width, set_->description().height);
         for (const RetexTextureSpec &texture : textures_) {
             check_texture(set_->description(), texture);
             stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
@@ -249,13 +244,14 @@ class PackSource final : public Source
         picture->part = set_->description().parts[0];
         picture->part.type = RETEX_FLOAT;
         picture->part.image = RetexImage{};
-        picture->part.image = set_->picture(textures_, threads_);
+        picture->part.image = set_->picture(textures_, budget_, threads_);
         if (textures_.empty())
             make_manifest(*picture, set_->whole(threads_));
         return picture;
     }
 
     const OwnFolder own_;
+    const Budget budget_;
     const std::vector<RetexTextureSpec> textures_;
     const int threads_;
     std::string key_, stamp_, shown_;

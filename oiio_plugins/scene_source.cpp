@@ -93,7 +93,8 @@ class SceneJob
 {
   public:
     SceneJob(const std::string &path, const Arguments &arguments, int threads)
-        : options_(parse_scene_options(path, arguments, threads)), scene_(nullptr, close_scene)
+        : budget_(wants_safe(arguments)), options_(parse_scene_options(path, arguments, threads)),
+          scene_(nullptr, close_scene)
     {
         RetexError err{};
         options_.render.budget = options_.sdl.budget = budget_.begin();

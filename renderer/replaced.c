@@ -126,8 +126,7 @@ static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double b
     if (!a->cli->json_progress)
         cli_info(a->cli, "%d picture%s, %d samples: %.2f s", v->count, v->count == 1 ? "" : "s", a->render.spp,
                  stats.render_seconds);
-    if (stats.dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and were left out", stats.dropped);
+    warn_numbers(a->cli, &stats);
     return go_on;
 }
 
@@ -260,7 +259,6 @@ int render_controlled(Arguments *a, const Scene *scene, const char *output, Rete
     if (code)
         return code;
     cli_info(a->cli, "%dx%d, %d samples: %.2f s", width, height, a->render.spp, stats.render_seconds);
-    if (stats.dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and were left out", stats.dropped);
+    warn_numbers(a->cli, &stats);
     return a->stats ? write_stats(a, &stats, set, 0, err) : RETEX_OK;
 }

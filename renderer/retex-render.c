@@ -167,8 +167,7 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
     cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", set->width, set->height, set->spp,
              s->render_seconds, (double)s->paths / seconds * 1e-6,
              (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
-    if (s->dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and were left out", s->dropped);
+    warn_numbers(a->cli, s);
     if (set->nterms)
         cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s",
                  set->orders, 100 * set->folded);

@@ -95,6 +95,9 @@ uint64_t render_fingerprint(const Arguments *arguments, const Scene *scene);
 
 /* Before the render: check that the statistics can be written. */
 void check_stats(const Arguments *arguments);
+/* Warn of numbers that were left out or limited. */
+void warn_numbers(const Cli *cli, const RenderStats *stats);
+
 int write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds,
                 RetexError *err);
 

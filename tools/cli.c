@@ -22,7 +22,10 @@ const CliOption cli_positional = {"", 0, NULL, NULL, 0};
 const CliOption cli_common_options[] = {
     {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
     {"threads", 0, "N", "use N threads; 0, the default, uses all cores", 0},
-    {"safe", 0, NULL, "refuse devices and rare picture formats; scenes read only their own folder; also RETEX_SAFE=1",
+    {"safe", 0, NULL,
+     "refuse devices and rare picture formats; scenes read only their own folder; limits of 2G, 60 seconds and "
+     "33177600 "
+     "pixels, unless others are given; also RETEX_SAFE=1",
      0},
     {"max-memory", 0, "SIZE",
      "use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also "
@@ -273,6 +276,8 @@ const CliOption *cli_next(Cli *cli)
         if (cli->group) {
             option = short_option(cli);
         } else if (cli->next >= cli->argc) {
+            if (cli->access.safe && !cli->is_server)
+                retex_limits_safe(&cli->limits);
             retex_budget_set_limits(cli->budget, &cli->limits);
             watchdog_start();
             return NULL;

@@ -36,7 +36,8 @@ typedef struct Cli {
     int threads;             /* --threads, 0 = all cores */
     int quiet, verbose;      /* -q, -v */
     RetexLimits limits;      /* --max-memory, --max-time, --max-pixels and, in retex-render, --max-steps; defaults come
-                                from the environment */
+                                from the environment, and for --safe from retex_limits_safe */
+    int is_server;           /* runs on, and limits requests itself: --safe sets no limits of the process */
     RetexBudget *budget;     /* enforces limits; passed in the params of long operations */
     RetexAccess access;      /* rules for opening files that the user names; `safe` is --safe or $RETEX_SAFE */
     int json_progress;       /* --progress json: replaces the progress bar and informational messages */

@@ -268,7 +268,8 @@ int main(int argc, char **argv)
                .options = options,
                .argc = argc,
                .argv = argv,
-               .next = 1};
+               .next = 1,
+               .is_server = 1};
     RetexError err = {0};
     Folders folders;
     Site site = {0};

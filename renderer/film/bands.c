@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "film/bands.h"
+#include "film/limits.h"
 
 typedef struct BandImage {
     char name[RETEX_NAME_MAX], letters[8];
@@ -226,6 +227,15 @@ static size_t band_size(const Bands *bands, int k, int band)
 {
     int left = bands->height - band * BAND_LINES;
     return (size_t)bands->width * (size_t)(left < BAND_LINES ? left : BAND_LINES) * bands->images[k]->channels;
+}
+
+long bands_limit(BandRows *rows)
+{
+    long replaced = 0;
+    for (int k = 0; k < BAND_IMAGES_MAX; k++)
+        if (rows->rows[k])
+            replaced += film_limit_numbers(rows->rows[k], band_size(rows->of, k, rows->band), 0);
+    return replaced;
 }
 
 /* Keep an image's rows of a finished band. */

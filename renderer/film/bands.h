@@ -25,6 +25,9 @@ int bands_count(const Bands *bands); /* the number of bands */
 BandRows *bands_open(Bands *bands, int band);
 /* A pixel of an image, for writing. Never NULL. */
 float *bands_pixel(BandRows *rows, int image, int x, int y);
+/* Replace numbers that a set may not hold, as film/limits.h says, in a band that no thread writes to any more. Returns
+ * how many. */
+long bands_limit(BandRows *rows);
 /* Add the original albedos of a footprint's pixels, weighted by coverage, to the statistics of a target. */
 void bands_add_albedo(const BandRows *rows, int uv, int albedo, RetexBandStats *stats, int target);
 /* Store a band that is complete. No thread may write to it any more. */

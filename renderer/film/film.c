@@ -8,6 +8,7 @@
 #include <retex/band_stats.h>
 #include "film/film.h"
 #include "film/layout.h"
+#include "film/limits.h"
 #include "film/noise.h"
 
 /* State of a band; under the film's lock. */
@@ -31,6 +32,7 @@ struct Film {
     LightSums *tiles;
     BandState *states; /* by band */
     pthread_mutex_t lock;
+    atomic_long limited; /* numbers that a set may not hold, so far */
     atomic_int failed;
     RetexError error; /* of the first band that could not be kept; under lock */
 };
@@ -236,6 +238,13 @@ static float *beauty_rows(const Film *film, int band)
     return film->beauty.pixels + retex_image_index(&film->beauty, 0, band * BAND_LINES);
 }
 
+/* Numbers of the beauty in a band. */
+static size_t beauty_size(const Film *film, int band)
+{
+    const int left = film->beauty.height - band * BAND_LINES;
+    return 3 * (size_t)film->beauty.width * (size_t)(left < BAND_LINES ? left : BAND_LINES);
+}
+
 /* Sum over the tiles of a band in their order, and over its footprints' pixels. */
 static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
 {
@@ -286,6 +295,8 @@ void film_tile_end(FilmPixel *p, int tile)
     p->rows = NULL;
     if (!last || !rows)
         return;
+    atomic_fetch_add(&film->limited,
+                     bands_limit(rows) + film_limit_numbers(beauty_rows(film, band), beauty_size(film, band), 0));
     finish_stats(film, band, tiles, rows);
     if (bands_finish(rows, &err) || commit_band(film, band, &err))
         fail(film, &err);
@@ -411,6 +422,11 @@ long film_dropped(const Film *film)
     for (int k = 0; k < bands_count(film->bands); k++)
         dropped += film->states[k].stats.dropped;
     return dropped;
+}
+
+long film_limited(const Film *film)
+{
+    return film->limited;
 }
 
 /* ---- into a set ---- */

@@ -54,5 +54,6 @@ long film_floats(const FilmParams *params, int ntargets);
 /* The least number of bytes that they take in memory. stored: 1 with a band store. */
 double film_bytes(const FilmParams *params, int ntargets, int stored);
 long film_dropped(const Film *film); /* samples that were not finite */
+long film_limited(const Film *film); /* numbers of its images that were replaced, see limits.h */
 
 #endif

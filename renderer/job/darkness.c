@@ -1,4 +1,4 @@
-/* Finds out whether a scene has any emitter, to warn before a black picture is rendered. */
+/* Finds out whether a scene has any emitter, and any object, to warn before a black picture is rendered. */
 #include <stdio.h>
 #include "job/job.h"
 #include "light/lights.h"
@@ -46,19 +46,20 @@ static int any_light_source(const Scene *scene)
 void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
 {
     char text[sizeof scene->path + 256];
+    const int is_empty = !scene->nprimitives;
+    const int glows = sky_shines(scene) || scene->fogs || scene->rainbows || scene->has_media;
     const char *why = NULL, *advice = "";
-    int source = any_light_source(scene);
-    if (!scene->nprimitives)
-        why = "no object and no sky";
-    else if (!source && !any_surface(scene, emits))
-        why = scene->nlights ? "its light sources are black, nothing shines and there is no sky"
-                             : "no light source, nothing that shines and no sky";
-    if (!why || !sdl->message || sky_shines(scene) || scene->fogs || scene->rainbows || scene->has_media)
+    if (is_empty)
+        why = glows ? "no object in the scene" : "no object and no sky: the picture will be black";
+    else if (!glows && !any_light_source(scene) && !any_surface(scene, emits))
+        why = scene->nlights
+                  ? "its light sources are black, nothing shines and there is no sky: the picture will be black"
+                  : "no light source, nothing that shines and no sky: the picture will be black";
+    if (!why || !sdl->message)
         return;
-    if (scene->nprimitives && sdl->ambient <= 0 && !rgb_is_black(scene->ambient_light) &&
-        any_surface(scene, is_ambient))
+    if (!is_empty && sdl->ambient <= 0 && !rgb_is_black(scene->ambient_light) && any_surface(scene, is_ambient))
         advice = sdl->ambient ? "; `ambient` gives no light with --no-ambient"
                               : "; weak `ambient`, or ambient beside radiosity, gives light with --ambient only";
-    snprintf(text, sizeof text, "%s: warning: %s: the picture will be black%s", scene->path, why, advice);
+    snprintf(text, sizeof text, "%s: warning: %s%s", scene->path, why, advice);
     sdl->message(sdl->message_context, 1, text);
 }

@@ -12,21 +12,12 @@ int job_target_is_empty(const Scene *scene, int t)
     return 1;
 }
 
-static int is_empty(const Scene *scene)
-{
-    const Rgb *background = &scene->background;
-    return !scene->nprimitives && !scene->nlights && !scene->sky && !background->r && !background->g && !background->b;
-}
-
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
                    const char *const *targets, int ntargets, RetexError *err)
 {
     int code = sdl_parse_file(scene, path, sdl, err);
     if (!code)
         code = job_resolve_targets(*scene, render, targets, ntargets, err);
-    if (!code && is_empty(*scene))
-        code =
-            retex_fail_at(err, RETEX_EINVAL, path, 0, 0, "there is nothing in the scene: no object, no light, no sky");
     if (code)
         scene_close(scene);
     return code;

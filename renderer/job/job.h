@@ -18,8 +18,8 @@ int job_numbers(const char *text, char separator, int count, int *numbers);
  * which nobody means. Values of built-in names must be numbers. */
 int job_check_declare(const char *declare, RetexError *err);
 
-/* Read a scene and find its targets, each in the form of -t. An empty scene is refused. render: the size of the picture
- * whose pixels targets may name. */
+/* Read a scene and find its targets, each in the form of -t. render: the size of the picture whose pixels targets may
+ * name. */
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
                    const char *const *targets, int ntargets, RetexError *err);
 
@@ -31,7 +31,7 @@ int job_resolve_targets(Scene *scene, const RenderParams *render, const char *co
  * surfaces is a mistake. */
 int job_target_is_empty(const Scene *scene, int t);
 
-/* Warn, through the message callback of sdl, if the scene has no emitter. */
+/* Warn, through the message callback of sdl, if the scene has no emitter or no object. */
 void job_warn_dark(const Scene *scene, const SdlOptions *sdl);
 
 /* RETEX_ENOMEM if the images of a render take more memory than its budget has left, or than the machine has;

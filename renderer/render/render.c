@@ -4,6 +4,7 @@
 #include <string.h>
 #include <retex/clock.h>
 #include <retex/version.h>
+#include "film/limits.h"
 #include "render/checkpoints.h"
 #include "render/internal.h"
 #include "render/mean_aovs.h"
@@ -65,6 +66,20 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     return code;
 }
 
+/* Of the parts in memory; those in the band store were limited when their bands were finished. */
+static long limit_numbers(RetexSet *set)
+{
+    long replaced = 0;
+    for (int k = 0; k < set->nparts; k++) {
+        const RetexImage *im = &set->parts[k].image;
+        const int aov = retex_aov_find(set->parts[k].name);
+        if (im->pixels)
+            replaced += film_limit_numbers(im->pixels, (size_t)im->width * (size_t)im->height * (size_t)im->channels,
+                                           aov >= 0 && isinf(retex_aovs[aov].nothing));
+    }
+    return replaced;
+}
+
 /* Render, then add the images that the film does not have. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
@@ -98,6 +113,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
+    stats->limited = film_limited(r->film) + limit_numbers(set);
     film_move_store(r->film, set);
     stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;
     return code;

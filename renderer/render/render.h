@@ -56,7 +56,9 @@ typedef struct RenderParams {
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
-    long paths, segments, shadow_rays, dropped; /* dropped: contributions that were not finite */
+    long paths, segments, shadow_rays;
+    long dropped; /* contributions that were not finite */
+    long limited; /* numbers of images that were not finite or too large, see film/limits.h */
     long lights, primitives, triangles;
 } RenderStats;
 

@@ -2,8 +2,14 @@
  * (--control). */
 #include <string.h>
 #include <retex/clock.h>
+#include "film/limits.h"
 #include "render/control_constants.h"
 #include "render/internal.h"
+
+static long limit_picture(RetexImage *picture)
+{
+    return film_limit_numbers(picture->pixels, 3 * (size_t)picture->width * (size_t)picture->height, 0);
+}
 
 int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
                     RetexError *err)
@@ -29,6 +35,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
         code = render_paths(&r, stats, started, err);
     for (int v = 0; v < r.params.nvariants && !code; v++) {
         pictures[v] = *control_film_picture(r.control, v);
+        stats->limited += limit_picture(&pictures[v]);
         *control_film_picture(r.control, v) = (RetexImage){0};
     }
     render_close(&r);
@@ -83,7 +90,10 @@ static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, co
     HalfSamples half = render_half_samples(r);
     if (distance)
         *distance = control_distance(moments, half.samples, r->context.halves, set);
-    return control_variate(picture, moments, half.samples, set, combined, mode, err);
+    code = control_variate(picture, moments, half.samples, set, combined, mode, err);
+    if (!code)
+        stats->limited = limit_picture(picture);
+    return code;
 }
 
 int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,

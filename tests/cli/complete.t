@@ -12,7 +12,7 @@ $ retex-info --complete --
 > --nuke	print such a script for Nuke
 > --output	write to FILE; - is standard output
 > --threads	use N threads; 0, the default, uses all cores
-> --safe	refuse devices and rare picture formats; scenes read only their own folder; also RETEX_SAFE=1
+> --safe	refuse devices and rare picture formats; scenes read only their own folder; limits of 2G, 60 seconds and 33177600 pixels, unless others are given; also RETEX_SAFE=1
 > --max-memory	use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also RETEX_MAX_MEMORY
 > --max-time	stop after this time; also RETEX_MAX_TIME
 > --max-pixels	refuse pictures of more pixels; default 268435456; also RETEX_MAX_PIXELS

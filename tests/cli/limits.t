@@ -107,7 +107,7 @@ $ yes | timeout 20 retex-info -; timeout 20 retex-combine - -o x.png </dev/zero;
 ! retex-info: error: standard input is not a set: neither an OpenEXR file nor a pack
 ! retex-combine: error: cannot read standard input: it is a device
 ! retex-combine: error: -: more than the 64 MB that a table may have
-! retex-render: error: /dev/zero: there is nothing in the scene: no object, no light, no sky
+! retex-render: error: /dev/zero: cannot read `/dev/zero`: it is a device or a pipe
 ! retex-info: error: standard input is not a set: it is empty
 
 # What is no limit.
@@ -123,4 +123,26 @@ $ for o in "--max-memory 0" "--max-memory much" "--max-memory 1GB" "--max-time 0
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# --safe sets 2 GB, 60 s and the pixels of an 8K picture, unless others are given, in any order and in the environment.
+$ s='#declare S = "x"; #for (I, 1, 20) #declare S = concat(S, S); #end'; echo "$s #declare A = array[10000]; #for (I, 0, 9999) #declare A[I] = concat(S, \"\"); #end" >strings.pov; echo '#declare A = array[1000]; #for (I, 0, 999) #declare A[I] = array[100000]; #end' >arrays.pov
+$ for f in strings arrays; do make_peak peak retex-render --safe --plain $f.pov -o x.exr; awk '{ print ($1 < 2200 ? "below the limit" : $1) }' peak; retex-render --safe --max-memory 300M --plain $f.pov -o x.exr; RETEX_SAFE=1 RETEX_MAX_MEMORY=200M retex-render --plain $f.pov -o x.exr; done
+> below the limit
+> below the limit
+! retex-render: error: strings.pov:1:135: the scene takes more than the 2048 MB of --max-memory
+! retex-render: error: strings.pov:1:135: the scene takes more than the 300 MB of --max-memory
+! retex-render: error: strings.pov:1:135: the scene takes more than the 200 MB of --max-memory
+! retex-render: error: arrays.pov:1:72: the scene takes more than the 2048 MB of --max-memory
+! retex-render: error: arrays.pov:1:72: the scene takes more than the 300 MB of --max-memory
+! retex-render: error: arrays.pov:1:72: the scene takes more than the 200 MB of --max-memory
+= 2
+$ for o in '--safe' '--safe --max-pixels 40000000' '--max-pixels 268435456 --safe' ''; do retex-render -q $o --plain --spp 1 --max-time 0.1 --size 7680x4321 ball.pov -o x.exr 2>&1 | cut -c-60; rm -f x.exr.partial; done; RETEX_SAFE=1 retex-render --plain --size 7680x4321 ball.pov -o x.exr; RETEX_MAX_PIXELS=33180000 retex-render --safe --plain --size 7680x4321 ball.pov -o x.exr; RETEX_SAFE=1 retex-combine set.exr --texture floor=big.png -o x.png
+> retex-render: error: 7680x4321 pixels are more than the 3317
+> retex-render: error: not done within the 0.1 s of --max-time
+> retex-render: error: not done within the 0.1 s of --max-time
+> retex-render: error: not done within the 0.1 s of --max-time
+! retex-render: error: 7680x4321 pixels are more than the 33177600 of --max-pixels
+! retex-render: error: 7680x4321 pixels are more than the 33180000 of --max-pixels
+! retex-combine: error: big.png: the picture is too large: 6000 x 6000 pixels, more than the 33177600 of --max-pixels
 = 2

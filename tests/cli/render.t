@@ -125,12 +125,30 @@ $ retex-render -q --size 8x6 --spp 1 --aov-dir nowhere/guides ball.pov -o y.png;
 ! retex-render: error: --aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control
 = 2
 
-# No scene, or nothing in it.
-$ : >empty.pov; retex-render empty.pov -o x.exr
-! retex-render: error: empty.pov: there is nothing in the scene: no object, no light, no sky
+# A scene without any object is a picture as in POV-Ray: black, or its background or sky.
+$ : >empty.pov; c='rgb <.25,.5,1>'; for s in "blue background { $c }" "sky sky_sphere { pigment { $c } }" "fog fog { $c distance 1 }"; do echo "#version 3.7; global_settings { assumed_gamma 1 } ${s#* }" >${s%% *}.pov; done; for s in empty blue sky fog; do retex-render -q --size 8x6 --spp 2 $s.pov -o x.exr && oiiotool x.exr --printstats | grep -E 'Stats (Min|Max)' | sed 's/^ *//'; done
+> Stats Min: 0.000000 0.000000 0.000000 (float)
+> Stats Max: 0.000000 0.000000 0.000000 (float)
+> Stats Min: 0.250000 0.500000 1.000000 (float)
+> Stats Max: 0.250000 0.500000 1.000000 (float)
+> Stats Min: 0.250000 0.500000 1.000000 (float)
+> Stats Max: 0.250000 0.500000 1.000000 (float)
+> Stats Min: 0.250000 0.500000 1.000000 (float)
+> Stats Max: 0.250000 0.500000 1.000000 (float)
+! retex-render: empty.pov: warning: no object and no sky: the picture will be black
+! retex-render: blue.pov: warning: no object in the scene
+! retex-render: sky.pov: warning: no object in the scene
+! retex-render: fog.pov: warning: no object in the scene
+$ retex-render -q --size 8x6 --spp 2 --aov-dir aovs empty.pov -o x.exr; retex-info -q --check x.exr; retex-pack -q x.exr -o x.retex; retex-info -q --check x.retex; rm -r aovs x.*
+! retex-render: empty.pov: warning: no object and no sky: the picture will be black
+$ retex-render -q --size 8x6 -t ball empty.pov -o x.exr
+! retex-render: error: no target `ball`: the scene uses no declared texture or object
 = 2
-$ retex-render . -o x.exr
+
+# No scene.
+$ retex-render . -o x.exr; echo 'sphere { 0, 1 }' | retex-render /dev/stdin -o x.exr
 ! retex-render: error: .: cannot read `.`: Is a directory
+! retex-render: error: /dev/stdin: cannot read `/dev/stdin`: it is a device or a pipe
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory

@@ -1,6 +1,6 @@
 # What a scene may read: files in the current folder, in its own, in those of -I and in POV-Ray's.
 $ mkdir -p a/b/folder a/bc; make_picture a/up.png size=4x4; cp a/up.png a/bc/beside.png; cp a/up.png a/b/in.png; echo '#declare Up = 1;' >a/up.inc; mkfifo a/b/pipe; ln -s ../up.png a/b/link.png
-$ scene() { printf '%s\nbackground { rgb 1 }\n' "$2" >"a/b/$1.pov"; }; for i in in.png ../up.png ../bc/beside.png link.png /etc/passwd nowhere.png pipe folder; do n=$(basename $i .png); scene $n "box { -1, 1 pigment { image_map { png \"$i\" } } }"; done; scene include '#include "../up.inc"'; scene fopen '#fopen F "../up.inc" read'
+$ scene() { printf '%s\nbackground { rgb 1 }\nsphere { -9*z, 1 }\n' "$2" >"a/b/$1.pov"; }; for i in in.png ../up.png ../bc/beside.png link.png /etc/passwd nowhere.png pipe folder; do n=$(basename $i .png); scene $n "box { -1, 1 pigment { image_map { png \"$i\" } } }"; done; scene include '#include "../up.inc"'; scene fopen '#fopen F "../up.inc" read'
 $ cd a/b; for n in in up beside link passwd nowhere pipe folder include fopen; do retex-render -q --plain --spp 1 --size 8x8 $n.pov -o x.exr; echo $n $?; done
 > in 0
 > up 2
@@ -50,7 +50,7 @@ $ mkdir here; cp a/up.png a/up.inc here; cd here; for n in in up beside link pas
 ! retex-render: error: ../a/b/folder.pov:1:39: the image `folder` is no file, but a folder, a device or a pipe
 ! retex-render: error: ../a/b/include.pov:1:10: the file `../up.inc` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
 ! retex-render: error: ../a/b/fopen.pov:1:22: the file `../up.inc` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
-$ scene() { printf '%s\nbackground { rgb 1 }\n' "$2" >"a/b/$1.pov"; }; scene exists '#debug str(file_exists("in.png") + 10*file_exists("../up.png") + 100*file_exists("/etc/passwd") + 1000*file_exists("colors.inc"), 0, 0)'; scene current '#include "up.inc"'; for i in ../b/in.png ../../nowhere.png /nowhere dangling/x.png "$PWD/a/b/in.png" "$PWD/a/bc/beside.png"; do ln -sf ../../nowhere a/b/dangling; scene "i$((k=k+1))" "box { -1, 1 pigment { image_map { png \"$i\" } } }"; done
+$ scene() { printf '%s\nbackground { rgb 1 }\nsphere { -9*z, 1 }\n' "$2" >"a/b/$1.pov"; }; scene exists '#debug str(file_exists("in.png") + 10*file_exists("../up.png") + 100*file_exists("/etc/passwd") + 1000*file_exists("colors.inc"), 0, 0)'; scene current '#include "up.inc"'; for i in ../b/in.png ../../nowhere.png /nowhere dangling/x.png "$PWD/a/b/in.png" "$PWD/a/bc/beside.png"; do ln -sf ../../nowhere a/b/dangling; scene "i$((k=k+1))" "box { -1, 1 pigment { image_map { png \"$i\" } } }"; done
 $ retex-render -v --safe --plain --spp 1 --size 8x8 a/b/exists.pov -o x.exr 2>&1 | head -1; retex-render -v --plain --spp 1 --size 8x8 -I a a/b/exists.pov -o x.exr 2>&1 | head -1
 > retex-render: 1001
 > retex-render: 1011

@@ -62,3 +62,20 @@ $ for n in 'room.retex?Floor=in/big.png' 'box.pov?size=200x150' 'room.retex?Floo
 > oiiotool ERROR: read : "in/box.pov?spp=1&size=4000x3000": 4000x3000 pixels need 0.1 GB of memory, there are 0.1: render parts with --crop, or raise --max-memory
 > oiiotool ERROR: read : "in/room.retex?Floor=in/big.png": in/big.png: the picture is too large: 400 x 400 pixels, more than --max-memory has room for
 > oiiotool ERROR: read : "in/room.retex?Floor=t.png": RETEX_MAX_PIXELS: expected a whole number from 1, not 'lots'
+
+# With safe access there are limits without any in the environment.
+$ cp "$TESTS/../data/white-6000.png" in/white.png; for n in 'box.pov?size=7680x4321' 'box.pov?size=7680x4320'; do iinfo "in/$n&safe=1"; RETEX_SAFE=1 iinfo "in/$n"; RETEX_SAFE=1 RETEX_MAX_PIXELS=268435456 iinfo "in/$n"; iinfo "in/$n"; done
+> in/box.pov?size=7680x4321&safe=1 :    1 x    1, 3 channel, float pov
+> in/box.pov?size=7680x4321 :    1 x    1, 3 channel, float pov
+> in/box.pov?size=7680x4321 : 7680 x 4321, 3 channel, float pov
+> in/box.pov?size=7680x4321 : 7680 x 4321, 3 channel, float pov
+> in/box.pov?size=7680x4320&safe=1 : 7680 x 4320, 3 channel, float pov
+> in/box.pov?size=7680x4320 : 7680 x 4320, 3 channel, float pov
+> in/box.pov?size=7680x4320 : 7680 x 4320, 3 channel, float pov
+> in/box.pov?size=7680x4320 : 7680 x 4320, 3 channel, float pov
+$ n='in/room.retex?Floor=white.png'; for n in "$n&safe=1" "$n&safe=0"; do oiiotool "$n" -o x.exr 2>&1 | grep ERROR; RETEX_SAFE=1 oiiotool "$n" -o x.exr 2>&1 | grep ERROR; RETEX_SAFE=1 RETEX_MAX_PIXELS=36000000 oiiotool "in/room.retex?Floor=white.png" -o x.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "in/room.retex?Floor=white.png&safe=1": in/white.png: the picture is too large: 6000 x 6000 pixels, more than the 33177600 of --max-pixels
+> oiiotool ERROR: read : "in/room.retex?Floor=white.png&safe=1": in/white.png: the picture is too large: 6000 x 6000 pixels, more than the 33177600 of --max-pixels
+> oiiotool ERROR: read : "in/room.retex?Floor=white.png&safe=0": cannot read white.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=white.png&safe=0": in/white.png: the picture is too large: 6000 x 6000 pixels, more than the 33177600 of --max-pixels
+= 1

@@ -74,18 +74,16 @@ $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope 
 > oiiotool ERROR: read : "box.pov?threads=999": threads: expected a whole number from 0 to 256, not '999'
 
 # What is no scene; one that is its own texture.
-$ printf 'sphere { 0, 1\n  nonsense\n}\n' >bad.pov; : >empty.pov; head -c 1000 /dev/zero >zero.pov; printf '// nothing\n' >nothing.pov; printf 'camera { location -z }\nplane { z, 1 pigment { image_map { png "self.pov" } } }\n' >self.pov
-$ for f in bad empty zero nothing none self; do iinfo $f.pov; oiiotool $f.pov -o no.exr 2>&1 | grep ERROR; done
+$ printf 'sphere { 0, 1\n  nonsense\n}\n' >bad.pov; : >empty.pov; head -c 1000 /dev/zero >zero.pov; printf 'camera { location -z }\nplane { z, 1 pigment { image_map { png "self.pov" } } }\n' >self.pov
+$ for f in bad empty zero none self; do iinfo $f.pov; oiiotool $f.pov -o no.exr 2>&1 | grep ERROR; done
 > oiiotool ERROR: read : bad.pov:2:3: expected an object modifier or }, found `nonsense`, which is not declared
 > oiiotool ERROR: read : empty.pov: no .pov file: it is empty
 > oiiotool ERROR: read : zero.pov: no .pov file by what is in it
-> oiiotool ERROR: read : nothing.pov: there is nothing in the scene: no object, no light, no sky
 > oiiotool ERROR: read : File does not exist: "none.pov"
 > oiiotool ERROR: read : self.pov:3:1: self.pov:2: image_map: self.pov: cannot read: a scene cannot be a texture of a scene
 ! iinfo ERROR: "bad.pov" : bad.pov:2:3: expected an object modifier or }, found `nonsense`, which is not declared
 ! iinfo ERROR: "empty.pov" : empty.pov: no .pov file: it is empty
 ! iinfo ERROR: "zero.pov" : zero.pov: no .pov file by what is in it
-! iinfo ERROR: "nothing.pov" : nothing.pov: there is nothing in the scene: no object, no light, no sky
 ! iinfo ERROR: "none.pov" : cannot read none.pov: No such file or directory
 ! iinfo ERROR: "self.pov" : self.pov:3:1: self.pov:2: image_map: self.pov: cannot read: a scene cannot be a texture of a scene
 
@@ -94,6 +92,10 @@ $ printf 'camera { location -3*z }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 p
 >     retex:warnings: "c.pov:4: warning: mind"
 $ printf 'camera { location -3*z }\nsphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }\n' >dark.pov; iinfo -v 'dark.pov?spp=1&size=8x6' | grep warnings
 >     retex:warnings: "dark.pov: warning: no light source, nothing that shines and no sky: the picture will be black"
+$ echo '#version 3.7; global_settings { assumed_gamma 1 } background { rgb <.25,.5,1> }' >blue.pov; iinfo -v 'blue.pov?spp=1&size=8x6' | grep warnings; oiiotool 'blue.pov?spp=1&size=8x6' --printstats | grep -E 'Stats (Min|Max)' | sed 's/^ *//'
+>     retex:warnings: "blue.pov: warning: no object in the scene"
+> Stats Min: 0.250000 0.500000 1.000000 (float)
+> Stats Max: 0.250000 0.500000 1.000000 (float)
 
 # A view that cannot be shown: an error, or a warning.
 $ printf '#version 3.7; camera { user_defined { location { function { 0 } } } }\nlight_source { -9*z rgb 1 }\nsphere { 4 * z, 1 pigment { rgb 1 } }\n' >own.pov; oiiotool own.pov -o no.exr 2>&1 | grep ERROR; iinfo -v 'own.pov?lenient=1&spp=1&size=8x6' | grep warnings

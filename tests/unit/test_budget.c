@@ -126,6 +126,41 @@ static void test_environment(void **state)
     unsetenv("RETEX_MAX_STEPS");
 }
 
+/* Safe access has its own limits; what is set by name stays, also where it is the default of other access. */
+static void test_safe(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"max-memory", "max-time", "max-pixels", "max-steps"};
+    static const char *const values[] = {"3G", "1000", "268435456", "200000000"};
+    const uint64_t machine = retex_machine_memory() / 4 * 3, memory = machine < 2ull << 30 ? machine : 2ull << 30;
+    RetexError err = {0};
+    for (int given = 0; given < 16; given++) {
+        RetexLimits limits = RETEX_LIMITS_INIT;
+        for (int k = 0; k < 4; k++)
+            if (given >> k & 1)
+                assert_int_equal(retex_limits_set(&limits, names[k], values[k], &err), 0);
+        retex_limits_safe(&limits);
+        assert_true(limits.memory == (given & 1 ? 3ull << 30 : memory));
+        assert_true(limits.seconds == (given & 2 ? 1000 : 60));
+        assert_int_equal(limits.pixels, given & 4 ? 268435456 : 7680 * 4320);
+        assert_int_equal(limits.steps, 200000000);
+    }
+    RetexLimits limits = RETEX_LIMITS_INIT;
+    assert_int_equal(retex_limits_set(&limits, "max-time", "soon", &err), RETEX_EPARSE);
+    assert_string_equal(err.message, "max-time: expected a number of seconds, not 'soon'");
+    assert_int_equal(retex_limits_set(&limits, "max-speed", "1", &err), RETEX_ENOTFOUND);
+    setenv("RETEX_MAX_PIXELS", "1000", 1);
+    assert_int_equal(retex_limits_environment(&limits, &err), 0);
+    unsetenv("RETEX_MAX_PIXELS");
+    retex_limits_safe(&limits);
+    assert_true(limits.memory == memory && limits.seconds == 60 && limits.pixels == 1000);
+    /* of a program that was built before there was a note of what is given */
+    RetexLimits old = RETEX_LIMITS_INIT;
+    old.size -= 1, old.given = 0x5a5a;
+    assert_int_equal(retex_limits_set(&old, "max-pixels", "7", &err), 0);
+    assert_true(old.pixels == 7 && old.given == 0x5a5a);
+}
+
 /* A tree of control groups as the kernel shows it: folders with a file each. */
 static void put_limit(const char *folder, const char *file, const char *text)
 {
@@ -274,6 +309,7 @@ int main(void)
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_safe),
         cmocka_unit_test(test_control_groups),
         cmocka_unit_test(test_scene_is_charged),
         cmocka_unit_test(test_unfinished_files_go),

@@ -155,9 +155,10 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
     }
     struct stat info;
     char *bytes = NULL;
-    if (fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode)) {
+    if (fstat(fileno(file), &info) == 0 && !S_ISREG(info.st_mode)) { /* its size would be 0 */
         fclose(file);
-        sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(EISDIR));
+        sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path,
+                 S_ISDIR(info.st_mode) ? strerror(EISDIR) : "it is a device or a pipe");
     }
     const uint64_t left = retex_budget_left(sdl->options.budget);
     int too_big = fstat(fileno(file), &info) != 0 || info.st_size < 0 ||

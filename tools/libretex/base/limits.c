@@ -9,6 +9,11 @@
 #include <retex/budget.h>
 
 static const char *const names[] = {"max-memory", "max-time", "max-pixels", "max-steps"};
+enum { LIMIT_MEMORY, LIMIT_SECONDS, LIMIT_PIXELS, LIMIT_STEPS, LIMIT_COUNT };
+
+static const uint64_t SAFE_MEMORY = (uint64_t)2 << 30;
+static const double SAFE_SECONDS = 60;
+static const long SAFE_PIXELS = 7680L * 4320;
 
 static int fail_size(const char *text, RetexError *err)
 {
@@ -59,34 +64,42 @@ static int parse_count(const char *text, long *count)
     return 1;
 }
 
+/* Programs that were built before `given` was added have no room for it. */
+static void note_given(RetexLimits *limits, int which)
+{
+    if (limits->size >= sizeof *limits)
+        limits->given |= 1u << which;
+}
+
 int retex_limits_set(RetexLimits *limits, const char *name, const char *value, RetexError *err)
 {
+    int which = 0, right = 0;
     uint64_t bytes = 0;
 
-    if (strcmp(name, "max-memory") == 0) {
-        if (retex_size_parse(value, &bytes, NULL) || bytes == 0)
-            return retex_fail(err, RETEX_EPARSE, "%s: expected a size such as 512M, 4G or a number of MB, not '%s'",
-                              name, value);
+    while (which < LIMIT_COUNT && strcmp(name, names[which]) != 0)
+        which++;
+    if (which == LIMIT_COUNT)
+        return retex_fail(err, RETEX_ENOTFOUND, "there is no limit '%s'", name);
+    if (which == LIMIT_MEMORY && (right = !retex_size_parse(value, &bytes, NULL) && bytes > 0))
         limits->memory = bytes;
+    else if (which == LIMIT_SECONDS)
+        right = parse_seconds(value, &limits->seconds);
+    else if (which != LIMIT_MEMORY)
+        right = parse_count(value, which == LIMIT_PIXELS ? &limits->pixels : &limits->steps);
+    if (right) {
+        note_given(limits, which);
         return 0;
     }
-    if (strcmp(name, "max-time") == 0)
-        return parse_seconds(value, &limits->seconds)
-                   ? 0
-                   : retex_fail(err, RETEX_EPARSE, "%s: expected a number of seconds, not '%s'", name, value);
-    long *count = strcmp(name, "max-pixels") == 0  ? &limits->pixels
-                  : strcmp(name, "max-steps") == 0 ? &limits->steps
-                                                   : NULL;
-    if (!count)
-        return retex_fail(err, RETEX_ENOTFOUND, "there is no limit '%s'", name);
-    return parse_count(value, count)
-               ? 0
-               : retex_fail(err, RETEX_EPARSE, "%s: expected a whole number from 1, not '%s'", name, value);
+    return retex_fail(err, RETEX_EPARSE, "%s: expected %s, not '%s'", name,
+                      which == LIMIT_MEMORY    ? "a size such as 512M, 4G or a number of MB"
+                      : which == LIMIT_SECONDS ? "a number of seconds"
+                                               : "a whole number from 1",
+                      value);
 }
 
 int retex_limits_environment(RetexLimits *limits, RetexError *err)
 {
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    for (size_t i = 0; i < LIMIT_COUNT; i++) {
         char variable[32] = "RETEX_";
         RetexError why;
         for (size_t k = 0; k <= strlen(names[i]); k++)
@@ -101,9 +114,26 @@ int retex_limits_environment(RetexLimits *limits, RetexError *err)
     return 0;
 }
 
+static uint64_t default_memory(void)
+{
+    return retex_machine_memory() / 4 * 3; /* 0: not known */
+}
+
+void retex_limits_safe(RetexLimits *limits)
+{
+    const uint64_t most = default_memory();
+
+    if (!(limits->given & 1u << LIMIT_MEMORY))
+        limits->memory = most && most < SAFE_MEMORY ? most : SAFE_MEMORY;
+    if (!(limits->given & 1u << LIMIT_SECONDS))
+        limits->seconds = SAFE_SECONDS;
+    if (!(limits->given & 1u << LIMIT_PIXELS))
+        limits->pixels = SAFE_PIXELS;
+}
+
 void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *limits)
 {
-    retex_budget_set_memory(budget, limits->memory ? limits->memory : retex_machine_memory() / 4 * 3);
+    retex_budget_set_memory(budget, limits->memory ? limits->memory : default_memory());
     retex_budget_set_pixels(budget, limits->pixels);
     retex_budget_set_seconds(budget, limits->seconds);
 }

@@ -44,14 +44,18 @@ typedef struct RetexLimits {
     double seconds;  /* default 0 = as long as it takes */
     long pixels;     /* of a picture that is read or rendered; default 2^28, 16384 x 16384 */
     long steps;      /* of reading a scene; default 200 million */
+    unsigned given;  /* written by the calls below: which limits were set by name */
 } RetexLimits;
-#define RETEX_LIMITS_INIT { sizeof(RetexLimits), 0, 0, 1L << 28, 200000000 }
+#define RETEX_LIMITS_INIT { sizeof(RetexLimits), 0, 0, 1L << 28, 200000000, 0 }
 
 /* Set a limit by the name of its option, without dashes: max-memory, a size as for retex_size_parse; max-time, seconds;
  * max-pixels, max-steps. RETEX_ENOTFOUND: unknown name; RETEX_EPARSE: invalid value. */
 int retex_limits_set(RetexLimits *limits, const char *name, const char *value, RetexError *err);
 /* Set limits from the environment: RETEX_MAX_MEMORY, RETEX_MAX_TIME, RETEX_MAX_PIXELS and RETEX_MAX_STEPS. */
 int retex_limits_environment(RetexLimits *limits, RetexError *err);
+/* For safe access (<retex/access.h>): set those limits that were not set by name to 2 GB (2^31 bytes, or the default if
+ * that is less), 60 seconds and the pixels of a picture of 7680 x 4320. */
+void retex_limits_safe(RetexLimits *limits);
 /* Apply limits to a budget: memory, pixels and, from now on, seconds. */
 void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *limits);
 
