@@ -11,12 +11,12 @@ $(BUILD)/obj/oiio_plugins/%.o: oiio_plugins/%.cpp $(BUILD)/config.mk
 	    -c $< -o $@
 
 $(BUILD)/plugins/retex.imageio.so: $(BUILD)/obj/oiio_plugins/retex_imageio.o $(BUILD)/obj/oiio_plugins/pack_source.o \
-	    $(PLUGIN_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	    $(PLUGIN_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK_PLUGIN) $^ -o $@ $(LIBRETEX_LIBS) $(BRIDGE_LIBS)
 
 $(BUILD)/plugins/pov.imageio.so: $(BUILD)/obj/oiio_plugins/pov_imageio.o $(BUILD)/obj/oiio_plugins/scene_source.o \
-	    $(BUILD)/obj/oiio_plugins/scene_options.o $(PLUGIN_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+	    $(BUILD)/obj/oiio_plugins/scene_options.o $(PLUGIN_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK_PLUGIN) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(BRIDGE_LIBS)
 

@@ -10,7 +10,7 @@ $(BUILD)/lib/librender.a: $(RENDERER_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
 	$(SAY)rm -f $@ && $(AR) qcs $@ $^
 
-$(BUILD)/bin/retex-render: $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard renderer/*.c)) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-render: $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard renderer/*.c)) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 

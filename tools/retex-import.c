@@ -1,8 +1,8 @@
 /* retex-import: make a scene of a model in glTF, OBJ, FBX and other formats. See retex-import(1).
  *
  * A child process does all of it: it reads the model through Assimp and fills a new folder beside the output. It may
- * crash and run into its limits. This process waits, passes on messages, and at the end renames the folder or removes
- * it. */
+ * crash and run into its limits, and has no rights but to read files and to write to that folder. This process waits,
+ * passes on messages, and at the end renames the folder or removes it. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -23,10 +23,11 @@
 #include <retex/retex.h>
 
 #include "cli.h"
+#include "confine.h"
 #include "import/import.h"
 #include "watchdog.h"
 
-enum { MOST_FOLDERS = 32, READ_SECONDS = 600 };
+enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
 
 static const CliOption options[] = {
     {"camera", 0, "N", "use the Nth camera of the model, or the one of that name; default the first", 0},
@@ -83,28 +84,6 @@ static void send_line(void *context, char kind, const char *text)
     fflush(to);
 }
 
-static void set_limit(int what, rlim_t soft)
-{
-    struct rlimit limit;
-    if (getrlimit(what, &limit) == 0) {
-        limit.rlim_cur = limit.rlim_max == RLIM_INFINITY || soft < limit.rlim_max ? soft : limit.rlim_max;
-        setrlimit(what, &limit);
-    }
-}
-
-/* Bytes that are mapped already. */
-static rlim_t mapped(void)
-{
-    unsigned long pages = 0;
-    FILE *in = fopen("/proc/self/statm", "r");
-    if (in) {
-        if (fscanf(in, "%lu", &pages) != 1)
-            pages = 0;
-        fclose(in);
-    }
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
-}
-
 _Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
 {
     RetexError err = {0};
@@ -119,10 +98,14 @@ _Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGINT, SIG_IGN); /* of the terminal: the parent ends this process */
-    set_limit(RLIMIT_CORE, 0);
-    set_limit(RLIMIT_CPU, (rlim_t)seconds + 1);
+    confine_limit(RLIMIT_CORE, 0);
+    confine_limit(RLIMIT_CPU, (uint64_t)seconds + 1);
+    confine_limit(RLIMIT_NOFILE, MOST_FILES);
+    confine_limit(RLIMIT_FSIZE, (uint64_t)MOST_GIGABYTES << 30);
     if (retex_budget_memory(cli->budget))
-        set_limit(RLIMIT_AS, mapped() + (rlim_t)retex_budget_memory(cli->budget));
+        confine_memory(retex_budget_memory(cli->budget));
+    setenv("TMPDIR", import->folder, 1);
+    confine_to_folder(import->folder);
     unsetenv("OCIO"); /* images are written as sRGB */
     if (!lines)
         _exit(CLI_FAIL);
@@ -364,7 +347,7 @@ int main(int argc, char **argv)
     cli_input(&cli, import.model, "a model");
     cli_reads(&cli, "the model", import.model);
     cli_reads(&cli, "--sky", import.sky);
-    import.safe = cli.access.safe;
+    import.safe = cli.access.safe ? 2 : 0; /* the process that reads the model decodes its pictures, too */
     import.max_pixels = cli.limits.pixels;
     import.budget = cli.budget;
     import_to(&cli, &import, force);

@@ -18,6 +18,7 @@ KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math 
 LIBRETEX := $(BUILD)/lib/libretex.a
 LIBRETEX_SHARED := $(BUILD)/lib/libretex.so.1
 BRIDGE := $(BUILD)/lib/libretex-oiio.so
+DECODER := $(BUILD)/lib/retex-decode
 
 # One object serves both libraries. Public calls are visible (tools/libretex/include/retex), but nobody may replace them
 # inside the library: so they are inlined as in a program.
@@ -26,10 +27,10 @@ $(BUILD)/obj/tools/libretex/%.o: tools/libretex/%.c $(BUILD)/config.mk
 	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) -fno-semantic-interposition \
 	    $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
 
-# A package may put the bridge elsewhere than beside the library: then the library knows the folder.
+# A package may put the bridge and the decoder elsewhere than beside the library: then the library knows the folder.
 BRIDGE_FOLDER ?=
 ifneq ($(BRIDGE_FOLDER),)
-$(BUILD)/obj/tools/libretex/picture/bridge_load.o: CPPFLAGS_ALL += -DRETEX_BRIDGE_FOLDER='"$(BRIDGE_FOLDER)"'
+$(BUILD)/obj/tools/libretex/picture/beside.o: CPPFLAGS_ALL += -DRETEX_BRIDGE_FOLDER='"$(BRIDGE_FOLDER)"'
 endif
 
 $(BUILD)/obj/tools/%.o: tools/%.c $(BUILD)/config.mk
@@ -62,7 +63,15 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog compositor frames kept_textures \
 	output_folder json_text) $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/batch/*.c))
-$(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
+
+# Pictures of strangers are decoded by a program of its own, which the library starts. It stands beside the bridge.
+$(BUILD)/obj/tools/decode/%.o: tools/decode/%.c $(BUILD)/config.mk
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(CFLAGS_ALL) -MMD -MP -c $< -o $@
+$(DECODER): $(BUILD)/obj/tools/decode/main.o $(BUILD)/obj/tools/confine.o $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
@@ -102,13 +111,13 @@ $(BUILD)/obj/gen/player.o: $(BUILD)/gen/player.c
 $(BUILD)/bin/retex-pack: $(BUILD)/obj/gen/player.o
 
 COMBINE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/combine/*.c))
-$(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
 # retex-import alone uses Assimp.
 IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c))
-$(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(BUILD)/obj/tools/confine.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(LIBRETEX_LIBS)
 
@@ -118,7 +127,7 @@ $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 
 # retex-serve alone uses libmicrohttpd and Nettle.
 SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c))
-$(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-serve: $(BUILD)/obj/tools/retex-serve.o $(SERVE_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(SERVE_LIBS) $(LIBRETEX_LIBS)
 
@@ -130,7 +139,7 @@ $(BUILD)/obj/tools/serve/%.o: tools/serve/%.c $(BUILD)/config.mk
 UNIT_PLACE := ./lib/systemd/system/
 BRIDGE_PLACE := $(or $(BRIDGE_FOLDER:$(LIBDIR)/%=lib/%),lib)
 INSTALLED += 644:$(LIBRETEX):lib/ 755:$(LIBRETEX_SHARED):lib/ link:$(notdir $(LIBRETEX_SHARED)):lib/libretex.so \
-	755:$(BRIDGE):$(BRIDGE_PLACE)/ \
+	755:$(BRIDGE):$(BRIDGE_PLACE)/ 755:$(DECODER):$(BRIDGE_PLACE)/ \
 	$(patsubst %,644:%:include/retex/,$(wildcard tools/libretex/include/retex/*.h)) \
 	fill:tools/install/retex.pc.in:lib/pkgconfig/retex.pc \
 	fill:tools/install/retexConfig.cmake.in:lib/cmake/retex/retexConfig.cmake \
@@ -138,5 +147,5 @@ INSTALLED += 644:$(LIBRETEX):lib/ 755:$(LIBRETEX_SHARED):lib/ link:$(notdir $(LI
 	644:tools/serve/nginx.conf:share/retex/serve/ 644:tools/blender/retex_export.py:share/retex/blender/ \
 	fill:tools/serve/retex-serve.service:$(UNIT_PLACE)
 
-all: $(LIBRETEX) $(BUILD)/lib/libretex.so $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
+all: $(LIBRETEX) $(BUILD)/lib/libretex.so $(BRIDGE) $(DECODER) $(TOOLS:%=$(BUILD)/bin/%)
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

@@ -111,7 +111,7 @@ $found"
 }
 one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(0031308|04045)|12\.92|(^|[^0-9])1\.055' 'the sRGB curve'
 one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(2126f?|7152f?|0722f?) *\*' 'luminance'
-one_definition tools/libretex/base/clock.c 'clock_gettime|gettimeofday|timespec_get|std::chrono' 'the clock'
+one_definition tools/libretex/base/clock.c '(^|[^_])(clock_gettime|gettimeofday)|timespec_get|std::chrono' 'the clock'
 version=$(sed -nE 's/^#define RETEX_VERSION "(.*)"$/\1/p' tools/libretex/include/retex/version.h | sed 's/\./[.]/g')
 one_definition tools/libretex/include/retex/version.h "\"([^\"]* )?${version:-no version}" 'the version'
 one_definition tools/libretex/base/cpu.c '__builtin_cpu|target_clones|ifunc|getauxval|cpuid' 'what the processor can do'

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -172,6 +173,20 @@ void check_size(long width, long height, const RetexBridgeFile &file)
                                         std::to_string(RETEX_MAX_SIZE) + " a side");
     if (file.max_pixels > 0 && width * height > file.max_pixels)
         throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than " + file.limit);
+}
+
+// Of files of strangers: decoders make room for whole tiles, and for all channels, whatever the size of the picture.
+void check_storage(const OIIO::ImageSpec &spec)
+{
+    const int64_t pixels = int64_t(spec.width) * spec.height, tile = int64_t(spec.tile_width) * spec.tile_height,
+                  most = std::max(int64_t(4096) * 4096, 4 * pixels);
+    if (tile > most)
+        throw Failure(RETEX_ELIMIT, "the picture is in tiles of " + std::to_string(spec.tile_width) + " x " +
+                                        std::to_string(spec.tile_height) + " pixels, which are not read (--safe)");
+    if (spec.nchannels > RETEX_MAX_CHANNELS)
+        throw Failure(RETEX_ELIMIT, "the picture has " + std::to_string(spec.nchannels) +
+                                        " channels, of which at most " + std::to_string(RETEX_MAX_CHANNELS) +
+                                        " are read (--safe)");
 }
 
 // The first line of an error. Further lines are details of the library.
@@ -350,6 +365,8 @@ class OpenPicture
         in_->threads(file.nthreads);
         const OIIO::ImageSpec &spec = in_->spec();
         check_size(spec.width, spec.height, file);
+        if (file.format)
+            check_storage(spec);
         if (spec.deep)
             throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
         if (spec.depth > 1)
@@ -537,6 +554,7 @@ RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile 
 extern "C" __attribute__((visibility("default"))) RetexBridgeAbi retex_oiio_abi;
 extern "C" __attribute__((visibility("default"))) RetexBridgeRead retex_oiio_read;
 extern "C" __attribute__((visibility("default"))) RetexBridgeReadNarrow retex_oiio_read_narrow;
+extern "C" __attribute__((visibility("default"))) RetexBridgePrepare retex_oiio_prepare;
 
 int retex_oiio_abi(void)
 {
@@ -552,4 +570,22 @@ int retex_oiio_read_narrow(const RetexBridgeHost *host, RetexNarrowImage *dst, c
                            RetexError *err)
 {
     return bridge::guarded(file->path, err, [&] { *dst = bridge::read_narrow(host, *file); });
+}
+
+// OpenImageIO looks for plugins when it is first asked for a decoder. A configuration, and the tables of its spaces,
+// are files; OpenColorIO keeps what it has read of them.
+int retex_oiio_prepare(const RetexBridgeFile *file, RetexError *err)
+{
+    return bridge::guarded(file->path, err, [&] {
+        OIIO::ImageInput::create(file->format);
+        if (!std::getenv("OCIO"))
+            return;
+        bridge::check_configuration();
+        for (const char *name : {file->colorspace, "sRGB"})
+            if (name && *name)
+                try {
+                    bridge::transform_from(name);
+                } catch (const bridge::Failure &) { // reading tells, if it needs the space
+                }
+    });
 }

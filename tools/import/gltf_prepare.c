@@ -2,6 +2,7 @@
  * misread. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "import/gltf_floats.h"
@@ -112,6 +113,16 @@ static int write_file(const GltfFloats *f, FILE *out)
     return length > 0 && fflush(out) == 0 && !ferror(out);
 }
 
+/* A file in memory: this process may write to no folder but that of its results. */
+static FILE *open_in_memory(void)
+{
+    const int descriptor = memfd_create("model", MFD_CLOEXEC);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w+b");
+    if (!file && descriptor >= 0)
+        close(descriptor);
+    return file;
+}
+
 /* NULL: the file will do as it is. */
 static FILE *write_prepared(Import *import, FILE *in)
 {
@@ -124,7 +135,7 @@ static FILE *write_prepared(Import *import, FILE *in)
         const int is_changed =
             take_images(text.json) | take_weights(text.json) | drop_cameras_and_lights(text.json) | f.any;
         if (is_changed || text.is_repaired)
-            out = tmpfile();
+            out = open_in_memory();
         if (out) {
             gltf_buffers_read_inside(&f.buffers);
             if (!write_file(&f, out)) {
@@ -133,7 +144,7 @@ static FILE *write_prepared(Import *import, FILE *in)
             }
         }
         if (!out && is_changed && !f.refused[0])
-            snprintf(f.refused, sizeof f.refused, "no memory, or no place for a temporary file");
+            snprintf(f.refused, sizeof f.refused, "not enough memory");
         memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     }
     gltf_buffers_free(&f.buffers);

@@ -23,7 +23,7 @@ typedef struct ImportOptions {
     double scale;  /* of all lengths */
     double lights; /* factor of all light sources */
     double smooth; /* degrees: edges that are flatter become smooth where a mesh has no normals; 0: none */
-    int safe;      /* 1: pictures of common formats only */
+    int safe;      /* as of RetexAccess */
     long max_pixels;
     double seconds; /* of the processor, for reading */
     RetexBudget *budget;

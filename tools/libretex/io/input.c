@@ -190,6 +190,25 @@ int retex_input_open_allowed(RetexInput **result, const char *path, const RetexA
     return status;
 }
 
+int retex_input_open_descriptor(RetexInput **result, int descriptor, const char *name, RetexError *err)
+{
+    struct stat status;
+    RetexInput *input = *result = calloc(1, sizeof *input);
+
+    if (!input)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    input->descriptor = descriptor;
+    input->borrowed = 1;
+    snprintf(input->name, sizeof input->name, "%s", name);
+    if (fstat(descriptor, &status) == 0) {
+        input->size = (uint64_t)status.st_size;
+        return 0;
+    }
+    const int code = fail_read(input, errno, err);
+    retex_input_close(result);
+    return code;
+}
+
 int retex_input_borrow(RetexInput **result, const void *data, size_t bytes, const char *name, RetexError *err)
 {
     static unsigned char nothing;

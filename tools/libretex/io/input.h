@@ -15,6 +15,8 @@ typedef struct RetexInput RetexInput;
 int retex_input_open(RetexInput **input, const char *path, RetexError *err);
 /* The same, for files that access allows; "-" is standard input here too. */
 int retex_input_open_allowed(RetexInput **input, const char *path, const RetexAccess *access, RetexError *err);
+/* Use an open regular file, which stays the caller's, from its beginning. */
+int retex_input_open_descriptor(RetexInput **input, int descriptor, const char *name, RetexError *err);
 /* Use bytes in memory as an input; they stay the caller's. name: for messages. */
 int retex_input_borrow(RetexInput **input, const void *data, size_t bytes, const char *name, RetexError *err);
 void retex_input_close(RetexInput **input); /* NULL and pointers to NULL are fine */

@@ -2,16 +2,14 @@
 #include "picture/bridge_load.h"
 #include "exr/color_tag.h"
 #include "io/pending_files.h"
+#include "picture/beside.h"
 
 #include <dlfcn.h>
-#include <limits.h>
-#include <link.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 #define BRIDGE_NAME "libretex-oiio.so"
 
@@ -25,7 +23,10 @@ static struct {
     RetexBridgeWrite *write;
     RetexBridgeCheck *check;
     RetexBridgeRemove *remove;
+    RetexBridgePrepare *prepare;
     char message[512]; /* why it could not be loaded; "" = it is loaded */
+    int is_left_out, was_missed;
+    char missed_space[256]; /* of the file for which it was missed */
 } bridge = {.once = PTHREAD_ONCE_INIT};
 
 static void keep_message(const char *text)
@@ -42,67 +43,11 @@ static void *open_library(const char *path)
     return library;
 }
 
-/* The bridge in a folder below the one of `file`, or of one above it, if it is there. */
-static void *open_near(const char *file, int levels, const char *below)
-{
-    char folder[PATH_MAX];
-    if (snprintf(folder, sizeof folder, "%s", file) >= (int)sizeof folder)
-        return NULL;
-    for (; levels > 0; levels--) {
-        char *slash = strrchr(folder, '/');
-        if (!slash)
-            return NULL;
-        *slash = '\0';
-        char path[PATH_MAX + 32];
-        snprintf(path, sizeof path, "%s/%s" BRIDGE_NAME, folder, below);
-        if (access(path, R_OK) == 0)
-            return open_library(path);
-    }
-    return NULL;
-}
-
-/* Beside the shared library that this code is in: libretex.so.1, whatever program uses it, or a plugin, which is in
- * PREFIX/lib/retex/plugins, or in build/plugins. Its symbolic links are followed only where that finds nothing. */
-static void *open_near_library(void)
-{
-    static const char here;
-    Dl_info info;
-    struct link_map *map = NULL;
-    if (!dladdr1(&here, &info, (void **)&map, RTLD_DL_LINKMAP) || !map || !map->l_name[0])
-        return NULL; /* it is in the program itself */
-    void *library = open_near(map->l_name, 3, "");
-    if (!library && !bridge.message[0])
-        library = open_near(map->l_name, 2, "lib/");
-    char *resolved = library || bridge.message[0] ? NULL : realpath(map->l_name, NULL);
-    if (resolved)
-        library = open_near(resolved, 3, "");
-    free(resolved);
-    return library;
-}
-
-/* Beside the program that contains the library: PREFIX/bin/retex-x -> PREFIX/lib, and the same for a program run from
- * build/. A program deeper in the tree (a unit test) is served by the folders above. */
-static void *open_near_program(void)
-{
-    char program[PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
-        return NULL;
-    program[length] = '\0';
-    return open_near(program, 3, "lib/");
-}
-
-/* One that is found but cannot be loaded is not replaced by another, whose version nobody knows: its message stays. */
+/* One that is found but cannot be loaded is not replaced by another, whose version nobody knows. */
 static void *find_library(void)
 {
-    void *library = open_near_library();
-    if (!library && !bridge.message[0])
-        library = open_near_program();
-#ifdef RETEX_BRIDGE_FOLDER
-    if (!library && !bridge.message[0] && access(RETEX_BRIDGE_FOLDER "/" BRIDGE_NAME, R_OK) == 0)
-        library = open_library(RETEX_BRIDGE_FOLDER "/" BRIDGE_NAME);
-#endif
-    return library || bridge.message[0] ? library : open_library(BRIDGE_NAME);
+    RetexBesidePath path;
+    return open_library(retex_beside_find(path, BRIDGE_NAME) ? path : BRIDGE_NAME);
 }
 
 static void load_bridge(void)
@@ -123,8 +68,9 @@ static void load_bridge(void)
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
     *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
     *(void **)&bridge.remove = dlsym(library, "retex_oiio_remove");
+    *(void **)&bridge.prepare = dlsym(library, "retex_oiio_prepare");
     if (!abi || !bridge.read || !bridge.read_narrow || !bridge.plan || !bridge.plan_free || !bridge.convert ||
-        !bridge.write || !bridge.check || !bridge.remove || abi() != RETEX_BRIDGE_ABI)
+        !bridge.write || !bridge.check || !bridge.remove || !bridge.prepare || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
     else {
         bridge.message[0] = '\0';
@@ -149,15 +95,41 @@ int retex_names_linear(const char *colorspace)
 
 static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free, retex_color_tag_to_rec709};
 
-int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
+/* Ready to read a file, unless the bridge is left out. */
+static int ready_to_read(const RetexBridgeFile *file, RetexError *err)
+{
+    if (!bridge.is_left_out)
+        return bridge_ready(file->path, err);
+    bridge.was_missed = 1;
+    snprintf(bridge.missed_space, sizeof bridge.missed_space, "%s", file->colorspace ? file->colorspace : "");
+    return retex_fail_at(err, RETEX_EUNSUPPORTED, file->path, 0, 0, "this needs OpenImageIO");
+}
+
+void retex_bridge_leave_out(void)
+{
+    bridge.is_left_out = 1;
+}
+
+const char *retex_bridge_missed(void)
+{
+    return bridge.was_missed ? bridge.missed_space : NULL;
+}
+
+int retex_bridge_prepare(const RetexBridgeFile *file, RetexError *err)
 {
     int code = bridge_ready(file->path, err);
+    return code ? code : bridge.prepare(file, err);
+}
+
+int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
+{
+    int code = ready_to_read(file, err);
     return code ? code : bridge.read(&host, dst, file, err);
 }
 
 int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err)
 {
-    int code = bridge_ready(file->path, err);
+    int code = ready_to_read(file, err);
     return code ? code : bridge.read_narrow(&host, dst, file, err);
 }
 

@@ -46,9 +46,12 @@ typedef struct RetexNarrowImage {
  * other files dst->pixels stays NULL. */
 int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err);
 
-/* In image_read.c: the same for any path that retex_image_read takes. */
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *params, int nthreads,
-                            RetexError *err);
+/* For the program that decodes, see picture/decoder.h, which cannot load libraries once it is confined. Either the
+ * bridge is left out, and reading fails where it is missed: then retex_bridge_missed returns the colour space of that
+ * file, else NULL. Or all that files of a format need is loaded before: of `file`, format and colorspace count. */
+void retex_bridge_leave_out(void);
+const char *retex_bridge_missed(void);
+int retex_bridge_prepare(const RetexBridgeFile *file, RetexError *err);
 
 /* A plan: how a picture of that size is stored in a file of the format that path's ending names, in the colours that
  * params name. path and params are not needed afterwards. */
@@ -93,11 +96,12 @@ typedef struct RetexBridgeHost {
     int (*to_rec709)(const float chromaticities[8], double matrix[3][3]); /* retex_color_tag_to_rec709 */
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 9
+#define RETEX_BRIDGE_ABI 10
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,
                                   RetexError *err);
+typedef int RetexBridgePrepare(const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeMakePlan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width,
                                 int height, int channels, const RetexWriteParams *params, RetexError *err);
 typedef void RetexBridgeFreePlan(RetexBridgePlan **plan);

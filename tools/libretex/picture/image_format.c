@@ -1,6 +1,7 @@
 /* See image_format.h. */
 #include "picture/image_format.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -107,4 +108,68 @@ uint64_t retex_image_header_pixels(const RetexInput *input, const char *format)
         return (uint64_t)get16(begin + 18) * get16(begin + 20);
     const int32_t height = (int32_t)get32(begin + 22); /* below 0: rows from the top */
     return (uint64_t)get32(begin + 18) * (uint64_t)(height < 0 ? -(int64_t)height : height);
+}
+
+/* Reads the bytes of an input in order. */
+typedef struct Reader {
+    const RetexInput *input;
+    uint64_t next; /* after those of the buffer */
+    int64_t used, filled;
+    unsigned char buffer[1 << 16];
+} Reader;
+
+/* The next byte; below 0 at the end. */
+static int next_byte(Reader *reader)
+{
+    if (reader->used == reader->filled) {
+        reader->filled = retex_input_read(reader->input, reader->buffer, sizeof reader->buffer, reader->next);
+        reader->used = 0;
+        if (reader->filled <= 0) {
+            reader->filled = 0;
+            return -1;
+        }
+        reader->next += (uint64_t)reader->filled;
+    }
+    return reader->buffer[reader->used++];
+}
+
+static void skip(Reader *reader, int64_t bytes)
+{
+    if (bytes <= reader->filled - reader->used) {
+        reader->used += bytes;
+        return;
+    }
+    reader->next += (uint64_t)(bytes - (reader->filled - reader->used));
+    reader->used = reader->filled = 0;
+}
+
+/* The number of the next marker, below 0 at the end: what follows 0xff and is neither 0 nor 0xff again. */
+static int next_marker(Reader *reader)
+{
+    for (int byte = next_byte(reader), before = 0; byte >= 0; before = byte, byte = next_byte(reader))
+        if (before == 0xff && byte != 0 && byte != 0xff)
+            return byte;
+    return -1;
+}
+
+int retex_image_has_more_scans(const RetexInput *input, int most)
+{
+    enum { RESTART = 0xd0, START = 0xd8, SCAN = 0xda };
+    Reader *reader = calloc(1, sizeof *reader);
+    int scans = 0;
+
+    if (!reader)
+        return 0;
+    reader->input = input;
+    for (int marker; scans <= most && (marker = next_marker(reader)) >= 0;) {
+        if (marker >= RESTART && marker <= START)
+            continue;
+        const int high = next_byte(reader), low = next_byte(reader);
+        if (low < 0)
+            break;
+        scans += marker == SCAN;
+        skip(reader, (high << 8 | low) - 2 > 0 ? (high << 8 | low) - 2 : 0);
+    }
+    free(reader);
+    return scans > most;
 }

@@ -14,4 +14,7 @@ const char *retex_image_format(const RetexInput *input);
  * 0 for other formats. */
 uint64_t retex_image_header_pixels(const RetexInput *input, const char *format /* or NULL */);
 
+/* Whether a JPEG has more scans than so many: each may take as long as the whole picture. */
+int retex_image_has_more_scans(const RetexInput *input, int most);
+
 #endif

@@ -18,6 +18,7 @@
 #include "io/input.h"
 #include "picture/bridge_load.h"
 #include "picture/image_format.h"
+#include "picture/image_read.h"
 #include "picture/jpeg_read.h"
 #include "picture/png_read.h"
 
@@ -311,20 +312,6 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
     return status;
 }
 
-int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *given, int nthreads, RetexError *err)
-{
-    const RetexReadParams params = complete_params(given);
-    RetexInput *input = NULL;
-
-    if (dst->pixels)
-        return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
-    int status = retex_input_open_allowed(&input, path, params.access, err);
-    if (!status)
-        status = read_open(dst, input, path, &params, nthreads, err);
-    retex_input_close(&input);
-    return status;
-}
-
 /* Checks whether the bridge can read a file, by its beginning: with a limit of one pixel no picture is decoded. */
 static int bridge_check(RetexBridgeFile file, RetexError *err)
 {
@@ -379,44 +366,107 @@ static int check_open(RetexInput *input, const char *path, const RetexReadParams
     return is_sound(input) ? 0 : bridge_check(file, err);
 }
 
-int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
+/* Reads 16-bit integers, or nothing where the file has others. Spaces that have to be looked up may not be decoded by
+ * channel. */
+static int read_narrow(RetexNarrowImage *dst, RetexInput *input, const char *path, const RetexReadParams *params,
+                       int nthreads, RetexError *err)
+{
+    const char *name = params->colorspace;
+    RetexBridgeFile file;
+
+    if (strcmp(path, "-") == 0 || retex_exr_probe(input) || (name && name[0] && strcasecmp(name, "sRGB") != 0))
+        return 0;
+    int status = choose_decoder(&file, input, path, params, err);
+    if (!status)
+        status = read_levels(&(RetexLevels){.narrow = dst}, input, &file, err);
+    file.nthreads = nthreads;
+    return status || dst->pixels ? status : retex_bridge_read_narrow(dst, &file, err);
+}
+
+/* Of files of strangers. Some programs make a dozen scans. */
+static int check_scans(const RetexInput *input, const char *path, RetexError *err)
+{
+    enum { MOST_SCANS = 200 };
+    const char *format = retex_image_format(input);
+
+    if (!format || strcmp(format, "jpeg") != 0 || !retex_image_has_more_scans(input, MOST_SCANS))
+        return 0;
+    return retex_fail(err, RETEX_ELIMIT, "%s: a JPEG of more than %d scans, which are not read (--safe)", path,
+                      MOST_SCANS);
+}
+
+int retex_image_decode(RetexDecoded *decoded, RetexDecode decode, RetexInput *input, const char *path,
+                       const RetexReadParams *params, int nthreads, RetexError *err)
+{
+    int status = params->access && params->access->safe ? check_scans(input, path, err) : 0;
+
+    *decoded = (RetexDecoded){0};
+    if (status)
+        return status;
+    if (decode == RETEX_DECODE_CHECK)
+        return check_open(input, path, params, err);
+    if (decode == RETEX_DECODE_ANY)
+        status = read_narrow(&decoded->narrow, input, path, params, nthreads, err);
+    if (status || decoded->narrow.pixels)
+        return status;
+    return read_open(&decoded->image, input, path, params, nthreads, err);
+}
+
+/* In this process, or in safe access in one of its own, if this one is not confined itself. What is none of the formats
+ * needs none. */
+static int read_input(RetexDecoded *decoded, RetexDecode decode, RetexInput *input, const char *path,
+                      const RetexReadParams *params, int nthreads, RetexError *err)
+{
+    const int is_apart = params->access && params->access->safe == 1;
+    RetexBridgeFile file;
+
+    if (!is_apart)
+        return retex_image_decode(decoded, decode, input, path, params, nthreads, err);
+    const int status = choose_decoder(&file, input, path, params, err);
+    return status ? status : retex_decoder_run(decoded, decode, input, path, params, nthreads, err);
+}
+
+static int read_path(RetexDecoded *decoded, RetexDecode decode, const char *path, const RetexReadParams *given,
+                     int nthreads, RetexError *err)
 {
     const RetexReadParams params = complete_params(given);
-    const int safe = params.access && params.access->safe;
     RetexInput *input = NULL;
+
+    *decoded = (RetexDecoded){0};
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = read_input(decoded, decode, input, path, &params, nthreads, err);
+    retex_input_close(&input);
+    return status;
+}
+
+int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *given, int nthreads, RetexError *err)
+{
+    RetexDecoded decoded;
+
+    if (dst->pixels)
+        return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
+    const int status = read_path(&decoded, RETEX_DECODE_PIXELS, path, given, nthreads, err);
+    if (!status)
+        *dst = decoded.image;
+    return status;
+}
+
+int retex_image_read_any(RetexDecoded *decoded, const char *path, const RetexReadParams *params, int nthreads,
+                         RetexError *err)
+{
+    return read_path(decoded, RETEX_DECODE_ANY, path, params, nthreads, err);
+}
+
+int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const int safe = given && given->access && given->access->safe;
+    RetexDecoded none;
     struct stat info;
 
     if (strcmp(path, "-") == 0)
         return 0;
     if (!safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
         return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
-    int status = retex_input_open_allowed(&input, path, params.access, err);
-    if (!status)
-        status = check_open(input, path, &params, err);
-    retex_input_close(&input);
-    return status;
-}
-
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, int nthreads,
-                            RetexError *err)
-{
-    const RetexReadParams params = complete_params(given);
-    RetexBridgeFile file;
-    RetexInput *input = NULL;
-
-    if (strcmp(path, "-") == 0)
-        return 0;
-    int status = retex_input_open_allowed(&input, path, params.access, err);
-    if (!status)
-        status = choose_decoder(&file, input, path, &params, err);
-    /* Spaces that have to be looked up may not be decoded by channel. */
-    const char *name = params.colorspace;
-    const int by_channel = !name || !name[0] || strcasecmp(name, "sRGB") == 0;
-    if (!status && by_channel && !retex_exr_probe(input)) {
-        status = read_levels(&(RetexLevels){.narrow = dst}, input, &file, err);
-        if (!status && !dst->pixels)
-            file.nthreads = nthreads, status = retex_bridge_read_narrow(dst, &file, err);
-    }
-    retex_input_close(&input);
-    return status;
+    return read_path(&none, RETEX_DECODE_CHECK, path, given, 1, err);
 }

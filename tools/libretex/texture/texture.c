@@ -1,7 +1,7 @@
 /* Textures: loading, placement, and the transform from surface UV to texels. A file becomes premultiplied RGBA: 16-bit
  * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
  * filter_kernel.c and disc_kernel.c, those of whole rows in batch.c. */
-#include "picture/bridge_load.h"
+#include "picture/image_read.h"
 #include "texture/pyramid.h"
 
 #include <limits.h>
@@ -343,17 +343,15 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     if (texture && !spec->constant) {
         const RetexTextureSpec *own = &texture->spec;
         const RetexReadParams params = read_params(texture);
-        RetexNarrowImage narrow = {0};
-        RetexImage image = {0};
-        code = retex_image_read_narrow(&narrow, own->image, &params, nthreads, &why);
-        RetexTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
-        if (!code && !narrow.pixels)
-            code = retex_image_read(&image, own->image, &params, nthreads, &why);
+        RetexDecoded decoded;
+        code = retex_image_read_any(&decoded, own->image, &params, nthreads, &why);
+        const RetexNarrowImage *narrow = &decoded.narrow;
+        RetexTexels texels = {narrow->width, narrow->height, 1, narrow->pixels};
         if (!code)
-            code = narrow.pixels ? set_texels(texture, &texels, nthreads, &why)
-                                 : set_pixels(texture, &image, nthreads, &why);
+            code = narrow->pixels ? set_texels(texture, &texels, nthreads, &why)
+                                  : set_pixels(texture, &decoded.image, nthreads, &why);
         free(texels.texels);
-        retex_image_free(&image);
+        retex_image_free(&decoded.image);
     }
     if (code) {
         retex_texture_close(&texture);

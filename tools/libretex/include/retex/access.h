@@ -3,8 +3,8 @@
  * A file is in a folder if its path is, after links and `..` are resolved. Safe access, for scenes and names from
  * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF and Radiance
  * HDR, recognised by their content (TGA has no signature: by its name and a plausible header, or by its footer), each
- * read by its own decoder only; and the file that is read is the one that was checked, even if its name is changed
- * meanwhile. */
+ * read by its own decoder only, in a process of its own that is limited and confined; and the file that is read is the
+ * one that was checked, even if its name is changed meanwhile. */
 #ifndef RETEX_ACCESS_H
 #define RETEX_ACCESS_H
 
@@ -19,7 +19,8 @@ extern "C" {
 /* Begin with RETEX_ACCESS_INIT, which allows everything, as NULL does. */
 typedef struct RetexAccess {
     size_t size;              /* of this struct */
-    int safe;                 /* 1: safe access, as above; default 0 */
+    int safe;                 /* 1: safe access, as above; 2: the same, where this process is confined and may crash: it
+                                 decodes pictures itself; default 0 */
     const char *const *roots; /* folders as realpath(3) gives them, outside of which nothing is read; default NULL =
                                  anywhere, for names that the user said */
     int nroots;

@@ -1,0 +1,41 @@
+# Pictures that take what they want are decoded in a process of their own (--safe): one line says what was wrong, and no
+# process is left.
+$ make_set s.exr 24 16; python3 "$TESTS/decoder.py"; for f in tile.tif channels.tif scans.jpg most.jpg few.tif; do retex-combine -q --safe s.exr --texture floor=$f -o x.exr; echo $f $?; done
+> tile.tif 2
+> channels.tif 2
+> scans.jpg 2
+> most.jpg 0
+> few.tif 0
+! retex-combine: error: tile.tif: the picture is in tiles of 40000 x 40000 pixels, which are not read (--safe)
+! retex-combine: error: channels.tif: the picture has 128 channels, of which at most 64 are read (--safe)
+! retex-combine: error: scans.jpg: a JPEG of more than 200 scans, which are not read (--safe)
+# Without --safe they are the user's own.
+$ retex-combine -q s.exr --texture floor=scans.jpg -o x.exr
+
+# Memory counts with that of the command.
+$ retex-combine -q --safe --max-memory 100M s.exr --texture floor=wide.tif -o x.exr; retex-combine -q --safe --max-memory 1G s.exr --texture floor=wide.tif -o y.exr && ls y.exr
+> y.exr
+! retex-combine: error: wide.tif: decoding it takes more than the 100 MB that --max-memory leaves
+
+# Time is the command's; what ends the command ends the decoder.
+$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; DECODER_MARK=a$$ retex-combine -q --safe --max-time 1 s.exr --texture floor=long.png -o x.exr; left a$$
+> 0
+! retex-combine: error: not done within the 1 s of --max-time
+$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; for signal in 15 2 9; do DECODER_MARK=b$$ python3 -c 'import subprocess, sys, time; p = subprocess.Popen(["retex-combine", "-q", "--safe", "s.exr", "--texture", "floor=long.png", "-o", "x.exr"], stderr=subprocess.DEVNULL); time.sleep(.5); p.send_signal(int(sys.argv[1])); print(p.wait())' $signal; left b$$; done
+> -15
+> 0
+> -2
+> 0
+> -9
+> 0
+
+# The program that decodes.
+$ RETEX_DECODER=/nowhere/decode retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/false retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/echo retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr; RETEX_DECODER=/bin/yes retex-combine -q --safe s.exr --texture floor=most.jpg -o x.exr
+! retex-combine: error: most.jpg: no process to decode it: No such file or directory
+! retex-combine: error: most.jpg: the process that decodes it ended (without a word): it is damaged
+! retex-combine: error: most.jpg: the process that decodes it ended (without a word): it is damaged
+! retex-combine: error: most.jpg: the process that decodes it gave a wrong answer: it is damaged
+= 2
+# What it says to a user: which layers this kernel has.
+$ $(dirname "$(command -v retex-combine)")/../lib/retex-decode | sed 's/: \(yes\|no\)/: ANSWER/g'
+> retex-decode: other programs of retex start it, to decode a picture; seccomp: ANSWER, Landlock: ANSWER

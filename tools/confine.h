@@ -1,0 +1,24 @@
+/* Takes from a process what it does not need, for ever, so that somebody who gets hold of it by a broken file gets
+ * little. Two layers of the kernel, each if it has it: a filter of system calls (seccomp), and Landlock. */
+#ifndef RETEX_CONFINE_H
+#define RETEX_CONFINE_H
+
+#include <stdint.h>
+#include <sys/resource.h>
+
+/* The layers that a call below could set up. */
+enum { CONFINE_CALLS = 1, CONFINE_FILES = 2 };
+
+/* Nothing but to compute, start threads, read files that are open, and write to standard output. */
+int confine_to_open_files(void);
+
+/* Besides: to read files, to load libraries, to write to files that are open, and to make, change and remove files
+ * below one folder; without Landlock, wherever the user may. No sockets, no programs. */
+int confine_to_folder(const char *folder);
+
+/* Lower a limit of setrlimit(2), as far as it is not lower. */
+void confine_limit(int what, uint64_t most);
+/* Limit the memory to what is mapped now and so many bytes more. */
+void confine_memory(uint64_t bytes);
+
+#endif
