@@ -1,6 +1,7 @@
 #!/bin/sh
-# make demo: renders the living room once, denoises the set, and makes pictures with other floors and walls from it, in
-# pipes. demo.sh BUILD writes the pictures to BUILD/demo/. Lower DEMO_SPP and DEMO_SIZE make it faster.
+# make demo: renders the living room once, denoises the set, and makes pictures with other floors and walls from it. The
+# set goes to a file: there it is compressed, in pipes it is not. demo.sh BUILD writes the pictures to BUILD/demo/. Lower
+# DEMO_SPP and DEMO_SIZE make it faster.
 set -eu
 here=$(pwd)
 case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
@@ -14,26 +15,25 @@ say() { printf '%s\n' "$*" >&2; }
 seconds() { date +%s.%N; }
 since() { awk -v a="$1" -v b="$(seconds)" 'BEGIN { printf "%.2f s", b - a }'; }
 
-retexture() { # NAME=FILE, the set on standard input
-    retex-sample -q - --texture "${1%%=*}=$textures/${1#*=}" -o - | retex-combine -q - -o "$demo/$(picture "$1")"
+retexture() { # NAME=FILE
+    say "    retex-sample living-room.exr --texture $1 -o - | retex-combine - -o $(picture "$1")"
+    start=$(seconds)
+    retex-sample -q "$demo/living-room.exr" --texture "${1%%=*}=$textures/${1#*=}" -o - |
+        retex-combine -q - -o "$demo/$(picture "$1")"
+    say "    $(since "$start")"
 }
 picture() { echo "${1%.jpg}.png" | tr 'A-Z=' 'a-z-'; }
 
-first=Floor=walnut-herringbone.jpg
-say "Render the living room, denoise it and put a new floor in; tee keeps the set:"
-say "    retex-render living-room.pov -t Floor -t Wall -o - | retex-denoise - -o - | tee living-room.exr |"
-say "        retex-sample - --texture $first -o - | retex-combine - -o $(picture $first)"
+say "Render the living room and denoise it:"
+say "    retex-render living-room.pov -t Floor -t Wall -o - | retex-denoise - -o living-room.exr"
 start=$(seconds)
 retex-render -t Floor -t Wall --spp "${DEMO_SPP:-64}" ${DEMO_SIZE:+--size "$DEMO_SIZE"} "$scene" -o - |
-    retex-denoise -q - -o - | tee "$demo/living-room.exr" | retexture $first
+    retex-denoise -q - -o "$demo/living-room.exr"
 say "    $(since "$start")"
 
-say "Other floors and walls from that set, without rendering:"
-for edit in Floor=terrazzo.jpg Wall=damask.jpg Wall=brick.jpg; do
-    say "    retex-sample living-room.exr --texture $edit -o - | retex-combine - -o $(picture $edit)"
-    start=$(seconds)
-    retexture $edit <"$demo/living-room.exr"
-    say "    $(since "$start")"
+say "Floors and walls from that set, without rendering:"
+for edit in Floor=walnut-herringbone.jpg Floor=terrazzo.jpg Wall=damask.jpg Wall=brick.jpg; do
+    retexture $edit
 done
 retex-combine -q "$demo/living-room.exr" -o "$demo/original.png"
 say "A new floor and new walls together."
