@@ -138,6 +138,8 @@ static void render_table(Arguments *a, const Scene *scene, Variants *v)
         *v = (Variants){.count = 0};
         for (; row < a->batch.table.nrows && v->count < VARIANTS_MAX && go_on; row++) {
             RetexError err = {0};
+            if (!batch_is_wanted(&a->batch, row))
+                continue;
             if (load_variant(a, scene, v, row, &err))
                 go_on = batch_done(&a->batch, row, 0, &err);
         }
@@ -173,7 +175,25 @@ void check_table(Arguments *a)
 {
     a->batch.tool = (BatchTool){.context = a, .describe = describe_row};
     batch_check(&a->batch, NULL);
-    batch_refuse_mistakes(&a->batch);
+}
+
+void refuse_columns(Arguments *a)
+{
+    TextureTable *table = &a->batch.table;
+    SdlOptions sdl = a->sdl;
+    Scene *scene = NULL;
+    sdl.message = NULL; /* they have been printed */
+    if (job_open_scene(&scene, a->scene, &sdl, &a->render, NULL, 0, NULL))
+        return;
+    for (int k = 0; k < table->ncolumns; k++) {
+        RetexError err = {0};
+        scene->targets[0] = (Target){0};
+        if (job_resolve_targets(scene, &a->render, &table->columns[k], 1, &err))
+            texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
+    }
+    scene_close(&scene);
+    if (table->wrong)
+        batch_refuse_mistakes(&a->batch);
 }
 
 static void check_columns(Arguments *a, const Scene *scene)
@@ -187,10 +207,10 @@ static void check_columns(Arguments *a, const Scene *scene)
         const char *name = table->columns[k];
         int t = find_target(scene, name);
         if (t < 0)
-            texture_table_mistake(table, 1, "`%s` is no target, there are: %s%s", name, known,
+            texture_table_mistake(table, TABLE_ITSELF, "`%s` is no target, there are: %s%s", name, known,
                                   target_meant(scene, name, meant));
         else if (taken[t]++)
-            texture_table_mistake(table, 1, "target `%s` has two columns", name);
+            texture_table_mistake(table, TABLE_ITSELF, "target `%s` has two columns", name);
     }
     batch_refuse_mistakes(&a->batch);
 }

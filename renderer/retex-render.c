@@ -231,6 +231,8 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
 {
     RetexError why;
     int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, a->targets, a->ntargets, err);
+    if (code && a->variants && !a->named)
+        refuse_columns(a);
     if (!code)
         code = announce_files_of_scene(a, *scene, err);
     if (!code && a->aov_dir && aov_files_check(a->aov_dir, &why))

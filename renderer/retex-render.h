@@ -67,8 +67,10 @@ int frame_is_there(const Arguments *frame);
 
 /* ---- replaced.c: --replace, --variants and --control ---- */
 
-/* Check the table of --variants, before the scene is read. */
+/* Check the table of --variants, before the scene is read. Its mistakes are printed with those of its columns. */
 void check_table(Arguments *arguments);
+/* If the scene cannot be opened because columns of the table are no targets: print all of them and end. */
+void refuse_columns(Arguments *arguments);
 /* Make its pictures, or with --dry-run list them. Return the exit status. */
 int make_variants(Arguments *arguments, const Scene *scene);
 /* Open the set of --control. Without -t, its targets become those of the render, which reduces noise the most. */

@@ -8,9 +8,12 @@ $ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.
 ! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:2: the folder of gone/a.png is not there; --mkdir makes it
 ! retex-combine: error: ../t:3: a table cannot write to standard output
+! retex-combine: error: ../t:3: cannot read x.png: No such file or directory
 ! retex-combine: error: ../t:4: more cells than the first row has
 ! retex-combine: error: ../t:5: something follows a closing quote
+! retex-combine: error: ../t:5: b.png: the output of the table's line 8 and the output of the table's line 5 are the same file
 ! retex-combine: error: ../t:6: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+! retex-combine: error: ../t:6: a.png: the output of the table's line 4 and the output of the table's line 6 are the same file
 ! retex-combine: error: ../t:7: no output in the first cell
 ! retex-combine: error: ../t:9: ./b.png: the output of the table's line 8 and the output of the table's line 9 are the same file
 ! retex-combine: error: ../t:10: brick.jpg: the output of the table's line 10 would replace the texture
@@ -20,32 +23,34 @@ $ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.
 ! retex-combine: error: ../t:14: cannot read scenes: Is a directory
 ! retex-combine: error: ../t:15: a quoted cell has no closing quote
 
-# Twenty of them; the others are counted. An image that is named often is told of once.
-$ { echo output,floor; for k in $(seq 30); do echo "gone/$k.png,none.jpg"; done; } >../t; retex-combine s.exr --batch ../t; sh ../new
+# Twenty of them are printed, the others counted; the report has all. Every row that names an image is told of.
+$ { echo output,floor; for k in $(seq 30); do echo "gone/$k.png,none.jpg"; done; } >../t; retex-combine s.exr --batch ../t; sh ../new; retex-combine s.exr --batch ../t --report ../report 2>/dev/null; grep -c '"line": .*"error"' ../report
+> 60
 ! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:2: the folder of gone/1.png is not there; --mkdir makes it
+! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:3: the folder of gone/2.png is not there; --mkdir makes it
+! retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:4: the folder of gone/3.png is not there; --mkdir makes it
+! retex-combine: error: ../t:5: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:5: the folder of gone/4.png is not there; --mkdir makes it
+! retex-combine: error: ../t:6: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:6: the folder of gone/5.png is not there; --mkdir makes it
+! retex-combine: error: ../t:7: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:7: the folder of gone/6.png is not there; --mkdir makes it
+! retex-combine: error: ../t:8: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:8: the folder of gone/7.png is not there; --mkdir makes it
+! retex-combine: error: ../t:9: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:9: the folder of gone/8.png is not there; --mkdir makes it
+! retex-combine: error: ../t:10: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:10: the folder of gone/9.png is not there; --mkdir makes it
+! retex-combine: error: ../t:11: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:11: the folder of gone/10.png is not there; --mkdir makes it
-! retex-combine: error: ../t:12: the folder of gone/11.png is not there; --mkdir makes it
-! retex-combine: error: ../t:13: the folder of gone/12.png is not there; --mkdir makes it
-! retex-combine: error: ../t:14: the folder of gone/13.png is not there; --mkdir makes it
-! retex-combine: error: ../t:15: the folder of gone/14.png is not there; --mkdir makes it
-! retex-combine: error: ../t:16: the folder of gone/15.png is not there; --mkdir makes it
-! retex-combine: error: ../t:17: the folder of gone/16.png is not there; --mkdir makes it
-! retex-combine: error: ../t:18: the folder of gone/17.png is not there; --mkdir makes it
-! retex-combine: error: ../t:19: the folder of gone/18.png is not there; --mkdir makes it
-! retex-combine: error: ../t:20: the folder of gone/19.png is not there; --mkdir makes it
-! retex-combine: error: ../t: 11 more mistakes
+! retex-combine: error: ../t: 40 more mistakes
 $ printf 'output,floor,Floor\na.png,none.jpg\nb.png,none.jpg\n' >../t; retex-combine s.exr --batch ../t
 ! retex-combine: error: ../t:1: target 'Floor' has two columns
 ! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
 = 2
 $ printf 'out,floor\n' >../t; retex-combine s.exr --batch ../t; printf 'output,"floor\n' >../t; retex-combine s.exr --batch ../t; tr '\0' a </dev/zero | head -c 70000000 >../t; retex-combine s.exr --batch ../t; retex-combine s.exr --batch /dev/zero; rm ../t
 ! retex-combine: error: ../t:1: the first row must name the columns: output, then targets
@@ -65,6 +70,162 @@ $ echo text >x.jpg; echo text >x.exr; : >x.png; head -c 9 brick.jpg >cut.jpg; he
 $ retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t2 2>&1 | cut -c 1-60; printf 'output,wall,floor\nw.png,,\nf.png,,brick.jpg\n' >../t; retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t 2>&1 | cut -c 1-80; sh ../new
 > retex-combine: error: ../t2: cannot read: No such file or di
 > retex-combine: error: ../t:3: nothing can be put on target Floor: the set does n
+
+# A mistake does not hide another one of its row: in its cells, in its place, in its format, in what the set has not.
+$ printf '%s\n' output,Sofa,Floor,Wall 'gone/a.xyz,,:foo=1 brick.jpg,none.jpg' '-,,none.jpg,,' 'a.png,,rgb(1),rgb(2)' >../t; retex-combine s.exr --batch ../t
+! retex-combine: error: ../t:1: no target is called 'Sofa'; the set has Floor, Wall
+! retex-combine: error: ../t:2: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:2: the folder of gone/a.xyz is not there; --mkdir makes it
+! retex-combine: error: ../t:2: gone/a.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr
+! retex-combine: error: ../t:3: more cells than the first row has
+! retex-combine: error: ../t:3: a table cannot write to standard output
+! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:4: colour 'rgb(1)': expected rgb(r,g,b) with three numbers
+! retex-combine: error: ../t:4: colour 'rgb(2)': expected rgb(r,g,b) with three numbers
+= 2
+
+# With --keep-going the rows with mistakes alone are left out: wrong cells, images, places. Others, such as the second with
+# the same image, are made. It is told before, and the exit status is 2. Each part of a table tells of its own rows.
+$ printf '%s\n' output,Floor,Wall a.png,brick.jpg b.png,none.jpg c.png,none.jpg 'd.png,:foo=1 brick.jpg' gone/e.png,brick.jpg f.png,brick.jpg,,x '"g.png"x' 'a.png,brick.jpg' ',brick.jpg' h.png,,brick.jpg 'i.png,":colorspace=Nowhere brick.jpg"' 'j.png,":colorspace=Nowhere brick.jpg"' >../t; retex-combine s.exr --batch ../t --keep-going --report ../report 2>../log; echo $?; sed 's/[0-9.]* s$/S/' ../log; sh ../times <../report | sed '1,3d'; ls -A | diff ../before - | grep '^>'; retex-combine -q s.exr --texture floor=brick.jpg -o ../one.png; cmp a.png ../one.png; rm a.png h.png
+> 2
+> retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
+> retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
+> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+> retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
+> retex-combine: error: ../t:7: more cells than the first row has
+> retex-combine: error: ../t:8: something follows a closing quote
+> retex-combine: error: ../t:9: a.png: the output of the table's line 2 and the output of the table's line 9 are the same file
+> retex-combine: error: ../t:10: no output in the first cell
+> retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+> retex-combine: error: ../t:13: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+> retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
+> retex-combine: h.png: Wall <- brick.jpg, 48 x 32, S
+> retex-combine: error: 10 of 12 pictures failed
+>   "mistakes": [
+>     {"line": 3, "error": "cannot read none.jpg: No such file or directory"},
+>     {"line": 4, "error": "cannot read none.jpg: No such file or directory"},
+>     {"line": 5, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace"},
+>     {"line": 6, "error": "the folder of gone/e.png is not there; --mkdir makes it"},
+>     {"line": 7, "error": "more cells than the first row has"},
+>     {"line": 8, "error": "something follows a closing quote"},
+>     {"line": 9, "error": "a.png: the output of the table's line 2 and the output of the table's line 9 are the same file"},
+>     {"line": 10, "error": "no output in the first cell"},
+>     {"line": 12, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw"},
+>     {"line": 13, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw"}
+>   ],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory"},
+>     {"row": 3, "line": 4, "output": "c.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory"},
+>     {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace"},
+>     {"row": 5, "line": 6, "output": "gone/e.png", "status": "failed", "seconds": S, "error": "the folder of gone/e.png is not there; --mkdir makes it"},
+>     {"row": 6, "line": 7, "output": "f.png", "status": "failed", "seconds": S, "error": "more cells than the first row has"},
+>     {"row": 7, "line": 8, "output": "g.png", "status": "failed", "seconds": S, "error": "something follows a closing quote"},
+>     {"row": 8, "line": 9, "output": "a.png", "status": "failed", "seconds": S, "error": "a.png: the output of the table's line 2 and the output of the table's line 9 are the same file"},
+>     {"row": 9, "line": 10, "output": "", "status": "failed", "seconds": S, "error": "no output in the first cell"},
+>     {"row": 10, "line": 11, "output": "h.png", "status": "made", "seconds": S, "textures": {"Wall": "brick.jpg"}},
+>     {"row": 11, "line": 12, "output": "i.png", "status": "failed", "seconds": S, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw"},
+>     {"row": 12, "line": 13, "output": "j.png", "status": "failed", "seconds": S, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw"}
+>   ]
+> }
+> > a.png
+> > h.png
+$ for k in 1 2 3 4; do retex-combine s.exr --batch ../t --keep-going --progress json --shard $k/4 2>&1 | sh ../times; done; rm a.png h.png; retex-combine -q s.exr --batch ../t --keep-going --rows 10-10; echo $?; rm h.png
+> retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
+> retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
+> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory", "done": 1, "total": 3}
+> {"row": 3, "line": 4, "output": "c.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory", "done": 2, "total": 3}
+> {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 3, "total": 3}
+> retex-combine: error: 2 of 3 pictures failed
+> {"total": 3, "made": 1, "failed": 2, "seconds": S}
+> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+> retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
+> retex-combine: error: ../t:7: more cells than the first row has
+> {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace", "done": 1, "total": 3}
+> {"row": 5, "line": 6, "output": "gone/e.png", "status": "failed", "seconds": S, "error": "the folder of gone/e.png is not there; --mkdir makes it", "done": 2, "total": 3}
+> {"row": 6, "line": 7, "output": "f.png", "status": "failed", "seconds": S, "error": "more cells than the first row has", "done": 3, "total": 3}
+> retex-combine: error: 3 of 3 pictures failed
+> {"total": 3, "made": 0, "failed": 3, "seconds": S}
+> retex-combine: error: ../t:8: something follows a closing quote
+> retex-combine: error: ../t:9: a.png: the output of the table's line 2 and the output of the table's line 9 are the same file
+> retex-combine: error: ../t:10: no output in the first cell
+> {"row": 7, "line": 8, "output": "g.png", "status": "failed", "seconds": S, "error": "something follows a closing quote", "done": 1, "total": 3}
+> {"row": 8, "line": 9, "output": "a.png", "status": "failed", "seconds": S, "error": "a.png: the output of the table's line 2 and the output of the table's line 9 are the same file", "done": 2, "total": 3}
+> {"row": 9, "line": 10, "output": "", "status": "failed", "seconds": S, "error": "no output in the first cell", "done": 3, "total": 3}
+> retex-combine: error: 3 of 3 pictures failed
+> {"total": 3, "made": 0, "failed": 3, "seconds": S}
+> retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+> retex-combine: error: ../t:13: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+> {"row": 11, "line": 12, "output": "i.png", "status": "failed", "seconds": S, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw", "done": 1, "total": 3}
+> {"row": 12, "line": 13, "output": "j.png", "status": "failed", "seconds": S, "error": "brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw", "done": 2, "total": 3}
+> {"row": 10, "line": 11, "output": "h.png", "status": "made", "seconds": S, "done": 3, "total": 3}
+> retex-combine: error: 2 of 3 pictures failed
+> {"total": 3, "made": 1, "failed": 2, "seconds": S}
+> 0
+$ retex-combine s.exr --batch ../t --keep-going --dry-run; echo $?; retex-combine s.exr --batch ../t --keep-going --plan 2>/dev/null | sed 's/about.*//'; sed -i 's/Floor/Sofa/' ../t; retex-combine s.exr --batch ../t --keep-going 2>&1 | head -1; sh ../new
+> a.png: Floor <- brick.jpg
+> h.png: Wall <- brick.jpg
+> 2
+> rows 1 to 12 of 12: 2 to make, 0 kept
+> to make:
+> retex-combine: error: ../t:1: no target is called 'Sofa'; the set has Floor, Wall
+! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+! retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
+! retex-combine: error: ../t:7: more cells than the first row has
+! retex-combine: error: ../t:8: something follows a closing quote
+! retex-combine: error: ../t:9: a.png: the output of the table's line 2 and the output of the table's line 9 are the same file
+! retex-combine: error: ../t:10: no output in the first cell
+! retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+! retex-combine: error: ../t:13: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+! retex-combine: error: 10 of 12 pictures failed
+$ printf '%s\n' output,Floor a.png,none.jpg b.png,none.jpg >../t; retex-combine s.exr --batch ../t --keep-going; echo $?; printf '%s\n' output,Floor a.png,brick.jpg >../t; retex-combine -q s.exr --batch ../t --keep-going; echo $?; rm a.png
+> 2
+> 0
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
+! retex-combine: error: 2 of 2 pictures failed
+# The output of a row with a mistake may be that of another row.
+$ printf '%s\n' output,Floor a.png,none.jpg a.png,brick.jpg '"a.png"x' >../t; retex-combine -q s.exr --batch ../t --keep-going; echo $?; rm a.png
+> 2
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:2: a.png: the output of the table's line 3 and the output of the table's line 2 are the same file
+! retex-combine: error: ../t:4: something follows a closing quote
+! retex-combine: error: ../t:4: a.png: the output of the table's line 3 and the output of the table's line 4 are the same file
+! retex-combine: error: 2 of 3 pictures failed
+# Such rows are made later by --resume, and --verify knows them.
+$ printf '%s\n' output,Floor a.png,brick.jpg b.png,../late.jpg c.png,,, >../t; retex-combine -q s.exr --batch ../t --keep-going --manifest ../m; echo $?; retex-combine s.exr --batch ../t --keep-going --manifest ../m --verify; echo $?; cp brick.jpg ../late.jpg; retex-combine -q s.exr --batch ../t --keep-going --manifest ../m --resume; echo $?; ls ?.png; cut -d, -f1 ../m; rm ?.png ../m
+> 2
+> b.png: stale: cannot read ../late.jpg: No such file or directory
+> 1 of 3 pictures good; 1 stale
+> 2
+> 2
+> a.png
+> b.png
+> {"output": "a.png"
+> {"output": "b.png"
+! retex-combine: error: ../t:3: cannot read ../late.jpg: No such file or directory
+! retex-combine: error: ../t:4: more cells than the first row has
+! retex-combine: error: 2 of 3 pictures failed
+! retex-combine: error: ../t:4: more cells than the first row has
+! retex-combine: error: 1 of 3 pictures failed
+! retex-combine: error: ../t:4: more cells than the first row has
+! retex-combine: error: 1 of 3 pictures failed
+
+# Tables of semicolons and of tabs, as spreadsheets write them; others that they write are named.
+$ printf 'output;Floor;"Wall"\r\na.png;rgb(1,0,0);:scale=2,3 brick.jpg\r\n"b;1.png";;brick.jpg\r\n' >../t; retex-combine s.exr --batch ../t --dry-run; printf '\357\273\277"output"\tFloor\tWall\na.png\trgb(1,0,0)\t\nb,;.png\t"brick.jpg"\n' >../t; retex-combine s.exr --batch ../t --dry-run; printf 'output\n"a;b.png"\n' >../t; retex-combine s.exr --batch ../t --dry-run
+> a.png: Floor <- rgb(1,0,0), Wall <- brick.jpg
+> b;1.png: Wall <- brick.jpg
+> a.png: Floor <- rgb(1,0,0)
+> b,;.png: Floor <- brick.jpg
+> a;b.png: original textures
+$ printf '\377\376o\0u\0t\0' >../t; retex-combine s.exr --batch ../t; printf 'PK\3\4\0\0' >../t; retex-combine s.exr --batch ../t; printf 'output\0' >../t; retex-combine s.exr --batch ../t; printf 'Ausgabe;Floor\n' >../t;  retex-combine s.exr --batch ../t; sh ../new
+! retex-combine: error: ../t: the table is UTF-16 text; save it as UTF-8
+! retex-combine: error: ../t: not a table of text but a spreadsheet's own file; save it as CSV
+! retex-combine: error: ../t: not a table: it holds NUL bytes
+! retex-combine: error: ../t:1: the first row must name the columns: output, then targets
 
 # What would be made.
 $ printf '%s\n' output,Floor,wall 'out/new/a.png,brick.jpg,:scale=2 brick.jpg' '"b,1.png","rgb(.5,1,1)"' c.jpg >../t; retex-combine s.exr --batch ../t --mkdir --dry-run --texture 'wall=rgb(1,0,0)'; sh ../new
@@ -263,14 +424,32 @@ $ for o in --dry-run --keep-going --mkdir '--batch-root .' '--report r.json'; do
 ! retex-combine: error: --report needs a table of pictures: --batch
 ! retex-render: error: --report needs a table of pictures: --variants
 
-# retex-render --variants: its table is checked before the scene is read, its targets then.
-$ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new
+# retex-render --variants: its table is checked before the scene is read, its targets then; all is told together.
+$ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; printf '%s\n' output,sofa,lamp,white 1.exr,none.jpg >../t; retex-render --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; retex-render --size 8x6 --spp 1 -t white --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: ../t:2: the folder of a/1.exr is not there; --mkdir makes it
 ! retex-render: error: ../t:4: 2.exr: the output of the table's line 3 and the output of the table's line 4 are the same file
 ! retex-render: error: ../t:5: colour 'rgb(1)': expected rgb(r,g,b) with three numbers
+! retex-render: error: none.pov: cannot read none.pov: No such file or directory
 ! retex-render: error: ../t:1: `sofa` is no target, there are: floor; name it with -t
 ! retex-render: error: ../t:1: target `Floor` has two columns
+! retex-render: error: ../t:1: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: ../t:1: no texture, pigment, material or object `lamp` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-render: error: ../t:1: `sofa` is no target, there are: white; name it with -t
+! retex-render: error: ../t:1: `lamp` is no target, there are: white; name it with -t
+! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
+$ printf '%s\n' output,floor 1.exr,none.jpg 2.exr,brick.jpg gone/3.exr '4.exr,"rgb(1,0,0)"' >../t; retex-render --size 8x6 --spp 1 --variants ../t --keep-going scenes/cornell-box/cornell-box.pov 2>&1 | sed 's/: [0-9.]* s$//'; ls -A | diff ../before - | grep '^>'; rm 2.exr 4.exr; retex-render -q --size 8x6 --spp 1 --variants ../t --keep-going --dry-run scenes/cornell-box/cornell-box.pov; echo $?
+> retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
+> retex-render: error: ../t:4: the folder of gone/3.exr is not there; --mkdir makes it
+> retex-render: 2 pictures, 1 samples
+> retex-render: error: 2 of 4 pictures failed
+> > 2.exr
+> > 4.exr
+> 2
+! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-render: error: ../t:4: the folder of gone/3.exr is not there; --mkdir makes it
+! retex-render: error: 2 of 4 pictures failed
 $ { echo output,floor; for k in $(seq 17); do echo "out/$k.exr,\"rgb(0.$k,0.5,0)\""; done; echo 18.exr,../cut.jpg; echo /dev/full,; echo 19.exr; } >../t; retex-render --size 8x6 --spp 1 --variants ../t --mkdir --dry-run --replace white=brick.jpg scenes/cornell-box/cornell-box.pov | tail -4; sh ../new
 > out/17.exr: floor <- rgb(0.17,0.5,0), white <- brick.jpg
 > 18.exr: floor <- ../cut.jpg, white <- brick.jpg

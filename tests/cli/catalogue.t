@@ -94,6 +94,7 @@ $ make_set s.exr 48 32 2; sh batch --verify | cut -c 1-60; cp ../good/s.exr .; c
 > 3 of 5 pictures good; 2 stale
 > 5 of 5 pictures good
 ! retex-combine: error: t:3: cannot read oak.jpg: No such file or directory
+! retex-combine: error: t:4: cannot read oak.jpg: No such file or directory
 
 # Parts of a table make the files that one process makes, each picture once, and share a manifest or have their own.
 $ mkdir ../parts; cp s.exr t batch masked *.jpg ../parts; rm ../parts/c.jpg; cd ../parts; for k in 1 2 3; do sh batch --shard $k/3 2>&1 | sh masked; done; for f in [a-e].???; do cmp $f ../here/$f; done; sh batch --verify; rm -f [a-e].??? m; for k in 2 1; do retex-combine -q s.exr --batch t --rows 2-5 --shard $k/2 --manifest m$k; done; ls [a-e].*; cat m1 m2 >m; sh batch --verify; sh batch --rows 2-5 --verify; sh batch --rows 5-5 --shard 1/2 --plan; sh batch --rows 2-5 --shard 3/3 --dry-run; sh batch --shard 7/9 --resume --report ../report 2>&1 | sh masked; grep '"row"' ../report | sh masked

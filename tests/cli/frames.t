@@ -181,8 +181,9 @@ $ cd c; retex-combine -q set-%02d.exr --frames 1-3 --texture 'x=rgb(3,3,3)' -o g
 ! retex-combine: warning: frame 1: x=rgb(3,3,3): a surface of a colour above 1 gives back more light than it gets
 
 # A frame that fails ends the command, unless --keep-going.
-$ cd c; rm -f a-* b-*; head -c 2000 set-02.exr >short; mv short set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 -o a-%d.png; ls a-*; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; ls b-*; rm set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; retex-combine -q set-%02d.exr --frames 1-3 --texture x=t-%d.jpg -o b-%d.png
+$ cd c; rm -f a-* b-*; head -c 2000 set-02.exr >short; mv short set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 -o a-%d.png; ls a-*; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; echo $?; ls b-*; rm set-02.exr; retex-combine -q set-%02d.exr --frames 1-3 --keep-going -o b-%d.png; retex-combine -q set-%02d.exr --frames 1-3 --texture x=t-%d.jpg -o b-%d.png
 > a-1.png
+> 2
 > b-1.png
 > b-3.png
 ! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5448

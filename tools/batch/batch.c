@@ -134,11 +134,41 @@ static void close_batch(Batch *batch)
     pthread_mutex_unlock(&lock);
 }
 
+/* Print the mistakes of the table, once. */
+static void tell_mistakes(Batch *batch, int first, int end)
+{
+    if (!batch->table.nmistakes || batch->mistakes_told)
+        return;
+    batch->mistakes_told = 1;
+    texture_table_tell(&batch->table, batch->cli, first, end);
+}
+
+/* Record the result of a row. */
+static void note_row(Batch *batch, int row, double seconds, const char *error)
+{
+    BatchRow *r = &batch->rows[row];
+    pthread_mutex_lock(&lock);
+    r->seconds = seconds;
+    r->status = error ? BATCH_FAILED : BATCH_MADE;
+    r->error = error ? strdup(error) : NULL;
+    *(error ? &batch->failed : &batch->made) += 1;
+    pthread_mutex_unlock(&lock);
+    if (batch->cli->json_progress)
+        batch_report_row(batch, row);
+}
+
 void batch_refuse_mistakes(Batch *batch)
 {
     if (!batch->table.nmistakes)
         return;
-    texture_table_tell(&batch->table, batch->cli);
+    if (batch->keep_going && !batch->table.wrong) {
+        tell_mistakes(batch, batch->first, batch->end);
+        for (int row = batch->first; row < batch->end; row++)
+            if (batch->table.rows[row].wrong)
+                note_row(batch, row, 0, texture_table_why(&batch->table, row));
+        return;
+    }
+    tell_mistakes(batch, 0, batch->table.nrows);
     write_report(batch);
     close_batch(batch);
     exit(cli_close(batch->cli, CLI_FAIL));
@@ -159,6 +189,7 @@ void batch_print(const Batch *batch)
         for (int i = 0; i < count; i++)
             printf("%s%s <- %s", i ? ", " : "", textures[i].target, cli_plain(textures[i].texture));
         puts(count ? "" : "original textures");
+        cli_check_text(batch->cli);
     }
 }
 
@@ -183,17 +214,6 @@ int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *e
     return code ? code : batch_check_root(batch, path, output, err);
 }
 
-/* Record the result of a row. */
-static void note_row(Batch *batch, BatchRow *row, double seconds, const char *error)
-{
-    pthread_mutex_lock(&lock);
-    row->seconds = seconds;
-    row->status = error ? BATCH_FAILED : BATCH_MADE;
-    row->error = error ? strdup(error) : NULL;
-    *(error ? &batch->failed : &batch->made) += 1;
-    pthread_mutex_unlock(&lock);
-}
-
 int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
 {
     RetexError told = {0}, unrecorded = {0};
@@ -205,9 +225,7 @@ int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
         retex_fail_at(&told, err->code, batch->table.name, batch->table.rows[row].line, 0, "%s", message);
         cli_error(batch->cli, &told);
     }
-    note_row(batch, &batch->rows[row], seconds, err ? message : NULL);
-    if (batch->cli->json_progress)
-        batch_report_row(batch, row);
+    note_row(batch, row, seconds, err ? message : NULL);
     return !err || batch->keep_going;
 }
 
@@ -215,6 +233,7 @@ int batch_finish(Batch *batch, const RetexError *err)
 {
     const int total = batch->end - batch->first;
     RetexError told = {0};
+    tell_mistakes(batch, 0, batch->table.nrows); /* an error came before they were */
     if (err) {
         char message[sizeof err->file + sizeof err->message + 32];
         cli_error_text(err, message, sizeof message);

@@ -41,8 +41,8 @@ typedef struct BatchTexture {
 /* Callbacks of the tool, about the textures of a row. */
 typedef struct BatchTool {
     void *context;
-    /* Check that the textures fit their targets, without loading them; NULL = no check. */
-    int (*check)(void *context, const RetexTextureSpec *specs, int count, RetexError *err);
+    /* Check that a texture fits its target, without loading it; NULL = no check. */
+    int (*check)(void *context, const RetexTextureSpec *spec, RetexError *err);
     /* Add the textures of the command line to those of a row; return their number. NULL = there are none. */
     int (*complete)(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count);
     /* List all new textures of the picture; return their number. */
@@ -83,6 +83,7 @@ typedef struct Batch {
     double began;
     char root_path[PATH_MAX]; /* root with links resolved; "" = no root */
     char *error;              /* the error that ended the batch, if not that of a single picture; or NULL */
+    int mistakes_told;        /* the mistakes of the table have been printed */
     int report_due;           /* the report can be written and has not been written */
     int inputs_known;         /* set by the tool when all inputs are announced; until then a report
                                * may only replace an older report */
@@ -93,8 +94,8 @@ int batch_option(Batch *batch, const Cli *cli, const CliOption *option);
 /* Fail if options of batches are given without `option`, which names the table. */
 void batch_check_options(const Batch *batch, const Cli *cli, const char *option);
 
-/* Read the table; "-" is standard input. After a successful batch_check, the report is written even if the program ends
- * by exit, so the batch must live until then. */
+/* Read the table; "-" is standard input. After batch_check, the report is written even if the program ends by exit, so
+ * the batch must live until then. */
 void batch_open(Batch *batch, const Cli *cli, const char *path);
 /* Check the whole table before anything is written. Images must be readable. Pictures must be writable with `params`,
  * to files that are not inputs announced by cli_reads and not each other. Mistakes are added to the table, as the
@@ -102,7 +103,8 @@ void batch_open(Batch *batch, const Cli *cli, const char *path);
 void batch_check(Batch *batch, const RetexWriteParams *params);
 /* The batch has been checked: from now on its report is written however the program ends. */
 void batch_owe_report(Batch *batch);
-/* If the table has mistakes: print them, write the report, and exit with CLI_FAIL. */
+/* If the table has mistakes: print them, write the report, and exit with CLI_FAIL. With --keep-going, unless the table
+ * itself is wrong, those of other rows of this process are printed only, and these rows have failed. */
 void batch_refuse_mistakes(Batch *batch);
 /* After a successful check: print the pictures that would be made to standard output. */
 void batch_print(const Batch *batch);
@@ -111,7 +113,7 @@ void batch_print(const Batch *batch);
 int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *err);
 /* Record and report that a row's picture was made, or failed with err. Return 0 if the batch ends here. */
 int batch_done(Batch *batch, int row, double seconds, const RetexError *err /* NULL = made */);
-/* Whether a row is one of this process, and not kept. */
+/* Whether a row is one of this process, without a mistake, and not kept. */
 int batch_is_wanted(const Batch *batch, int row);
 /* End the batch, successfully or with err: print a summary, write the report, close the batch. Return the exit
  * status. */

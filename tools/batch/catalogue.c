@@ -128,6 +128,8 @@ static int find_states(Batch *batch, RetexError *err)
         code = batch_manifest_claim(&batch->manifest, sum_outputs(batch), batch->first, batch->end - batch->first, err);
     for (int row = batch->first; row < batch->end && !code; row++) {
         char reason[512], output[PATH_MAX];
+        if (batch->table.rows[row].wrong)
+            continue;
         code = find_state(batch, row, reason, sizeof reason, err);
         const PictureState state = batch->rows[row].state;
         if (code)
@@ -139,6 +141,7 @@ static int find_states(Batch *batch, RetexError *err)
         if (batch_only_verifies(batch) && state != PICTURE_GOOD && !batch->cli->quiet)
             printf("%s: %s%s%s\n", cli_plain(output), picture_state_names[state], reason[0] ? ": " : "",
                    cli_plain(reason));
+        cli_check_text(batch->cli);
     }
     return code;
 }
@@ -155,7 +158,8 @@ int batch_prepare(Batch *batch, RetexError *err)
 
 int batch_is_wanted(const Batch *batch, int row)
 {
-    return row >= batch->first && row < batch->end && batch->rows[row].status != BATCH_KEPT;
+    return row >= batch->first && row < batch->end && batch->rows[row].status != BATCH_KEPT &&
+           !batch->table.rows[row].wrong;
 }
 
 int batch_record(Batch *batch, int row, double seconds, RetexError *err)
@@ -214,7 +218,7 @@ static const char *size_text(double bytes, char text[32])
 
 void batch_print_plan(const Batch *batch, int trials, double bytes, double seconds)
 {
-    const int total = batch->end - batch->first, wanted = total - batch->kept;
+    const int total = batch->end - batch->first, wanted = total - batch->kept - batch->failed;
     char others[160], size[32];
     if (total)
         printf("rows %d to %d of %d: ", batch->first + 1, batch->end, batch->table.nrows);

@@ -20,7 +20,7 @@ static void note(TextureTable *table, int row, const RetexError *err)
 {
     char message[sizeof err->file + sizeof err->message + 32];
     cli_error_text(err, message, sizeof message);
-    texture_table_mistake(table, table->rows[row].line, "%s", message);
+    texture_table_mistake(table, row, "%s", message);
 }
 
 /* ---- images ---- */
@@ -59,6 +59,8 @@ static Image *list_images(const Batch *batch, size_t *count)
 /* Colour spaces that have been checked. */
 typedef struct Colorspaces {
     char names[COLORSPACES_MAX][sizeof((RetexTextureSpec *)0)->colorspace];
+    int codes[COLORSPACES_MAX];
+    RetexError errors[COLORSPACES_MAX];
     int count;
 } Colorspaces;
 
@@ -66,27 +68,36 @@ typedef struct Colorspaces {
 static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthreads, RetexError *err)
 {
     RetexTexture *texture = NULL;
-    if (!spec.colorspace[0] || known->count == COLORSPACES_MAX)
+    int k = 0;
+    if (!spec.colorspace[0])
         return RETEX_OK;
-    for (int i = 0; i < known->count; i++)
-        if (strcmp(known->names[i], spec.colorspace) == 0)
-            return RETEX_OK;
-    strcpy(known->names[known->count++], spec.colorspace);
-    spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here */
-    spec.warn = NULL;                  /* warnings come when it is loaded for its picture */
-    int code = retex_texture_load(&texture, &spec, nthreads, err);
-    retex_texture_close(&texture);
-    return code;
+    while (k < known->count && strcmp(known->names[k], spec.colorspace) != 0)
+        k++;
+    if (k == COLORSPACES_MAX)
+        return RETEX_OK;
+    if (k == known->count) {
+        strcpy(known->names[known->count++], spec.colorspace);
+        spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here */
+        spec.warn = NULL;                  /* warnings come when it is loaded for its picture */
+        known->codes[k] = retex_texture_load(&texture, &spec, nthreads, &known->errors[k]);
+        retex_texture_close(&texture);
+    }
+    *err = known->errors[k];
+    return known->codes[k];
 }
 
+/* Each image is read once; all rows that name it have its mistake. */
 static void check_images(Batch *batch)
 {
     TextureTable *table = &batch->table;
     size_t count;
     Image *images = list_images(batch, &count);
-    Colorspaces known = {.count = 0};
+    Colorspaces *known = calloc(1, sizeof *known);
+    if (!known)
+        cli_die(batch->cli, "not enough memory for the table");
     RetexTextureSpec spec;
-    const char *read = NULL; /* the previous image if it is readable */
+    RetexError unread = {0};
+    int unreadable = 0;
     const RetexReadParams read_params = {
         .size = sizeof read_params, .access = table->access, .budget = table->cli->budget, .pixel_bytes = 16};
     for (size_t i = 0; i < count; i++) {
@@ -94,16 +105,14 @@ static void check_images(Batch *batch)
         const char *name = images[i].name;
         const int same = i > 0 && strcmp(images[i - 1].name, name) == 0;
         texture_table_texture(table, images[i].row, images[i].column, &spec, &name);
-        int code = same ? RETEX_OK : texture_args_add_input(&spec, &err);
-        if (!code && !same)
-            code = retex_image_read_check(name, &read_params, &err);
         if (!same)
-            read = code ? NULL : name;
-        if (!code && read)
-            code = check_colorspace(&known, spec, batch->cli->threads, &err);
-        if (code)
+            unreadable = texture_args_add_input(&spec, &unread) || retex_image_read_check(name, &read_params, &unread);
+        if (unreadable && !(same && images[i - 1].row == images[i].row))
+            note(table, images[i].row, &unread);
+        else if (!unreadable && check_colorspace(known, spec, batch->cli->threads, &err))
             note(table, images[i].row, &err);
     }
+    free(known);
     free(images);
 }
 
@@ -139,37 +148,66 @@ static int check_folder(const Batch *batch, const char *real, int missing, const
     return RETEX_OK;
 }
 
-static int check_output(const Batch *batch, int row, const RetexWriteParams *params, RetexError *err)
+/* Check the place of a row's picture: the folder, and that no other file is there. */
+static int check_place(const Batch *batch, int row, char path[PATH_MAX], int *missing, RetexError *err)
 {
     const char *output = texture_table_output(&batch->table, row);
-    char path[PATH_MAX], real[PATH_MAX], what[64];
-    int missing, code = batch_path(batch, row, path, err);
+    char real[PATH_MAX], what[64];
+    int code = batch_path(batch, row, path, err);
     if (!code)
-        code = output_resolve(real, &missing, path, output, err);
+        code = output_resolve(real, missing, path, output, err);
     if (!code)
         code = batch_check_root(batch, real, output, err);
     snprintf(what, sizeof what, "the output of the table's line %d", batch->table.rows[row].line);
     if (!code)
         code = cli_add_output(what, path, err);
-    if (!code && missing)
-        code = check_folder(batch, real, missing, output, err);
-    if (!code)
-        code = missing ? retex_image_format_check(path, params, err) : retex_image_write_check(path, params, err);
-    return code;
+    return !code && *missing ? check_folder(batch, real, *missing, output, err) : code;
 }
 
+static void check_output(Batch *batch, int row, const RetexWriteParams *params)
+{
+    const char *output = texture_table_output(&batch->table, row);
+    char path[PATH_MAX];
+    RetexError err = {0};
+    int missing = 0;
+    if (!*output || strcmp(output, "-") == 0) /* a mistake that is known */
+        return;
+    const int misplaced = check_place(batch, row, path, &missing, &err);
+    if (misplaced)
+        note(&batch->table, row, &err);
+    if (misplaced || missing ? retex_image_format_check(output, params, &err)
+                             : retex_image_write_check(path, params, &err))
+        note(&batch->table, row, &err);
+}
+
+static void check_textures(Batch *batch, int row)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    const int count = texture_table_textures(&batch->table, row, specs);
+    for (int i = 0; i < count; i++) {
+        RetexError err = {0};
+        if (batch->tool.check(batch->tool.context, &specs[i], &err))
+            note(&batch->table, row, &err);
+    }
+}
+
+/* The outputs of rows with mistakes come last, so that they do not take those of other rows. */
 static void check_rows(Batch *batch, const RetexWriteParams *params)
 {
     TextureTable *table = &batch->table;
-    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    char *wrong = malloc((size_t)table->nrows + 1);
+    if (!wrong)
+        cli_die(batch->cli, "not enough memory for the table");
     for (int row = 0; row < table->nrows; row++) {
-        RetexError err = {0};
-        int code = check_output(batch, row, params, &err);
-        if (!code && batch->tool.check)
-            code = batch->tool.check(batch->tool.context, specs, texture_table_textures(table, row, specs), &err);
-        if (code)
-            note(table, row, &err);
+        if (batch->tool.check)
+            check_textures(batch, row);
+        wrong[row] = (char)table->rows[row].wrong;
     }
+    for (int pass = 0; pass < 2; pass++)
+        for (int row = 0; row < table->nrows; row++)
+            if (wrong[row] == pass)
+                check_output(batch, row, params);
+    free(wrong);
 }
 
 /* ---- the whole table ---- */

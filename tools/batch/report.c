@@ -125,35 +125,39 @@ static void print_textures(FILE *file, const Batch *batch, int row)
     fprintf(file, "}");
 }
 
-static void print_mistakes(FILE *file, const TextureTable *table)
+static void print_mistakes(FILE *file, const Batch *batch, int first, int end)
 {
-    const int count = table->nmistakes < TABLE_MISTAKES_MAX ? table->nmistakes : TABLE_MISTAKES_MAX;
+    const TextureTable *table = &batch->table;
+    int printed = 0;
     fprintf(file, "  \"mistakes\": [");
-    for (int i = 0; i < count; i++) {
-        fprintf(file, "%s\n    {\"line\": %d, \"error\": ", i ? "," : "", table->mistakes[i].line);
+    for (int i = 0; i < table->kept; i++) {
+        if (!texture_table_concerns(&table->mistakes[i], first, end))
+            continue;
+        fprintf(file, "%s\n    {\"line\": %d, \"error\": ", printed++ ? "," : "", table->mistakes[i].line);
         json_text(file, table->mistakes[i].message ? table->mistakes[i].message : "");
         fprintf(file, "}");
     }
-    fprintf(file, "%s],\n", count ? "\n  " : "");
+    fprintf(file, "%s],\n", printed ? "\n  " : "");
 }
 
 static void print_report(FILE *file, const Batch *batch)
 {
     const TextureTable *table = &batch->table;
     const int good = !batch_only_verifies(batch) || batch->states[PICTURE_GOOD] == batch->end - batch->first;
-    const int wrong = table->nmistakes || batch->error || batch->failed || !good;
+    const int refused = table->wrong || (table->nmistakes && !batch->keep_going);
+    const int wrong = refused || batch->error || batch->failed || !good;
     fprintf(file, REPORT_BEGIN "%s\", \"version\": \"%s\", \"table\": ", batch->cli->tool + strlen("retex-"),
             RETEX_VERSION);
     json_text(file, table->name);
     fprintf(file, ",\n  \"status\": \"%s\", ", wrong ? "failed" : batch->dry_run || batch->plan ? "checked" : "made");
     print_totals(file, batch);
     fprintf(file, ",\n");
-    print_mistakes(file, table);
+    print_mistakes(file, batch, refused ? 0 : batch->first, refused ? table->nrows : batch->end);
     fprintf(file, "  \"rows\": [");
     for (int row = batch->first; row < batch->end; row++) {
         fprintf(file, "%s\n    {", row > batch->first ? "," : "");
         print_row(file, batch, row);
-        if (!table->nmistakes) /* with mistakes, target names may be wrong */
+        if (!refused && !table->rows[row].wrong) /* otherwise names may be wrong */
             print_textures(file, batch, row);
         fprintf(file, "}");
     }

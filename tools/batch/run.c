@@ -14,13 +14,19 @@ static int try_row(const Batch *batch, int row, double *bytes, double *seconds, 
     return code;
 }
 
+/* The number of rows that batch_is_wanted, before any is made. */
+static int wanted_rows(const Batch *batch)
+{
+    return batch->end - batch->first - batch->kept - batch->failed;
+}
+
 /* --plan: make trial pictures from all over the table. The first one is made twice, because it also takes the time to
  * load libraries. */
 static int plan(const Batch *batch, RetexError *err)
 {
     enum { TRIALS = 4 };
     double bytes = 0, seconds = 0, ignored = 0;
-    const int wanted = batch->end - batch->first - batch->kept, trials = wanted < TRIALS ? wanted : TRIALS;
+    const int wanted = wanted_rows(batch), trials = wanted < TRIALS ? wanted : TRIALS;
     int code = RETEX_OK, made = 0, at = 0;
     for (int row = batch->first; row < batch->end && made < trials && !code; row++) {
         if (!batch_is_wanted(batch, row) || at++ < (int)((long)made * wanted / trials))
@@ -63,7 +69,7 @@ int batch_run(Batch *batch, const RetexWriteParams *params)
         batch_print(batch);
         return batch_finish(batch, NULL);
     }
-    int code = batch->kept < batch->end - batch->first ? batch->tool.begin(batch->tool.context, &err) : RETEX_OK;
+    int code = wanted_rows(batch) ? batch->tool.begin(batch->tool.context, &err) : RETEX_OK;
     if (!code && batch->plan)
         code = plan(batch, &err);
     else if (!code)

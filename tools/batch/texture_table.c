@@ -7,47 +7,93 @@
 
 #include "batch/texture_table.h"
 
+/* Grow an array for one more element. */
+static void *grow(const Cli *cli, void *array, size_t used, size_t *capacity, size_t size)
+{
+    if (used < *capacity)
+        return array;
+    *capacity = *capacity ? 2 * *capacity : 256;
+    array = realloc(array, *capacity * size);
+    if (!array)
+        cli_die(cli, "not enough memory for the table");
+    return array;
+}
+
 /* ---- mistakes ---- */
 
-void texture_table_mistake(TextureTable *table, int line, const char *fmt, ...)
+void texture_table_mistake(TextureTable *table, int row, const char *fmt, ...)
 {
     char message[1600];
     va_list args;
     va_start(args, fmt);
     vsnprintf(message, sizeof message, fmt, args);
     va_end(args);
-    if (table->nmistakes < TABLE_MISTAKES_MAX)
-        table->mistakes[table->nmistakes] = (TableMistake){line, strdup(message)};
+    if (row == TABLE_ITSELF)
+        table->wrong = 1;
+    else
+        table->rows[row].wrong = 1;
     table->nmistakes++;
+    if (table->kept == TABLE_MISTAKES_MAX)
+        return;
+    table->mistakes =
+        grow(table->cli, table->mistakes, (size_t)table->kept, &table->mistakes_capacity, sizeof *table->mistakes);
+    table->mistakes[table->kept] =
+        (TableMistake){row == TABLE_ITSELF ? 1 : table->rows[row].line, row, table->kept, strdup(message)};
+    table->kept++;
 }
 
-/* Sort by line; mistakes of one line stay in the order in which they were found. */
-static void sort_mistakes(TableMistake *mistakes, int count)
+/* By line; mistakes of one line stay in the order in which they were found. */
+static int compare_mistakes(const void *a, const void *b)
 {
-    for (int i = 1; i < count; i++) {
-        TableMistake mistake = mistakes[i];
-        int k = i;
-        for (; k > 0 && mistakes[k - 1].line > mistake.line; k--)
-            mistakes[k] = mistakes[k - 1];
-        mistakes[k] = mistake;
-    }
+    const TableMistake *x = a, *y = b;
+    return x->line != y->line ? x->line - y->line : x->order - y->order;
 }
 
-void texture_table_tell(TextureTable *table, const Cli *cli)
+int texture_table_concerns(const TableMistake *mistake, int first, int end)
+{
+    return mistake->row == TABLE_ITSELF || (mistake->row >= first && mistake->row < end);
+}
+
+void texture_table_tell(TextureTable *table, const Cli *cli, int first, int end)
 {
     RetexError err = {0};
-    int told = table->nmistakes < TABLE_MISTAKES_MAX ? table->nmistakes : TABLE_MISTAKES_MAX;
-    sort_mistakes(table->mistakes, told);
-    for (int i = 0; i < told; i++) {
+    int told = 0, others = table->nmistakes - table->kept;
+    if (table->kept)
+        qsort(table->mistakes, (size_t)table->kept, sizeof *table->mistakes, compare_mistakes);
+    for (int i = 0; i < table->kept; i++) {
         const TableMistake *mistake = &table->mistakes[i];
+        if (!texture_table_concerns(mistake, first, end))
+            continue;
+        if (told == TABLE_MISTAKES_TOLD) {
+            others++;
+            continue;
+        }
         retex_fail_at(&err, RETEX_EPARSE, table->name, mistake->line, 0, "%s",
                       mistake->message ? mistake->message : "wrong"); /* no memory for the message */
         cli_error(cli, &err);
+        told++;
     }
-    if (told < table->nmistakes) {
-        retex_fail_at(&err, RETEX_EPARSE, table->name, 0, 0, "%d more mistakes", table->nmistakes - told);
+    if (others) {
+        retex_fail_at(&err, RETEX_EPARSE, table->name, 0, 0, "%d more mistake%s", others, others == 1 ? "" : "s");
         cli_error(cli, &err);
     }
+}
+
+const char *texture_table_why(const TextureTable *table, int row)
+{
+    const int line = table->rows[row].line;
+    int low = 0, high = table->kept;
+    while (low < high) { /* the first mistake of this line or a later one */
+        const int middle = low + (high - low) / 2;
+        if (table->mistakes[middle].line < line)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < table->kept && table->mistakes[low].line == line; low++)
+        if (table->mistakes[low].row == row && table->mistakes[low].message)
+            return table->mistakes[low].message;
+    return "wrong";
 }
 
 /* ---- reading ---- */
@@ -75,6 +121,10 @@ static char *read_text(const Cli *cli, const char *path)
     if (file != stdin)
         fclose(file);
     text[used] = '\0';
+    if (strncmp(text, "\xff\xfe", 2) == 0 || strncmp(text, "\xfe\xff", 2) == 0)
+        cli_die(cli, "%s: the table is UTF-16 text; save it as UTF-8", path);
+    if (strncmp(text, "PK\3\4", 4) == 0)
+        cli_die(cli, "%s: not a table of text but a spreadsheet's own file; save it as CSV", path);
     if (strlen(text) != used)
         cli_die(cli, "%s: not a table: it holds NUL bytes", path);
     return text;
@@ -86,33 +136,36 @@ typedef struct Reader {
     TextureTable *table;
     char *at;
     int line;          /* line number of `at` */
+    char ends[4];      /* the characters that end a cell: the separator, CR, LF */
     const char *fault; /* an error in the current row, or NULL */
     size_t rows_capacity, cells_capacity;
 } Reader;
 
-/* Grow an array for one more element. */
-static void *grow(const Cli *cli, void *array, size_t used, size_t *capacity, size_t size)
+/* The separator of cells: what follows the first cell of the first row, `output`, if that is a semicolon or a tab. */
+static char find_separator(const char *text)
 {
-    if (used < *capacity)
-        return array;
-    *capacity = *capacity ? 2 * *capacity : 256;
-    array = realloc(array, *capacity * size);
-    if (!array)
-        cli_die(cli, "not enough memory for the table");
-    return array;
+    static const char name[] = "output";
+    text += strspn(text, "\r\n");
+    const size_t quoted = *text == '"';
+    text += quoted;
+    if (strncmp(text, name, sizeof name - 1) != 0)
+        return ',';
+    const char end = text[sizeof name - 1 + (quoted && text[sizeof name - 1] == '"')];
+    return end == ';' || end == '\t' ? end : ',';
 }
 
-/* Parse one cell in place. Quoted cells may hold commas, line ends and doubled quotes. */
+/* Parse one cell in place. Quoted cells may hold separators, line ends and doubled quotes. */
 static char *next_cell(Reader *reader)
 {
     char *cell = reader->at, *out = cell;
     if (*reader->at != '"') {
-        reader->at += strcspn(reader->at, ",\r\n");
+        reader->at += strcspn(reader->at, reader->ends);
         return cell;
     }
     for (reader->at++;; reader->at++) {
         if (*reader->at == '\0') {
             reader->fault = "a quoted cell has no closing quote";
+            *cell = '\0'; /* it has the rest of the file */
             return cell;
         }
         if (*reader->at == '"' && *++reader->at != '"')
@@ -120,7 +173,7 @@ static char *next_cell(Reader *reader)
         reader->line += *reader->at == '\n';
         *out++ = *reader->at;
     }
-    if (*reader->at && !strchr(",\r\n", *reader->at)) {
+    if (*reader->at && !strchr(reader->ends, *reader->at)) {
         reader->fault = "something follows a closing quote";
         reader->at += strcspn(reader->at, "\r\n");
     }
@@ -150,7 +203,7 @@ static int next_row(Reader *reader, TableRow *row)
         }
         if (end)
             *reader->at++ = '\0';
-        if (end == ',')
+        if (end && end == reader->ends[0])
             continue;
         if (end == '\r' && *reader->at == '\n')
             reader->at++;
@@ -186,24 +239,23 @@ static int parse_cell(RetexTextureSpec *spec, const char *target, char *cell, Re
     return retex_texture_spec_parse(spec, opts, argument, err);
 }
 
-/* Add all mistakes of a row; return 1 if it is a valid picture. */
-static int check_row(TextureTable *table, const TableRow *row)
+/* Add all mistakes of a row that was read. */
+static void check_row(TextureTable *table, int number)
 {
     RetexError err = {0};
+    const TableRow *row = &table->rows[number];
     char **cells = table->cells + row->first;
-    const int before = table->nmistakes;
     if (row->ncells > 1 + table->ncolumns)
-        texture_table_mistake(table, row->line, "more cells than the first row has");
+        texture_table_mistake(table, number, "more cells than the first row has");
     if (!*cells[0])
-        texture_table_mistake(table, row->line, "no output in the first cell");
+        texture_table_mistake(table, number, "no output in the first cell");
     if (strcmp(cells[0], "-") == 0)
-        texture_table_mistake(table, row->line, "a table cannot write to standard output");
+        texture_table_mistake(table, number, "a table cannot write to standard output");
     for (int i = 1; i < row->ncells && i <= table->ncolumns; i++) {
         RetexTextureSpec spec;
         if (*cells[i] && parse_cell(&spec, table->columns[i - 1], cells[i], &err))
-            texture_table_mistake(table, row->line, "%s", err.message);
+            texture_table_mistake(table, number, "%s", err.message);
     }
-    return table->nmistakes == before;
 }
 
 /* Parse the first row; return 0 if it does not name columns. */
@@ -213,11 +265,11 @@ static int read_columns(Reader *reader)
     TableRow row;
     int there = next_row(reader, &row);
     if (there && reader->fault) {
-        texture_table_mistake(table, row.line, "%s", reader->fault);
+        texture_table_mistake(table, TABLE_ITSELF, "%s", reader->fault);
         return 0;
     }
     if (!there || strcmp(table->cells[0], "output") != 0) {
-        texture_table_mistake(table, 1, "the first row must name the columns: output, then targets");
+        texture_table_mistake(table, TABLE_ITSELF, "the first row must name the columns: output, then targets");
         return 0;
     }
     table->ncolumns = row.ncells - 1;
@@ -230,14 +282,16 @@ static void read_rows(Reader *reader)
 {
     TextureTable *table = reader->table;
     for (TableRow row; next_row(reader, &row);) {
-        if (reader->fault)
-            texture_table_mistake(table, row.line, "%s", reader->fault);
-        if (reader->fault || !check_row(table, &row)) {
-            table->ncells = row.first;
+        const int number = table->nrows;
+        table->rows = grow(reader->cli, table->rows, (size_t)number, &reader->rows_capacity, sizeof *table->rows);
+        table->rows[table->nrows++] = row;
+        if (!reader->fault) {
+            check_row(table, number);
             continue;
         }
-        table->rows = grow(reader->cli, table->rows, (size_t)table->nrows, &reader->rows_capacity, sizeof *table->rows);
-        table->rows[table->nrows++] = row;
+        texture_table_mistake(table, number, "%s", reader->fault);
+        table->rows[number].ncells = 1; /* where the others end is not known */
+        table->ncells = row.first + 1;
     }
 }
 
@@ -247,6 +301,7 @@ void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
     table->text = read_text(cli, path);
     Reader reader = {.cli = cli, .table = table, .at = table->text, .line = 1};
     reader.at += strncmp(table->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark */
+    snprintf(reader.ends, sizeof reader.ends, "%c\r\n", find_separator(reader.at));
     if (read_columns(&reader))
         read_rows(&reader);
 }
@@ -263,7 +318,7 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
     if (!cell || !*cell)
         return RETEX_ENOTFOUND;
     *image = find_image(cell);
-    int code = parse_cell(spec, table->columns[column], cell, NULL); /* cannot fail: checked when the table was read */
+    int code = parse_cell(spec, table->columns[column], cell, NULL);
     spec->access = table->access;
     spec->budget = table->cli->budget;
     spec->warn = cli_warn_text;
@@ -282,8 +337,9 @@ int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec 
 
 void texture_table_close(TextureTable *table)
 {
-    for (int i = 0; i < TABLE_MISTAKES_MAX; i++)
+    for (int i = 0; i < table->kept; i++)
         free(table->mistakes[i].message);
+    free(table->mistakes);
     free(table->text);
     free(table->cells);
     free(table->rows);

@@ -1,6 +1,7 @@
-/* A table of pictures: comma-separated values (RFC 4180). The first row names the columns: output, then targets. Each
- * further row is a picture: its file, then for each target IMAGE, rgb(r,g,b), `:opts IMAGE`, or nothing. The whole
- * table is read at once. Mistakes are collected, so that all of them can be reported together. */
+/* A table of pictures: comma-separated values (RFC 4180), or values between semicolons or tabs, as spreadsheets write
+ * them in other countries. The first row names the columns: output, then targets. Each further row is a picture: its
+ * file, then for each target IMAGE, rgb(r,g,b), `:opts IMAGE`, or nothing. The whole table is read at once. Mistakes
+ * are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H
 
@@ -9,18 +10,23 @@
 
 #include "cli.h"
 
-/* Maximum bytes of a table, and maximum number of mistakes that are printed; the others are only counted. */
-enum { TABLE_BYTES_MAX = 64 << 20, TABLE_MISTAKES_MAX = 20 };
+/* Maximum bytes of a table; maximum numbers of mistakes that are kept and that are printed. The others are only
+ * counted. */
+enum { TABLE_BYTES_MAX = 64 << 20, TABLE_MISTAKES_MAX = 10000, TABLE_MISTAKES_TOLD = 20 };
+enum { TABLE_ITSELF = -1 }; /* in place of a row: the mistake concerns the whole table */
 
 /* One picture. */
 typedef struct TableRow {
     int line;     /* line in the file where the row begins, from 1 */
     int ncells;   /* the output and the textures; textures at the end may be missing */
+    int wrong;    /* it has a mistake */
     size_t first; /* index of the row's first cell in the table's cells */
 } TableRow;
 
 typedef struct TableMistake {
-    int line; /* 0 = no line */
+    int line; /* in the file */
+    int row;  /* or TABLE_ITSELF */
+    int order;
     char *message;
 } TableMistake;
 
@@ -35,26 +41,32 @@ typedef struct TextureTable {
     int nrows;
     int ncolumns;                           /* number of columns with targets */
     const char *columns[RETEX_MAX_TARGETS]; /* names as in the file; the caller may replace them */
-    TableMistake mistakes[TABLE_MISTAKES_MAX];
+    TableMistake *mistakes;                 /* sorted by texture_table_tell */
+    size_t mistakes_capacity;
     int nmistakes; /* number of all mistakes */
+    int kept;      /* number of those in mistakes */
+    int wrong;     /* the table itself has a mistake */
 } TextureTable;
 
-/* Read the file, or standard input if path is "-". Exit if it cannot be read. An error in a row becomes a mistake, and
- * the row is skipped. */
+/* Read the file, or standard input if path is "-". Exit if it cannot be read. An error in a row becomes a mistake. */
 void texture_table_open(TextureTable *table, const Cli *cli, const char *path);
 void texture_table_close(TextureTable *table);
 
 /* The output of a row, as in the file. */
 const char *texture_table_output(const TextureTable *table, int row);
-/* The texture of a row for a column's target; RETEX_ENOTFOUND if the cell is empty. *image, its name, is valid until
- * the table is closed. */
+/* The texture of a row for a column's target; RETEX_ENOTFOUND if the cell is empty, RETEX_EPARSE if it is wrong.
+ * *image, its name, is valid until the table is closed. */
 int texture_table_texture(const TextureTable *table, int row, int column, RetexTextureSpec *spec, const char **image);
-/* All textures of a row; returns their number. */
+/* All textures of a row that are not wrong; returns their number. */
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS]);
 
-/* Add a mistake. */
-void texture_table_mistake(TextureTable *table, int line, const char *fmt, ...) RETEX_PRINTF(3, 4);
-/* Print the mistakes in the order of the table, one line each. */
-void texture_table_tell(TextureTable *table, const Cli *cli);
+/* Add a mistake of a row, or of the table itself, which line 1 stands for. */
+void texture_table_mistake(TextureTable *table, int row, const char *fmt, ...) RETEX_PRINTF(3, 4);
+/* Whether a mistake concerns the rows first to end - 1: it is one of them, or of the table itself. */
+int texture_table_concerns(const TableMistake *mistake, int first, int end);
+/* Print the mistakes that concern these rows in the order of the table, one line each. */
+void texture_table_tell(TextureTable *table, const Cli *cli, int first, int end);
+/* The first mistake of a row, after texture_table_tell. */
+const char *texture_table_why(const TextureTable *table, int row);
 
 #endif

@@ -20,27 +20,25 @@ static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
     return count;
 }
 
-/* Replace the table's column names by the set's target names; 0 if some match no target. */
-static int find_columns(TextureTable *table, const RetexSet *set)
+/* Replace the table's column names by the set's target names. */
+static void find_columns(TextureTable *table, const RetexSet *set)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS];
     int taken[RETEX_MAX_TARGETS] = {0};
-    const int before = table->nmistakes;
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
         RetexTextureSpec unknown = RETEX_TEXTURE_SPEC_INIT;
         int t = retex_set_find_target(set, table->columns[i]);
         if (t >= 0) {
             if (taken[t]++)
-                texture_table_mistake(table, 1, "target '%s' has two columns", table->columns[i]);
+                texture_table_mistake(table, TABLE_ITSELF, "target '%s' has two columns", table->columns[i]);
             table->columns[i] = set->targets[t].name;
             continue;
         }
         snprintf(unknown.target, sizeof unknown.target, "%s", table->columns[i]);
         retex_textures_load(textures, set, &unknown, 1, 1, &err); /* makes the message, which lists the targets */
-        texture_table_mistake(table, 1, "%s", err.message);
+        texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
     }
-    return table->nmistakes == before;
 }
 
 /* The context of a batch. */
@@ -50,9 +48,11 @@ typedef struct Table {
     KeptTextures kept;
 } Table;
 
-static int check_row(void *context, const RetexTextureSpec *specs, int count, RetexError *err)
+/* A target that the set has not is a mistake of its column. */
+static int check_texture(void *context, const RetexTextureSpec *spec, RetexError *err)
 {
-    return job_check_textures(((const Table *)context)->job, specs, count, err);
+    const Job *job = ((const Table *)context)->job;
+    return retex_set_find_target(job->set, spec->target) < 0 ? RETEX_OK : job_check_textures(job, spec, 1, err);
 }
 
 static int complete(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count)
@@ -125,8 +125,9 @@ int job_run_table(const Cli *cli, Job *job)
     Table table = {.cli = cli, .job = job, .kept.most_bytes = cli_memory(cli, job->memory) / 4};
     char options_text[1024];
     batch_open(batch, cli, job->table);
+    find_columns(&batch->table, job->set);
     batch->tool = (BatchTool){.context = &table,
-                              .check = find_columns(&batch->table, job->set) ? check_row : NULL,
+                              .check = check_texture,
                               .complete = complete,
                               .describe = describe_row,
                               .begin = begin,
