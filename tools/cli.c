@@ -1,4 +1,5 @@
-/* The command line of all tools, see cli.h: options (parsing, lookup, --help), then values, messages, output. */
+/* The command line of all tools, see cli.h: options (parsing, lookup, --help), then values, messages, output. What was
+ * probably meant by wrong ones is in cli_hints.c. */
 #include "cli.h"
 #include "watchdog.h"
 
@@ -6,6 +7,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -41,8 +43,8 @@ const CliOption cli_common_options[] = {
 };
 
 /* Called before the first option is parsed. Open closed standard descriptors, so that no other file gets their numbers;
- * they are opened in the wrong direction, so that using them still fails. Ignore SIGPIPE and SIGXFSZ: a closed pipe or
- * a file size limit is then a write error like a full disk. The watchdog takes over the terminating signals. */
+ * they are opened in the wrong direction, so that using them still fails. Ignore SIGXFSZ: a file size limit is then a
+ * write error like a full disk. The watchdog takes over the terminating signals. */
 static void prepare_process(const Cli *cli)
 {
     static int prepared;
@@ -52,7 +54,6 @@ static void prepare_process(const Cli *cli)
     for (int fd = 0; fd < 3; fd++)
         if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) != fd)
             _exit(CLI_FAIL);
-    signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     watchdog_prepare(cli->tool);
 }
@@ -141,32 +142,6 @@ const CliOption *cli_find_option(const Cli *cli, const char *name, size_t length
     return NULL;
 }
 
-static const CliOption *nearest_option(const Cli *cli, const char *name)
-{
-    const CliOption *tables[] = {cli->options, cli_common_options};
-    RetexNearest nearest = {name, NULL, 0};
-    for (int t = 0; t < 2; t++)
-        for (const CliOption *o = tables[t]; o && o->name; o++)
-            retex_nearest_try(&nearest, o->name);
-    return nearest.best ? cli_find_option(cli, nearest.best, strlen(nearest.best), 0) : NULL;
-}
-
-/* text follows the dashes. The suggestion covers long names with one dash and letters in the other case. */
-static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const char *text, int length)
-{
-    char name[RETEX_NEAREST_MAX + 1];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "=:"), text);
-    int letter = name[0] && !name[1] ? isupper((unsigned char)name[0]) ? tolower((unsigned char)name[0])
-                                                                       : toupper((unsigned char)name[0])
-                                     : 0;
-    const CliOption *option = letter ? cli_find_option(cli, NULL, 0, (char)letter) : nearest_option(cli, name);
-    if (option && letter)
-        cli_die(cli, "unknown option %s%.*s; is -%c meant?", dashes, length, text, letter);
-    if (option)
-        cli_die(cli, "unknown option %s%.*s; is --%s meant?", dashes, length, text, option->name);
-    cli_die(cli, "unknown option %s%.*s; try --help", dashes, length, text);
-}
-
 /* Fail if an option stands in place of another option's argument. A file of that name can be given as ./--name. */
 static void check_value(const Cli *cli, const CliOption *option)
 {
@@ -197,7 +172,7 @@ static const CliOption *long_option(Cli *cli, const char *text)
     size_t length = strcspn(text, "=:");
     const CliOption *option = cli_find_option(cli, text, length, 0);
     if (!option)
-        unknown_option(cli, "--", text, (int)length);
+        cli_unknown_option(cli, "--", text, (int)length);
     const char *attached = NULL;
     if (text[length] == ':') {
         if (!option->modifiers)
@@ -216,7 +191,7 @@ static const CliOption *short_option(Cli *cli)
     char letter = *cli->group++;
     const CliOption *option = cli_find_option(cli, NULL, 0, letter);
     if (!option)
-        unknown_option(cli, "-", cli->group - 1, 1);
+        cli_unknown_option(cli, "-", cli->group - 1, 1);
     const char *rest = *cli->group ? cli->group : NULL;
     if (option->argument || !rest)
         cli->group = NULL;
@@ -325,41 +300,6 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
     return value;
 }
 
-/* --- missing options --- */
-
-/* Whether -o was given or follows in argv. */
-static int has_output(const Cli *cli)
-{
-    for (int i = cli->next; i < cli->argc; i++)
-        if (strncmp(cli->argv[i], "-o", 2) == 0 || strncmp(cli->argv[i], "--output", 8) == 0)
-            return 1;
-    return cli->output != NULL;
-}
-
-const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t size)
-{
-    const char *textures[] = {"texture", "replace"};
-    text[0] = '\0';
-    for (int k = 0; k < 2 && strchr(word, '='); k++)
-        if (cli_find_option(cli, textures[k], strlen(textures[k]), 0))
-            snprintf(text, size, "; is --%s %s meant?", textures[k], word);
-    if (strcmp(word, "-") == 0)
-        return text;
-    if (!text[0] && !strpbrk(word, "./") && cli_find_option(cli, NULL, 0, 't'))
-        snprintf(text, size, "; is -t %s meant?", word);
-    if (!text[0] && !has_output(cli))
-        snprintf(text, size, "; is -o %s meant?", word);
-    return text;
-}
-
-void cli_surplus(const Cli *cli, const char *problem)
-{
-    char forgotten[1024];
-    if (*cli_forgotten(cli, cli->value, forgotten, sizeof forgotten))
-        cli_die(cli, "%s%s", problem, forgotten);
-    cli_die(cli, "%s; what is '%s'?", problem, cli->value);
-}
-
 void cli_limit(Cli *cli, const CliOption *option)
 {
     RetexError err;
@@ -425,6 +365,8 @@ void cli_error_text(const RetexError *err, char *text, size_t size)
 void cli_error(const Cli *cli, const RetexError *err)
 {
     char text[sizeof err->file + sizeof err->message + 32];
+    if (err->code == RETEX_EPIPE)
+        watchdog_end_by_pipe();
     cli_error_text(err, text, sizeof text);
     message(cli, "error: ", text);
 }
@@ -654,12 +596,29 @@ void cli_progress(const Cli *cli, const char *label, double done)
     watchdog_note_bar(terminal && done < 1);
 }
 
+/* Whether standard output is a pipe or socket that nobody reads any more. */
+static int has_lost_reader(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&out, 1, 0) > 0 && (out.revents & POLLERR);
+}
+
+void cli_check_text(const Cli *cli)
+{
+    if (ferror(stdout))
+        exit(cli_close(cli, CLI_FAIL));
+}
+
 int cli_close(const Cli *cli, int status)
 {
     if (cli->answer && cli->answer != stdout && status != CLI_FAIL)
         write_answer(cli);
     int failed = ferror(stdout);
     errno = 0;
+    if (fflush(stdout) != 0)
+        failed = 1;
+    if (failed && has_lost_reader())
+        watchdog_end_by_pipe();
     if (fclose(stdout) != 0)
         failed = 1;
     if (!failed) {

@@ -92,6 +92,10 @@ void cli_message(const Cli *cli, const char *text);                       /* unc
 _Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);    /* usage error: exit 2 */
 _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
 
+/* ---- cli_hints.c: what was probably meant ---- */
+
+/* Fail because of an option that is unknown: `length` bytes of text, which follows the dashes. */
+_Noreturn void cli_unknown_option(const Cli *cli, const char *dashes, const char *text, int length);
 /* Fail because of one positional argument too many. The message is `problem`, such as "one set is enough", and the
  * option that may be missing before the argument. */
 _Noreturn void cli_surplus(const Cli *cli, const char *problem);
@@ -155,7 +159,9 @@ void cli_take_progress(Cli *cli);
 void cli_progress(const Cli *cli, const char *label, double done);
 
 /* Write the answer to the file of -o, flush and close stdout. Exit with CLI_FAIL if that fails, for instance on a full
- * disk. Call last. */
+ * disk. If the reader of a pipe has gone, the tool ends by SIGPIPE. Call last. */
 int cli_close(const Cli *cli, int status);
+/* Call now and then in long work that prints to stdout: ends as cli_close does if that has failed. */
+void cli_check_text(const Cli *cli);
 
 #endif

@@ -61,7 +61,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 # folder, starts without relocating it, and always is of one version with it. It loads the bridge from beside it at run
 # time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,--build-id
-TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files complete watchdog compositor frames kept_textures \
+TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files cli_hints complete watchdog compositor frames kept_textures \
 	output_folder json_text) $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/batch/*.c))
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

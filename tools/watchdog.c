@@ -36,6 +36,7 @@ static struct {
     atomic_int number;    /* the first signal received, or 0 */
     atomic_int too_large; /* the process uses more memory than the limit */
     int status_file;      /* /proc/self/statm, or below 0 */
+    int ignores_pipe;     /* SIGPIPE was ignored when the tool was started */
     atomic_int ending;    /* THE_WORK or THE_DOG, which ends the tool; or 0 */
     _Atomic(const char *) remove;
     _Atomic(WatchdogLast *) last;
@@ -45,14 +46,17 @@ static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 
 static const char *signal_name(int number)
 {
-    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : number == SIGPIPE ? "SIGPIPE" : "SIGHUP";
 }
 
 void watchdog_prepare(const char *tool)
 {
     sigset_t blocked;
+    struct sigaction of_pipe;
 
     dog.tool = tool;
+    dog.ignores_pipe = sigaction(SIGPIPE, NULL, &of_pipe) == 0 && of_pipe.sa_handler == SIG_IGN;
+    signal(SIGPIPE, SIG_IGN);
     sigemptyset(&dog.signals);
     pthread_sigmask(SIG_BLOCK, NULL, &blocked);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
@@ -126,7 +130,8 @@ static _Noreturn void end_tool(const char *kept)
     const char *other = atomic_load(&dog.remove);
     if (other)
         unlink(other);
-    say(text);
+    if (number != SIGPIPE) /* by which programs end without a word */
+        say(text);
     if (number)
         raise_again(number);
     _exit(EXIT_STATUS);
@@ -163,6 +168,15 @@ void watchdog_fail(const char *why)
 void watchdog_done(void)
 {
     watchdog_fail("");
+}
+
+void watchdog_end_by_pipe(void)
+{
+    if (dog.ignores_pipe)
+        return;
+    watchdog_fail("");
+    atomic_store(&dog.number, SIGPIPE);
+    end_tool("");
 }
 
 void watchdog_go_on(void)

@@ -7,7 +7,8 @@
 #include <retex/budget.h>
 
 /* Call first, before other threads start: blocks the signals, so that only the watchdog receives them. Signals that are
- * ignored, for instance under nohup, stay ignored. */
+ * ignored, for instance under nohup, stay ignored. SIGPIPE is ignored from now on: writing to a pipe that nobody reads
+ * is an error like a full disk, see watchdog_end_by_pipe. */
 void watchdog_prepare(const char *tool);
 void watchdog_start(void);
 
@@ -27,6 +28,9 @@ void watchdog_end_is_right(int on);
 void watchdog_fail(const char *why);
 /* Call when the tool is done. */
 void watchdog_done(void);
+/* Call when a write has failed because the reader of a pipe has gone: ends the tool by SIGPIPE, without a message.
+ * Returns if SIGPIPE was ignored when the tool was started; the failure is then an error like others. */
+void watchdog_end_by_pipe(void);
 /* Call before any other message. Does not return if the watchdog is ending the tool, whose message is the last one. */
 void watchdog_go_on(void);
 

@@ -75,6 +75,9 @@ $ retex-diff --help >/dev/full
 ! retex-diff: error: standard output: No space left on device
 = 2
 $ { sleep 0.3; retex-diff --help; echo $? >&2; } | :
+! 141
+# Where SIGPIPE is ignored it is an error like others.
+$ { trap '' PIPE; sleep 0.3; retex-diff --help; echo $? >&2; } | :
 ! retex-diff: error: standard output: Broken pipe
 ! 2
 $ retex-diff --version >&-

@@ -18,6 +18,72 @@ $ for c in 'combine --txture a=b s.exr' 'combine --qual 3' 'combine --Texture a=
 ! retex-render: error: unknown option --s; try --help
 ! retex-render: error: unknown option -z; try --help
 = 2
+
+# Names by which other programs know an option, and other tools of retex.
+$ for o in samples width height resolution bounces crop-window output-file out input scene jobs nthreads memory-limit timeout include-path define debug silent usage texture frame-start batch just-print continue denoiser aovs; do retex-render --$o 3; done
+! retex-render: error: unknown option --samples; is --spp meant?
+! retex-render: error: unknown option --width; is --size WxH meant?
+! retex-render: error: unknown option --height; is --size WxH meant?
+! retex-render: error: unknown option --resolution; is --size WxH meant?
+! retex-render: error: unknown option --bounces; is --max-depth meant?
+! retex-render: error: unknown option --crop-window; is --crop X,Y,W,H meant?
+! retex-render: error: unknown option --output-file; is --output meant?
+! retex-render: error: unknown option --out; is --output meant?
+! retex-render: error: unknown option --input; what it reads is named without an option: retex-render [options] SCENE.pov|FILE.ini
+! retex-render: error: unknown option --scene; what it reads is named without an option: retex-render [options] SCENE.pov|FILE.ini
+! retex-render: error: unknown option --jobs; is --threads meant?
+! retex-render: error: unknown option --nthreads; is --threads meant?
+! retex-render: error: unknown option --memory-limit; is --max-memory meant?
+! retex-render: error: unknown option --timeout; is --max-time meant?
+! retex-render: error: unknown option --include-path; is --include meant?
+! retex-render: error: unknown option --define; is --declare meant?
+! retex-render: error: unknown option --debug; is --verbose meant?
+! retex-render: error: unknown option --silent; is --quiet meant?
+! retex-render: error: unknown option --usage; is --help meant?
+! retex-render: error: unknown option --texture; is --replace meant?
+! retex-render: error: unknown option --frame-start; is --frames A-B meant?
+! retex-render: error: unknown option --batch; is --variants meant?
+! retex-render: error: unknown option --just-print; is --dry-run meant?
+! retex-render: error: unknown option --continue; is --resume meant?
+! retex-render: error: unknown option --denoiser; is --denoise meant?
+! retex-render: error: unknown option --aovs; is --aov meant?
+= 2
+$ for o in t target replace map variants input set samples spp width jobs force format frame; do retex-combine --$o x=y s.exr; done; for c in 'combine -t floor=oak.jpg' 'sample -t floor' 'denoise -t floor' 'combine -i s.exr' 'render -i s.pov' 'combine -j8' 'render -W640' 'render -y' 'import -t x' 'import --force' 'pack --input s.exr' 'info -i s.exr' 'diff --tolerance .1' 'serve -p 80' 'serve --host x' 'pack --texture a=b' 'denoise --samples 3' 'info --display x' 'combine -f' 'render -n'; do retex-$c; done
+! retex-combine: error: unknown option --t; is --texture NAME=IMAGE meant?
+! retex-combine: error: unknown option --target; is --texture NAME=IMAGE meant?
+! retex-combine: error: unknown option --replace; is --texture meant?
+! retex-combine: error: unknown option --map; is --texture meant?
+! retex-combine: error: unknown option --variants; is --batch meant?
+! retex-combine: error: unknown option --input; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
+! retex-combine: error: unknown option --set; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
+! retex-combine: error: unknown option --samples; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
+! retex-combine: error: unknown option --spp; retex-render decides this when it renders
+! retex-combine: error: unknown option --width; retex-render decides this when it renders
+! retex-combine: error: unknown option --jobs; is --threads meant?
+! retex-combine: error: unknown option --force; a file that exists is replaced when the new one is complete
+! retex-combine: error: unknown option --format; the format follows the ending of the output's name
+! retex-combine: error: unknown option --frame; is --frames A-B meant?
+! retex-combine: error: unknown option -t; is --texture NAME=IMAGE meant?
+! retex-sample: error: unknown option -t; is --texture NAME=IMAGE meant?
+! retex-denoise: error: unknown option -t; targets are chosen when retex-render renders
+! retex-combine: error: unknown option -i; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
+! retex-render: error: unknown option -i; what it reads is named without an option: retex-render [options] SCENE.pov|FILE.ini
+! retex-combine: error: unknown option -j; is --threads meant?
+! retex-render: error: unknown option -W; is --size WxH meant?
+! retex-render: error: unknown option -y; a file that exists is replaced when the new one is complete
+! retex-import: error: unknown option -t; targets are chosen when retex-render renders
+! retex-import: error: no model given
+! retex-pack: error: unknown option --input; what it reads is named without an option: retex-pack SET [--quality 1..100 | --lossless] -o FILE.retex
+! retex-info: error: unknown option -i; what it reads is named without an option: retex-info SET [--json] [--check] [--layers FILE.exr] [-o FILE]
+! retex-diff: error: unknown option --tolerance; is --fail-abs meant?
+! retex-serve: error: unknown option -p; is --port meant?
+! retex-serve: error: unknown option --host; is --listen meant?
+! retex-pack: error: unknown option --texture; retex-sample and retex-combine put textures on a set
+! retex-denoise: error: unknown option --samples; what it reads is named without an option: retex-denoise SET [--strength F] [--radius N] [--no-footprints] -o SET
+! retex-info: error: unknown option --display; retex-combine makes pictures for a display
+! retex-combine: error: unknown option -f; a file that exists is replaced when the new one is complete
+! retex-render: error: unknown option -n; is --dry-run meant?
+= 2
 $ for t in diff pack sample combine denoise info render; do retex-$t --help >long; retex-$t -h | cmp - long; retex-$t -V; done
 > retex-diff 0.1.0
 > retex-pack 0.1.0

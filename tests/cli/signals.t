@@ -86,6 +86,33 @@ $ mkdir temporary; make_set big.exr 2048 2048; (retex-combine -q set.exr -o smal
 >
 > temporary:
 
+# A reader that goes away ends a tool as SIGPIPE does: without a word, at once, and nothing is left; the report is written.
+# `gone COMMAND…` starts it when nobody reads its output any more.
+$ make_set s.exr 48 32; printf '%s\n' '{ sleep 0.3; "$@"; echo $? >&2; } | :' >gone; { echo output,floor; for k in $(seq 3000); do echo "a-folder-of-a-long-name-$k.png,\"rgb(0,0,1)\""; done; } >t.csv; for c in "retex-info s.exr" "retex-info --json s.exr" "retex-diff s.exr s.exr" "retex-pack s.exr" "retex-sample s.exr --texture floor=rgb(1,0,0)" "retex-combine s.exr" "retex-denoise noisy.exr" "retex-render --size 16x16 --spp 1 -t floor cornell-box/cornell-box.pov" "retex-render --size 16x16 --spp 1 --list-targets cornell-box/cornell-box.pov" "retex-combine s.exr --batch t.csv --dry-run" "retex-combine s.exr --batch t.csv --dry-run --report out/report" "retex-import --help" "retex-serve --version" "retex help" "retex info s.exr"; do sh gone $c 2>&1; done; sed -n 's/.*"error"/"error"/p' out/report; ls -A out; rm out/report
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> 141
+> "error": "ended by SIGPIPE",
+> report
+$ { retex-combine s.exr --batch t.csv --dry-run; echo $? >&2; } | head -1; retex-pack s.exr | head -c 3 | wc -c; mkfifo pipe.exr; { retex-combine -q noisy.exr -o pipe.exr; echo $? >&2; } & head -c 1 pipe.exr | wc -c; wait
+> a-folder-of-a-long-name-1.png: Floor <- rgb(0,0,1)
+> 3
+> 1
+! 141
+! 141
+
 # Ignored signals stay ignored.
 $ AGAIN=TERM ./end HUP sh -c 'trap "" HUP; exec retex-render -q --spp 1000000 -o out/a.exr cornell-box/cornell-box.pov'
 > 143

@@ -40,7 +40,8 @@ struct RetexOutput {
 
 static int fail_system(const RetexOutput *output, int code, RetexError *err)
 {
-    return retex_fail(err, RETEX_EIO, "cannot write %s: %s", output->shown, strerror(code));
+    return retex_fail(err, code == EPIPE ? RETEX_EPIPE : RETEX_EIO, "cannot write %s: %s", output->shown,
+                      strerror(code));
 }
 
 /* Makes a hidden name in the folder of path. */

@@ -30,6 +30,7 @@ class Code(enum.IntEnum):
     EINTERNAL = -9     #: a broken promise of the library itself
     ESTOPPED = -10     #: the caller asked for it
     EACCESS = -11      #: a file that may not be read
+    EPIPE = -12        #: the reader of a pipe has gone
 
 
 class Error(Exception):

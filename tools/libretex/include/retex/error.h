@@ -17,7 +17,7 @@ extern "C" {
 typedef enum RetexCode {
     RETEX_OK = 0,
     RETEX_EINVAL = -1,       /* an argument or option is out of its range */
-    RETEX_EIO = -2,          /* the system refused: no such file, full disk, closed pipe */
+    RETEX_EIO = -2,          /* the system refused: no such file, full disk */
     RETEX_EFORMAT = -3,      /* the bytes are not what they should be: truncated, damaged, foreign */
     RETEX_ENOMEM = -4,       /* no memory, or a limit on it reached */
     RETEX_ENOTFOUND = -5,    /* a name that nothing has: target, texture, part */
@@ -26,7 +26,8 @@ typedef enum RetexCode {
     RETEX_ELIMIT = -8,       /* a budget (steps, depth, length) is used up */
     RETEX_EINTERNAL = -9,    /* a broken promise of the library itself */
     RETEX_ESTOPPED = -10,    /* the caller asked for it */
-    RETEX_EACCESS = -11      /* a file that may not be read: see access.h */
+    RETEX_EACCESS = -11,     /* a file that may not be read: see access.h */
+    RETEX_EPIPE = -12        /* the reader of a pipe that was written to has gone */
 } RetexCode;
 
 /* Filled on failure only; untouched on success. file is "" and line and column are 0 where there is none; lines and
