@@ -184,9 +184,10 @@ $ { echo output,floor; for k in $(seq 17); do echo "v$k.exr,\"rgb(0.$k,0.5,0)\""
 $ printf 'output,Floor\nv1.exr,scenes/textures/brick.jpg\nv2.exr,\n' >mesh.csv; for s in living-room glass-caustics; do set -- --size 32x24 --spp 70 scenes/$s/$s.pov; retex-render -q --variants mesh.csv "$@"; retex-render -q --replace Floor=scenes/textures/brick.jpg "$@" -o w1.exr; retex-render -q --plain "$@" -o w2.exr; for k in 1 2; do cmp v$k.exr w$k.exr; done; done; rm mesh.csv v1.exr v2.exr w1.exr w2.exr
 $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.png,none.jpg\n' | retex-render -q --variants - --size 8x6 scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.nothing,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q -t floor --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: the output of the table's line 2 would replace the scene
+! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: no picture format has the ending .pov; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: standard input:2: x.nothing: no picture format has the ending .nothing; try .png, .jpg, .tif, .exr or .hdr
-! retex-render: error: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: standard input:1: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
 ! retex-render: error: standard input:1: `nope` is no target, there are: floor; name it with -t
 ! retex-render: error: the table of --variants names the outputs: no -o
 = 2

@@ -151,7 +151,9 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >   -o, --output FILE           write to FILE; - is standard output
 >       --threads N             use N threads; 0, the default, uses all cores
 >       --safe                  refuse devices and rare picture formats; scenes
->                               read only their own folder; also RETEX_SAFE=1
+>                               read only their own folder; limits of 2G, 60
+>                               seconds and 33177600 pixels, unless others are
+>                               given; also RETEX_SAFE=1
 >       --max-memory SIZE       use at most SIZE of memory, such as 4G, 512M, or
 >                               a number of MB; default three quarters of the
 >                               machine's; also RETEX_MAX_MEMORY
