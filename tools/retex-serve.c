@@ -33,6 +33,7 @@ static const CliOption options[] = {
     {"upload-count", 0, "N", "keep at most N images; default 1000", 0},
     {"upload-total", 0, "SIZE", "keep images of at most SIZE in all; default 1024 MB", 0},
     {"upload-age", 0, "SECONDS", "delete an image after this time; 0: never; default 86400, a day", 0},
+    {"upload-time", 0, "SECONDS", "give up an image that takes longer to decode; default 10", 0},
     {"base-url", 0, "URL", "the server's URL as clients know it; default by the header Host", 0},
     {0},
 };
@@ -44,7 +45,7 @@ typedef struct Job {
     long upload_size, upload_total; /* megabytes */
     long upload_pixels;
     int upload_count;
-    double upload_age;
+    double upload_age, upload_time;
     int queue, quality;
     HttpParams http;
 } Job;
@@ -75,6 +76,8 @@ static int parse_number(const Cli *cli, const CliOption *option, Job *job)
         job->upload_count = (int)cli_integer(cli, option, 1, 1000000);
     else if (strcmp(name, "upload-age") == 0)
         job->upload_age = cli_number(cli, option, 0, 1e9);
+    else if (strcmp(name, "upload-time") == 0)
+        job->upload_time = cli_number(cli, option, 0.01, 60);
     else
         return 0;
     return 1;
@@ -178,7 +181,7 @@ static void open_uploads(const Cli *cli, const Job *job, Site *site, const Folde
                                   .most = job->upload_count,
                                   .seconds = job->upload_age,
                                   .budget = budget,
-                                  .threads = cli->threads};
+                                  .decoding = job->upload_time};
     RetexError err = {0};
     if (folders->uploads && uploads_open(&site->uploads, &params, &err))
         cli_fail(cli, &err);
@@ -189,7 +192,8 @@ static void open_site(const Cli *cli, const Job *job, Site *site, const Folders 
     RetexError err = {0};
     const RoomsParams rooms = {job->folder, bytes_of(cli, job->memory, 2), cli->limits.pixels, cli->threads};
     const ImagesParams images = {folders->textures, folders->uploads, bytes_of(cli, job->texture_memory, 8),
-                                 &folders->access, budget, cli->threads};
+                                 &folders->access,  budget,           cli->threads,
+                                 job->upload_time};
     if (rooms_open(&site->rooms, &rooms, &err) || images_open(&site->images, &images, &err))
         cli_fail(cli, &err);
     if (!(site->pictures = cache_open((size_t)bytes_of(cli, job->picture_memory, 16))))
@@ -215,7 +219,7 @@ static void sleep_milliseconds(long milliseconds)
     nanosleep(&time, NULL);
 }
 
-static void serve(const Cli *cli, Http *http, Work *pictures, Work *texts)
+static void serve(const Cli *cli, Http *http, Work *works[], int count)
 {
     enum { LOOK_MILLISECONDS = 50, LAST_SECONDS = 5 };
     while (!retex_budget_is_stopped(cli->budget)) {
@@ -223,12 +227,16 @@ static void serve(const Cli *cli, Http *http, Work *pictures, Work *texts)
         http_sweep(http);
     }
     http_refuse(http);
-    work_refuse(pictures);
-    work_refuse(texts);
+    for (int i = 0; i < count; i++)
+        work_refuse(works[i]);
     /* what was accepted is finished; then clients have some time to take it */
     for (double until = 0; http_pending(http) && (!until || retex_clock_seconds() < until);) {
-        const WorkCount a = work_count(pictures), b = work_count(texts);
-        if (!until && !a.waiting && !a.running && !b.waiting && !b.running)
+        int is_busy = 0;
+        for (int i = 0; i < count; i++) {
+            const WorkCount work = work_count(works[i]);
+            is_busy |= work.waiting || work.running;
+        }
+        if (!until && !is_busy)
             until = retex_clock_seconds() + LAST_SECONDS;
         sleep_milliseconds(LOOK_MILLISECONDS);
         http_sweep(http);
@@ -260,6 +268,7 @@ int main(int argc, char **argv)
         .upload_pixels = 25000000,
         .upload_count = 1000,
         .upload_age = 86400,
+        .upload_time = 10,
         .http = {
             .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 300, .max_age = 60}};
     Cli cli = {.tool = "retex-serve",
@@ -281,8 +290,12 @@ int main(int argc, char **argv)
     RetexBudget *budget = new_budget(&cli, LONG_MAX), *upload_budget = new_budget(&cli, job.upload_pixels);
     open_site(&cli, &job, &site, &folders, budget);
     open_uploads(&cli, &job, &site, &folders, upload_budget);
-    const WorkParams pictures = {site_make, &site, cli.threads, job.queue}, texts = {site_make, &site, 1, job.queue};
-    if (work_open(&job.http.pictures, &pictures, &err) || work_open(&job.http.texts, &texts, &err))
+    /* images of strangers never take the last place */
+    const int threads = retex_threads(cli.threads), decoders = threads > 1 ? threads - 1 : 1;
+    const WorkParams pictures = {site_make, &site, threads, job.queue}, texts = {site_make, &site, 1, job.queue},
+                     uploads = {site_make, &site, decoders, job.queue};
+    if (work_open(&job.http.pictures, &pictures, &err) || work_open(&job.http.texts, &texts, &err) ||
+        (site.uploads && work_open(&job.http.uploads, &uploads, &err)))
         cli_fail(&cli, &err);
     job.http.site = &site;
     job.http.is_quiet = cli.quiet;
@@ -291,9 +304,11 @@ int main(int argc, char **argv)
     watchdog_end_is_right(1);
     retex_budget_hold(cli.budget);
     tell_address(&cli, http, job.http.address);
-    serve(&cli, http, job.http.pictures, job.http.texts);
-    work_close(job.http.pictures);
-    work_close(job.http.texts);
+    Work *works[] = {job.http.pictures, job.http.texts, job.http.uploads};
+    const int count = site.uploads ? 3 : 2;
+    serve(&cli, http, works, count);
+    for (int i = 0; i < count; i++)
+        work_close(works[i]);
     http_close(http);
     cache_close(site.pictures);
     images_close(site.images);

@@ -334,6 +334,43 @@ def uploads(server):
     expect('files', sum(file.startswith('.') for file in os.listdir('uploads')), 0)
 
 
+def decoders(server):
+    """Images that take too much are refused; meanwhile pictures of the server's own textures are made."""
+    bombs = {name: open(name, 'rb').read() for name in ('tile.tif', 'channels.tif', 'scans.jpg', 'long.png')}
+    for name in list(bombs)[:3]:
+        expect(name, send(server, bombs[name]).status, 413)
+    refused = []
+    threads = [threading.Thread(target=lambda n=n: refused.append(send(server, bombs['long.png'] + bytes([n])).status))
+               for n in range(3)]
+    [thread.start() for thread in threads]
+    while not metric(server, 'decoding'):
+        time.sleep(.01)
+    pictures = [ask(server, f'/v1/small/Floor=oak/64x.png?Floor.scale=1,{n}').status for n in range(1, 6)]
+    expect('meanwhile', (pictures, len(refused)), (5 * [200], 0))
+    [thread.join() for thread in threads]
+    expect('too long', refused, 3 * [413])
+    expect('files', os.listdir('strange'), [])
+    name = 64 * 'a' + '.png'  # which decoded quicker when it was sent
+    shutil.copy('long.png', 'strange/' + name)
+    slow = threading.Thread(target=lambda: refused.append(ask(server, f'/v1/small/Floor={name}/64x.png').status))
+    slow.start()
+    while not metric(server, 'decoding'):
+        time.sleep(.01)
+    pictures = [ask(server, f'/v1/small/Floor=oak/64x.png?Floor.scale=2,{n}').status for n in range(1, 6)]
+    expect('meanwhile', (pictures, len(refused)), (5 * [200], 3))
+    slow.join()
+    expect('in a picture', refused[3], 503)
+    os.remove('strange/' + name)
+
+
+def hurried(server):
+    """The deadline of a request is that of its decoder."""
+    began = time.time()
+    expect('deadline', send(server, open('long.png', 'rb').read()).status, 503)
+    expect('held', time.time() - began < 4, True)
+    expect('lives', ask(server, '/v1/small/64x.png').status, 200)
+
+
 def off(server):
     """Nobody can upload where that was not allowed."""
     expect('off', send(server, open('outside.jpg', 'rb').read()).status, 403)
@@ -435,6 +472,8 @@ def end(server):
 
 OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-count', '2', '--upload-pixels', '1100000',
                        '--upload-age', '3600'],
+           'decoders': ['--uploads', 'strange', '--upload-time', '2'],
+           'hurried': ['--uploads', 'strange', '--deadline', '1'],
            'documented': ['--uploads', 'uploads'], 'texts': ['--threads', '1'], 'refused': ['--timeout', '1'],
            'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}

@@ -22,6 +22,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch upl
 > uploads
 > documented
 > off
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir strange; python3 "$TESTS/decoder.py"; serve decoders hurried
+> decoders
+> hurried
 $ retex-serve rooms --uploads none --port 0
 ! retex-serve: error: --uploads: there is no folder none
 = 2

@@ -423,6 +423,8 @@ static void test_rooms(void **state)
     rooms_close(rooms);
 }
 
+#define LATER (retex_clock_seconds() + 60)
+
 static void test_images(void **state)
 {
     RetexAccess access = RETEX_ACCESS_INIT;
@@ -442,7 +444,7 @@ static void test_images(void **state)
     test_random_image(&im, 64, 64, 3, 3, 0, 1);
     test_must(retex_image_write(&im, "one.png", NULL, 1, &err), &err);
     test_must(retex_image_write(&im, "two.png", NULL, 1, &err), &err);
-    const ImagesParams params = {roots[0], NULL, 60000, &access, NULL, 1}; /* of one */
+    const ImagesParams params = {roots[0], NULL, 60000, &access, NULL, 1, 10}; /* of one */
     test_must(images_open(&images, &params, &err), &err);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
@@ -451,10 +453,12 @@ static void test_images(void **state)
     assert_int_not_equal(images_find(images, "three", spec.image, sizeof spec.image, &id), 0);
     assert_int_not_equal(images_find(images, "../one.png", spec.image, sizeof spec.image, &id), 0);
     assert_int_equal(images_find(images, "one", spec.image, sizeof spec.image, &id), 0);
-    test_must(images_take(images, &spec, set, &image, &texture, &err), &err);
+    test_must(images_take(images, &spec, LATER, &image, &err), &err);
+    test_must(images_place(image, set, &spec, &texture, &err), &err);
     spec.scale[0] = 3;
     strcpy(spec.target, "Wall");
-    test_must(images_take(images, &spec, set, &other, &moved, &err), &err);
+    test_must(images_take(images, &spec, LATER, &other, &err), &err);
+    test_must(images_place(other, set, &spec, &moved, &err), &err);
     assert_ptr_equal(image, other); /* is read once, and placed in two ways */
     assert_int_equal(images_count(images).read, 1);
     float a[4], b[4];
@@ -464,7 +468,8 @@ static void test_images(void **state)
     retex_texture_close(&moved);
     images_return(images, other);
     assert_int_equal(images_find(images, "two", spec.image, sizeof spec.image, &id), 0);
-    test_must(images_take(images, &spec, set, &other, &moved, &err), &err);
+    test_must(images_take(images, &spec, LATER, &other, &err), &err);
+    test_must(images_place(other, set, &spec, &moved, &err), &err);
     assert_int_equal(images_count(images).open, 2); /* both are in use */
     retex_texture_close(&moved);
     images_return(images, other);
@@ -488,7 +493,7 @@ static int keep(Uploads *uploads, const char *file)
         assert_int_equal(body_add(&body, piece, bytes), 0);
     fclose(from);
     assert_null(body_complete(&body, hash));
-    Answer *answer = uploads_keep(uploads, hash, body.data, body.bytes);
+    Answer *answer = uploads_keep(uploads, hash, body.data, body.bytes, LATER);
     const int status = answer->status;
     answer_release(answer);
     body_free(&body);
@@ -522,7 +527,7 @@ static void test_uploads(void **state)
     test_must(retex_budget_create(&budget, &err), &err);
     retex_budget_set_pixels(budget, 16 * 8);
     char *folder = realpath("uploads", NULL);
-    UploadsParams params = {folder, 1 << 20, 1 << 20, 1, 0, budget, 1};
+    UploadsParams params = {folder, 1 << 20, 1 << 20, 1, 0, budget, 10};
     test_must(uploads_open(&uploads, &params, &err), &err);
     assert_int_equal(keep(uploads, "2.png"), 413); /* too many pixels */
     assert_int_equal(uploads_count(uploads).count, 0);

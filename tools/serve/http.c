@@ -267,7 +267,10 @@ static int is_unchanged(const Exchange *exchange, char etag[ETAG_SIZE])
 static int wait_for_work(Exchange *exchange, const char *key, const char *base)
 {
     Http *http = exchange->http;
-    Work *work = site_takes_long(exchange->request.route) ? http->params.pictures : http->params.texts;
+    const SiteWork kind = site_work_of(http->params.site, &exchange->request);
+    Work *work = kind == SITE_UPLOAD    ? http->params.uploads
+                 : kind == SITE_PICTURE ? http->params.pictures
+                                        : http->params.texts;
     WorkItem *item = calloc(1, sizeof *item);
     if (!item)
         return 0;
@@ -372,7 +375,8 @@ static int begin(Exchange *exchange)
         exchange->answer = status_answer(&(StatusSources){.metrics = &http->metrics,
                                                           .connections = clients_count(http->clients),
                                                           .site = http->params.site,
-                                                          .pictures = http->params.pictures});
+                                                          .pictures = http->params.pictures,
+                                                          .uploads = http->params.uploads});
         return 0;
     case SERVE_IIIF_BASE:
         exchange->answer = redirect_answer(exchange);

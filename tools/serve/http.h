@@ -18,6 +18,7 @@ typedef struct HttpParams {
     int is_quiet;        /* 1: requests are not logged */
     const Site *site;
     Work *pictures; /* work that makes pictures */
+    Work *uploads;  /* work that decodes images of strangers, which so never delays other pictures; NULL: no uploads */
     Work *texts;    /* and work that needs no pixels, which so never waits for a picture */
 } HttpParams;
 

@@ -1,9 +1,11 @@
 /* See images.h. */
 #include "images.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "decoding.h"
 #include "kept.h"
 #include "names.h"
 #include "request.h"
@@ -16,6 +18,9 @@ struct OpenImage {
     Kept kept;
     RetexTextureSpec spec; /* as the image was read, in its simplest placement */
     RetexTexture *texture;
+    RetexBudget *shared; /* of all images: the memory of this one is charged to it */
+    RetexBudget *budget; /* while it is decoded; the texture keeps it */
+    uint64_t charged;
 };
 
 struct Images {
@@ -37,7 +42,7 @@ static Kept *create(const void *key, const void *params_of_images)
     memcpy(image->spec.wrap, spec->wrap, sizeof spec->wrap);
     image->spec.repeat = spec->repeat;
     image->spec.access = params->access;
-    image->spec.budget = params->budget;
+    image->shared = params->budget;
     return &image->kept;
 }
 
@@ -50,7 +55,10 @@ static int is_of(const Kept *kept, const void *key)
 
 static void close_image(Kept *kept)
 {
-    retex_texture_close(&((OpenImage *)(void *)kept)->texture);
+    OpenImage *image = (OpenImage *)(void *)kept;
+    retex_texture_close(&image->texture);
+    retex_budget_close(&image->budget);
+    retex_budget_release(image->shared, image->charged);
 }
 
 int images_open(Images **images, const ImagesParams *params, RetexError *err)
@@ -106,29 +114,63 @@ int images_list(const Images *images, void (*tell)(void *context, const char *na
 
 /* ---- images in memory ---- */
 
-int images_take(Images *images, const RetexTextureSpec *spec, const RetexSet *set, OpenImage **result,
-                RetexTexture **texture, RetexError *err)
+static int is_upload(const Images *images, const char *path)
+{
+    const char *folder = images->params.uploads;
+    const size_t length = folder ? strlen(folder) : 0;
+    return length && strncmp(path, folder, length) == 0 && path[length] == '/';
+}
+
+int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
+{
+    FileId id;
+    if (spec->constant || !is_upload(images, spec->image) || file_id_of(&id, spec->image) != 0)
+        return 0;
+    Kept *kept = kept_peek(&images->list, spec, &id);
+    kept_return(&images->list, kept);
+    return !kept;
+}
+
+/* Those of strangers get one thread, and less time. */
+static int open_image(const Images *images, OpenImage *image, double deadline, RetexError *err)
+{
+    const int of_stranger = is_upload(images, image->spec.image);
+    int code =
+        decoding_budget(&image->budget, image->shared, deadline, of_stranger ? images->params.decoding : INFINITY, err);
+    image->spec.budget = image->budget;
+    if (!code)
+        code = retex_texture_load(&image->texture, &image->spec, of_stranger ? 1 : images->params.threads, err);
+    if (!code) {
+        retex_budget_set_seconds(image->budget, 0);
+        code = retex_budget_charge(image->shared, retex_texture_bytes(image->texture), "an image", err);
+    }
+    image->charged = code ? 0 : retex_texture_bytes(image->texture);
+    return code;
+}
+
+int images_take(Images *images, const RetexTextureSpec *spec, double deadline, OpenImage **result, RetexError *err)
 {
     FileId id;
     int is_new;
     *result = NULL;
-    *texture = NULL;
     if (file_id_of(&id, spec->image) != 0)
         return retex_fail(err, RETEX_ENOTFOUND, "the texture of target %s is gone", spec->target);
     OpenImage *image = (OpenImage *)(void *)kept_take(&images->list, spec, &id, &is_new);
     if (!image)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
-    int code = is_new ? retex_texture_load(&image->texture, &image->spec, images->params.threads, err) : RETEX_OK;
+    int code = is_new ? open_image(images, image, deadline, err) : RETEX_OK;
     if (is_new)
         kept_opened(&images->list, &image->kept, code, code ? 0 : retex_texture_bytes(image->texture));
-    if (code)
-        return code;
-    code = retex_textures_place(texture, image->texture, set, spec, err);
-    if (code)
-        images_return(images, image);
-    else
+    if (!code)
         *result = image;
     return code;
+}
+
+int images_place(const OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec, RetexTexture **texture,
+                 RetexError *err)
+{
+    *texture = NULL;
+    return retex_textures_place(texture, image->texture, set, spec, err);
 }
 
 void images_return(Images *images, OpenImage *image)

@@ -18,7 +18,8 @@ typedef struct ImagesParams {
     uint64_t memory;           /* bytes of images that are kept */
     const RetexAccess *access; /* must allow these folders alone */
     RetexBudget *budget;
-    int threads; /* that decode an image */
+    int threads;     /* that decode an image of the folder */
+    double decoding; /* seconds that decoding an upload may take */
 } ImagesParams;
 
 int images_open(Images **images, const ImagesParams *params, RetexError *err);
@@ -27,10 +28,14 @@ void images_close(Images *images); /* when no image is in use */
 /* The file of a name, with or without its ending, and its identity: 0, or -1 if there is no such file. */
 int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id);
 
-/* A texture as spec says, of a target of the set: its image is the path that images_find gave. To be closed before
- * *image is returned, which is NULL for a colour. */
-int images_take(Images *images, const RetexTextureSpec *spec, const RetexSet *set, OpenImage **image,
-                RetexTexture **texture, RetexError *err);
+/* The image of a texture, by the path that images_find gave, read within a time: deadline is one of
+ * retex_clock_seconds. */
+int images_take(Images *images, const RetexTextureSpec *spec, double deadline, OpenImage **image, RetexError *err);
+/* The texture as spec says, of a target of the set. To be closed before the image is returned. */
+int images_place(const OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec, RetexTexture **texture,
+                 RetexError *err);
+/* Whether the image is an upload that has to be decoded. */
+int images_is_new_upload(Images *images, const RetexTextureSpec *spec);
 void images_return(Images *images, OpenImage *image); /* NULL is fine */
 
 int images_list(const Images *images, void (*tell)(void *context, const char *name), void *context);

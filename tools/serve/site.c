@@ -32,9 +32,14 @@ static int is_picture(ServeRoute route)
     return route == SERVE_PICTURE || route == SERVE_THUMBNAIL || route == SERVE_IIIF_IMAGE;
 }
 
-int site_takes_long(ServeRoute route)
+SiteWork site_work_of(const Site *site, const ServeRequest *request)
 {
-    return is_picture(route) || route == SERVE_UPLOAD;
+    if (request->route == SERVE_UPLOAD)
+        return SITE_UPLOAD;
+    for (int i = 0; is_picture(request->route) && i < request->nspecs; i++)
+        if (images_is_new_upload(site->images, &request->specs[i]))
+            return SITE_UPLOAD;
+    return is_picture(request->route) ? SITE_PICTURE : SITE_TEXT;
 }
 
 static int quality_of(const Site *site, const ServeRequest *request)
@@ -140,9 +145,18 @@ static void close_textures(const Site *site, Textures *textures)
         images_return(site->images, textures->images[i]);
 }
 
-/* Load what a request puts on its targets. With a colour for each image all are checked first. */
-static int open_textures(const Site *site, const ServeRequest *request, const RetexSet *set, Textures *textures,
-                         RetexError *err)
+static int take_images(const Site *site, const ServeRequest *request, double deadline, Textures *textures,
+                       RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 0; i < request->nspecs && !code; i++)
+        if (!request->specs[i].constant)
+            code = images_take(site->images, &request->specs[i], deadline, &textures->images[i], err);
+    return code;
+}
+
+/* Put on the targets what a request says. With a colour for each image all are checked first. */
+static int place_textures(const ServeRequest *request, const RetexSet *set, Textures *textures, RetexError *err)
 {
     RetexTextureSpec colors[RETEX_MAX_TARGETS];
     for (int i = 0; i < request->nspecs; i++) {
@@ -156,12 +170,13 @@ static int open_textures(const Site *site, const ServeRequest *request, const Re
         if (spec->constant)
             continue;
         retex_texture_close(texture);
-        code = images_take(site->images, spec, set, &textures->images[i], texture, err);
+        code = images_place(textures->images[i], set, spec, texture, err);
     }
     return code;
 }
 
-/* The targets whose corrections a picture reads. Of those that the set does not have, open_textures tells. */
+/* The targets whose corrections a picture reads. Of those that the set does not have, place_textures
+ * tells. */
 static void find_corrected(const ServeRequest *request, const RetexSet *set, int corrected[RETEX_MAX_TARGETS])
 {
     memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
@@ -172,23 +187,24 @@ static void find_corrected(const ServeRequest *request, const RetexSet *set, int
     }
 }
 
-/* The file of a picture: 0. Opening textures looks at the parts of the set, so that no other thread may decode them
- * meanwhile. */
+/* The file of a picture: 0. Placing textures looks at the parts of the set, so that no other thread may decode them
+ * meanwhile; reading images, which may take long, does not. */
 static int make_file(const Site *site, const ServeRequest *request, PicturePlan *plan, const Room *room, int nthreads,
                      void **data, size_t *bytes, RetexError *err)
 {
     int corrected[RETEX_MAX_TARGETS];
     Textures textures = {0};
     find_corrected(request, room->set, corrected);
-    int code = rooms_begin_picture(site->rooms, room, corrected, err);
-    if (code)
-        return code;
+    int code = take_images(site, request, plan->deadline, &textures, err);
+    const int is_begun = !code && !(code = rooms_begin_picture(site->rooms, room, corrected, err));
     plan->textures = textures.textures;
-    code = open_textures(site, request, room->set, &textures, err);
+    if (!code)
+        code = place_textures(request, room->set, &textures, err);
     if (!code)
         code = picture_make(plan, nthreads, data, bytes, err);
     close_textures(site, &textures);
-    rooms_end_picture(site->rooms, room);
+    if (is_begun)
+        rooms_end_picture(site->rooms, room);
     return code;
 }
 
@@ -309,7 +325,7 @@ Answer *site_make(void *context, const WorkItem *item, int nthreads)
     const Room *room = NULL;
     RetexError err = {0};
     if (item->request.route == SERVE_UPLOAD)
-        return uploads_keep(site->uploads, item->hash, item->body, item->bytes);
+        return uploads_keep(site->uploads, item->hash, item->body, item->bytes, item->deadline);
     if (item->request.route != SERVE_ROOMS && rooms_take(site->rooms, item->request.room, &room, &err))
         return answer_of_error(&err);
     Answer *answer =

@@ -18,8 +18,13 @@ typedef struct Site {
 
 enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
 
-/* Whether the answer may take long: it is a picture, or an image has to be decoded. */
-int site_takes_long(ServeRoute route);
+/* Which queue a request is for. */
+typedef enum SiteWork {
+    SITE_TEXT,    /* needs no pixels */
+    SITE_PICTURE, /* takes long */
+    SITE_UPLOAD   /* needs an image of a stranger to be decoded, which may take as long as it is let */
+} SiteWork;
+SiteWork site_work_of(const Site *site, const ServeRequest *request);
 
 /* What a request is of, by the files as they are now: two requests with the same key have the same answer. The images
  * of request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */

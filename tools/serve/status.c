@@ -18,6 +18,12 @@ static void write_counts(FILE *file, const StatusSources *sources)
     metrics_write_value(file, "queue_length", "gauge", "Pictures that wait.", work.waiting);
     metrics_write_value(file, "queue_limit", "gauge", "Pictures that may wait.", work.limit);
     metrics_write_value(file, "working", "gauge", "Pictures that are being made.", work.running);
+    if (sources->uploads) {
+        const WorkCount decoding = work_count(sources->uploads);
+        metrics_write_value(file, "decoding_waiting", "gauge", "Requests that wait for the decoding of an upload.",
+                            decoding.waiting);
+        metrics_write_value(file, "decoding", "gauge", "Requests for which an upload is decoded.", decoding.running);
+    }
     metrics_write_value(file, "rooms_open", "gauge", "Rooms that are open.", rooms.open);
     metrics_write_value(file, "rooms_bytes", "gauge", "Bytes of rooms decoded in memory.", (double)rooms.bytes);
     metrics_write_value(file, "rooms_opened_total", "counter", "Rooms that were opened.", (double)rooms.opened);

@@ -9,7 +9,7 @@ typedef struct StatusSources {
     Metrics *metrics;
     int connections; /* that are open */
     const Site *site;
-    Work *pictures;
+    Work *pictures, *uploads; /* the second may be NULL */
 } StatusSources;
 
 Answer *status_answer(const StatusSources *sources); /* NULL: no memory */

@@ -16,6 +16,8 @@
 #include <retex/clock.h>
 #include <retex/texture.h>
 
+#include "decoding.h"
+
 enum { MOST_ARRIVING = 64, MOST_IN_MEMORY = 8 /* of the largest size */, LOOK_SECONDS = 5 };
 
 #define INCOMPLETE ".incoming-" /* beginning of names */
@@ -223,24 +225,33 @@ static int write_file(const char *path, const char *data, size_t bytes)
     return failed;
 }
 
-/* Decode the image as a texture: 0, or *answer says what is wrong with it. */
-static int check(const Uploads *uploads, const char *path, int size[2], Answer **answer)
+static Answer *refuse(int code, double deadline)
+{
+    if (code == RETEX_ENOMEM || code == RETEX_EIO || retex_clock_seconds() >= deadline)
+        return answer_error(503, "the server is busy");
+    return code == RETEX_ELIMIT ? answer_error(413, "the image has too many pixels, or takes too much to decode")
+                                : answer_error(415, "the image is damaged, or of a kind that is not read");
+}
+
+/* Decode the image as a texture, in one thread: 0, or *answer says what is wrong with it. */
+static int check(const Uploads *uploads, const char *path, double deadline, int size[2], Answer **answer)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexTexture *texture = NULL;
     RetexError err = {0};
     snprintf(spec.image, sizeof spec.image, "%s", path);
     spec.access = &uploads->access;
-    spec.budget = uploads->params.budget;
-    const int code = retex_texture_load(&texture, &spec, uploads->params.threads, &err);
+    int code = decoding_budget(&spec.budget, uploads->params.budget, deadline, uploads->params.decoding, &err);
+    if (!code)
+        code = retex_texture_load(&texture, &spec, 1, &err);
     if (!code) {
         retex_texture_size(texture, &size[0], &size[1]);
         retex_texture_close(&texture);
-        return 0;
     }
-    *answer = code == RETEX_ENOMEM   ? answer_error(503, "the server is busy")
-              : code == RETEX_ELIMIT ? answer_error(413, "the image has too many pixels")
-                                     : answer_error(415, "the image is damaged, or of a kind that is not read");
+    retex_budget_close(&spec.budget);
+    if (!code)
+        return 0;
+    *answer = refuse(code, deadline);
     if (*answer)
         snprintf((*answer)->reason, sizeof(*answer)->reason, "upload: %.180s", err.message);
     return code;
@@ -268,7 +279,8 @@ static Answer *full(void)
 }
 
 /* A new file. */
-static Answer *add(Uploads *uploads, const char *path, const char *name, const char *data, size_t bytes)
+static Answer *add(Uploads *uploads, const char *path, const char *name, const char *data, size_t bytes,
+                   double deadline)
 {
     char incomplete[PATH_MAX];
     int size[2] = {0, 0};
@@ -281,7 +293,7 @@ static Answer *add(Uploads *uploads, const char *path, const char *name, const c
                                 serial, strrchr(name, '.') + 1);
     const int failed = length < (int)sizeof incomplete ? write_file(incomplete, data, bytes) : ENAMETOOLONG;
     Answer *error = NULL;
-    const int is_wrong = !failed && check(uploads, incomplete, size, &error);
+    const int is_wrong = !failed && check(uploads, incomplete, deadline, size, &error);
     if (!settle(uploads, incomplete, path, bytes, failed || is_wrong))
         return tell(uploads, 201, name, bytes, size);
     return is_wrong                                                  ? error
@@ -289,7 +301,7 @@ static Answer *add(Uploads *uploads, const char *path, const char *name, const c
                                                                      : answer_error(500, "the server cannot keep this");
 }
 
-Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes)
+Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes, double deadline)
 {
     const char *ending = ending_of(data, bytes);
     char name[UPLOAD_HASH_TEXT + 8], path[PATH_MAX];
@@ -301,7 +313,7 @@ Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_
     if (snprintf(path, sizeof path, "%s/%s", uploads->params.folder, name) >= (int)sizeof path)
         return answer_error(500, "the server cannot keep this");
     if (utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW) != 0)
-        return add(uploads, path, name, data, bytes);
+        return add(uploads, path, name, data, bytes, deadline);
     Answer *error = NULL;
-    return check(uploads, path, size, &error) ? error : tell(uploads, 200, name, bytes, size);
+    return check(uploads, path, deadline, size, &error) ? error : tell(uploads, 200, name, bytes, size);
 }

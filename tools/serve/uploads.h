@@ -20,7 +20,7 @@ typedef struct UploadsParams {
     int most;             /* number of all */
     double seconds;       /* that an image is kept; 0 = for ever */
     RetexBudget *budget;  /* memory of decoding, and pixels of an image */
-    int threads;          /* that decode an image */
+    double decoding;      /* seconds that decoding an image may take */
 } UploadsParams;
 
 /* Removes what an earlier process did not complete. */
@@ -37,8 +37,9 @@ int uploads_take_memory(Uploads *uploads, size_t bytes);
 void uploads_leave(Uploads *uploads, size_t bytes);
 
 /* Keep an image of this hash: 201 with its name as JSON, 200 if it was there already, whose time begins anew, or an
- * error: 413 for too many pixels, 415 for what is no image, 507 where there is no place. */
-Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes);
+ * error: 413 for too many pixels, or what takes too much to decode, 415 for what is no image, 503 after the deadline, a
+ * time of retex_clock_seconds, 507 where there is no place. */
+Answer *uploads_keep(Uploads *uploads, const char *hash, const void *data, size_t bytes, double deadline);
 
 /* Delete what is too old. To be called often; looks every few seconds. */
 void uploads_sweep(Uploads *uploads);
