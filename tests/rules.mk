@@ -79,14 +79,14 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
+.PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) all
 tests: test-programs $(FAULTS) unit-tests
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
-SUITES ?= lint unit cli oiio python man docs golden faults fidelity
+SUITES ?= lint unit cli web oiio python man docs golden faults fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
@@ -98,7 +98,7 @@ check-mutants: tests
 	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants
 check-faults: tests
 	@RETEX_FAULTS=all $(RUN_CHECK) faults
-check-unit check-cli check-python check-man check-docs check-golden check-fidelity: tests
+check-unit check-cli check-web check-python check-man check-docs check-golden check-fidelity: tests
 	@$(RUN_CHECK) $(@:check-%=%)
 check-long: tests sanitized-fuzz
 	@$(RUN_CHECK) long

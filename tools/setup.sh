@@ -54,6 +54,7 @@ command transicc liblcms2-utils
 command zsh zsh
 command fish fish
 file /usr/share/bash-completion/bash_completion bash-completion
+command node nodejs
 python OpenImageIO python3-openimageio
 python numpy python3-numpy
 '

@@ -33,6 +33,9 @@ jobs_of() {
     python) for t in tests/python/test_*.py; do
             [ ! -e "$t" ] || { n=${t##*/}; n=${n%.py}; echo "python/${n#test_} /usr/bin/python3 -B $t"; }
         done ;;
+    web) for t in tests/web/test_*.mjs; do
+            [ ! -e "$t" ] || { n=${t##*/test_}; echo "web/${n%.mjs} node $t"; }
+        done ;;
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;

@@ -63,10 +63,10 @@ def test_file(test):
     if test == "faults/calls":
         return os.path.join("tests", "faults", "faults.sh")
     ending = {"unit": ".c", "cli": ".t", "oiio": ".t", "golden": "/command", "fidelity": ".sh", "docs": ".sh",
-              "long": ".sh", "python": ".py"}
+              "long": ".sh", "python": ".py", "web": ".mjs"}
     if suite not in ending:
         return None
-    name = f"test_{name}" if suite == "python" and name else name
+    name = f"test_{name}" if suite in ("python", "web") and name else name
     return os.path.join("tests", suite, name + ending[suite]) if name else os.path.join("tests", suite)
 
 

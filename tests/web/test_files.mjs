@@ -1,0 +1,106 @@
+/* What the player reads: checksums, names, connections that break, compressed streams. */
+import { deflateSync } from "node:zlib";
+import { fails, random, same, test } from "./tap.mjs";
+import { player } from "./player.mjs";
+
+test("CRC-32: the check value of its definition, and long division", () => {
+  const { crc32 } = player();
+  const bytes = (text) => new TextEncoder().encode(text);
+  same(crc32(bytes("123456789")), 0xcbf43926); // the check value of CRC-32/ISO-HDLC
+  same(crc32(bytes("")), 0);
+  // the remainder of the message, its first 32 bits turned over, by the polynomial 0x104c11db7, bit by bit
+  const reversed = (x, bits) => Number.parseInt(x.toString(2).padStart(bits, "0").split("").reverse().join(""), 2);
+  const divided = (data) => {
+    let register = 0xffffffff;
+    for (const byte of data)
+      for (let k = 0; k < 8; k++) {
+        const out = (register >>> 31) ^ ((byte >> k) & 1);
+        register = (register << 1) >>> 0;
+        if (out) register = (register ^ 0x04c11db7) >>> 0;
+      }
+    return reversed((register ^ 0xffffffff) >>> 0, 32);
+  };
+  const next = random(1);
+  for (let k = 0; k < 50; k++) {
+    const data = Uint8Array.from({ length: next(0, 60) }, () => next(0, 255));
+    same(crc32(data), divided(data));
+  }
+});
+
+test("names of addresses", () => {
+  const { nameOf, wordsOf } = player();
+  same(nameOf("https://x.org/a/b%20c.jpg?q=1#there"), "b c.jpg");
+  same(nameOf("a/100%.jpg"), "100%.jpg");
+  same(nameOf("data:image/png;base64,AAAA/BBBB"), "Picture");
+  same(nameOf("blob:https://x.org/1234"), "Picture");
+  same(wordsOf("walnut-herring_bone.v2.jpg"), "walnut herring bone.v2");
+});
+
+/* A server whose answers are listed, as [status, bytes] or an error; what was asked and how long was waited. */
+function server(answers, protocol = "https:") {
+  const asked = [], waits = [];
+  const world = {
+    fetch: async (url, { cache }) => {
+      asked.push([String(url), cache]);
+      const answer = answers.shift();
+      if (answer instanceof Error) throw answer;
+      const [status, bytes = []] = answer;
+      return { ok: status === 200, status, arrayBuffer: async () => Uint8Array.from(bytes).buffer };
+    },
+    setTimeout: (action, wait) => (waits.push(wait), action()),
+    location: { protocol },
+  };
+  return { ...player(world), asked, waits };
+}
+const signal = new AbortController().signal;
+
+test("a busy server and a broken connection are tried again, after .5, 1, 2 and 4 seconds", async () => {
+  const s = server([[503], new Error("away"), [500], [502], [200, [1, 2, 3]]]);
+  same([...(await s.fetchBytes("https://x.org/a.jpg", signal))], [1, 2, 3]);
+  same(s.waits, [500, 1000, 2000, 4000]);
+  same(s.asked, Array(5).fill(["https://x.org/a.jpg", "default"]));
+});
+
+test("what stays away is told after the fifth time, what is missing at once", async () => {
+  let s = server(Array(9).fill([503]));
+  await fails(() => s.fetchBytes("https://x.org/a.jpg", signal), "a.jpg is missing (status 503).");
+  same(s.asked.length, 5);
+  s = server(Array(9).fill(new Error("away")));
+  await fails(() => s.fetchBytes("https://x.org/a.jpg", signal), "a.jpg could not be loaded. Is there a connection?");
+  same(s.asked.length, 5);
+  s = server([[404], [200]]);
+  await fails(() => s.fetchBytes("https://x.org/a.jpg", signal), "a.jpg is missing (status 404).");
+  same(s.asked.length, 1);
+  s = server([new Error("away")], "file:");
+  await fails(() => s.fetchBytes("a.jpg", signal), "This page must come from a web server, not from a file.");
+});
+
+test("what was ended is not tried again", async () => {
+  const ended = AbortSignal.abort(), s = server([new Error("ended"), [200]]);
+  await fails(() => s.fetchBytes("a.jpg", ended), "ended");
+  same(s.asked.length, 1);
+});
+
+test("a damaged file is asked for once more, past the caches", async () => {
+  const entry = { file: "a.jpg", bytes: 9, crc32: 0xcbf43926 }, good = [...new TextEncoder().encode("123456789")];
+  const bad = [...good.slice(0, 4), 0, ...good.slice(5)];
+  let s = server([[200, bad], [200, good]]);
+  same([...(await s.fetchChecked("https://x.org/room/", entry, signal))], good);
+  same(s.asked, [["https://x.org/room/a.jpg", "default"], ["https://x.org/room/a.jpg", "reload"]]);
+  s = server([[200, bad], [200, good.slice(1)]]);
+  await fails(() => s.fetchChecked("https://x.org/room/", entry, signal), "a.jpg is damaged.");
+  s = server([[200, [...good, 0]], [200, bad]]);
+  await fails(() => s.fetchChecked("https://x.org/room/", entry, signal), "a.jpg is damaged.");
+});
+
+test("streams are inflated up to what a whole file has", async () => {
+  const { inflate } = player(), next = random(2);
+  const data = Uint8Array.from({ length: 100000 }, () => next(0, 3)), packed = deflateSync(data);
+  same(Buffer.compare(Buffer.from(await inflate(packed, "a", data.length + 1)), Buffer.from(data)), 0);
+  await fails(() => inflate(packed, "a", data.length), "a is damaged.");
+  await fails(() => inflate(packed.subarray(0, packed.length - 9), "a", 1e9), "a is damaged.");
+  const broken = Buffer.from(packed);
+  broken[50] ^= 255;
+  await fails(() => inflate(broken, "a", 1e9), "a is damaged.");
+  await fails(() => inflate(deflateSync(Buffer.alloc(1 << 24)), "a", 1 << 20), "a is damaged.");
+});

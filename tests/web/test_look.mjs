@@ -1,0 +1,178 @@
+/* How textures look and lie in the player: colours, scales, turns, offsets, flips, wraps, shifted repeats, light. The
+ * references are the formulas of retex-sample(1) and the definition of sRGB. */
+import { fails, near, random, same, test } from "./tap.mjs";
+import { player } from "./player.mjs";
+
+/* ---- colours ---- */
+
+test("sRGB is decoded by the curve of IEC 61966-2-1", () => {
+  const { srgbDecode } = player();
+  const encode = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+  for (let k = 0; k <= 255; k++) near(encode(srgbDecode(k / 255)), k / 255, 1e-7, `code ${k}`);
+  same([0, 1].map(srgbDecode), [0, 1]);
+  near([0.04045, 0.04045 + 1e-9].map(srgbDecode), [0.0031308, 0.0031308], 1e-7, "its two parts meet");
+});
+
+test("colours by their codes or by linear numbers", () => {
+  const { parseColor } = player();
+  near(parseColor("#Ff8000"), [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0], 1e-12);
+  same(parseColor("rgb(0.5, .25,1)"), [0.5, 0.25, 1]);
+  same(parseColor("rgb( 1 , 0 , 0 )"), [1, 0, 0]);
+  for (const text of ["#fff", "red", "rgb(1,2)", "rgb(-1,0,0)", "a#ffffff", "#ffffffff", "b.jpg"]) same(parseColor(text), null, text);
+});
+
+/* ---- what may be asked of a texture ---- */
+
+test("options of textures are checked, and the others stay", async () => {
+  const { placing, plainTexture } = player(), plain = plainTexture();
+  const good = { scale: [2, -1], rotate: -30.5, offset: [0, 0.5], tint: "#102030", flip: "uv", wrap: "clamp,black", repeat: "mirror", label: "Oak" };
+  same(placing(plain, good), good);
+  same(placing({ ...plain, ...good }, { rotate: 1 }), { ...good, rotate: 1 });
+  same(placing(plain, { scale: null }).scale, 1);
+  const bad = [["scale", 0], ["scale", [1, 0]], ["scale", [1]], ["scale", "2"], ["scale", NaN], ["rotate", Infinity], ["rotate", "1"],
+    ["offset", 1], ["offset", [1, null]], ["offset", [1, 2, 3]], ["tint", "red"], ["flip", "w"], ["flip", "vu"], ["wrap", "none"],
+    ["wrap", "clamp,"], ["wrap", "clamp,clamp,clamp"], ["repeat", "tiles"], ["label", 3]];
+  for (const [key, value] of bad)
+    await fails(() => placing(plain, { [key]: value }), `A texture's ${key} cannot be ${JSON.stringify(value)}.`, key);
+  await fails(() => placing(plain, { repeat: "brick", wrap: "clamp" }), "A texture's repeat brick needs wrap repeat.");
+});
+
+/* ---- where textures lie ---- */
+
+/* Where retex-sample looks in an image for these UV, by its man page: R (S u, T v) + (U, V), then flipped. */
+function lies(t, scale, [u, v]) {
+  const turn = (t.rotate * Math.PI) / 180, [x, y] = [scale[0] * u, scale[1] * v];
+  const at = [Math.cos(turn) * x - Math.sin(turn) * y + t.offset[0], Math.sin(turn) * x + Math.cos(turn) * y + t.offset[1]];
+  return at.map((x, k) => (t.flip.includes("uv"[k]) ? 1 - x : x));
+}
+
+/* The values that the player gives its shaders for these textures, and how it has set the wraps of images. */
+function drawn(textures, targets, light = { exposure: 0, warmth: 0 }) {
+  const wraps = [], passes = [];
+  const gl = new Proxy({ texParameteri: (_, key, value) => wraps.push([key, value]) },
+    { get: (o, key) => o[key] ?? (key === key.toUpperCase() ? key : () => {}) });
+  const { RetexRoom, Renderer } = player({ performance: { now: () => 0 }, cancelAnimationFrame: () => {} });
+  const room = { targets: targets.map((t) => ({ ...t, image: {}, hasImage: true })), classes: [], groups: [], lights: [], width: 100, height: 50, terms: [], mixtures: [] };
+  const renderer = Object.assign(Object.create(Renderer.prototype), { gl, room, loaded: new Set(), lights: new Set(), programs: [0, 1, 2] });
+  renderer.draw = (_, values) => passes.push(values);
+  const element = Object.assign(Object.create(RetexRoom.prototype), { textures, room, light, emit: () => {}, comparing: false });
+  Object.defineProperty(element, "renderer", { value: renderer });
+  element.draw(true);
+  return { values: passes.at(-1), wraps };
+}
+
+const target = { uv_scale: [1, 1] };
+const image = (width, height) => ({ naturalWidth: width, naturalHeight: height });
+const texture = (changes) => ({ ...player().plainTexture(), put: { shifted: "" }, image: image(100, 100), ...changes });
+
+/* Where the shader looks: turn * uv + offset, column by column as WebGL has matrices. */
+const looks = ({ turn, offset }, t, [u, v]) =>
+  [0, 1].map((k) => turn[4 * t + k] * u + turn[4 * t + 2 + k] * v + offset[2 * t + k]);
+
+test("textures lie as retex-sample's formula says", () => {
+  const next = random(7), number = () => next(-3000, 3000) / 1000;
+  for (let k = 0; k < 60; k++) {
+    const scale = [number() || 1, number() || 1];
+    const t = texture({ scale, rotate: next(-400, 400), offset: [number(), number()], flip: ["", "u", "v", "uv"][k % 4] });
+    const { values } = drawn([texture({}), t], [target, target]), uv = [number(), number()];
+    near(looks(values, 1, uv), lies(t, scale, uv), 1e-9, JSON.stringify(t));
+    near(looks(values, 0, uv), uv, 1e-12);
+  }
+});
+
+test("one number as scale keeps the image's proportions on the surface", () => {
+  // a unit of v is 3 scene units, of u 2, and the image twice as wide as high: it must be so on the surface
+  const t = texture({ scale: 2, image: image(400, 200) });
+  const { values } = drawn([t], [{ uv_scale: [2, 3] }]), origin = looks(values, 0, [0, 0]);
+  const perUnit = [looks(values, 0, [1 / 2, 0])[0] - origin[0], looks(values, 0, [0, 1 / 3])[1] - origin[1]]; // repeats a scene unit
+  near(perUnit[1] / perUnit[0], 2, 1e-12);
+  near(looks(values, 0, [1, 0])[0] - origin[0], 2, 1e-12);
+  // without a known scale of the UV, or for a colour
+  same(drawn([texture({ scale: 2, image: image(300, 100) })], [{ uv_scale: [0, 0] }]).values.turn.map((x) => x + 0), [2, 0, 0, 6]);
+  same(drawn([texture({ scale: 2, image: [1, 0, 0] })], [target]).values.turn.map((x) => x + 0), [2, 0, 0, 2]);
+});
+
+test("of two repeats in one image, one repeat is half of it", () => {
+  for (const [shifted, share] of [["brick", [1, 0.5]], ["half-drop", [0.5, 1]]])
+    for (const flip of ["", "u", "v", "uv"]) {
+      const t = texture({ scale: [1, 1], rotate: 20, offset: [0.3, 0.7], flip, repeat: shifted, put: { shifted } });
+      const plain = lies({ ...t, flip: "" }, [1, 1], [0.6, -0.2]);
+      // flipped about the middle of one repeat, then one repeat is its share of the image
+      const expected = plain.map((x, k) => (flip.includes("uv"[k]) ? 1 - x : x) * share[k]);
+      near(looks(drawn([t], [target]).values, 0, [0.6, -0.2]), expected, 1e-12, `${shifted} ${flip}`);
+    }
+});
+
+test("wraps and mirrored repeats, on each axis", () => {
+  const modes = (changes) => drawn([texture(changes)], [target]);
+  same(modes({ wrap: "mirror,clamp" }).wraps, [["TEXTURE_WRAP_S", "MIRRORED_REPEAT"], ["TEXTURE_WRAP_T", "CLAMP_TO_EDGE"]]);
+  same(modes({ wrap: "black,repeat" }).wraps, [["TEXTURE_WRAP_S", "CLAMP_TO_EDGE"], ["TEXTURE_WRAP_T", "REPEAT"]]);
+  same(modes({ wrap: "repeat,black", repeat: "mirror" }).wraps, [["TEXTURE_WRAP_S", "MIRRORED_REPEAT"], ["TEXTURE_WRAP_T", "CLAMP_TO_EDGE"]]);
+  same(modes({ wrap: "clamp,black" }).values.edge, [-1, 1]);
+  same(modes({ wrap: "mirror" }).values.edge, [0, 0]);
+  same(modes({ wrap: "black", image: [1, 0, 0] }).values.edge, [0, 0]);
+});
+
+test("the light: stops and warmth as factors, tints as linear colours", () => {
+  const at = (exposure, warmth) => drawn([texture({ tint: "#ff8000" })], [target], { exposure, warmth }).values;
+  same(at(0, 0).lamp, [1, 1, 1]);
+  near(at(2, 0).lamp, [4, 4, 4], 1e-12);
+  near(at(-1, 1).lamp, [0.5 * 2 ** 0.4, 0.5, 0.5 / 2 ** 0.4], 1e-12);
+  near(at(0, -0.5).lamp, [2 ** -0.2, 1, 2 ** 0.2], 1e-12);
+  near(at(0, 0).tint, [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0], 1e-12);
+});
+
+/* ---- images that are made ---- */
+
+/* A canvas of pixels that are numbers; drawImage copies without scaling or notes the size. */
+function canvases() {
+  const made = [];
+  const document = { createElement: () => {
+    const canvas = { getContext: () => ({
+      canvas,
+      drawImage: (image, x, y, w, h) => {
+        if (w !== undefined) canvas.drawn = [x, y, w, h];
+        for (let row = 0; image.pixels && row < image.height; row++)
+          for (let column = 0; column < image.width; column++) {
+            const [cx, cy] = [column + x, row + y];
+            if (cx >= 0 && cy >= 0 && cx < canvas.width && cy < canvas.height)
+              (canvas.pixels ||= {})[[cx, cy]] = image.pixels[row * image.width + column];
+          }
+      },
+      getImageData: () => ({ data: canvas.data || made.data }),
+    }) };
+    return canvas;
+  } };
+  return { document, made };
+}
+
+test("bricks and half-drops: the second repeat is moved by half of it, right or down", () => {
+  const { document } = canvases(), { shiftedRepeats } = player({ document });
+  for (const [w, h] of [[4, 2], [5, 3], [1, 1], [2, 7]]) {
+    const image = { width: w, height: h, pixels: Array.from({ length: w * h }, (_, i) => i) };
+    const pixel = (x, y) => image.pixels[((y % h) + h) % h * w + ((x % w) + w) % w];
+    const brick = shiftedRepeats(image, "brick"), drop = shiftedRepeats(image, "half-drop");
+    same([brick.width, brick.height, drop.width, drop.height], [w, 2 * h, 2 * w, h]);
+    for (let y = 0; y < 2 * h; y++) // row 0 of repeats lies at the bottom, where v is 0
+      for (let x = 0; x < w; x++) same(brick.pixels[[x, y]], y >= h ? pixel(x, y - h) : pixel(x - (w >> 1), y), `brick ${w}x${h} ${x},${y}`);
+    for (let y = 0; y < h; y++)
+      for (let x = 0; x < 2 * w; x++) same(drop.pixels[[x, y]], x < w ? pixel(x, y) : pixel(x - w, y - (h >> 1)), `half-drop ${w}x${h} ${x},${y}`);
+  }
+});
+
+test("large images are made smaller in their proportions, and keep a pixel at least", () => {
+  const { document } = canvases(), { smaller } = player({ document });
+  const size = (w, h, most) => (({ width, height }) => [width, height])(smaller({ naturalWidth: w, naturalHeight: h }, most));
+  same(size(8192, 4096, 4096), [4096, 2048]);
+  same(size(3000, 6000, 4096), [2048, 4096]);
+  same(size(100000, 3, 4096), [4096, 1]);
+  same(size(10, 10, 1024), [1024, 1024]);
+});
+
+test("an image is clear if a pixel of it is not opaque", () => {
+  const { document, made } = canvases(), { isClear } = player({ document });
+  for (const [data, clear] of [[[0, 0, 0, 255, 9, 9, 9, 255], false], [[0, 0, 0, 255, 9, 9, 9, 254], true], [[1, 2, 3, 0], true]]) {
+    made.data = data;
+    same(isClear({}), clear);
+  }
+});

@@ -1,0 +1,100 @@
+/* The manifest of a room: what retex-web(5) describes is accepted, and everything else refused before it reaches shaders or
+ * memory. */
+import { fails, same, test } from "./tap.mjs";
+import { player } from "./player.mjs";
+
+const file = (name) => ({ file: name, bytes: 10, crc32: 5 });
+const manifest = () => ({
+  retex_web: 1, width: 20, height: 10, filter: "box", finest: 2,
+  picture: file("picture.jpg"),
+  targets: [{ name: "Floor", share: 0.5, uv_min: [0, 0], uv_max: [1, 1], uv_scale: [1, 1], periodic: [0, 1] },
+    { name: "Wall", share: 0.2, uv_min: [0, 0], uv_max: [1, 1], uv_scale: [0, 0], periodic: [0, 0] }],
+  lights: [{ ...file("a.jpg"), white: 1.5, levels: 200, target: -1 }, { ...file("b.jpg"), white: 2, levels: 255, target: 1 }],
+  reduced: { ...file("reduced.jpg"), tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 1, levels: 255 }] },
+  classes: [{ ...file("c.z"), kind: "sharp", target: 0, scale: 1, width: 20, height: 10, albedo: 1, spreads: 2, records: 200,
+    footprints: [{ first: 0.1, per_octave: 4, sigma_first: -3, angle_steps: 0, weights: ["one", null] }] },
+  { ...file("d.z"), kind: "interreflection", target: 1, scale: 2, width: 10, height: 5, albedo: 0, spreads: 3, records: 50,
+    footprints: [{ first: 0.1, per_octave: 4, sigma_first: -3, angle_steps: 60, weights: [0.25, 0.5] }] }],
+  mixtures: [[[0, 0]], [[1, 0]]],
+  groups: [{ light: 0, mixture: 0, target: 0 }, { light: 1, mixture: -1, target: -1 }],
+  terms: [{ group: 0, gain: -1, factors: [] }, { group: 1, gain: 0, factors: [1, 1] }],
+});
+
+const { checkManifest } = player();
+const DAMAGED = "room.json is damaged.";
+
+/* The manifest with a value at a path such as "classes.0.scale". */
+function changed(path, value) {
+  const room = manifest(), keys = path.split("."), last = keys.pop();
+  keys.reduce((at, key) => at[key], room)[last] = value;
+  return room;
+}
+const refused = (path, value) => fails(() => checkManifest(changed(path, value)), /damaged|undefined|null|iterable/, `${path} = ${JSON.stringify(value)}`);
+
+test("a manifest as described is accepted, without reduced images too", () => {
+  checkManifest(manifest());
+  const room = manifest();
+  Object.assign(room, { reduced: null, classes: room.classes.slice(0, 1), mixtures: room.mixtures.slice(0, 1), terms: room.terms.slice(0, 1) });
+  checkManifest(room);
+  checkManifest(changed("classes.0.records", 0));
+  checkManifest(changed("lights.0.white", 1e-30));
+});
+
+test("another version is told", async () => {
+  for (const value of [undefined, 0, 2, "1"])
+    await fails(() => checkManifest(changed("retex_web", value)), "room.json is of another version, or no room.");
+  for (const value of [null, 3, "room"]) await fails(() => checkManifest(value), DAMAGED);
+});
+
+test("numbers out of their ranges", async () => {
+  const wrong = {
+    width: [0, 32769, 2.5, "20", null, NaN], height: [0, 32769, -1], finest: [0, 3, 16],
+    "picture.bytes": [-1, 2 ** 31 + 1, 0.5], "picture.crc32": [-1, 2 ** 32, "5"],
+    "targets.0.share": [-0.1, Infinity, "1"], "lights.0.white": [0, -1, Infinity, 1e31], "lights.0.levels": [0.5, 256],
+    "lights.0.target": [-2, 9, 0.5], "reduced.tiles.0.x": [-1, 4097, 0.5], "reduced.tiles.0.y": [-1, 4097],
+    "reduced.tiles.0.white": [0], "reduced.tiles.0.levels": [0, 256],
+    "classes.0.scale": [0, 3, 16, "1"], "classes.0.spreads": [1, 4], "classes.0.target": [-1, 2, 0.5], "classes.0.records": [-1, 201, 0.5],
+    "classes.0.footprints.0.first": [-1, NaN], "classes.0.footprints.0.per_octave": [0, 1e-4], "classes.0.footprints.0.sigma_first": [-1e10, "3"],
+    "classes.0.footprints.0.angle_steps": [-1], "groups.0.light": [-1, 2], "groups.0.mixture": [-2, 2], "groups.0.target": [-2, 9],
+    "terms.0.group": [-1, 2], "terms.0.gain": [-2, 1], "mixtures.0.0.0": [-1, 2], "mixtures.0.0.1": [-1, 2],
+  };
+  for (const path in wrong) for (const value of wrong[path]) await refused(path, value);
+});
+
+test("sizes that do not belong together", async () => {
+  await refused("classes.0.width", 19);
+  await refused("classes.1.height", 6);
+  await refused("reduced.tiles.0.width", 20);
+  await refused("classes.0.albedo", 2); // of the lights
+  await refused("classes.1.albedo", 1); // of the tiles
+  await refused("mixtures.0", [[0, 0], [1, 0]]); // classes of two sizes
+  await refused("mixtures.0", []);
+  await refused("groups.0.mixture", 1); // of a smaller size
+  await refused("terms.1.factors", [0]); // of the picture's size
+  await refused("finest", 4); // smaller than a factor
+});
+
+test("names of files that lead elsewhere", async () => {
+  for (const name of ["../a.jpg", "https://x.org/a.jpg", "a\\b", "C:a", 3, null]) {
+    await refused("picture.file", name);
+    await refused("lights.1.file", name);
+    await refused("classes.0.file", name);
+    await refused("reduced.file", name);
+  }
+});
+
+test("lists that are too long, or none", async () => {
+  const room = manifest();
+  const longest = { targets: 8, lights: 256, "reduced.tiles": 256, classes: 24, "classes.0.footprints": 16, "classes.0.footprints.0.weights": 2,
+    mixtures: 96, groups: 64, terms: 1024, "terms.0.factors": 12 };
+  for (const path in longest) {
+    const one = path.split(".").reduce((at, key) => at[key], room)[0] ?? 1;
+    await refused(path, Array(longest[path] + 1).fill(one));
+    await refused(path, {});
+  }
+  await refused("targets", []);
+  await refused("targets.0.name", 3);
+  for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) for (const value of [[1], [1, null], 1]) await refused(`targets.0.${key}`, value);
+  for (const value of ["two", true, -1, Infinity]) await refused("classes.0.footprints.0.weights.0", value);
+  same(manifest(), room);
+});

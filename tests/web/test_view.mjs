@@ -1,0 +1,180 @@
+/* The player's view and state: what a place of the page shows, zoom, controls, links, and the order in which a room is
+ * loaded. The page is replaced by the little of it that these functions use. */
+import { resolveObjectURL } from "node:buffer";
+import { deflateSync } from "node:zlib";
+import { fails, near, random, same, test } from "./tap.mjs";
+import { player } from "./player.mjs";
+
+/* An element of a page that has what is given, and takes everything else. */
+const anything = (has = {}) => new Proxy(has, { get: (o, key) => (key in o ? o[key] : key === Symbol.toPrimitive ? undefined : () => {}) });
+
+function element(RetexRoom, parts, has) {
+  const made = Object.assign(Object.create(RetexRoom.prototype), has);
+  made.$ = (selector) => (parts[selector] ||= anything({ style: anything(), classList: anything() }));
+  return made;
+}
+
+test("zoom keeps the place under the pointer, from 1 to 12 times, and never shows what lies beyond", () => {
+  const { RetexRoom } = player(), next = random(8), box = { left: 30, top: 20, width: 800, height: 600 };
+  const view = { offsetLeft: 10, offsetTop: 50, offsetWidth: 780, offsetHeight: 500, style: {} };
+  const room = element(RetexRoom, { ".stage": anything({ getBoundingClientRect: () => box, classList: anything() }), ".view": view },
+    { zoom: { times: 1, x: 0, y: 0 }, moveLine: () => {} });
+  const under = (x, y) => [(x - box.left - view.offsetLeft - room.zoom.x) / room.zoom.times, (y - box.top - view.offsetTop - room.zoom.y) / room.zoom.times];
+  for (let k = 0; k < 200; k++) {
+    const x = next(40, 820), y = next(70, 570), before = under(x, y), old = room.zoom.times, times = 2 ** (next(-100, 100) / 60);
+    room.zoomBy(times, x, y);
+    const { times: now, x: left, y: top } = room.zoom;
+    near(now, Math.min(Math.max(old * times, 1), 12), 1e-9);
+    if (left > 0 || top > 0 || left < 780 - 780 * now - 1e-9 || top < 500 - 500 * now - 1e-9) throw new Error(`beyond: ${left}, ${top}`);
+    const free = left < 0 && top < 0 && left > 780 - 780 * now && top > 500 - 500 * now;
+    if (free) near(under(x, y), before, 1e-6, "under the pointer");
+    same(view.style.transform === "", now === 1);
+  }
+  room.panTo(0, 0, 1);
+  room.zoomBy(2); // about the middle of the stage
+  near(under(430, 320), [(430 - 40) / 1, (320 - 70) / 1], 1e-9);
+});
+
+test("a place of the page is the pixel there, and of its targets the one that shows least", () => {
+  const { RetexRoom } = player(), heads = (list) => Uint32Array.from({ length: 12 }, (_, i) => 32 * 7 + (list.includes(i) ? 2 : 0));
+  const targets = [{ share: 0.5 }, { share: 0.1 }, { share: 0.9 }];
+  const room = element(RetexRoom, { canvas: { getBoundingClientRect: () => ({ left: 100, top: 50, width: 400, height: 300 }) } }, {
+    room: { width: 4, height: 3, targets },
+    renderer: { full: [{ target: 0, heads: heads([0, 1, 5]) }, { target: 1, heads: heads([5]) }, { target: 2, heads: heads([5, 11]) }, { target: 1 }] },
+  });
+  const at = (x, y) => room.targetAt(100 + 100 * x + 50, 50 + 100 * y + 50);
+  same([at(0, 0), at(1, 0), at(2, 0), at(1, 1), at(3, 2)], [0, 0, -1, 1, 2]);
+  same([room.targetAt(99, 100), room.targetAt(501, 100), room.targetAt(200, 49), room.targetAt(200, 350)], [-1, -1, -1, -1]);
+  same([room.targetAt(100, 50), room.targetAt(499.9, 349.9)], [0, 2]);
+});
+
+test("controls: size is the inverse of scale in powers of two, and a pair keeps its proportions", () => {
+  const { RetexRoom, plainTexture } = player(), asked = [];
+  const room = element(RetexRoom, {}, { room: { targets: [{ name: "Floor" }] }, selected: 0, textures: [{ ...plainTexture(), scale: [2, 6], offset: [0.25, 0.5] }],
+    place: (name, options) => asked.push([name, options]), setLight: (light) => asked.push(light) });
+  for (const [set, value] of [["size", "1"], ["rotate", "45"], ["right", "0.1"], ["up", "-0.1"], ["exposure", "1.5"], ["warmth", "-1"]])
+    room.setControl({ dataset: { set }, value });
+  room.textures[0].scale = 3;
+  room.setControl({ dataset: { set: "size" }, value: "-2" });
+  same(asked, [["Floor", { scale: [0.5, 1.5] }], ["Floor", { rotate: 45 }], ["Floor", { offset: [0.1, 0.5] }], ["Floor", { offset: [0.25, -0.1] }],
+    { exposure: 1.5 }, { warmth: -1 }, ["Floor", { scale: 4 }]]);
+});
+
+test("links have the state of this room beside others, and the state comes back", async () => {
+  const location = { href: "https://x.org/p?q=1#room=%7B%7D&other%3D=1&part", hash: "" };
+  const { RetexRoom, plainTexture } = player({ location });
+  const room = element(RetexRoom, {}, { id: "a b=", room: { targets: [{ name: "Floor" }, { name: "Wall" }] }, light: { exposure: 1, warmth: -0.5 },
+    textures: [{ ...plainTexture(), source: "oak & ash.jpg", image: 1, scale: [2, 3], rotate: 10, flip: "u" }, { ...plainTexture(), image: 2 }] });
+  const link = new URL(room.link), parts = link.hash.slice(1).split("&");
+  same(parts.slice(0, 2), ["room=%7B%7D", "other%3D=1"]);
+  same(parts.length, 3);
+  if (!parts[2].startsWith("a%20b%3D=")) throw new Error(parts[2]);
+  const state = JSON.parse(decodeURIComponent(parts[2].slice("a%20b%3D=".length)));
+  same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: [2, 3], rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
+    light: { exposure: 1, warmth: -0.5 } });
+  const put = [];
+  Object.assign(room, { setTexture: async (...all) => put.push(all), update: () => {}, light: {} });
+  await room.setState(state);
+  same(put, [["Floor", "oak & ash.jpg", (({ source, ...rest }) => rest)(state.textures.Floor)], ["Wall", null, {}]]);
+  same(room.light, { exposure: 1, warmth: -0.5 });
+  room.setTexture = async (name) => { if (name === "Floor") throw new Error("away"); put.push(name); };
+  await fails(() => room.setState({ light: { exposure: "x" } }), "away");
+  same([room.light, put.at(-1)], [{ exposure: 0, warmth: 0 }, "Wall"]); // the others are put all the same
+});
+
+/* ---- loading ---- */
+
+const FILES = { // bytes of images are their width and height here
+  "picture.jpg": [20, 10], "indep.jpg": [20, 10], "floor.jpg": [20, 10], "wall.jpg": [20, 10], "reduced.jpg": [16, 5],
+  "floor.z": deflateSync(Buffer.from([...Array(10).fill([255, 255, 15]).flat(), 0, 0, 0, 0])),
+  "wall.z": deflateSync(Buffer.from([...Array(10).fill([255, 255, 15]).flat(), 0, 0, 0, 0])),
+  "between.z": deflateSync(Buffer.from([...Array(5).fill([255, 3]).flat(), 0, 0, 0, 0, 0, 0, 0])),
+};
+
+function manifest(crc32) {
+  const file = (name) => ({ file: name, bytes: FILES[name].length, crc32: crc32(Uint8Array.from(FILES[name])) });
+  const target = (name, share) => ({ name, share, uv_min: [0, 0], uv_max: [1, 1], uv_scale: [1, 1], periodic: [0, 0] });
+  const light = (name, of) => ({ ...file(name), white: 1, levels: 255, target: of });
+  const footprints = (weights) => [{ first: 0.1, per_octave: 4, sigma_first: 0, angle_steps: 60, weights }];
+  const full = (name, of, albedo) => ({ ...file(name), kind: "sharp", target: of, scale: 1, width: 20, height: 10, albedo, spreads: 2, records: 200, footprints: footprints(["one", null]) });
+  return {
+    retex_web: 1, width: 20, height: 10, filter: "box", finest: 2, picture: file("picture.jpg"),
+    targets: [target("Wall", 0.2), target("Floor", 0.5)],
+    lights: [light("indep.jpg", -1), light("wall.jpg", 0), light("floor.jpg", 1)],
+    reduced: { ...file("reduced.jpg"), tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 1, levels: 255 }] },
+    classes: [full("wall.z", 0, 1), full("floor.z", 1, 2),
+      { ...file("between.z"), kind: "interreflection", target: 0, scale: 2, width: 10, height: 5, albedo: 0, spreads: 3, records: 50, footprints: footprints([0.25, 0.5]) }],
+    mixtures: [[[0, 0]], [[1, 0]], [[2, 0]]],
+    groups: [{ light: 0, mixture: -1, target: -1 }, { light: 1, mixture: 0, target: 0 }, { light: 2, mixture: 1, target: 1 }],
+    terms: [{ group: 0, gain: -1, factors: [] }, { group: 1, gain: 0, factors: [2] }, { group: 2, gain: -1, factors: [] }],
+  };
+}
+
+/* Loads a room whose files are FILES with changes; returns what happened. */
+async function load(changes = {}) {
+  const files = { ...FILES, ...changes }, log = [], puts = [];
+  class WebGLTexture {}
+  const gl = anything({ getParameter: () => 4096, getExtension: () => ({}), getShaderParameter: () => true, getError: () => 0,
+    getProgramParameter: (_, what) => (what === "count" ? 0 : true), ACTIVE_UNIFORMS: "count", createTexture: () => new WebGLTexture(),
+    texSubImage2D: (...all) => all.length === 9 && puts.push(["records", all[3]]), OUT_OF_MEMORY: 1 });
+  class Image {
+    async decode() {
+      const [width, height] = new Uint8Array(await resolveObjectURL(this.src).arrayBuffer());
+      Object.assign(this, { naturalWidth: width, naturalHeight: height });
+    }
+  }
+  const world = {
+    Image, WebGLTexture, performance: { now: () => 0 }, cancelAnimationFrame: () => {}, location: { protocol: "https:", hash: "" },
+    document: { baseURI: "https://x.org/" }, setTimeout: (action) => action(),
+    fetch: async (url) => {
+      const name = String(url).replace("https://x.org/rooms/one/", "");
+      if (!log.includes(`fetch ${name}`)) log.push(`fetch ${name}`);
+      const room = name === "room.json" && (changes[name] ?? Buffer.from(JSON.stringify(manifest(made.crc32))));
+      return { ok: true, arrayBuffer: async () => Uint8Array.from(room || files[name]).buffer };
+    },
+  };
+  const made = player(world);
+  const room = element(made.RetexRoom, { canvas: anything({ getContext: () => gl, classList: anything() }) }, {
+    textures: [], light: { exposure: 0, warmth: 0 }, selected: 0,
+    getAttribute: () => "rooms/one", hasAttribute: () => false, refresh: () => {}, say: () => {},
+    emit: (name) => name !== "retex-draw" && log.push(name), fail: (message) => message && log.push(`failed: ${message}`),
+  });
+  await room.load();
+  await room.whenComplete;
+  return { room, log, puts };
+}
+
+test("a room is loaded: its picture, then the target that shows most, then the others, then the other light", async () => {
+  const { room, log, puts } = await load();
+  same(log, ["fetch room.json", "fetch picture.jpg", "retex-still", "fetch reduced.jpg", "fetch between.z", "fetch floor.z", "fetch floor.jpg", "retex-ready",
+    "fetch wall.z", "fetch wall.jpg", "fetch indep.jpg", "retex-complete"]);
+  same([room.targets, room.selected, room.renderer.complete], [["Wall", "Floor"], 1, true]);
+  // each class has its rows of the records after those of the classes before it
+  same(room.room.classes.map((c) => [c.base, c.layer]), [[0, 0], [2048, 1], [4096, 0]]);
+  same(puts, [["records", 2], ["records", 1], ["records", 0]]);
+  same(room.textures.map((t) => t.label), ["Original", "Original"]);
+});
+
+test("a target can be changed once all that its light needs is there", async () => {
+  const { room } = await load(), { renderer } = room, [wall, floor, between] = room.room.classes;
+  same([0, 1].map((t) => renderer.canEdit(t)), [true, true]);
+  renderer.loaded.delete(wall);
+  same([0, 1].map((t) => renderer.canEdit(t)), [false, true]);
+  renderer.loaded.add(wall).delete(between); // a factor of the wall's term
+  same([0, 1].map((t) => renderer.canEdit(t)), [false, true]);
+  renderer.loaded.add(between);
+  renderer.lights.delete(2); // the albedo of the floor's footprints, and its light
+  same([0, 1, renderer.complete].map((t) => (t === false ? t : renderer.canEdit(t))), [true, false, false]);
+  renderer.lights.add(2);
+  floor.records = 0;
+  same([renderer.isSeen(1), renderer.canEdit(1)], [false, false]);
+});
+
+test("damaged rooms are told", async () => {
+  const told = async (changes) => (await load(changes)).log.filter((text) => text.startsWith("failed"));
+  same(await told({ "room.json": Buffer.from("{") }), ["failed: room.json is damaged."]);
+  same(await told({ "room.json": Buffer.from('{"retex_web": 1}') }), ["failed: room.json is damaged."]);
+  same(await told({ "picture.jpg": [20, 11] }), ["failed: picture.jpg is damaged."]);
+  same(await told({ "floor.z": [1, 2, 3] }), ["failed: floor.z is damaged."]);
+  same(await told({ "wall.jpg": [10, 20] }), ["failed: wall.jpg is damaged."]);
+});
