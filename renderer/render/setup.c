@@ -3,6 +3,7 @@
 #include <string.h>
 #include <retex/parallel.h>
 #include "film/footprints/footprints.h"
+#include "camera/camera.h"
 #include "film/paper/paper.h"
 #include "render/checkpoints.h"
 #include "path/photons.h"
@@ -117,6 +118,21 @@ static double media_reach(const Render *r)
     return isfinite(size) ? fmax(1000, 32 * size) : 1000;
 }
 
+/* Of pixels in the middle of the picture. */
+static void set_pixel_size(const Render *r)
+{
+    PixelSize *pixels = r->scene->pixels;
+    const double x = r->width / 2.0, y = r->height / 2.0;
+    if (!pixels)
+        return;
+    const Ray ray = camera_ray(&r->scene->camera, r->width, r->height, x, y, NULL),
+              next = camera_ray(&r->scene->camera, r->width, r->height, x + 1, y, NULL);
+    const int any = camera_ray_exists(&ray) && camera_ray_exists(&next);
+    *pixels = (PixelSize){.eye = ray.origin,
+                          .angle = any ? vec_length(vec_sub(next.direction, ray.direction)) : 0,
+                          .apart = any ? vec_length(vec_sub(next.origin, ray.origin)) : 0};
+}
+
 int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
 {
     *r = (Render){.scene = scene};
@@ -124,6 +140,8 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
     int code = check_params(&r->params, err);
     if (!code)
         code = set_window(r, err);
+    if (!code)
+        set_pixel_size(r);
     if (!code)
         code = checkpoint_open(&r->store, &r->params, r->w, r->h, err);
     if (!code)

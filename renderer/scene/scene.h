@@ -155,9 +155,17 @@ typedef enum NormalKind {
     NORMAL_VECTORS,          /* by a field of vectors: the pattern has one, see shade/normal_vectors.c */
     NORMAL_IMAGE,
     NORMAL_TANGENT,          /* by a normal map in tangent space */
+    NORMAL_HEIGHTS,          /* by heights at the shape's UV, in units of the scene */
     NORMAL_MAP,              /* normals by the pattern's value, or which of a list's */
     NORMAL_AVERAGE
 } NormalKind;
+
+/* How far apart two pixels of the picture are at a point: `apart`, and angle times its distance from the eye. A render
+ * sets it; 0 before. */
+typedef struct PixelSize {
+    Vec3 eye;
+    double angle, apart;
+} PixelSize;
 
 /* What tilts the normals of a surface. */
 typedef struct Normal {
@@ -171,7 +179,10 @@ typedef struct Normal {
     const SlopeMapEntry *slopes; /* NORMAL_SLOPE: a curve over the value; sorted by value */
     const NormalMapEntry *entries; /* NORMAL_MAP: sorted by value, or the list; NORMAL_AVERAGE */
     const BumpMap *bump_map;
-    const Pigment *vectors;  /* NORMAL_TANGENT: colours that stand for vectors, at the shape's UV */
+    const Pigment *vectors;  /* NORMAL_TANGENT: colours that stand for vectors, at the shape's UV; NORMAL_HEIGHTS:
+                                whose luminance times size is the height */
+    double strength;         /* NORMAL_HEIGHTS: 1, or less for a mixture with the normal without bumps */
+    const struct PixelSize *pixels; /* NORMAL_HEIGHTS: the scene's */
     struct Facets {
         double size, coords, metric; /* coords 0: a facet is where normals are alike, else where points are */
     } facets;
@@ -570,6 +581,7 @@ typedef struct Scene {
     const SceneFile *files;  /* all that were read from the disk: the scene's own, included ones, images */
     uint64_t digest;         /* of all files that it was read from, see base/digest.h */
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
+    PixelSize *pixels;       /* of the render; never NULL after parsing a normal that needs it */
     Camera camera;
     Rgb background;
     int background_only_seen; /* 1: directly and by delta lobes; it lights no surface */

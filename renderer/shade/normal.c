@@ -103,7 +103,8 @@ static Vec3 tilt(const Normal *bumps, const Place *place, int keeps_size, Vec3 p
         return map_tilt(bumps, place, keeps_size, p, n);
     case NORMAL_AVERAGE:
         return average_tilt(bumps, place, keeps_size, p, n);
-    case NORMAL_TANGENT: /* has no pattern space */
+    case NORMAL_TANGENT: /* have no pattern space */
+    case NORMAL_HEIGHTS:
         break;
     }
     return n;
@@ -123,6 +124,8 @@ static Vec3 tilted(const Normal *bumps, const Place *place, int keeps_size, Vec3
         return n; /* no pattern, or one that is not supported */
     if (bumps->kind == NORMAL_TANGENT)
         return unit(tangent_normal(bumps, place->surface, n), n);
+    if (bumps->kind == NORMAL_HEIGHTS)
+        return unit(height_normal(bumps, place->surface, n), n);
     keeps_size |= bumps->keeps_size;
     if (bumps->uv_mapping && place->surface->primitive) {
         const Vec2 uv = surface_uv(place->surface).uv;

@@ -21,5 +21,7 @@ NormalVectors *normal_vectors(const PatternOps *pattern);
 Vec3 bump_map_tilt(const Normal *bumps, Vec3 p, Vec3 normal);
 /* The normal that a normal map says, of any length; normal: that of the surface, in the space of its texture. */
 Vec3 tangent_normal(const Normal *bumps, const Surface *surface, Vec3 normal);
+/* The same that heights say. */
+Vec3 height_normal(const Normal *bumps, const Surface *surface, Vec3 normal);
 
 #endif

@@ -77,6 +77,9 @@ Vec2 surface_uv_of_set(const Surface *surface, int second);
 /* Unit vectors perpendicular to a unit normal, in the space of the surface's texture: where u grows, and where v does.
  * 0 where UV do not span the surface. normal: on the outward side, in that space. second: as of surface_uv_of_set. */
 int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tangent, Vec3 *bitangent);
+/* How u and v grow with a step in the world: their changes are the dot products. The gradients lie in the surface. 0
+ * where there are no UV. */
+int surface_uv_gradients(const Surface *surface, int second, Vec3 *of_u, Vec3 *of_v);
 /* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */
 void surface_turn(Surface *surface, int backside);
 

@@ -190,3 +190,62 @@ int surface_tangents(const Surface *surface, int second, Vec3 normal, Vec3 *tang
         *bitangent = vec_neg(*bitangent);
     return vec_length(*tangent) > 0;
 }
+
+/* ---- gradients ---- */
+
+/* Of what changes by d1 and d2 along the edges of a triangle. */
+static Vec3 gradient(Vec3 e1, Vec3 e2, double d1, double d2)
+{
+    const Vec3 n = vec_cross(e1, e2);
+    return vec_scale(vec_add(vec_scale(vec_cross(e2, n), d1), vec_scale(vec_cross(n, e1), d2)), 1 / vec_dot(n, n));
+}
+
+static Vec3 to_world(const Surface *surface, Vec3 v)
+{
+    return surface->instance ? transform_vector(&surface->instance->transform, v) : v;
+}
+
+static int mesh_gradients(const Mesh *mesh, const Surface *surface, Vec3 *of_u, Vec3 *of_v)
+{
+    const Transform *t = &surface->primitive->transform;
+    const MeshFace *f = &mesh->faces[surface->face];
+    if (!mesh_face_has_uvs(f))
+        return 0;
+    const Vec3 p = mesh->vertices[f->vertex[0]];
+    const Vec3 e1 = to_world(surface, transform_vector(t, vec_sub(mesh->vertices[f->vertex[1]], p))),
+               e2 = to_world(surface, transform_vector(t, vec_sub(mesh->vertices[f->vertex[2]], p)));
+    const Vec2 *a = &mesh->uvs[f->uv[0]], *b = &mesh->uvs[f->uv[1]], *c = &mesh->uvs[f->uv[2]];
+    *of_u = gradient(e1, e2, b->u - a->u, c->u - a->u);
+    *of_v = gradient(e1, e2, b->v - a->v, c->v - a->v);
+    return 1;
+}
+
+/* By differences over the plane that touches the shape, as of tangents. */
+static int shape_gradients(const Surface *surface, Vec3 *of_u, Vec3 *of_v)
+{
+    const Vec3 p = surface_texture_point(surface);
+    Vec3 s, r;
+    double step[2], du[2], dv[2];
+    vec_frame(surface_texture_normal(surface), &s, &r);
+    for (int k = 0; k < 2; k++) {
+        const Vec3 along = k ? r : s;
+        const Transform *t = &surface->primitive->transform;
+        step[k] = 1e-4 * vec_length(transform_vector(t, vec_normalize(transform_inverse_vector(t, along))));
+        const Vec2 before = uv_near(surface, p, vec_scale(along, -step[k])),
+                   after = uv_near(surface, p, vec_scale(along, step[k]));
+        du[k] = difference(after.u, before.u), dv[k] = difference(after.v, before.v);
+    }
+    const Vec3 e1 = to_world(surface, vec_scale(s, 2 * step[0])), e2 = to_world(surface, vec_scale(r, 2 * step[1]));
+    *of_u = gradient(e1, e2, du[0], du[1]);
+    *of_v = gradient(e1, e2, dv[0], dv[1]);
+    return 1;
+}
+
+int surface_uv_gradients(const Surface *surface, int second, Vec3 *of_u, Vec3 *of_v)
+{
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    const int any = mesh ? mesh_gradients(second && mesh->second ? mesh->second : mesh, surface, of_u, of_v)
+                         : shape_gradients(surface, of_u, of_v);
+    const double size = any ? vec_length(*of_u) + vec_length(*of_v) : 0;
+    return size > 0 && isfinite(size);
+}

@@ -41,7 +41,7 @@ class Tree:
     """A material's: a shader, and the output that it is linked to."""
 
     def __init__(self, version, shader):
-        self.version, self.output = version, Node("OUTPUT", ["Surface"])
+        self.version, self.output = version, Node("OUTPUT", ["Surface", "Displacement"])
         self.nodes, self.links = self, self
         self.all = [shader]
         self.link(shader.outputs[0])

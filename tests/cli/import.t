@@ -136,6 +136,20 @@ $ for m in bumpy.gltf bumpy.obj ramp.obj; do retex-import -q -f $m -o bumpy && g
 >   #ifdef (Retex) normal { retex_normal_map { image_map { png "textures/Ramp_normals.png" gamma 1 interpolate 2 } } } #end
 > -0.29 0.00 -0.96
 
+# Heights in glTF, by extras of the material: white is .3 units high. Numbers rise evenly over the card, which is 1 wide,
+# sRGB by 2.4 / 1.055 ((u + .055) / 1.055)^1.4, at u = .589. Heights grow with the scene. At half the strength, the normal
+# is in the middle between that of the slope and the plain one.
+$ for m in ramp_numbers ramp_colors ramp_weak ramp_none; do retex-import -q -f $m.gltf -o bumpy && grep retex_height_map bumpy/bumpy.pov; cat camera.inc >>bumpy/bumpy.pov; retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov normal bumpy/bumpy.pov -o bumpy.exr; oiiotool -q bumpy.exr --subimage normal -o bumpy.exr; make_values bumpy.exr 0,0 | awk '{ printf "%.2f %d %.2f\n", $1, ($2^2 > 1e-5), $3 }'; done
+>   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" gamma 1 interpolate 2 } } 0.3 strength 1 } #end
+> -0.29 0 -0.96
+>   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" interpolate 2 } } 0.3 strength 1 } #end
+> -0.32 0 -0.95
+>   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" gamma 1 interpolate 2 } } -0.6 strength 0.5 } #end
+> 0.27 0 -0.96
+> 0.00 0 -1.00
+$ retex-import -q --scale 10 ramp_numbers.gltf -o large && grep -o '3 strength 1' large/large.pov
+> 3 strength 1
+
 # A lamp shines with glTF's strength.
 $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.pov
 > #declare Lamp = texture {

@@ -245,6 +245,11 @@ bumpy = gltf({'name': 'bumpy', 'normalTexture': {'index': 0, 'scale': .5}, 'pbrM
              {'uri': 'leaning.png'})
 write('bumpy.gltf', json.dumps(bumpy))
 write('ramp.png', png(256, 256, lambda x, y: (x,) * 3, 3))
+for name, bump in (('ramp_numbers', {'distance': .3, 'numbers': True}), ('ramp_colors', {'distance': .3}),
+                   ('ramp_weak', {'distance': -.6, 'strength': .5, 'numbers': 1}), ('ramp_none', {'distance': 0})):
+    write(name + '.gltf', json.dumps(gltf(
+        {'name': 'bumpy', 'normalTexture': {'index': 0}, 'pbrMetallicRoughness': {'metallicFactor': 0},
+         'extras': {'retex': {'bump': bump}}}, {'uri': 'ramp.png'})))
 for name, image in (('bumpy', 'leaning.png'), ('ramp', '-bm 30 ramp.png')):
     write(name + '.obj', obj.replace('card.mtl', name + '.mtl'))
     write(name + '.mtl', 'newmtl wood\nKd 0.3 0.3 0.3\nmap_Bump %s\n' % image)

@@ -17,3 +17,16 @@ $ retex-render -q --size 8x8 --spp 256 --plain furnace.pov -o furnace.exr; make_
 $ echo 'sphere { 0, 1 normal { retex_normal_map .5 } }' >bad.pov; retex-render bad.pov -o x.exr
 ! retex-render: error: bad.pov:1:41: expected `{`, found `0.5`
 = 2
+
+# Heights: a step of .1 in the middle of a card, which is as wide as the picture, is a slope over one of its N pixels: N / 10.
+$ printf '%s\n' '#version 3.7;' 'global_settings { assumed_gamma 1 }' 'camera { orthographic location <.5, .5, -2> right x up y look_at <.5, .5, 0> }' 'sky_sphere { pigment { rgb 1 } }' 'mesh2 { vertex_vectors { 4, <0,0,0>, <1,0,0>, <1,1,0>, <0,1,0> } uv_vectors { 4, <0,0>, <1,0>, <1,1>, <0,1> } face_indices { 2, <0,1,2>, <0,2,3> } pigment { rgb 1 } normal { retex_height_map { gradient x color_map { [0 rgb 0] [.5 rgb 0] [.5 rgb 1] [1 rgb 1] } } .1 } }' >step.pov
+$ for n in 5 15 25; do retex-render -q --size ${n}x$n --spp 1 --plain --aov normal step.pov -o step.exr; oiiotool -q step.exr --subimage normal -o step.exr; make_values step.exr $((n / 2)),1 | awk '{ printf "%.4f\n", $1 / $3 }'; make_values step.exr 1,1; done
+> 0.5000
+> 0 0 -1
+> 1.5000
+> 0 0 -1
+> 2.5000
+> 0 0 -1
+$ printf '%s\n' 'plane { z, 0 normal { retex_height_map { rgb 1 } 1 strength 2 } }' >strong.pov; retex-render strong.pov -o x.exr
+! retex-render: error: strong.pov:1:61: strength must lie between 0 and 1, not 2
+= 2

@@ -92,6 +92,8 @@ static void expect_normal(const char *object, int behind, double x, double y, do
     snprintf(text, sizeof text, V37 "%s", object);
     Scene *scene = parse(text);
     const double side = behind ? 1 : -1;
+    if (scene->pixels)
+        scene->pixels->apart = .2; /* the heights below are even slopes, so any distance will do but for rounding */
     const Surface s = seen(scene, vec3(.7, .4, 3 * side), vec3(0, 0, -side));
     const Vec3 facing = s.backside ? vec_neg(s.shading_normal) : s.shading_normal;
     const Vec3 n = normal_tilted(s.texture->normal, &s, facing, vec3(0, 0, -side)), want = vec_normalize(vec3(x, y, z));
@@ -147,6 +149,81 @@ static void mirrored_halves_stay_apart(void **state)
     expect_normal(text, 0, -.4, .2, -.8);
 }
 
+/* Heights that rise by 1 with u, in a colour whose luminance that is. */
+#define RISE "pigment { rgb 1 } normal { retex_height_map { gradient x color_map { [0 rgb 0] [1 rgb <0,1/.7152,0>] } "
+
+/* The normal of a slope s is that of the surface minus s along it: of a card that faces -z, (-s, 0, -1). */
+static void heights_are_slopes_of_the_surface(void **state)
+{
+    (void)state;
+    expect_normal(QUAD UV FACES RISE "} } }", 0, -1, 0, -1);
+    expect_normal(QUAD UV FACES RISE "} .5 } }", 0, -.5, 0, -1);
+    expect_normal(QUAD UV FACES RISE "} -.5 } }", 0, .5, 0, -1);
+    expect_normal(QUAD UV FACES RISE "} bump_size .25 } }", 0, -.25, 0, -1);
+    /* on both sides heights rise to where one looks from */
+    expect_normal(QUAD UV FACES RISE "} .5 } }", 1, -.5, 0, 1);
+    /* UV that are mirrored, turned, sheared: in the last, u = 2 x + y */
+    expect_normal(QUAD "uv_vectors { 4, <1,0>, <0,0>, <0,1>, <1,1> } " FACES RISE "} .5 } }", 0, .5, 0, -1);
+    expect_normal(QUAD "uv_vectors { 4, <0,0>, <0,1>, <1,1>, <1,0> } " FACES RISE "} .5 } }", 0, 0, -.5, -1);
+    expect_normal(QUAD "uv_vectors { 4, <0,0>, <2,0>, <3,1>, <1,1> } " FACES RISE "scale 4 } 1 } }", 0, -.5, -.25, -1);
+    /* the picture is scaled on the UV; heights stay as high where the object is larger, and slopes are flatter */
+    expect_normal(QUAD UV FACES RISE "scale 2 } } }", 0, -.5, 0, -1);
+    expect_normal(QUAD UV FACES RISE "} } scale <2,1,3> }", 0, -.5, 0, -1);
+    expect_normal(QUAD UV FACES RISE "} } rotate 90*z translate <1,-.3,0> }", 0, 0, -1, -1);
+    /* a part of the strength: the mean of that normal and the plain one */
+    expect_normal(QUAD UV FACES RISE "} .75 strength .5 } }", 0, -.3, 0, -.9);
+    expect_normal(QUAD UV FACES RISE "} .75 strength 0 } }", 0, 0, 0, -1);
+    expect_normal(QUAD FACES RISE "} } }", 0, 0, 0, -1);
+}
+
+/* Shapes have UV too: of a sphere of radius 2, u rises by 1 in 4 pi at the equator, and more slowly nowhere. */
+static void heights_on_a_sphere(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "sphere { 0, 2 " RISE "} } }");
+    const double latitude = .5, longitude = 2, r = cos(latitude);
+    scene->pixels->apart = .02;
+    const Vec3 out = vec3(r * cos(longitude), sin(latitude), r * sin(longitude));
+    const Surface s = seen(scene, vec_scale(out, 4), vec_neg(out));
+    const Vec3 east = vec3(-sin(longitude), 0, cos(longitude));
+    const Vec3 n = normal_tilted(s.texture->normal, &s, out, vec_neg(out));
+    const Vec3 want = vec_normalize(vec_mad(out, east, -1 / (4 * PI * r)));
+    assert_true(vec_length(vec_sub(n, want)) < 1e-4);
+    scene_close(&scene);
+}
+
+/* An instance is larger than its prototype. */
+static void heights_of_instances(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 QUAD UV FACES RISE "} } }");
+    const Instance instance = {.transform = transform_scale(vec3(4, 1, 1))};
+    scene->pixels->apart = .2;
+    Surface s = seen(scene, vec3(.7, .4, -3), vec3(0, 0, 1));
+    s.position = transform_point(&instance.transform, s.position);
+    s.instance = &instance;
+    const Vec3 n = normal_tilted(s.texture->normal, &s, vec3(0, 0, -1), vec3(0, 0, 1));
+    assert_true(vec_length(vec_sub(n, vec_normalize(vec3(-.25, 0, -1)))) < 1e-6);
+    scene_close(&scene);
+}
+
+/* Of a step of 1 at u = .5, pixels that are .6 apart see a slope of 1 / .6 at u = .7, and narrow ones none. */
+static void heights_over_two_pixels(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 QUAD UV FACES "pigment { rgb 1 } normal { retex_height_map { gradient x color_map "
+                                           "{ [0 rgb 0] [.5 rgb 0] [.5 rgb 1] [1 rgb 1] } } } }");
+    const Surface s = seen(scene, vec3(.7, .4, -3), vec3(0, 0, 1));
+    const PixelSize sizes[] = {{{0, 0, 0}, 0, .3}, {{0, 0, 0}, 0, .6}, {{.7, .4, -3}, .2, 0}, {{.7, .4, -1}, .2, 0}};
+    const double slopes[] = {0, 1 / .6, 1 / .6, 0};
+    for (int k = 0; k < 4; k++) {
+        *scene->pixels = sizes[k];
+        const Vec3 n = normal_tilted(s.texture->normal, &s, vec3(0, 0, -1), vec3(0, 0, 1));
+        assert_true(vec_length(vec_sub(n, vec_normalize(vec3(-slopes[k], 0, -1)))) < 1e-6);
+    }
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -154,6 +231,10 @@ int main(void)
         cmocka_unit_test(corners_of_meshes_are_smooth),
         cmocka_unit_test(maps_are_along_uv),
         cmocka_unit_test(mirrored_halves_stay_apart),
+        cmocka_unit_test(heights_are_slopes_of_the_surface),
+        cmocka_unit_test(heights_on_a_sphere),
+        cmocka_unit_test(heights_of_instances),
+        cmocka_unit_test(heights_over_two_pixels),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);

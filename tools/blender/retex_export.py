@@ -81,6 +81,68 @@ def show_as_rendered(stack, objects):
                 set_for_now(stack, modifier, "levels", modifier.render_levels)
 
 
+NO_MESH = {"META": "a metaball", "VOLUME": "a volume", "CURVES": "hair", "HAIR": "hair", "POINTCLOUD": "a point cloud",
+           "GPENCIL": "a grease pencil", "GREASEPENCIL": "a grease pencil"}
+RAYS = {"visible_camera": "the camera", "visible_diffuse": "diffuse light", "visible_glossy": "mirrors",
+        "visible_transmission": "transmission", "visible_shadow": "shadows", "visible_volume_scatter": "volumes"}
+
+
+def tell_object(obj, warn):
+    """A line for each thing of an object that glTF cannot say, or the exporter does not write."""
+    def tell(text):
+        warn(f"object '{obj.name}': {text}")
+
+    if obj.type in NO_MESH:
+        tell(f"it is {NO_MESH[obj.type]}: it is left out")
+    for system in obj.particle_systems if obj.type == "MESH" else ():
+        hair = system.settings.type == "HAIR"
+        tell(f"its {'hair' if hair else 'particles'} '{system.name}' {'is' if hair else 'are'} left out")
+    for modifier in obj.modifiers:
+        if modifier.type == "FLUID" and modifier.show_render and modifier.fluid_type == "DOMAIN":
+            tell("its smoke or liquid is left out")
+    if obj.instance_type in {"VERTS", "FACES"} and obj.children:
+        tell("its instances on vertices or faces are left out")
+    if obj.type not in {"MESH", "CURVE", "SURFACE", "FONT"}:
+        return
+    unseen = [what for name, what in RAYS.items() if not getattr(obj, name, True)]
+    if unseen:
+        tell(f"{', '.join(unseen)} see it too")
+    for name, what in (("is_holdout", "holdout"), ("is_shadow_catcher", "shadow catcher")):
+        if getattr(obj, name, False):
+            tell(f"it is no {what} but an ordinary surface")
+
+
+def tell_instances(depsgraph, warn):
+    """Instances that geometry nodes make are no objects of the file."""
+    made = {i.parent.original for i in depsgraph.object_instances if i.is_instance and i.parent}
+    for obj in sorted(made, key=lambda o: o.name):
+        if any(m.type == "NODES" and m.show_render for m in obj.modifiers):
+            warn(f"object '{obj.name}': its instances by geometry nodes are left out")
+
+
+def tell_scene(scene, warn):
+    """What Cycles does to all of the picture."""
+    render, view = scene.render, scene.view_settings
+    cycles = getattr(scene, "cycles", None)
+    if render.engine != "CYCLES":
+        warn(f"the scene is set up for {render.engine.replace('BLENDER_', '').title()}; retex renders as Cycles does")
+    if view.view_transform not in {"Standard", "Raw"} or view.look != "None" or view.exposure or view.gamma != 1:
+        warn(f"the view transform {view.view_transform} is left out: the picture is plain sRGB")
+    world = scene.world
+    output = world.node_tree.get_output_node("CYCLES") if world and world.use_nodes and world.node_tree else None
+    for is_there, what in (
+            (cycles and cycles.film_exposure != 1, "the exposure of the film"),
+            (render.use_motion_blur, "motion blur"),
+            (render.film_transparent, "the transparency of the film"),
+            (render.use_compositing and scene.use_nodes, "compositing"),
+            (render.use_freestyle, "Freestyle"),
+            (render.use_border, "the render region"),
+            (render.pixel_aspect_x != render.pixel_aspect_y, "the aspect of pixels"),
+            (output and output.inputs["Volume"].is_linked, "the volume of the world")):
+        if is_there:
+            warn(f"{what} is left out")
+
+
 # ---- lights and cameras ----
 
 
@@ -93,6 +155,11 @@ def emission_factor(light):
             strength = node.inputs["Strength"].default_value
             return tuple(strength * c for c in node.inputs["Color"].default_value[:3])
     return (1, 1, 1)
+
+
+def is_portal(obj):
+    """It guides Cycles to the world's light, and gives none."""
+    return obj.type == "LIGHT" and getattr(getattr(obj.data, "cycles", None), "is_portal", False)
 
 
 def area_of(obj):
@@ -147,15 +214,39 @@ def camera_extras(obj, scene):
     return extras
 
 
+def tell_light(obj, warn):
+    light, cycles = obj.data, getattr(obj.data, "cycles", None)
+    nodes = light.node_tree.nodes if light.use_nodes and light.node_tree else ()
+    others = sorted({n.bl_label for n in nodes if n.type not in {"EMISSION", "OUTPUT_LIGHT", "FRAME", "REROUTE"}})
+    for is_there, what in (
+            (light.type == "AREA" and light.spread < math.pi - 1e-3, "its spread is"),
+            (others, f"of its nodes, {', '.join(others)} is"),
+            (cycles and not getattr(cycles, "cast_shadow", True), "that it casts no shadow is"),
+            (light.type == "SPOT" and light.use_square, "its square shape is"),
+            (any(not getattr(obj, name, True) for name in RAYS if name != "visible_camera"), "its ray visibility is")):
+        if is_there:
+            warn(f"light '{obj.name}': {what} left out")
+
+
+def tell_camera(obj, warn):
+    camera = obj.data
+    if camera.type == "PANO":
+        warn(f"camera '{obj.name}': it is panoramic: it is left out")
+    if camera.dof.use_dof and camera.type == "ORTHO":
+        warn(f"camera '{obj.name}': its depth of field is left out")
+    elif camera.dof.use_dof and (camera.dof.aperture_blades or camera.dof.aperture_ratio != 1):
+        warn(f"camera '{obj.name}': its lens is round, without blades")
+
+
 def tell_extras(stack, scene, objects, warn):
     """Give lights and cameras the custom property that the exporter writes as extras."""
     for obj in objects:
         if obj.type == "LIGHT":
             extras = light_extras(obj)
-            if obj.data.type == "AREA" and obj.data.spread < math.pi - 1e-3:
-                warn(f"light '{obj.name}': its spread is left out")
+            tell_light(obj, warn)
         elif obj.type == "CAMERA":
             extras = camera_extras(obj, scene)
+            tell_camera(obj, warn)
         else:
             continue
         if extras:
@@ -249,10 +340,8 @@ def prepare_material(stack, material, warn):
     if (alpha.is_linked or alpha.default_value < 1) and getattr(material, "blend_method", "") == "OPAQUE":
         set_for_now(stack, material, "blend_method", "BLEND")  # Cycles knows no blend modes
     encode_images(stack, shader)
-    for name in ("Base Color", "Roughness", "Metallic"):
-        socket = shader.inputs[name]
-        if socket.is_linked and not reaches_image(socket):
-            warn(f"material '{material.name}': {name} comes from nodes without an image; glTF takes none of it")
+    take_bumps(stack, material, shader, warn)
+    tell_sockets(material, shader, warn)
 
 
 # glTF decodes images of colours as sRGB and takes others as numbers, whatever a file's nodes say.
@@ -301,11 +390,188 @@ def encode_images(stack, shader):
             set_for_now(stack, node, "image", copies[key])
 
 
-def reaches_image(socket, depth=0):
-    node = socket.links[0].from_node
-    if node.type in {"TEX_IMAGE", "VERTEX_COLOR", "RGB", "VALUE"}:
-        return True
-    return depth < 16 and any(reaches_image(s, depth + 1) for s in node.inputs if s.is_linked)
+# ---- bumps ----
+
+
+def unlink(stack, tree, socket):
+    """Take the links of a socket away until the stack ends."""
+    for link in list(socket.links):
+        stack.callback(tree.links.new, link.from_socket, socket)
+        tree.links.remove(link)
+
+
+def behind(socket):
+    """The socket that a link comes from, through nodes that change nothing; or None."""
+    while socket.is_linked:
+        source = socket.links[0].from_socket
+        if source.node.type not in {"REROUTE", "RGBTOBW"}:  # Blender takes the luminance of colours as heights
+            return source
+        socket = source.node.inputs[0]
+    return None
+
+
+def heights_image(socket, tell):
+    """The node of the image that a socket takes heights from, or None, which is told."""
+    source = behind(socket)
+    if source and source.node.type == "TEX_IMAGE" and source.node.image and source.name == "Color":
+        return source.node
+    if socket.is_linked:
+        what = f"are made by {source.node.bl_label}" if source else "are not there"
+        tell(f"its bumps {what}, not by an image alone: they are left out")
+    return None
+
+
+def number_of(socket, tell):
+    if socket.is_linked:
+        tell(f"its bumps' {socket.name} comes from nodes: {socket.default_value:g} is taken")
+    return socket.default_value
+
+
+def bump_of(node, tell):
+    """The image of a Bump node, its distance and strength; or None."""
+    image = heights_image(node.inputs["Height"], tell)
+    if node.inputs["Normal"].is_linked:
+        tell("bumps upon bumps or a normal map: those below are left out")
+    distance = number_of(node.inputs["Distance"], tell) * (-1 if node.invert else 1)
+    return image and (image, distance, min(max(number_of(node.inputs["Strength"], tell), 0), 1))
+
+
+def displacement_bump(material, tell):
+    """The same of a material's displacement, which Cycles shows as bumps unless it is told to move the surface."""
+    output = material.node_tree.get_output_node("CYCLES")
+    source = behind(output.inputs["Displacement"]) if output else None
+    if not source:
+        return None
+    if getattr(getattr(material, "cycles", None), "displacement_method", "BUMP") != "BUMP":
+        tell("its displacement is shown as bumps: the surface is not moved")
+    if source.node.type != "DISPLACEMENT":
+        tell(f"its displacement is made by {source.node.bl_label}: it is left out")
+        return None
+    image = heights_image(source.node.inputs["Height"], tell)
+    return image and (image, number_of(source.node.inputs["Scale"], tell), 1)
+
+
+def show_heights(stack, material, shader, image, distance, strength):
+    """The exporter writes the image behind a Normal Map node as that of normals. A custom property, which becomes
+    extras of the material, says that it has heights."""
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeNormalMap")
+    stack.callback(tree.nodes.remove, node)
+    tree.links.new(image.outputs["Color"], node.inputs["Color"])
+    tree.links.new(node.outputs[0], shader.inputs["Normal"])
+    numbers = image.image.colorspace_settings.name in AS_NUMBERS
+    material[EXTRAS] = {"bump": {"distance": distance, "strength": strength, "numbers": numbers}}
+    stack.callback(material.pop, EXTRAS, None)
+
+
+def take_bumps(stack, material, shader, warn):
+    """Normals of a Principled shader: the exporter would take any image behind them as a normal map."""
+    def tell(text):
+        warn(f"material '{material.name}': {text}")
+
+    tree, bump = material.node_tree, None
+    for name in ("Normal", "Clearcoat Normal", "Coat Normal"):
+        socket = shader.inputs.get(name)
+        source = behind(socket) if socket else None
+        if not source or (source.node.type == "NORMAL_MAP" and source.node.space == "TANGENT"):
+            continue
+        if name == "Normal" and source.node.type == "BUMP":
+            bump = bump_of(source.node, tell)
+        else:
+            tell(f"its {name} is made by {source.node.bl_label}: it is left out")
+        unlink(stack, tree, socket)
+    if not shader.inputs["Normal"].is_linked and not bump:
+        bump = displacement_bump(material, tell)
+    if bump:
+        show_heights(stack, material, shader, *bump)
+
+
+# ---- what glTF takes none of ----
+
+
+# Sockets of a Principled shader with which glTF can have images; of others it takes numbers, or nothing.
+TAKES_IMAGES = {"Base Color", "Roughness", "Metallic", "Alpha", "Emission", "Emission Color", "Transmission",
+                "Transmission Weight", "Clearcoat", "Coat Weight", "Clearcoat Roughness", "Coat Roughness"}
+NOT_TAKEN = {"Subsurface": "subsurface scattering", "Subsurface Weight": "subsurface scattering", "Sheen": "sheen",
+             "Sheen Weight": "sheen", "Anisotropic": "anisotropy", "Transmission Roughness": "roughness of transmission",
+             "Thin Film Thickness": "thin film"}
+BUMP_SOCKETS = {"Normal", "Clearcoat Normal", "Coat Normal"}
+# Nodes that glTF, or the exporter, can say between an image and a shader.
+KEEPS_IMAGES = {"TEX_IMAGE", "REROUTE", "VERTEX_COLOR", "ATTRIBUTE", "RGB", "VALUE", "SEPRGB", "SEPARATE_COLOR", "MAPPING",
+                "TEX_COORD", "UVMAP", "GROUP"}
+MULTIPLIES = {"MIX_RGB": "blend_type", "MIX": "blend_type", "MATH": "operation"}
+
+
+def nodes_behind(socket):
+    """All nodes that a socket's value comes from."""
+    found, todo = [], [link.from_node for link in socket.links]
+    while todo:
+        node = todo.pop()
+        if node not in found:
+            found.append(node)
+            todo += [link.from_node for inner in node.inputs for link in inner.links]
+    return found
+
+
+def changes_images(node):
+    if node.type in MULTIPLIES:
+        return getattr(node, MULTIPLIES[node.type]) != "MULTIPLY"
+    return node.type not in KEEPS_IMAGES
+
+
+def tell_image(node, tell):
+    """What is left out of an image, or of how it lies on the surface."""
+    image = node.image
+    if image.source == "FILE" and not image.packed_file and not image.has_data and not image.size[0]:
+        tell(f"the image '{image.name}' is missing")
+    if image.source in {"SEQUENCE", "MOVIE", "TILED"}:
+        tell(f"of the image '{image.name}' one frame or tile is taken")
+    if node.projection != "FLAT":
+        tell(f"the image '{image.name}' lies on UV, not by projection {node.projection.title()}")
+    for other in nodes_behind(node.inputs["Vector"]):
+        outputs = {o.name for o in other.outputs if o.is_linked}
+        if other.type == "TEX_COORD" and outputs - {"UV"}:
+            tell(f"the image '{image.name}' lies on UV, not on coordinates {' and '.join(sorted(outputs - {'UV'}))}")
+        elif other.type not in {"TEX_COORD", "UVMAP", "MAPPING", "REROUTE"}:
+            tell(f"the image '{image.name}' lies on UV without the node {other.bl_label}")
+
+
+def tell_sockets(material, shader, warn):
+    """A line for each input that the picture lacks, or has otherwise."""
+    told = set()
+
+    def tell(text):
+        if text not in told:
+            told.add(text)
+            warn(f"material '{material.name}': {text}")
+
+    for name, what in NOT_TAKEN.items():
+        socket = shader.inputs.get(name)
+        if socket and (socket.is_linked or socket.default_value > 0):
+            tell(f"{what} is left out")
+    for socket in shader.inputs.values():
+        if not socket.is_linked or socket.name in NOT_TAKEN:
+            continue
+        nodes = nodes_behind(socket)
+        for node in nodes:
+            if node.type == "TEX_IMAGE" and node.image:
+                tell_image(node, tell)
+        if socket.name in BUMP_SOCKETS:
+            continue
+        if socket.name not in TAKES_IMAGES:
+            tell(f"{socket.name} comes from nodes; glTF takes none of it")
+        elif not any(node.type in {"TEX_IMAGE", "VERTEX_COLOR", "RGB", "VALUE"} for node in nodes):
+            tell(f"{socket.name} comes from nodes without an image; glTF takes none of it")
+        else:
+            changing = sorted({node.bl_label for node in nodes if changes_images(node)})
+            if changing:
+                tell(f"{socket.name}: {', '.join(changing)} is left out, the image is taken as it is")
+
+
+def tell_material(material, warn):
+    output = material.node_tree.get_output_node("CYCLES") if material.use_nodes and material.node_tree else None
+    if output and output.inputs["Volume"].is_linked:
+        warn(f"material '{material.name}': its volume is left out")
 
 
 def ticked_targets(materials):
@@ -411,6 +677,30 @@ def export_gltf(path, **more):
     bpy.ops.export_scene.gltf(**{key: value for key, value in wanted.items() if key in known})
 
 
+@contextlib.contextmanager
+def without_chatter():
+    """Blender's exporter and Cycles print to the process's own streams. What they print is shown if they fail."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = {number: os.dup(number) for number in (1, 2)}
+    failed = True
+    with tempfile.TemporaryFile() as said:
+        try:
+            for number in kept:
+                os.dup2(said.fileno(), number)
+            yield
+            failed = False
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            for number, copy in kept.items():
+                os.dup2(copy, number)
+                os.close(copy)
+            if failed:
+                said.seek(0)
+                os.write(2, said.read())
+
+
 def tool(name):
     addon = bpy.context.preferences.addons.get(__name__)
     folder = addon.preferences.folder if addon and addon.preferences else ""
@@ -436,8 +726,9 @@ def picture_size(scene):
 class Export:
     """One export of the active scene into a folder."""
 
-    def __init__(self, context, folder, tell, keep_glb=False):
+    def __init__(self, context, folder, tell, keep_glb=False, verbose=False):
         self.context, self.scene, self.tell, self.keep_glb = context, context.scene, tell, keep_glb
+        self.quiet = contextlib.nullcontext if verbose else without_chatter
         self.folder = os.path.abspath(folder)
         self.name = os.path.basename(self.folder)
         self.targets = []  # (name, identifier)
@@ -450,14 +741,20 @@ class Export:
         objects = rendered_objects(self.context.view_layer)
         materials = used_materials(objects)
         with contextlib.ExitStack() as stack:
+            tell_scene(self.scene, self.warn)
+            tell_instances(self.context.evaluated_depsgraph_get(), self.warn)
+            for obj in sorted(objects, key=lambda o: o.name):
+                tell_object(obj, self.warn)
             for obj in self.scene.objects:
-                if obj not in objects and not obj.hide_render:
+                if (obj not in objects or is_portal(obj)) and not obj.hide_render:
                     set_for_now(stack, obj, "hide_render", True)
             show_as_rendered(stack, objects)
             tell_extras(stack, self.scene, objects, self.warn)
             for material in materials.values():
+                tell_material(material, self.warn)
                 prepare_material(stack, material, self.warn)
-            export_gltf(path, export_colors=uses_vertex_colors(materials.values()))
+            with self.quiet():
+                export_gltf(path, export_colors=uses_vertex_colors(materials.values()))
         self.targets = [(identifier(m.retex_target_name or m.name), identifier(m.name))
                         for m in materials.values() if m.retex_target]
 
@@ -473,7 +770,8 @@ class Export:
             if self.scene.camera:
                 command += ["--camera", self.scene.camera.name]
             if not world_is_black(self.scene.world):
-                render_world(self.scene.world, sky)
+                with self.quiet():
+                    render_world(self.scene.world, sky)
                 command += ["--sky", sky]
             run(command, self.tell)
             if self.keep_glb:
@@ -633,6 +931,7 @@ def parse(args):
     parser.add_argument("--render", action="store_true", help="also render the set, FOLDER/NAME.exr")
     parser.add_argument("--spp", metavar="N", type=int, default=64, help="paths a pixel; default 64")
     parser.add_argument("--keep-glb", action="store_true", help="leave the glTF file in the folder")
+    parser.add_argument("-v", "--verbose", action="store_true", help="also show what Blender's own exporter prints")
     return parser.parse_args(args)
 
 
@@ -645,7 +944,8 @@ def main(args):
             if name not in bpy.data.materials:
                 raise Failure(f"-t {name}: there is no material of that name")
             bpy.data.materials[name].retex_target = True
-        export = Export(bpy.context, options.output, lambda line: print(line, file=sys.stderr), options.keep_glb)
+        export = Export(bpy.context, options.output, lambda line: print(line, file=sys.stderr), options.keep_glb,
+                        options.verbose)
         scene = export.write()
         if options.render:
             export.render(scene, options.spp)

@@ -72,6 +72,11 @@ double gltf_number(const json_t *object, const char *key, double otherwise)
     return isfinite(x) ? x : otherwise;
 }
 
+int gltf_flag(const json_t *object, const char *key)
+{
+    return json_is_true(json_object_get(object, key)) || gltf_number(object, key, 0) != 0;
+}
+
 const json_t *gltf_extension(const json_t *of, const char *name)
 {
     return json_object_get(json_object_get(of, "extensions"), name);
@@ -95,6 +100,14 @@ static double specular_of(const json_t *specular)
     return isfinite(mean) ? fmin(fmax(mean, 0), 20) : 1;
 }
 
+static void take_bump(const json_t *bump, GltfBump *to)
+{
+    to->is_there = json_is_object(bump);
+    to->is_color = !gltf_flag(bump, "numbers");
+    to->distance = (float)fmin(fmax(gltf_number(bump, "distance", 1), -1e9), 1e9);
+    to->strength = (float)fmin(fmax(gltf_number(bump, "strength", 1), 0), 1);
+}
+
 static void take_materials(const json_t *json, Gltf *gltf)
 {
     const json_t *materials = json_object_get(json, "materials");
@@ -102,13 +115,15 @@ static void take_materials(const json_t *json, Gltf *gltf)
     gltf->strengths = calloc(count + 1, sizeof *gltf->strengths);
     gltf->speculars = calloc(count + 1, sizeof *gltf->speculars);
     gltf->dispersions = calloc(count + 1, sizeof *gltf->dispersions);
-    for (size_t i = 0; gltf->strengths && gltf->speculars && gltf->dispersions && i < count; i++) {
+    gltf->bumps = calloc(count + 1, sizeof *gltf->bumps);
+    for (size_t i = 0; gltf->strengths && gltf->speculars && gltf->dispersions && gltf->bumps && i < count; i++) {
         const json_t *material = json_array_get(materials, i);
         const json_t *emissive = gltf_extension(material, "KHR_materials_emissive_strength");
         gltf->strengths[i] = (float)gltf_number(emissive, "emissiveStrength", 1);
         gltf->speculars[i] = (float)specular_of(gltf_extension(material, "KHR_materials_specular"));
         gltf->dispersions[i] = (float)fmin(
             fmax(gltf_number(gltf_extension(material, "KHR_materials_dispersion"), "dispersion", 0), 0), 20);
+        take_bump(json_object_get(gltf_extras(material), "bump"), &gltf->bumps[i]);
         gltf->nmaterials = (int)i + 1;
     }
 }
@@ -225,6 +240,7 @@ void gltf_free(Gltf *gltf)
     free(gltf->strengths);
     free(gltf->speculars);
     free(gltf->dispersions);
+    free(gltf->bumps);
     free(gltf->cameras);
     free(gltf->lights);
 }

@@ -50,7 +50,7 @@ static int take_punctual(const json_t *json, const json_t *node, const json_t *l
     to->tightness = fmin(fmax(gltf_number(extras, "tightness", 0), 0), 100);
     to->radius = fmax(gltf_number(extras, "radius", 0), 0);
     to->angle = fmin(fmax(gltf_number(extras, "angle", 0), 0), PI / 2);
-    to->is_seen = json_is_true(json_object_get(extras, "visible"));
+    to->is_seen = gltf_flag(extras, "visible");
     return 1;
 }
 
@@ -64,7 +64,7 @@ static int take_area(const json_t *node, GltfLight *to)
     to->width = json_number_value(json_array_get(size, 0));
     to->height = json_number_value(json_array_get(size, 1));
     to->is_ellipse = shape && strcmp(shape, "ellipse") == 0;
-    to->is_seen = json_is_true(json_object_get(extras, "visible"));
+    to->is_seen = gltf_flag(extras, "visible");
     take_color(json_object_get(extras, "radiance"), 1, to->color);
     return to->width > 0 && to->height > 0 && isfinite(to->width + to->height);
 }

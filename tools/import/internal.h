@@ -99,9 +99,16 @@ typedef struct GltfLight {
     int is_ellipse, is_seen; /* an area; by the camera */
 } GltfLight;
 
+/* Of a material's extras: its image of normals has heights. */
+typedef struct GltfBump {
+    int is_there, is_color;    /* its colours are sRGB; else numbers */
+    float distance, strength; /* height of white; of the mixture with a smooth surface */
+} GltfBump;
+
 typedef struct Gltf {
     /* by material: of emission, of the reflectance at normal incidence, 20 over Abbe's number */
     float *strengths, *speculars, *dispersions;
+    GltfBump *bumps;
     GltfCamera *cameras;
     GltfLight *lights;
     int nmaterials, ncameras, nlights;
@@ -185,6 +192,8 @@ int gltf_read(Import *import, RetexError *err);
 int gltf_explain(const Import *import, RetexError *err);
 void gltf_free(Gltf *gltf);
 double gltf_number(const json_t *object, const char *key, double otherwise);
+/* Whether something is so: Blender writes 1 for true. */
+int gltf_flag(const json_t *object, const char *key);
 const json_t *gltf_extension(const json_t *of, const char *name);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);

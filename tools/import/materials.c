@@ -72,11 +72,17 @@ static void print_finish_map(FILE *out, const char *word, const char *file, cons
     print_map(out, word, file, options, map, uv_set);
 }
 
-static void print_normal(FILE *out, const Surface *s, const MapFiles *files, int uv_set)
+static void print_normal(const Import *import, FILE *out, const Surface *s, const MapFiles *files, int uv_set)
 {
     if (!files->normal[0])
         return;
     fprintf(out, "  #ifdef (Retex) normal { ");
+    if (s->bump.is_there) {
+        print_map(out, "retex_height_map", files->normal, s->bump.is_color ? "" : "gamma 1 ", &s->normal_map, uv_set);
+        fprintf(out, " %.6g strength %.4g } #end\n", (double)s->bump.distance * import->options->scale,
+                (double)s->bump.strength);
+        return;
+    }
     print_map(out, "retex_normal_map", files->normal, "gamma 1 ", &s->normal_map, uv_set);
     if (s->normal_scale != 1)
         fprintf(out, " %.4g", (double)s->normal_scale);
@@ -323,7 +329,7 @@ static int write_emission_map(Writing *w, float emission[3], RetexError *err)
 static int write_normal_map(Writing *w, RetexError *err)
 {
     Surface *s = &w->surface;
-    if (s->normal_scale == 0)
+    if (s->bump.is_there ? s->bump.distance == 0 || s->bump.strength == 0 : s->normal_scale == 0)
         return RETEX_OK;
     if (!s->normal_map.source[0] || !s->has_heights || !has_uv_of(w, &s->normal_map))
         return write_image(w, &s->normal_map, LEFT_NORMAL_MAP, w->files.normal, err);
@@ -377,7 +383,7 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     to->is_solid = s->transmission > 0;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
     print_pigment(out, s, file);
-    print_normal(out, s, &w.files, to->uv_set);
+    print_normal(import, out, s, &w.files, to->uv_set);
     print_finish(out, s, emission, has_diffuse, &w.files, to->uv_set);
     if (to->is_solid) {
         fprintf(out, "  }\n");

@@ -330,8 +330,10 @@ int surface_read(Import *import, int index, Surface *s, RetexError *err)
     s->transmission = unit(s->transmission);
     if (is_pbr && index < import->gltf.nmaterials)
         s->tint = import->gltf.speculars[index];
-    if (index < import->gltf.nmaterials)
+    if (index < import->gltf.nmaterials) {
         s->dispersion = import->gltf.dispersions[index];
+        s->bump = import->gltf.bumps[index];
+    }
     take_opacity(import, m, base, s);
     take_emission(import, m, index, s);
     take_volume(m, s);

@@ -29,6 +29,7 @@ typedef struct Surface {
     int metallic_channel, roughness_channel;
     float normal_scale;
     int has_heights; /* normal_map has heights, in widths of the image times normal_scale */
+    GltfBump bump;   /* it has heights in units of the scene, if it is there */
 } Surface;
 
 int surface_read(Import *import, int index, Surface *surface, RetexError *err);

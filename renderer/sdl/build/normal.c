@@ -121,6 +121,23 @@ static void parse_normal_list(Sdl *sdl, Reader *r, int most)
 
 /* ---- the body ---- */
 
+/* One for the scene: a render writes it. */
+static const PixelSize *scene_pixels(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    if (!scene->pixels)
+        scene->pixels = sdl_alloc(sdl, sizeof *scene->pixels);
+    return scene->pixels;
+}
+
+static double strength_of_heights(Sdl *sdl)
+{
+    const double strength = sdl_float(sdl);
+    if (!(strength >= 0 && strength <= 1))
+        sdl_error(sdl, "strength must lie between 0 and 1, not %g", strength);
+    return strength;
+}
+
 static int accept_normal_pattern(Sdl *sdl, Reader *r)
 {
     Normal *n = &r->normal->normal;
@@ -133,6 +150,14 @@ static int accept_normal_pattern(Sdl *sdl, Reader *r)
         n->kind = NORMAL_TANGENT;
         n->vectors = parse_uv_pigment(sdl);
         n->size = 1;
+        return 1;
+    }
+    if (sdl_accept(sdl, "retex_height_map")) {
+        n->kind = NORMAL_HEIGHTS;
+        n->vectors = parse_uv_pigment(sdl);
+        n->size = optional_float(sdl, 1);
+        n->strength = sdl_accept(sdl, "strength") ? strength_of_heights(sdl) : 1;
+        n->pixels = scene_pixels(sdl);
         return 1;
     }
     if (sdl_accept(sdl, "average")) {
@@ -273,7 +298,7 @@ void normal_load(Sdl *sdl, const Normal *normal)
         return;
     if (normal->kind == NORMAL_IMAGE)
         load_bump_map(sdl, normal->bump_map);
-    if (normal->kind == NORMAL_TANGENT)
+    if (normal->kind == NORMAL_TANGENT || normal->kind == NORMAL_HEIGHTS)
         load_pigment_images(sdl, normal->vectors, 0);
     for (int i = 0; i < normal->nentries; i++)
         normal_load(sdl, normal->entries[i].normal);
