@@ -137,7 +137,7 @@ $ for f in strings arrays; do make_peak peak retex-render --safe --plain $f.pov 
 ! retex-render: error: arrays.pov:1:72: the scene takes more than the 300 MB of --max-memory
 ! retex-render: error: arrays.pov:1:72: the scene takes more than the 200 MB of --max-memory
 = 2
-$ for o in '--safe' '--safe --max-pixels 40000000' '--max-pixels 268435456 --safe' ''; do retex-render -q $o --plain --spp 1 --max-time 0.1 --size 7680x4321 ball.pov -o x.exr 2>&1 | cut -c-60; rm -f x.exr.partial; done; RETEX_SAFE=1 retex-render --plain --size 7680x4321 ball.pov -o x.exr; RETEX_MAX_PIXELS=33180000 retex-render --safe --plain --size 7680x4321 ball.pov -o x.exr; RETEX_SAFE=1 retex-combine set.exr --texture floor=big.png -o x.png
+$ for o in '--safe' '--safe --max-pixels 40000000' '--max-pixels 268435456 --safe' ''; do retex-render -q $o --plain --spp 1 --max-time 0.1 --size 7680x4321 ball.pov -o x.exr 2>&1 | cut -c-60; rm -f x.exr.partial; done; RETEX_SAFE=1 retex-render --plain --max-time 1 --size 7680x4321 ball.pov -o x.exr; RETEX_MAX_PIXELS=33180000 retex-render --safe --plain --max-time 1 --size 7680x4321 ball.pov -o x.exr; RETEX_SAFE=1 retex-combine set.exr --texture floor=big.png -o x.png
 > retex-render: error: 7680x4321 pixels are more than the 3317
 > retex-render: error: not done within the 0.1 s of --max-time
 > retex-render: error: not done within the 0.1 s of --max-time
