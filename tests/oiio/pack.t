@@ -42,6 +42,25 @@ $ iinfo -v room.retex | grep -v 'retex: \|subimages' | sort
 $ oiiotool room.retex -d half --subimage 0 -o x.exr && retex-diff x.exr plain.exr >/dev/null && echo same
 > same
 
+# The target of every part that has one is that in the part's name, whatever it is for.
+$ iinfo -v -a room.retex | awk -F '"' 'function end() { split(name, word, "_"); if (word[2]) print role, (target == word[2] ? target : name " is of " target) } /oiio:subimagename/ { end(); name = $2; role = target = "" } /retex:role/ { role = $2 } /retex:target"*:/ { target = $2 } END { end() }' | sort | uniq -c | awk '{ $1 = ""; print substr($0, 2) }'
+> albedo Floor
+> albedo Wall
+> gain Floor
+> gain Wall
+> original Floor
+> original Wall
+> radiance Floor
+> radiance Wall
+> radiance correction_Floor is of
+> radiance correction_Wall is of
+> share Floor
+> share Wall
+> spread Floor
+> spread Wall
+> uv Floor
+> uv Wall
+
 # All that is written of it is the set again, checksums included.
 $ oiiotool room.retex -o set.exr; retex-info --check set.exr
 > set.exr: ok

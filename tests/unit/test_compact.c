@@ -6,6 +6,10 @@
 
 #include <cmocka.h>
 
+#include <retex/color.h>
+
+#include "compact/clusters.h"
+
 static void grey_is_exact_at_all_scales(void **state)
 {
     (void)state;
@@ -210,14 +214,71 @@ static void sizes_may_lose_on_top(void **state)
     assert_int_equal(scale_on_wall(0.038f, 0.08f), 1);
 }
 
+/* A block's clusters have the light of all clusters that were merged into them, of both kinds. */
+static void merged_clusters_have_all_their_light(void **state)
+{
+    enum { CLUSTERS = 3, SCALE = 4 };
+    RetexSet *set = whole_set(1, CLUSTERS);
+    RetexCompactLight light;
+    RetexCompactClusters clusters;
+    RetexError err = {0};
+    uint32_t seed = 11;
+    int understood, sharp = 0;
+    (void)state;
+    for (int k = 0; k < CLUSTERS; k++)
+        for (int y = 0; y < HIGH; y++)
+            for (int x = 0; x < WIDE; x++) { /* far apart, and each at nearly the same place in all pixels */
+                put(set, k, x, y, 0.1f + 0.4f * (float)k + 1e-3f * (float)test_random(&seed), 0.5f, 0.5f);
+                put_spread(set, k, x, y, 1e-3f, 1e-3f, 0.5f);
+            }
+    test_must(retex_compact_light_open(&light, set, 0, &understood, &err), &err);
+    assert_true(understood);
+    while (light.kinds[sharp].kind != RETEX_FOOTPRINT_SHARP)
+        sharp++;
+    test_must(retex_compact_clusters_make(&clusters, &light, &light.kinds[sharp], SCALE, 1, &err), &err);
+    assert_int_equal(clusters.count, CLUSTERS);
+    for (int by = 0; by < HIGH / SCALE; by++)
+        for (int bx = 16 / SCALE; bx < WIDE / SCALE; bx++) {
+            double single[CLUSTERS] = {0}, further[CLUSTERS] = {0}, singles = 0, furthers = 0;
+            for (int i = 0; i < SCALE * SCALE; i++) {
+                const int x = SCALE * bx + i % SCALE, y = SCALE * by + i / SCALE;
+                double all = 0, shares = 0;
+                for (int n = 0; n < set->nterms; n++) {
+                    const RetexTerm *term = &set->terms[n];
+                    const float *rgb = at(set, term->radiance, x, y);
+                    const double lum = retex_luminance((double)rgb[0], (double)rgb[1], (double)rgb[2]);
+                    if (term->nfactors == 1 && term->factors[0] < CLUSTERS)
+                        single[term->factors[0]] += lum, singles += lum;
+                    if (term->nfactors > 1 && term->factors[0] == RETEX_MIXTURE(0))
+                        all += pow(0.6, term->nfactors - 1) * lum;
+                }
+                for (int k = 0; k < CLUSTERS; k++)
+                    shares += (double)*at(set, share_part(set, k), x, y);
+                for (int k = 0; k < CLUSTERS; k++)
+                    further[k] += all * (double)*at(set, share_part(set, k), x, y) / shares;
+                furthers += all;
+            }
+            const size_t block = (size_t)by * (size_t)clusters.albedo.width + (size_t)bx;
+            for (int k = 0; k < CLUSTERS; k++) {
+                assert_float_equal(clusters.uv[k].pixels[3 * block], 0.1 + 0.4 * k, 2e-3);
+                assert_float_equal(clusters.weight[k].pixels[block], single[k] / singles, 1.0 / 512);
+                assert_float_equal(clusters.interreflected[k].pixels[block], further[k] / furthers, 1.0 / 512);
+            }
+        }
+    retex_compact_clusters_free(&clusters);
+    retex_compact_light_close(&light);
+    retex_set_close(&set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grey_is_exact_at_all_scales),  cmocka_unit_test(constants_are_exact_where_gains_are_whole),
-        cmocka_unit_test(originals_are_exact),          cmocka_unit_test(energy_is_kept_in_one_image),
-        cmocka_unit_test(weights_are_shares),           cmocka_unit_test(few_orders_tell_of_many),
-        cmocka_unit_test(one_cluster_needs_no_mixture), cmocka_unit_test(empty_kinds_do_no_harm),
-        cmocka_unit_test(sizes_follow_the_loss),        cmocka_unit_test(sizes_may_lose_on_top),
+        cmocka_unit_test(grey_is_exact_at_all_scales), cmocka_unit_test(constants_are_exact_where_gains_are_whole),
+        cmocka_unit_test(originals_are_exact),         cmocka_unit_test(energy_is_kept_in_one_image),
+        cmocka_unit_test(weights_are_shares),          cmocka_unit_test(merged_clusters_have_all_their_light),
+        cmocka_unit_test(few_orders_tell_of_many),     cmocka_unit_test(one_cluster_needs_no_mixture),
+        cmocka_unit_test(empty_kinds_do_no_harm),      cmocka_unit_test(sizes_follow_the_loss),
+        cmocka_unit_test(sizes_may_lose_on_top),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

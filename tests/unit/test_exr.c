@@ -477,6 +477,78 @@ static void test_foreign_files_of_every_compression(void **state)
         }
 }
 
+/* Put a chunk of this size and these bytes in place of a file's only one. */
+static void replace_chunk(const unsigned char *file, size_t start, int32_t size, const unsigned char *data,
+                          size_t bytes)
+{
+    unsigned char *changed = malloc(start + 8 + bytes);
+    memcpy(changed, file, start + 4); /* the line */
+    memcpy(changed + start + 4, &size, 4);
+    memcpy(changed + start + 8, data, bytes);
+    store(changed, start + 8 + bytes);
+    free(changed);
+}
+
+/* What OpenEXR's ZIP deflates: the even bytes, then the odd ones, as differences. */
+static void prepare_for_zip(unsigned char *out, const unsigned char *raw, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i++)
+        out[i % 2 ? (bytes + 1) / 2 + i / 2 : i / 2] = raw[i];
+    for (size_t i = bytes - 1; i > 0; i--)
+        out[i] = (unsigned char)(out[i] - out[i - 1] + 128);
+}
+
+/* A chunk is as long as its samples, which are then as they are, or compressed and shorter: nothing else is read. */
+static void test_sizes_of_chunks(void **state)
+{
+    (void)state;
+    enum { WIDTH = 50, RAW = 4 * WIDTH, ROOM = RAW + 64 };
+    static const struct {
+        int level;   /* of zlib; -1: not compressed */
+        int32_t add; /* to the size that the chunk says */
+        int right;   /* in a file without compression, with ZIPS */
+    } cases[] = {{-1, 0, 3},       {-1, 1, 0}, {-1, -1, 0}, {-1, -RAW, 0}, {-1, -RAW - 1, 0},
+                 {-1, 1 << 30, 0}, {9, 0, 2},  {9, -1, 0},  {9, -4, 0},    {0, 0, 0}};
+    uint16_t samples[2][WIDTH]; /* G, R, as in the file */
+    const uint16_t *planes[2] = {samples[1], samples[0]};
+    unsigned char ready[RAW], chunk[ROOM];
+    for (int i = 0; i < 2 * WIDTH; i++)
+        samples[i / WIDTH][i % WIDTH] = (uint16_t)(0x3800 + i % WIDTH / 7);
+    prepare_for_zip(ready, (const unsigned char *)samples, RAW);
+    for (int zips = 0; zips < 2; zips++)
+        for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+            write_by_core(planes, WIDTH, 1, zips ? EXR_COMPRESSION_ZIPS : EXR_COMPRESSION_NONE, 0);
+            size_t bytes, start = 8;
+            uLongf length = ROOM;
+            uint64_t entry = 0;
+            unsigned char *file = test_read_file(path, &bytes);
+            for (; entry != start; start++)
+                memcpy(&entry, file + start - 7, 8);
+            memset(chunk, 0, sizeof chunk);
+            if (cases[k].level >= 0)
+                assert_int_equal(compress2(chunk, &length, ready, RAW, cases[k].level), Z_OK);
+            else
+                memcpy(chunk, samples, length = RAW);
+            assert_true(cases[k].level != 0 || length > RAW); /* what is stored is longer */
+            replace_chunk(file, start, (int32_t)length + cases[k].add, chunk, sizeof chunk);
+            RetexImage image = {0};
+            RetexError err = {0};
+            const int status = read_anything();
+            if (!(cases[k].right >> zips & 1)) {
+                assert_int_equal(status, RETEX_EFORMAT);
+            } else {
+                assert_int_equal(status, 0);
+                test_must(retex_image_read(&image, path, NULL, 1, &err), &err);
+                for (int x = 0; x < WIDTH; x++) {
+                    assert_true(image.pixels[4 * x] == (float)half_value(samples[1][x]));
+                    assert_true(image.pixels[4 * x + 1] == (float)half_value(samples[0][x]));
+                }
+            }
+            retex_image_free(&image);
+            free(file);
+        }
+}
+
 static void test_absurd_requests(void **state)
 {
     (void)state;
@@ -508,6 +580,7 @@ int main(void)
         cmocka_unit_test(test_files_are_equal_for_every_thread_count),
         cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_foreign_files_of_every_compression),
+        cmocka_unit_test(test_sizes_of_chunks),
         cmocka_unit_test(test_absurd_requests),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);

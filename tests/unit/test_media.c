@@ -130,13 +130,38 @@ static void test_language(void **state)
     expect_error(V37 "fog{fog_type 3}", "fog_type 3");
 }
 
+/* Densities of one medium multiply at each point. */
+static void test_two_densities(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "sphere{0,1 hollow pigment{rgbt 1} interior{media{absorption <2,1,.5> emission 4"
+                             "  density{gradient x color_map{[0 rgb 0][1 rgb <1,.5,2>]}}"
+                             "  density{gradient y color_map{[0 rgb .2][1 rgb 1]}}"
+                             "  density{gradient z color_map{[0 rgb 1][1 rgb <0,1,.5>]}}}}}");
+    MediumSet inside = {.count = 0};
+    MediumSums here;
+    medium_set_add(&inside, only(scene)->interior->media);
+    medium_set_complete(&inside);
+    assert_true(inside.varies);
+    for (int k = 0; k < 27; k++) {
+        const double x = 0.1 + 0.3 * (k % 3), y = 0.15 + 0.3 * (k / 3 % 3), z = 0.05 + 0.4 * (k / 9);
+        const double absorption[3] = {2, 1, 0.5}, first[3] = {1, 0.5, 2}, third[3] = {0, 1, 0.5};
+        medium_at(&inside, vec3(x, y, z), 0, &here);
+        for (int c = 0; c < 3; c++) {
+            const double density = x * first[c] * (0.2 + 0.8 * y) * (1 - z + z * third[c]);
+            assert_float_equal(here.extinction[c], absorption[c] * density, 1e-6);
+            assert_float_equal(here.emission[c], 4 * density, 1e-6);
+            assert_true(here.extinction[c] <= inside.majorant);
+        }
+    }
+    scene_close(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normalised),
-        cmocka_unit_test(test_sampled),
-        cmocka_unit_test(test_povray),
-        cmocka_unit_test(test_language),
+        cmocka_unit_test(test_normalised), cmocka_unit_test(test_sampled),       cmocka_unit_test(test_povray),
+        cmocka_unit_test(test_language),   cmocka_unit_test(test_two_densities),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
