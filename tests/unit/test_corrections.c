@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include <retex/denoise_data.h>
 #include <retex/set_file.h>
 
 #define PATHS 40
@@ -277,11 +278,58 @@ static void only_those_asked_for_are_loaded(void **state)
     end_film(&f);
 }
 
+/* Give each signal this noise, as a share of the left pixel's white. Returns the white. */
+static double add_noise(RetexSet *set, double share)
+{
+    double white = 0;
+    for (size_t c = 0; c < 3; c++) {
+        double sum = 0;
+        for (int t = 0; t < set->nterms; t++)
+            sum += set->terms[t].edited ? 0 : (double)set->parts[set->terms[t].radiance].image.pixels[c];
+        white = fmax(white, sum);
+    }
+    test_add_denoise_data(set);
+    for (int k = 0; k < set->nparts; k++) {
+        RetexImage *im = &set->parts[k].image;
+        for (int i = 0; retex_name_is_noise(set->parts[k].name) && i < 3 * im->width * im->height; i++)
+            im->pixels[i] = (float)(share * white);
+    }
+    return white;
+}
+
+/* Light, albedos and shares are rounded by noise, which here is as large as the light. What this moves where one target
+ * is edited is added to its corrections, which are rounded to a 256th, and those of several hits to eight times as
+ * much. */
+static void rounding_keeps_what_one_edit_shows(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 12; seed++) {
+        const int ntargets = seed % 2 ? 2 : 3;
+        RetexError err = {0};
+        Fixture f;
+        Truth truth;
+        make(&f, &truth, seed <= 6 ? &footprints_layout : &paper_layout, ntargets, seed);
+        const double most = bound(&f), white = add_noise(f.set, 0.5);
+        double error = 0, without = 0;
+        test_must(retex_set_round(f.set, NULL, 1, &err), &err);
+        for (int t = 0; t < ntargets; t++)
+            error = fmax(error, largest_error(&f, &truth, 1 << t));
+        remove_corrections(f.set);
+        for (int t = 0; t < ntargets; t++)
+            without = fmax(without, largest_error(&f, &truth, 1 << t));
+        printf("# seed %u: error %g of white, without corrections %g\n", seed, error / white, without / white);
+        assert_true(error < 2.5 / 256 * white + most);
+        end_film(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(corrections_know_their_kind),
-                                       cmocka_unit_test(footprints_are_exact), cmocka_unit_test(paper_is_exact),
+                                       cmocka_unit_test(footprints_are_exact),
+                                       cmocka_unit_test(paper_is_exact),
                                        cmocka_unit_test(several_edited_targets_interpolate),
-                                       cmocka_unit_test(only_those_asked_for_are_loaded)};
+                                       cmocka_unit_test(only_those_asked_for_are_loaded),
+                                       cmocka_unit_test(rounding_keeps_what_one_edit_shows)};
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

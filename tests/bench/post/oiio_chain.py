@@ -19,6 +19,8 @@ class Chain:
         self.set, self.mixed = manifest_of_set, {}
         self.parts = {part["name"]: part for part in self.set["parts"]}
         self.samples = [image["part"] for image in samples["samples"]["images"]]
+        footprints = self.set["footprints"]
+        self.edited = {f["target"] for f, part in zip(footprints, self.samples) if part is not None}
 
     def enlarged(self, part):
         """Bilinear, as recombination does, to whole multiples, of which the picture is the upper left part."""
@@ -55,9 +57,17 @@ class Chain:
     def factor(self, number):
         return self.sample(number) if number >= 0 else [f"MIXTURE{-1 - number}"]
 
+    def weight(self, term):
+        """Of a correction, by how many targets have samples."""
+        if "edited" not in term:
+            return 1
+        targets, edited = len(self.set["targets"]), len(self.edited)
+        return (targets - edited) / (edited * (targets - 1)) if term["edited"] in self.edited else 0
+
     def radiance(self, term):
         gain = [*self.part(term["gain"]), "--mul"] if term.get("gain") else []
-        return [*self.part(term["radiance"]), *gain]
+        weight = [] if self.weight(term) == 1 else ["--mulc", f"{self.weight(term)}"]
+        return [*self.part(term["radiance"]), *gain, *weight]
 
     def sum(self, terms):
         """Of terms and the factors they have left: those without, and for each first factor it times its own sum."""
@@ -70,7 +80,7 @@ class Chain:
 
 def main(path, samples, out):
     chain = Chain(manifest(path), manifest(samples))
-    terms = [(term, tuple(term["factors"])) for term in chain.set["terms"]]
+    terms = [(term, tuple(term["factors"])) for term in chain.set["terms"] if chain.weight(term)]
     call = ["oiiotool", path, "--label", "SET", "--pop", samples, "--label", "SAMPLES", "--pop",
             *chain.mixtures(), *chain.sum(terms), "--chnames", "R,G,B", "-d", "half", "-o", out]
     print("\n".join(call))

@@ -16,6 +16,13 @@ void retex_set_band_close(RetexSetBand **band); /* NULL and pointers to NULL are
  * `whole`. */
 int retex_set_band_load(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err);
 
+/* The numbers of a part that is in memory, in its pixel number `at`. */
+static inline float *retex_pixel_at(const RetexSet *rows, int part, size_t at)
+{
+    const RetexImage *im = &rows->parts[part].image;
+    return im->pixels + at * (size_t)im->channels;
+}
+
 /* Read rows of one part, from `first` on, wherever the set keeps them: as many as the image, which is allocated,
  * has. */
 int retex_set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err);

@@ -1,6 +1,6 @@
 /* See precision.h. Footprints are rounded by the light that they multiply: an error of a footprint changes the picture
- * by at most so much. Errors of light, and of albedos, are carried on from one number of a pixel to the next larger
- * one, so that their sums are rounded only once. */
+ * by at most so much. Errors of albedos are carried on from one number of a pixel to the next larger one, so that their
+ * sum is rounded only once. precision_light.h has light. */
 #include "set/precision.h"
 
 #include <math.h>
@@ -12,29 +12,12 @@
 #include <retex/uv_stats.h>
 
 #include "base/jobs.h"
+#include "set/band.h"
+#include "set/edited.h"
+#include "set/precision_light.h"
 #include "set/samples.h"
 
 enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
-
-/* Fractions are such that rounding adds little to the noise that a picture has anyway, finest steps such that nothing
- * is seen in pictures without noise. */
-const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
-    [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
-    [RETEX_PRECISION_CORRECTION] = {0.1, 1.0 / 8192, 1.0 / 256},
-    [RETEX_PRECISION_PICTURE] = {0, 1.0 / 1024, 1.0 / 1024},
-    [RETEX_PRECISION_MEAN] = {0.5, 1.0 / 1024, 1.0 / 2},
-    [RETEX_PRECISION_BROAD_MEAN] = {1, 1.0 / 1024, 1},
-    [RETEX_PRECISION_SPREAD] = {0.25, 1.0 / 1024, 1.0 / 16},
-    [RETEX_PRECISION_BROAD_SPREAD] = {1.5, 1.0 / 1024, 1},
-    [RETEX_PRECISION_CORRELATION] = {0.25, 1.0 / 512, 1.0 / 8},
-    [RETEX_PRECISION_BROAD_CORRELATION] = {1, 1.0 / 512, 1},
-    [RETEX_PRECISION_COVERAGE] = {0.5, 1.0 / 128, 1.0 / 8},
-    [RETEX_PRECISION_ALBEDO] = {0.05, 1.0 / 4096, 1.0 / 16},
-    [RETEX_PRECISION_WEIGHT] = {0.5, 1.0 / 512, 1.0 / 16},
-    [RETEX_PRECISION_NOISE] = {0, 1.0 / 2, 1.0 / 2},
-    [RETEX_PRECISION_GUIDE] = {0, 1.0 / 256, 1.0 / 256},
-    [RETEX_PRECISION_POSITION] = {0, 1.0 / 2048, 1.0 / 2048},
-};
 
 /* A footprint, where it has all its parts and they are not reduced. */
 typedef struct Footprint {
@@ -48,19 +31,22 @@ typedef struct Footprint {
 
 struct RetexPrecision {
     RetexSignals signals;
+    RetexEdited *edited;
     double remaining;
     int has_noise;
     int nfootprints, nmixtures;
     Footprint *footprints;
+    char whole[RETEX_MIXTURES_MAX]; /* 1: the shares of the mixture are not reduced */
 };
 
 /* Memory of one job. */
 typedef struct Scratch {
-    float *noise;  /* by signal, then of all together: of a band's pixels */
-    float *row;    /* sums over columns */
-    double *light; /* by footprint: light that it multiplies in the pixel */
-    double *mixed; /* by mixture */
-    int *order;    /* of footprints */
+    float *noise;       /* variances by signal, then of all together: of a band's pixels */
+    float *row;         /* sums over columns */
+    double *deviations; /* of the pixel's noise, in the same order */
+    double *light;      /* by footprint: light that it multiplies in the pixel */
+    double *mixed;      /* by mixture */
+    int *order;         /* of footprints */
 } Scratch;
 
 static size_t band_pixels(const RetexSet *rows)
@@ -68,15 +54,9 @@ static size_t band_pixels(const RetexSet *rows)
     return (size_t)rows->width * RETEX_PRECISION_LINES;
 }
 
-static double step(RetexPrecisionKind kind, double scale, double relative)
-{
-    const RetexPrecisionRule *rule = &retex_precision_rules[kind];
-    return scale * fmax(fmin(rule->fraction * relative, rule->coarsest), rule->finest);
-}
-
 static float rounded(RetexPrecisionKind kind, double value, double scale, double relative)
 {
-    return (float)retex_round_to(value, step(kind, scale, relative)) + 0.0f; /* no -0 */
+    return (float)retex_round_to(value, retex_precision_step(kind, scale, relative)) + 0.0f; /* no -0 */
 }
 
 /* ---- the plan ---- */
@@ -115,6 +95,15 @@ static void plan_footprints(RetexPrecision *p, const RetexSet *set)
     }
 }
 
+static void plan_mixtures(RetexPrecision *p, const RetexSet *set)
+{
+    for (int m = 0; m < set->nmixtures; m++) {
+        p->whole[m] = 1;
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            p->whole[m] = p->whole[m] && is_whole(set, set->mixtures[m].shares[k].weight, 1);
+    }
+}
+
 /* The members of a signal with the smallest weights first, because errors are carried on to the next ones. */
 static int compare_members(const void *a, const void *b)
 {
@@ -132,7 +121,9 @@ int retex_precision_open(RetexPrecision **result, const RetexSet *set, double re
         return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
     }
     p->remaining = remaining, p->nfootprints = set->nfootprints, p->nmixtures = set->nmixtures;
-    const int code = retex_signals_group(&p->signals, set, err);
+    int code = retex_signals_group(&p->signals, set, err);
+    if (!code)
+        code = retex_edited_open(&p->edited, set, err);
     if (code) {
         retex_precision_close(result);
         return code;
@@ -144,6 +135,7 @@ int retex_precision_open(RetexPrecision **result, const RetexSet *set, double re
         p->has_noise = p->has_noise && signal->noise >= 0 && is_whole(set, signal->noise, 3);
     }
     plan_footprints(p, set);
+    plan_mixtures(p, set);
     return RETEX_OK;
 }
 
@@ -153,6 +145,7 @@ void retex_precision_close(RetexPrecision **result)
     if (!p)
         return;
     retex_signals_close(&p->signals);
+    retex_edited_close(&p->edited);
     free(p->footprints);
     free(p);
     *result = NULL;
@@ -210,26 +203,20 @@ static void find_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows
     }
 }
 
-/* The noise of a signal, or of all (-1), in a pixel of the band. */
-static double noise_at(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, int signal, size_t pixel)
+/* The noise of a pixel of the band. */
+static void take_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t pixel)
 {
-    return p->has_noise
-               ? sqrt((double)s->noise[(size_t)(signal < 0 ? p->signals.count : signal) * band_pixels(rows) + pixel])
-               : 0;
+    for (int k = 0; k <= p->signals.count; k++)
+        s->deviations[k] = p->has_noise ? sqrt((double)s->noise[(size_t)k * band_pixels(rows) + pixel]) : 0;
+}
+
+/* The noise of a signal, or of all (-1), in the pixel. */
+static double noise_of(const RetexPrecision *p, const Scratch *s, int signal)
+{
+    return s->deviations[signal < 0 ? p->signals.count : signal];
 }
 
 /* ---- one pixel ---- */
-
-static float *value_at(const RetexSet *rows, int part, size_t at)
-{
-    const RetexImage *im = &rows->parts[part].image;
-    return im->pixels + at * (size_t)im->channels;
-}
-
-static double mean_size(const float v[3])
-{
-    return ((double)fabsf(v[0]) + (double)fabsf(v[1]) + (double)fabsf(v[2])) / 3;
-}
 
 /* How much light every footprint and every mixture multiplies, further hits being grey. */
 static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at)
@@ -240,7 +227,7 @@ static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *ro
         for (int m = 0; m < p->signals.of[k].nmembers; m++) {
             const RetexSignalMember *member = &p->signals.of[k].members[m];
             const RetexTerm *term = &rows->terms[member->term];
-            const double light = mean_size(value_at(rows, member->part, at)) * (double)member->weight;
+            const double light = retex_mean_size(retex_pixel_at(rows, member->part, at)) * (double)member->weight;
             for (int f = 0; f < term->nfactors && light > 0; f++)
                 *(term->factors[f] < 0 ? &s->mixed[RETEX_MIXTURE(term->factors[f])] : &s->light[term->factors[f]]) +=
                     light;
@@ -248,11 +235,11 @@ static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *ro
     for (int m = 0; m < p->nmixtures; m++) {
         const RetexMixture *mixture = &rows->mixtures[m];
         double sum = 0;
-        for (int k = 0; k < mixture->nshares && s->mixed[m] > 0; k++)
-            sum += (double)*value_at(rows, mixture->shares[k].weight, at);
+        for (int k = 0; k < mixture->nshares && s->mixed[m] > 0 && p->whole[m]; k++)
+            sum += (double)*retex_pixel_at(rows, mixture->shares[k].weight, at);
         for (int k = 0; k < mixture->nshares && sum > 0; k++)
             s->light[mixture->shares[k].footprint] +=
-                s->mixed[m] * (double)*value_at(rows, mixture->shares[k].weight, at) / sum;
+                s->mixed[m] * (double)*retex_pixel_at(rows, mixture->shares[k].weight, at) / sum;
     }
 }
 
@@ -270,7 +257,7 @@ static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int f
         const Footprint *f = &p->footprints[i];
         if (f->first != first || f->uv < 0)
             continue;
-        const float *uv = value_at(rows, f->uv, at), *spread = value_at(rows, f->spread, at);
+        const float *uv = retex_pixel_at(rows, f->uv, at), *spread = retex_pixel_at(rows, f->spread, at);
         if (!(uv[2] > 0))
             continue;
         origin = weight > 0 ? origin : (double)uv[axis];
@@ -288,7 +275,7 @@ static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int f
 static double credible_deviation(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at, int axis,
                                  double samples)
 {
-    const double deviation = (double)value_at(rows, f->spread, at)[axis];
+    const double deviation = (double)retex_pixel_at(rows, f->spread, at)[axis];
     if (!f->broad || !p->has_noise)
         return deviation;
     const double own = fmax(deviation * deviation, 1e-20), all = kind_variance(p, rows, f->first, at, axis) / 2;
@@ -326,10 +313,11 @@ static void round_place(const RetexPrecision *p, const RetexSet *rows, const Foo
                         const double deviation[2], double relative)
 {
     static const double FINEST = 1.0 / (1 << 18); /* a 64th of a texel of a 4K texture */
-    float *uv = value_at(rows, f->uv, at), *spread = value_at(rows, f->spread, at);
+    float *uv = retex_pixel_at(rows, f->uv, at), *spread = retex_pixel_at(rows, f->spread, at);
     for (int k = 0; k < 2; k++) {
         const double size = fabs((double)uv[k]), kept = retex_round_unit(size) / 32768, /* 16 significant bits */
-            wanted = step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k], relative);
+            wanted = retex_precision_step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k],
+                                          relative);
         /* more bits only where they are finer than half a deviation, which PXR24 cannot store */
         const int enough = !p->has_noise ? 0 : kept <= deviation[k] / 2 || (double)uv[2] * rows->spp < 8;
         const double unit = retex_round_unit(fmax(fmax(wanted, FINEST), enough ? kept : 0));
@@ -341,20 +329,19 @@ static void round_place(const RetexPrecision *p, const RetexSet *rows, const Foo
     uv[2] = rounded(RETEX_PRECISION_COVERAGE, (double)uv[2], (double)uv[2], relative);
 }
 
-static void round_places(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+static void round_places(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at)
 {
     double deviation[RETEX_SET_FOOTPRINTS_MAX][2];
     for (int i = 0; i < p->nfootprints; i++) {
         const Footprint *f = &p->footprints[i];
-        const double coverage = f->uv < 0 ? 0 : (double)value_at(rows, f->uv, at)[2];
+        const double coverage = f->uv < 0 ? 0 : (double)retex_pixel_at(rows, f->uv, at)[2];
         for (int k = 0; k < 2 && coverage > 0; k++)
             deviation[i][k] = credible_deviation(p, rows, f, at, k, coverage * rows->spp);
     }
     for (int i = 0; i < p->nfootprints; i++) {
         const Footprint *f = &p->footprints[i];
-        if (f->uv >= 0 && value_at(rows, f->uv, at)[2] > 0)
-            round_place(p, rows, f, at, deviation[i],
-                        relative_noise(noise_at(p, s, rows, f->signal, pixel), s->light[i]));
+        if (f->uv >= 0 && retex_pixel_at(rows, f->uv, at)[2] > 0)
+            round_place(p, rows, f, at, deviation[i], relative_noise(noise_of(p, s, f->signal), s->light[i]));
     }
 }
 
@@ -374,15 +361,15 @@ static int sort_footprints(const RetexPrecision *p, Scratch *s, int first)
     return count;
 }
 
-static void round_albedos(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int first, size_t at, size_t pixel)
+static void round_albedos(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int first, size_t at)
 {
-    const double noise = noise_at(p, s, rows, p->footprints[first].signal, pixel);
+    const double noise = noise_of(p, s, p->footprints[first].signal);
     const int count = sort_footprints(p, s, first);
     double carried[3] = {0, 0, 0};
     for (int k = 0; k < count; k++) {
-        const double light = s->light[s->order[k]],
-                     unit = retex_round_unit(step(RETEX_PRECISION_ALBEDO, 1, relative_noise(noise, light)));
-        float *albedo = value_at(rows, p->footprints[s->order[k]].albedo, at);
+        const double light = s->light[s->order[k]], unit = retex_round_unit(retex_precision_step(
+                                                        RETEX_PRECISION_ALBEDO, 1, relative_noise(noise, light)));
+        float *albedo = retex_pixel_at(rows, p->footprints[s->order[k]].albedo, at);
         for (int c = 0; c < 3; c++) {
             const double value = fmax((double)albedo[c] + carried[c] / light, 0), kept = retex_round_by(value, unit);
             carried[c] += ((double)albedo[c] - kept) * light;
@@ -391,85 +378,37 @@ static void round_albedos(const RetexPrecision *p, Scratch *s, const RetexSet *r
     }
 }
 
-static void round_weights(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
+static void round_weights(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at)
 {
     for (int m = 0; m < p->nmixtures; m++) {
         const RetexMixture *mixture = &rows->mixtures[m];
-        const double relative = relative_noise(noise_at(p, s, rows, -1, pixel), s->mixed[m]);
-        for (int k = 0; k < mixture->nshares; k++) {
+        const double relative = relative_noise(noise_of(p, s, -1), s->mixed[m]);
+        for (int k = 0; k < mixture->nshares && p->whole[m]; k++) {
             const RetexImage *im = &rows->parts[mixture->shares[k].weight].image;
-            float *weight = value_at(rows, mixture->shares[k].weight, at);
+            float *weight = retex_pixel_at(rows, mixture->shares[k].weight, at);
             if (im->channels == 1 && *weight > 0)
                 *weight = fmaxf(rounded(RETEX_PRECISION_WEIGHT, (double)*weight, 1, relative), RETEX_LEAST_SHARE);
         }
     }
 }
 
-/* The unit for a signal's light in a pixel; 0: it stays as it is. */
-static double light_unit(const RetexPrecision *p, const RetexSignal *signal, double noise, double white)
-{
-    if (p->has_noise ? !(noise > 0) : signal->target < 0)
-        return 0;
-    return retex_round_unit(white > 0 ? step(RETEX_PRECISION_LIGHT, white, noise / white) : 0);
-}
-
-/* The largest channel of the sum of all terms but corrections. */
-static double white_pixel(const RetexPrecision *p, const RetexSet *rows, size_t at)
-{
-    double sum[3] = {0, 0, 0};
-    for (int k = 0; k < p->signals.count; k++)
-        for (int m = 0; m < p->signals.of[k].nmembers; m++)
-            for (int c = 0; c < 3 && p->signals.of[k].members[m].weight > 0; c++)
-                sum[c] += (double)value_at(rows, p->signals.of[k].members[m].part, at)[c];
-    return (double)(float)fmax(sum[0], fmax(sum[1], sum[2]));
-}
-
-/* Light of one signal. Corrections have a weight of 0. */
-static void round_members(const RetexSignal *signal, const RetexSet *rows, size_t at, double unit)
-{
-    double carried[3] = {0, 0, 0};
-    for (int m = 0; m < signal->nmembers && unit > 0; m++) {
-        float *light = value_at(rows, signal->members[m].part, at);
-        const double weight = (double)signal->members[m].weight;
-        for (int c = 0; c < 3 && weight > 0; c++) {
-            if (light[c] == 0)
-                continue;
-            const double wanted = (double)light[c] + carried[c] / weight;
-            const double kept = (wanted < 0) == (light[c] < 0) ? retex_round_by(wanted, unit) : 0;
-            carried[c] += ((double)light[c] - kept) * weight;
-            light[c] = (float)kept + 0.0f;
-        }
-    }
-}
-
-static void round_corrections(const RetexSignal *signal, const RetexSet *rows, size_t at, double white, double noise)
-{
-    for (int m = 0; m < signal->nmembers && white > 0; m++) {
-        float *value = value_at(rows, signal->members[m].part, at);
-        for (int c = 0; c < 3 && signal->members[m].weight == 0; c++)
-            value[c] = rounded(RETEX_PRECISION_CORRECTION, (double)value[c], white, noise / white);
-    }
-}
-
-static void round_light(const RetexPrecision *p, const Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
-{
-    const double white = white_pixel(p, rows, at), all = noise_at(p, s, rows, -1, pixel);
-    for (int k = 0; k < p->signals.count; k++) {
-        const RetexSignal *signal = &p->signals.of[k];
-        round_members(signal, rows, at, light_unit(p, signal, noise_at(p, s, rows, k, pixel), white));
-        round_corrections(signal, rows, at, white, all);
-    }
-}
-
 static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at, size_t pixel)
 {
+    RetexPixelLight light = {.signals = &p->signals,
+                             .edited = p->edited,
+                             .rows = rows,
+                             .at = at,
+                             .has_noise = p->has_noise,
+                             .noise = s->deviations};
+    take_noise(p, s, rows, pixel);
+    retex_pixel_light_keep(&light);
     gather_light(p, s, rows, at);
-    round_places(p, s, rows, at, pixel);
+    round_places(p, s, rows, at);
     for (int i = 0; i < p->nfootprints; i++)
         if (p->footprints[i].first == i)
-            round_albedos(p, s, rows, i, at, pixel);
-    round_weights(p, s, rows, at, pixel);
-    round_light(p, s, rows, at, pixel);
+            round_albedos(p, s, rows, i, at);
+    round_weights(p, s, rows, at);
+    retex_pixel_light_round(&light);
 }
 
 /* ---- bands ---- */
@@ -478,6 +417,7 @@ static void close_scratch(Scratch *s)
 {
     free(s->noise);
     free(s->row);
+    free(s->deviations);
     free(s->light);
     free(s->mixed);
     free(s->order);
@@ -487,10 +427,11 @@ static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *row
 {
     *s = (Scratch){.noise = malloc(sizeof *s->noise * band_pixels(rows) * (size_t)(p->signals.count + 1)),
                    .row = malloc(sizeof *s->row * (size_t)rows->width),
+                   .deviations = malloc(sizeof *s->deviations * (size_t)(p->signals.count + 1)),
                    .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
                    .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
                    .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1))};
-    if (s->noise && s->row && s->light && s->mixed && s->order)
+    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order)
         return RETEX_OK;
     close_scratch(s);
     return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");

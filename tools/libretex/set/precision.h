@@ -8,36 +8,10 @@
 
 #include <retex/set.h>
 
+#include "set/precision_rules.h"
 #include "set/signals.h"
 
 enum { RETEX_PRECISION_LINES = 16 }; /* rows of a band */
-
-/* The kinds of numbers. A number's step is a power of two, at most scale * clamp(fraction * relative noise, finest,
- * coarsest); relative noise is that of the light which the number multiplies. */
-typedef enum RetexPrecisionKind {
-    RETEX_PRECISION_LIGHT,      /* scale: the pixel's value with white targets */
-    RETEX_PRECISION_CORRECTION, /* scale: the same */
-    RETEX_PRECISION_PICTURE,    /* scale: the value */
-    RETEX_PRECISION_MEAN,       /* of UV; scale: the standard deviation */
-    RETEX_PRECISION_BROAD_MEAN, /* of what is not seen directly, in mirrors or through glass */
-    RETEX_PRECISION_SPREAD,     /* scale: the value */
-    RETEX_PRECISION_BROAD_SPREAD,
-    RETEX_PRECISION_CORRELATION,       /* scale: 1 - |correlation| */
-    RETEX_PRECISION_BROAD_CORRELATION, /* scale: 1 */
-    RETEX_PRECISION_COVERAGE,          /* scale: the value */
-    RETEX_PRECISION_ALBEDO,            /* scale: 1 */
-    RETEX_PRECISION_WEIGHT,            /* in mixtures; scale: 1 */
-    RETEX_PRECISION_NOISE,             /* scale: the value */
-    RETEX_PRECISION_GUIDE,             /* scale: 1 */
-    RETEX_PRECISION_POSITION,          /* scale: the value */
-    RETEX_PRECISION_KINDS
-} RetexPrecisionKind;
-
-typedef struct RetexPrecisionRule {
-    double fraction, finest, coarsest;
-} RetexPrecisionRule;
-
-extern const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS];
 
 /* Which numbers of a set are of which kind. */
 typedef struct RetexPrecision RetexPrecision;

@@ -1,0 +1,189 @@
+/* See edited.h. */
+#include "set/edited.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/band.h"
+
+typedef struct Corrections {
+    int powers;                         /* the most factors, or -1 */
+    int first[RETEX_EDITED_POWERS + 1]; /* in terms, by the number of factors */
+    int *terms;
+} Corrections;
+
+struct RetexEdited {
+    int ntargets;
+    Corrections of[RETEX_MAX_TARGETS];
+};
+
+/* ---- the set ---- */
+
+static int is_whole(const RetexSet *set, int part, int channels)
+{
+    const RetexImage *im = part < 0 ? NULL : &set->parts[part].image;
+    return im && im->channels == channels && im->width == set->width && im->height == set->height;
+}
+
+static int is_plain(const RetexSet *set)
+{
+    int plain = 1;
+    for (int t = 0; t < set->nterms; t++)
+        plain = plain && !set->terms[t].gain && is_whole(set, set->terms[t].radiance, 3);
+    for (int f = 0; f < set->nfootprints; f++)
+        plain = plain && is_whole(set, set->footprints[f].uv, 3) && is_whole(set, set->footprints[f].albedo, 3);
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            plain = plain && is_whole(set, set->mixtures[m].shares[k].weight, 1);
+    return plain;
+}
+
+static int list_terms(Corrections *list, const RetexSet *set, int target)
+{
+    int count = 0;
+    list->powers = -1;
+    list->terms = malloc(sizeof *list->terms * (size_t)(set->nterms + 1));
+    for (int n = 0; n < RETEX_EDITED_POWERS && list->terms; n++) {
+        list->first[n] = count;
+        for (int t = 0; t < set->nterms; t++)
+            if (set->terms[t].edited == 1 + target && set->terms[t].nfactors == n)
+                list->terms[count++] = t, list->powers = n;
+        list->first[n + 1] = count;
+    }
+    return list->terms != NULL;
+}
+
+int retex_edited_open(RetexEdited **result, const RetexSet *set, RetexError *err)
+{
+    RetexEdited *edited = *result = calloc(1, sizeof *edited);
+    int plain = is_plain(set);
+    if (!edited)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the corrections of a set");
+    edited->ntargets = set->ntargets;
+    for (int t = 0; t < set->ntargets; t++) {
+        if (!list_terms(&edited->of[t], set, t)) {
+            retex_edited_close(result);
+            return retex_fail(err, RETEX_ENOMEM, "no memory for the corrections of a set");
+        }
+        if (!plain)
+            edited->of[t].powers = -1;
+    }
+    return RETEX_OK;
+}
+
+void retex_edited_close(RetexEdited **edited)
+{
+    for (int t = 0; *edited && t < (*edited)->ntargets; t++)
+        free((*edited)->of[t].terms);
+    free(*edited);
+    *edited = NULL;
+}
+
+int retex_edited_powers(const RetexEdited *edited, int target)
+{
+    return edited->of[target].powers;
+}
+
+int retex_edited_terms(const RetexEdited *edited, int target, int power, const int **terms)
+{
+    const Corrections *list = &edited->of[target];
+    *terms = list->terms + list->first[power];
+    return list->first[power + 1] - list->first[power];
+}
+
+/* ---- one pixel ---- */
+
+/* A factor: so much of the edited target's colour, and a colour of the others. */
+typedef struct Factor {
+    double share, color[3];
+} Factor;
+
+static void add_footprint(Factor *factor, const RetexSet *rows, int footprint, double weight, int target, size_t at)
+{
+    const RetexFootprint *f = &rows->footprints[footprint];
+    if (f->target == target) {
+        factor->share += weight;
+        return;
+    }
+    const float *albedo = retex_pixel_at(rows, f->albedo, at);
+    for (int c = 0; c < 3; c++)
+        factor->color[c] += weight * (double)albedo[c];
+}
+
+static Factor mixture_factor(const RetexSet *rows, const RetexMixture *mixture, int target, size_t at)
+{
+    Factor factor = {0, {0, 0, 0}};
+    double sum = 0;
+    for (int k = 0; k < mixture->nshares; k++) {
+        const double weight = (double)*retex_pixel_at(rows, mixture->shares[k].weight, at);
+        if (weight > 0)
+            add_footprint(&factor, rows, mixture->shares[k].footprint, weight, target, at);
+        sum += weight;
+    }
+    for (int c = 0; c < 3 && sum > 0; c++)
+        factor.color[c] /= sum;
+    factor.share /= sum > 0 ? sum : 1;
+    return factor;
+}
+
+/* Multiply a polynomial of so many powers by a factor. Returns how many it has then. */
+static int multiply(RetexEditedLight polynomial, int powers, const Factor *factor, int most)
+{
+    const int more = factor->share > 0 && powers < most;
+    for (int c = 0; c < 3; c++) {
+        const double last = polynomial[powers][c] * factor->share;
+        for (int n = powers; n >= 0; n--)
+            polynomial[n][c] = polynomial[n][c] * factor->color[c] + (n > 0 ? polynomial[n - 1][c] * factor->share : 0);
+        if (more)
+            polynomial[powers + 1][c] = last;
+        else
+            polynomial[powers][c] += last;
+    }
+    return powers + more;
+}
+
+void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, RetexEditedLight light)
+{
+    const int most = edited->of[target].powers;
+    Factor mixtures[RETEX_MIXTURES_MAX];
+    memset(light, 0, sizeof(RetexEditedLight));
+    if (most < 0)
+        return;
+    for (int m = 0; m < rows->nmixtures; m++)
+        mixtures[m] = mixture_factor(rows, &rows->mixtures[m], target, at);
+    for (int t = 0; t < rows->nterms; t++) {
+        const RetexTerm *term = &rows->terms[t];
+        const float *radiance = retex_pixel_at(rows, term->radiance, at);
+        RetexEditedLight product = {{(double)radiance[0], (double)radiance[1], (double)radiance[2]}};
+        int powers = 0;
+        if (term->edited || (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0))
+            continue;
+        for (int k = 0; k < term->nfactors; k++) {
+            Factor own = {0, {0, 0, 0}};
+            if (term->factors[k] >= 0)
+                add_footprint(&own, rows, term->factors[k], 1, target, at);
+            powers = multiply(product, powers, term->factors[k] < 0 ? &mixtures[RETEX_MIXTURE(term->factors[k])] : &own,
+                              most);
+        }
+        for (int n = 0; n <= powers; n++)
+            for (int c = 0; c < 3; c++)
+                light[n][c] += product[n][c];
+    }
+}
+
+int retex_edited_is_seen(const RetexSet *rows, const RetexTerm *term, size_t at)
+{
+    int seen = 1;
+    for (int k = 0; k < term->nfactors && seen; k++) {
+        const int factor = term->factors[k];
+        if (factor >= 0) {
+            seen = retex_pixel_at(rows, rows->footprints[factor].uv, at)[2] > 0;
+            continue;
+        }
+        const RetexMixture *mixture = &rows->mixtures[RETEX_MIXTURE(factor)];
+        seen = 0;
+        for (int j = 0; j < mixture->nshares; j++)
+            seen = seen || *retex_pixel_at(rows, mixture->shares[j].weight, at) > 0;
+    }
+    return seen;
+}
