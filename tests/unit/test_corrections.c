@@ -4,6 +4,7 @@
 #include "film/paper/paper.h"
 #include "lib_film.h"
 #include "lib_folder.h"
+#include "set/edited.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,11 +17,11 @@
 
 #define PATHS 40
 #define HITS 6
-#define EACH 3        /* most hits of one target on a path: corrections tell no more apart */
 #define SPP (1 << 18) /* steps of corrections are as small as those of coefficients */
 #define PICTURES 16   /* by which targets are edited: bits */
 
 static const Rgb COLOUR = {0.9f, 0.4f, 0.05f}; /* of edited targets */
+static int most_each = 3;                      /* hits of one target on a path: corrections tell no more apart */
 
 /* 1: sharp hits lie in the left half of a texture of two colours, COLOUR and this one; all others in the right half. */
 static int by_place;
@@ -75,7 +76,7 @@ static void add_path(Fixture *f, Truth *truth, uint32_t *seed)
         truth->value[e] = rgb_grey(1);
     for (int k = 0; k < nhits; k++) {
         const int target = (int)(test_random(seed) * f->scene.ntargets);
-        if (of[target]++ == EACH)
+        if (of[target]++ == most_each)
             break;
         add_hit(f, truth, target, k == 0, seed);
         if (test_random(seed) < 0.5)
@@ -96,8 +97,8 @@ static void make(Fixture *f, Truth *truth, const FilmLayout *layout, int ntarget
     finish_film(f);
 }
 
-/* The picture with some targets in COLOUR, by retex_combine. */
-static void combine(RetexImage *picture, const RetexSet *set, int edited)
+/* The picture with some targets in a colour, by retex_combine. */
+static void combine_with(RetexImage *picture, const RetexSet *set, int edited, Rgb colour)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     RetexSamples *samples = NULL;
@@ -108,7 +109,7 @@ static void combine(RetexImage *picture, const RetexSet *set, int edited)
             continue;
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         snprintf(spec.target, sizeof spec.target, "%s", set->targets[t].name);
-        spec.constant = 1, spec.color[0] = COLOUR.r, spec.color[1] = COLOUR.g, spec.color[2] = COLOUR.b;
+        spec.constant = 1, spec.color[0] = colour.r, spec.color[1] = colour.g, spec.color[2] = colour.b;
         spec.constant = !by_place;
         snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("halves.exr"));
         specs[count++] = spec;
@@ -117,6 +118,11 @@ static void combine(RetexImage *picture, const RetexSet *set, int edited)
         test_must(retex_sample(&samples, set, specs, count, 1, &err), &err);
     test_must(retex_combine(picture, set, samples, NULL, NULL, 1, &err), &err);
     retex_samples_close(&samples);
+}
+
+static void combine(RetexImage *picture, const RetexSet *set, int edited)
+{
+    combine_with(picture, set, edited, COLOUR);
 }
 
 static double largest_error(const Fixture *f, const Truth *truth, int edited)
@@ -323,6 +329,82 @@ static void rounding_keeps_what_one_edit_shows(void **state)
     }
 }
 
+/* A right pixel like the left one, but that it sees nothing sharply, and has no corrections yet. */
+static void fill_right_pixel(RetexSet *set)
+{
+    for (int k = 0; k < set->nparts; k++) {
+        const RetexImage *im = &set->parts[k].image;
+        const int gone = strstr(set->parts[k].name, "sharp") || strncmp(set->parts[k].name, "correction", 10) == 0;
+        for (int c = 0; c < im->channels && im->width == 2; c++)
+            im->pixels[im->channels + c] = gone ? 0 : im->pixels[c];
+    }
+}
+
+/* What rounding moves goes to corrections that are not black in the pixel. */
+static void rounding_corrects_what_is_seen(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        RetexImage before[2] = {{0}}, after[2] = {{0}};
+        RetexError err = {0};
+        Fixture f;
+        Truth truth;
+        double error = 0;
+        make(&f, &truth, &footprints_layout, 2, seed);
+        fill_right_pixel(f.set);
+        const double white = add_noise(f.set, 0.5);
+        for (int t = 0; t < 2; t++)
+            combine(&before[t], f.set, 1 << t);
+        test_must(retex_set_round(f.set, NULL, 1, &err), &err);
+        for (int t = 0; t < 2; t++) {
+            combine(&after[t], f.set, 1 << t);
+            for (int c = 3; c < 6; c++)
+                error = fmax(error, fabs((double)(after[t].pixels[c] - before[t].pixels[c])));
+            retex_image_free(&before[t]);
+            retex_image_free(&after[t]);
+        }
+        printf("# seed %u: error %g of white\n", seed, error / white);
+        assert_true(error < 2.5 / 256 * white);
+        end_film(&f);
+    }
+}
+
+/* A polynomial in the colour of one target: for white its coefficients add up to the picture without corrections,
+ * whatever their number. */
+static void light_of_one_edit_is_complete(void **state)
+{
+    (void)state;
+    most_each = HITS;
+    for (uint32_t seed = 1; seed <= 12; seed++) {
+        Fixture f;
+        Truth truth;
+        RetexEdited *edited;
+        RetexEditedLight light[3];
+        RetexError err = {0};
+        const int ntargets = seed % 2 ? 2 : 3;
+        make(&f, &truth, seed <= 6 ? &footprints_layout : &paper_layout, ntargets, seed);
+        test_must(retex_edited_open(&edited, f.set, &err), &err);
+        for (int t = 0; t < ntargets; t++) {
+            assert_int_equal(retex_edited_powers(edited, t), 3);
+            retex_edited_light(edited, f.set, t, 0, light[t]);
+        }
+        retex_edited_close(&edited);
+        remove_corrections(f.set);
+        for (int t = 0; t < ntargets; t++) {
+            RetexImage picture = {0};
+            combine_with(&picture, f.set, 1 << t, rgb_grey(1));
+            for (size_t c = 0; c < 3; c++) {
+                const double sum = light[t][0][c] + light[t][1][c] + light[t][2][c] + light[t][3][c];
+                assert_true(light[t][3][c] != 0);
+                assert_true(fabs(sum - (double)picture.pixels[c]) < 1e-5 * sum);
+            }
+            retex_image_free(&picture);
+        }
+        end_film(&f);
+    }
+    most_each = 3;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(corrections_know_their_kind),
@@ -330,6 +412,8 @@ int main(void)
                                        cmocka_unit_test(paper_is_exact),
                                        cmocka_unit_test(several_edited_targets_interpolate),
                                        cmocka_unit_test(only_those_asked_for_are_loaded),
-                                       cmocka_unit_test(rounding_keeps_what_one_edit_shows)};
+                                       cmocka_unit_test(rounding_keeps_what_one_edit_shows),
+                                       cmocka_unit_test(rounding_corrects_what_is_seen),
+                                       cmocka_unit_test(light_of_one_edit_is_complete)};
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }
