@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <link.h>
 #include <pthread.h>
+#include <spawn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -292,6 +293,13 @@ pid_t fork(void)
 {
     REAL(fork);
     return fails(THREAD, "fork", CALLER) ? -1 : real();
+}
+
+int posix_spawn(pid_t *pid, const char *path, const posix_spawn_file_actions_t *files,
+                const posix_spawnattr_t *attributes, char *const arguments[], char *const environment[])
+{
+    REAL(posix_spawn);
+    return fails(THREAD, "posix_spawn", CALLER) ? EAGAIN : real(pid, path, files, attributes, arguments, environment);
 }
 
 /* ---- files ---- */
