@@ -23,6 +23,7 @@ OwnFolder::OwnFolder(const std::string &path, bool safe)
                                                      std::free);
     root_ = resolved ? resolved.get() : "";
     roots_[0] = root_.c_str();
+    access_.accept_damaged = retex_access_damage_accepted();
     if (!safe)
         return;
     access_.safe = 1;

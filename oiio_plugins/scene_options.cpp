@@ -106,6 +106,7 @@ SceneOptions parse_scene_options(const std::string &path, const Arguments &argum
     }
     check(options, arguments);
     options.sdl.safe = wants_safe(arguments);
+    options.sdl.accept_damaged = retex_access_damage_accepted();
     OwnFolder own(path, options.sdl.safe);
     for (std::string &folder : options.includes)
         folder = own.find(folder, true);

@@ -405,6 +405,7 @@ void parse_arguments(Arguments *a)
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
     a->sdl.safe = cli->access.safe;
+    a->sdl.accept_damaged = cli->access.accept_damaged;
     a->render.nthreads = a->sdl.nthreads = cli->threads;
     a->render.budget = a->sdl.budget = cli->budget;
     a->sdl.max_steps = cli->limits.steps;

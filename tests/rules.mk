@@ -44,6 +44,8 @@ $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRID
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+$(BUILD)/tests/bin/make_tiffs: private TEST_LIBS += -ltiff
+
 $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) \
 	    | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

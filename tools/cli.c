@@ -29,6 +29,8 @@ const CliOption cli_common_options[] = {
      "33177600 "
      "pixels, unless others are given; also RETEX_SAFE=1",
      0},
+    {"accept-damaged", 0, NULL, "read damaged pictures as far as possible, with a warning; also RETEX_ACCEPT_DAMAGED=1",
+     0},
     {"max-memory", 0, "SIZE",
      "use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also "
      "RETEX_MAX_MEMORY",
@@ -213,6 +215,8 @@ static int common_option(Cli *cli, const CliOption *option)
         cli->threads = (int)cli_integer(cli, option, 0, 256);
     } else if (strcmp(option->name, "safe") == 0) {
         cli->access.safe = 1;
+    } else if (strcmp(option->name, "accept-damaged") == 0) {
+        cli->access.accept_damaged = 1;
     } else if (strncmp(option->name, "max-", 4) == 0) {
         cli_limit(cli, option);
     } else if (strcmp(option->name, "quiet") == 0) {
@@ -237,6 +241,7 @@ const CliOption *cli_next(Cli *cli)
     if (cli->access.size == 0) {
         cli->access = (RetexAccess)RETEX_ACCESS_INIT;
         cli->access.safe = retex_access_safe_requested();
+        cli->access.accept_damaged = retex_access_damage_accepted();
     }
     if (cli->limits.size == 0) {
         RetexError err;

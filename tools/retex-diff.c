@@ -156,6 +156,8 @@ int main(int argc, char **argv)
     cli_answer(&cli);
     params.access = &cli.access;
     params.budget = cli.budget;
+    params.warn = cli_warn_text;
+    params.warn_context = &cli;
     if (retex_diff(&diff, names[0], names[1], &params, cli.threads, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;

@@ -348,6 +348,7 @@ int main(int argc, char **argv)
     cli_reads(&cli, "the model", import.model);
     cli_reads(&cli, "--sky", import.sky);
     import.safe = cli.access.safe ? 2 : 0; /* the process that reads the model decodes its pictures, too */
+    import.accept_damaged = cli.access.accept_damaged;
     import.max_pixels = cli.limits.pixels;
     import.budget = cli.budget;
     import_to(&cli, &import, force);

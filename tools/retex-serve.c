@@ -149,6 +149,7 @@ static void allow_folders(const Cli *cli, const Job *job, Folders *folders)
 {
     *folders = (Folders){.access = RETEX_ACCESS_INIT};
     folders->access.safe = 1;
+    folders->access.accept_damaged = cli->access.accept_damaged;
     folders->access.roots = folders->roots;
     folders->textures = find_folder(cli, folders, "--textures", job->textures);
     folders->uploads = find_folder(cli, folders, "--uploads", job->uploads);

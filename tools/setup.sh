@@ -24,6 +24,7 @@ pkg OpenImageIO libopenimageio-dev
 pkg OpenEXR libopenexr-dev
 pkg OpenColorIO libopencolorio-dev
 pkg lcms2 liblcms2-dev
+pkg libtiff-4 libtiff-dev
 embree rtcore.h libembree-dev
 pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
@@ -168,8 +169,8 @@ config() {
     # for retex.pc, so that others can link the static library
     echo "LIBRETEX_REQUIRES := $modules"
     echo "LIBRETEX_PRIVATE_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR) $exr_core -ldl -lm -pthread"
-    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2)"
-    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2)"
+    echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate)"
+    echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"
     echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp)"
     echo "SERVE_CFLAGS := $(cflags libmicrohttpd nettle)"

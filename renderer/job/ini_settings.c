@@ -117,7 +117,7 @@ static int find_path(const Setting *s, const char *name, char path[PATH_MAX])
 {
     char root[PATH_MAX];
     const char *folder = s->place->folder, *roots[] = {root};
-    const RetexAccess access = {sizeof access, 1, roots, 1};
+    const RetexAccess access = {.size = sizeof access, .safe = 1, .roots = roots, .nroots = 1};
     if (snprintf(path, PATH_MAX, "%s%s", name[0] == '/' ? "" : folder, name) >= PATH_MAX)
         return ini_fail(s->place, s->err, "%s: the name is too long", s->keyword);
     if (!s->options->safe || !s->place->file[0])

@@ -317,10 +317,10 @@ $ printf 'output,floor\n"a\301\200\303\251\377\n""b.png","rgb(1,0,0)"\n' >../t; 
 # is not taken for the next row's, one beside it is.
 $ head -c 20000 brick.jpg >../cut.jpg; printf '%s\n' output,floor,wall a.png,brick.jpg b.png,brick.jpg,../cut.jpg again.png,,../cut.jpg c.png,brick.jpg /dev/full,brick.jpg d.png,,brick.jpg >../t; retex-combine s.exr --batch ../t --report ../report 2>&1 | sed 's/[0-9.]* s$/S/'; sh ../times <../report | sed 1,4d; sh ../new; rm a.png
 > retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
-> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
+> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
 >   "rows": [
 >     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
->     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "textures": {"Floor": "brick.jpg", "Wall": "../cut.jpg"}},
+>     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)", "textures": {"Floor": "brick.jpg", "Wall": "../cut.jpg"}},
 >     {"row": 3, "line": 4, "output": "again.png", "status": "not made", "seconds": S, "textures": {"Wall": "../cut.jpg"}},
 >     {"row": 4, "line": 5, "output": "c.png", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
 >     {"row": 5, "line": 6, "output": "/dev/full", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
@@ -333,10 +333,10 @@ $ for n in 1 2; do retex-combine s.exr --batch ../t --keep-going --threads $n --
 > 2
 > 2
 > {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 1, "total": 6}
-> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
-> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 2, "total": 6}
-> retex-combine: error: ../t:4: ../cut.jpg: cannot read: the file is truncated
-> {"row": 3, "line": 4, "output": "again.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 3, "total": 6}
+> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
+> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)", "done": 2, "total": 6}
+> retex-combine: error: ../t:4: ../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
+> {"row": 3, "line": 4, "output": "again.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)", "done": 3, "total": 6}
 > {"row": 4, "line": 5, "output": "c.png", "status": "made", "seconds": S, "done": 4, "total": 6}
 > retex-combine: error: ../t:6: cannot write /dev/full: No space left on device
 > {"row": 5, "line": 6, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "done": 5, "total": 6}
@@ -456,12 +456,12 @@ $ { echo output,floor; for k in $(seq 17); do echo "out/$k.exr,\"rgb(0.$k,0.5,0)
 > /dev/full: white <- brick.jpg
 > 19.exr: white <- brick.jpg
 $ retex-render --size 8x6 --spp 1 --variants ../t --mkdir --progress json scenes/cornell-box/cornell-box.pov 2>&1 | grep -v stage | tail -3 | sh ../times; sh ../new; rm -r out; retex-render -q --size 8x6 --spp 1 --variants ../t --mkdir --keep-going --report ../report --threads 1 scenes/cornell-box/cornell-box.pov; tail -5 ../report | sh ../times; ls out | wc -l; sh ../new; retex-render -q --size 8x6 --spp 1 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; cmp plain.exr 19.exr; rm -r out plain.exr 19.exr
-> retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated
-> {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 17, "total": 20}
+> retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
+> {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)", "done": 17, "total": 20}
 > {"total": 20, "made": 16, "failed": 1, "seconds": S}
 > 1a2
 > > out
->     {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "textures": {"floor": "../cut.jpg"}},
+>     {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)", "textures": {"floor": "../cut.jpg"}},
 >     {"row": 19, "line": 20, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "textures": {}},
 >     {"row": 20, "line": 21, "output": "19.exr", "status": "made", "seconds": S, "textures": {}}
 >   ]
@@ -471,7 +471,7 @@ $ retex-render --size 8x6 --spp 1 --variants ../t --mkdir --progress json scenes
 > > 19.exr
 > 1a3
 > > out
-! retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated
+! retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
 ! retex-render: error: ../t:20: cannot write /dev/full: No space left on device
 ! retex-render: error: 2 of 20 pictures failed
 $ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; echo 'A' >part.inc; for r in report here/wrong.pov here/part.inc; do retex-render -q --size 8x6 --spp 1 --variants ../t --report ../$r wrong.pov; done; sh ../times <../report; cat wrong.pov part.inc; rm wrong.pov part.inc; retex-render -q --size 8x6 --spp 1 --variants ../t --report ../report --replace floor=none.jpg scenes/cornell-box/cornell-box.pov; sh ../times <../report | grep -v row

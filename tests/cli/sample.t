@@ -102,7 +102,7 @@ $ retex-combine -q two.exr --texture 'Floor=rgb(.8,0,0)' --texture 'Wall=rgb(0,.
 
 # A texture that is cut off or damaged is refused, in one line; so is a name that promises another format.
 $ head -c 20000 brick.jpg >cut.jpg; retex-sample -q two.exr --texture floor=cut.jpg -o x.exr
-! retex-sample: error: cut.jpg: cannot read: the file is truncated
+! retex-sample: error: cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
 = 2
 $ make_picture p.png; head -c 400 p.png >cut.png; retex-sample -q two.exr --texture floor=cut.png -o x.exr
 ! retex-sample: error: cut.png: cannot read: the file is truncated

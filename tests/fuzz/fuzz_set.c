@@ -219,7 +219,7 @@ static void use_open(void)
 static void use_layers(void)
 {
     RetexLayers *layers;
-    if (retex_layers_open(&layers, path, NULL, NULL, 1, NULL))
+    if (retex_layers_open(&layers, path, &(RetexReadParams)RETEX_READ_INIT, 1, NULL))
         return;
     for (int i = 0; i < retex_layers_count(layers); i++) {
         RetexLayer layer = {0};

@@ -20,7 +20,7 @@ $ /usr/bin/python3 pictures.py open 'room.retex?Wal=rgb(1,0,0)'; /usr/bin/python
 > cannot read: the set has no target 'Wal'; there are: Floor, Wall
 > cannot open: cannot read none.retex: No such file or directory
 > cannot open: cut.retex: the pack is damaged or truncated: its directory is missing
-> cannot read: cut.jpg: cannot read: the file is truncated
+> cannot read: cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)
 $ /usr/bin/python3 pictures.py threads room.retex 'room.retex?Floor=brick.jpg' 'room.retex?Floor=brick.jpg&Wall=room.retex' 'box.pov?spp=1&size=16x12' 'box.pov?spp=1&size=16x12&targets=Floor'
 > 5 of 5
 

@@ -122,7 +122,7 @@ static void test_absolute_names(void **state)
         {"/base/up/base/file", RETEX_ACCESS_OUTSIDE},
     };
     const char *roots[] = {root}, *all[] = {"/"};
-    RetexAccess access = {sizeof access, 1, roots, 1};
+    RetexAccess access = {sizeof access, 1, roots, 1, 0};
     char name[PATH_MAX + 64];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         snprintf(name, sizeof name, "%s%s", top, cases[i].name);
@@ -158,7 +158,7 @@ static void test_open(void **state)
 {
     (void)state;
     const char *roots[] = {root};
-    RetexAccess access = {sizeof access, 1, roots, 1};
+    RetexAccess access = {sizeof access, 1, roots, 1, 0};
     assert_int_equal(opened(&access, "base/file"), 'I');
     assert_int_equal(opened(&access, "base/within"), 'I');
     assert_int_equal(opened(&access, "to-base/sub/../file"), 'I');
@@ -188,7 +188,7 @@ static void test_what_is_read_was_checked(void **state)
 {
     (void)state;
     const char *roots[] = {root};
-    RetexAccess access = {sizeof access, 1, roots, 1};
+    RetexAccess access = {sizeof access, 1, roots, 1, 0};
     pthread_t thread;
     int read_inside = 0;
     assert_int_equal(symlink("../baseless/sub", "base/out"), 0);

@@ -62,7 +62,7 @@ static Picture read_direct(const char *path, int narrow, int is_linear, long max
 
 static Picture read_bridged(const char *path, int narrow, const char *colorspace)
 {
-    const RetexBridgeFile file = {path, NULL, -1, colorspace, 0, "", 1, NULL, NULL};
+    const RetexBridgeFile file = {path, NULL, -1, colorspace, 0, "", 1, NULL, NULL, 0};
     Picture picture = {0};
     RetexError err = {0};
     test_must(narrow ? retex_bridge_read_narrow(&picture.narrow, &file, &err)

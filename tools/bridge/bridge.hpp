@@ -27,8 +27,19 @@ struct Failure : std::runtime_error {
 // Run body; turn any exception into a RetexError about path.
 int guarded(const char *path, RetexError *err, const std::function<void()> &body);
 
-// Throw Failure if a JPEG or PNG file is truncated, or a checksum of a PNG is wrong.
-void check_whole(const RetexBridgeFile &file);
+using Bytes = std::vector<unsigned char>;
+
+// What is damaged in a file, as far as its structure and checksums say, or "". All of them throw Failure.
+std::string find_damage(const RetexBridgeHost *host, const RetexBridgeFile &file);
+// What the libraries warn of while they decode all pixels, or "".
+std::string find_jpeg_damage(const RetexBridgeHost *host, const RetexBridgeFile &file);
+std::string find_tiff_damage(const RetexBridgeFile &file);
+std::string find_targa_damage(const RetexBridgeFile &file);
+// The same of the bytes of a whole file.
+std::string check_structure(const RetexBridgeHost *host, const std::string &format, long max_pixels, const Bytes &data);
+std::string check_targa(const Bytes &data);
+// OpenImageIO's name of the format that a file has by its first bytes, or null: it may be any other.
+const char *format_by_content(const RetexBridgeFile &file);
 
 // Open a file for reading. Throws Failure.
 std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file);

@@ -1,5 +1,5 @@
 // Reading: converts any picture that OpenImageIO reads to R,G,B,A floats, scene-linear Rec.709, unassociated alpha.
-#include "bridge.hpp"
+#include "open.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -152,54 +152,8 @@ Channels find_channels(const OIIO::ImageSpec &spec)
     return found;
 }
 
-void check_file(const RetexBridgeFile &file)
-{
-    struct stat status;
-    if ((file.format ? fstat(file.descriptor, &status) : stat(file.path, &status)) != 0)
-        throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
-    if (S_ISDIR(status.st_mode))
-        throw Failure(RETEX_EIO, "cannot read: it is a folder");
-    if (S_ISREG(status.st_mode) && status.st_size == 0)
-        throw Failure(RETEX_EFORMAT, "cannot read: the file is empty");
-}
-
-void check_size(long width, long height, const RetexBridgeFile &file)
-{
-    if (width < 1 || height < 1)
-        throw Failure(RETEX_EFORMAT, "the picture has no pixels");
-    std::string size = std::to_string(width) + " x " + std::to_string(height);
-    if (width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE)
-        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, at most " +
-                                        std::to_string(RETEX_MAX_SIZE) + " a side");
-    if (file.max_pixels > 0 && width * height > file.max_pixels)
-        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than " + file.limit);
-}
-
-// Of files of strangers: decoders make room for whole tiles, and for all channels, whatever the size of the picture.
-void check_storage(const OIIO::ImageSpec &spec)
-{
-    const int64_t pixels = int64_t(spec.width) * spec.height, tile = int64_t(spec.tile_width) * spec.tile_height,
-                  most = std::max(int64_t(4096) * 4096, 4 * pixels);
-    if (tile > most)
-        throw Failure(RETEX_ELIMIT, "the picture is in tiles of " + std::to_string(spec.tile_width) + " x " +
-                                        std::to_string(spec.tile_height) + " pixels, which are not read (--safe)");
-    if (spec.nchannels > RETEX_MAX_CHANNELS)
-        throw Failure(RETEX_ELIMIT, "the picture has " + std::to_string(spec.nchannels) +
-                                        " channels, of which at most " + std::to_string(RETEX_MAX_CHANNELS) +
-                                        " are read (--safe)");
-}
-
-// The first line of an error. Further lines are details of the library.
-[[noreturn]] void fail_read(std::string why)
-{
-    why = why.substr(0, why.find('\n'));
-    if (why.empty())
-        why = "not a picture OpenImageIO can read";
-    throw Failure(RETEX_EFORMAT, "cannot read: " + why);
-}
-
 // Read the file's channels into image in the order R,G,B,A. Values are as stored, integers scaled to 0..1.
-void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, RetexImage &image)
+void read_channels(OpenPicture &in, const OIIO::ImageSpec &spec, const Channels &channels, RetexImage &image)
 {
     int first = spec.nchannels, last = 0;
     for (int c : channels.rgba)
@@ -211,7 +165,7 @@ void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Chan
         throw Failure(RETEX_EFORMAT, "the picture has no colour channels");
     int count = last - first;
     size_t pixels = size_t(image.width) * image.height;
-    std::vector<float> wide; // only if the file's channels do not fit into R,G,B,A in place
+    std::vector<float> wide; // zeros, as the image; only if the file's channels do not fit into R,G,B,A in place
     float *data = image.pixels;
     int stride = 4;
     if (count > 4) {
@@ -219,8 +173,8 @@ void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Chan
         wide.resize(pixels * count);
         data = wide.data();
     }
-    if (!in.read_image(0, 0, first, last, OIIO::TypeDesc::FLOAT, data, OIIO::stride_t(stride * sizeof(float))))
-        fail_read(in.geterror());
+    in.check_read(
+        in->read_image(0, 0, first, last, OIIO::TypeDesc::FLOAT, data, OIIO::stride_t(stride * sizeof(float))));
     OIIO::parallel_for(0, image.height, [&](int y) {
         for (size_t i = size_t(y) * image.width, end = i + image.width; i < end; i++) {
             float value[4];
@@ -287,10 +241,13 @@ Decoding choose_decoding(const RetexBridgeHost *host, const RetexBridgeFile &fil
     return decoding;
 }
 
-void warn(const RetexBridgeFile &file, const Decoding &decoding)
+void warn(const RetexBridgeFile &file, const Decoding &decoding, const std::string &damage)
 {
     if (file.warn && !decoding.problem.empty())
         file.warn(file.warn_context, decoding.problem.c_str());
+    if (file.warn && !damage.empty())
+        file.warn(file.warn_context,
+                  (std::string(file.path) + ": " + damage + "; it is read as far as possible").c_str());
 }
 
 // Maps a pixel of the upright picture to the file's pixel, for EXIF orientations 1..8.
@@ -344,70 +301,9 @@ void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::Im
     picture.swap(shown);
 }
 
-// An open file with a picture of an acceptable size. With a format, only that format's decoder gets the file, as an
-// open file without a name.
-class OpenPicture
-{
-  public:
-    explicit OpenPicture(const RetexBridgeFile &file)
-    {
-        check_file(file);
-        check_whole(file);
-        chunks_ = read_colour_chunks(file);
-        OIIO::ImageSpec wish;
-        wish.attribute("oiio:UnassociatedAlpha", 1); // avoids lossy conversions of 8-bit values
-        if (file.format)
-            open_as(file, wish);
-        else
-            in_ = OIIO::ImageInput::open(file.path, &wish);
-        if (!in_)
-            fail_read(OIIO::geterror());
-        in_->threads(file.nthreads);
-        const OIIO::ImageSpec &spec = in_->spec();
-        check_size(spec.width, spec.height, file);
-        if (file.format)
-            check_storage(spec);
-        if (spec.deep)
-            throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
-        if (spec.depth > 1)
-            throw Failure(RETEX_EUNSUPPORTED, "a volume, not a picture");
-    }
-    OIIO::ImageInput *operator->() const
-    {
-        return in_.get();
-    }
-    OIIO::ImageInput &operator*() const
-    {
-        return *in_;
-    }
-    const Chunks &chunks() const // of a PNG, that say something of its colours
-    {
-        return chunks_;
-    }
-
-  private:
-    void open_as(const RetexBridgeFile &file, const OIIO::ImageSpec &wish)
-    {
-        in_ = OIIO::ImageInput::create(file.format);
-        if (!in_ || !in_->supports("ioproxy"))
-            throw Failure(RETEX_EUNSUPPORTED,
-                          std::string("OpenImageIO cannot read ") + file.format + " from open files");
-        stream_ = open_file(file);
-        proxy_ = std::make_unique<OIIO::Filesystem::IOFile>(stream_.get(), OIIO::Filesystem::IOProxy::Read);
-        OIIO::ImageSpec spec;
-        if (!in_->set_ioproxy(proxy_.get()) || !in_->open(file.path, spec, wish))
-            fail_read(in_->geterror());
-    }
-
-    Chunks chunks_;
-    std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
-    std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
-    std::unique_ptr<OIIO::ImageInput> in_; // last member: destroyed first
-};
-
 RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file)
 {
-    OpenPicture in(file);
+    OpenPicture in(host, file);
     OIIO::ImageSpec spec = in->spec();
     std::string format = in->format_name();
     bool windowed = format == "openexr" && spec.full_width > 0 && spec.full_height > 0 &&
@@ -419,11 +315,12 @@ RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file
     Channels channels = find_channels(spec);
     Decoding decoding = choose_decoding(host, file, spec, in.chunks(), channels);
     OwnedImage picture(host, spec.width, spec.height);
-    read_channels(*in, spec, channels, picture.image);
+    in.check_pixels();
+    read_channels(in, spec, channels, picture.image);
     if (channels.rgba[3] >= 0 && !channels.cmyk && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0))
         unassociate(picture.image);
     apply_transform(decoding.transform, picture.image.pixels, picture.image.width, picture.image.height);
-    warn(file, decoding);
+    warn(file, decoding, in.damage());
     if (windowed)
         fit_window(host, picture, spec);
     orient(host, picture, spec.get_int_attribute("Orientation", 1));
@@ -482,7 +379,7 @@ void convert_row(const Level *from, int count, const Channels &channels, int fir
 
 // Convert a few rows at a time, while they are in the processor's cache, if the file allows it.
 template <typename Level>
-void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, const Transform &decode,
+void read_levels(OpenPicture &in, const OIIO::ImageSpec &spec, const Channels &channels, const Transform &decode,
                  uint16_t *pixels)
 {
     int first = *std::min_element(channels.rgba, channels.rgba + 3), last = 1;
@@ -496,11 +393,12 @@ void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channe
     OIIO::TypeDesc type = OIIO::BaseTypeFromC<Level>::value;
     for (int y = 0; y < spec.height; y += strip) {
         int end = std::min(y + strip, spec.height);
+        if (y > 0)
+            std::fill(rows.begin(), rows.end(), Level(0)); // where a damaged file gives no more
         bool read = spec.tile_width
-                        ? in.read_image(0, 0, first, last, type, rows.data())
-                        : in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
-        if (!read)
-            fail_read(in.geterror());
+                        ? in->read_image(0, 0, first, last, type, rows.data())
+                        : in->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
+        in.check_read(read);
         OIIO::parallel_for_chunked(0, end - y, 16, [&](int64_t begin, int64_t stop) {
             for (int64_t i = begin; i < stop; i++)
                 convert_row(rows.data() + size_t(i) * spec.width * count, count, channels, first, table.data(),
@@ -511,7 +409,7 @@ void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channe
 
 RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile &file)
 {
-    OpenPicture in(file);
+    OpenPicture in(host, file);
     OIIO::ImageSpec spec = in->spec();
     Channels channels = find_channels(spec);
     bool wide = spec.format == OIIO::TypeDesc::UINT16, colours = true;
@@ -525,12 +423,13 @@ RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile 
     if (!decoding.is_by_channel)
         return RetexNarrowImage{};
     OwnedPixels pixels = new_pixels(host, spec.width, spec.height);
+    in.check_pixels();
     if (wide)
-        read_levels<uint16_t>(*in, spec, channels, decoding.transform, pixels.get());
+        read_levels<uint16_t>(in, spec, channels, decoding.transform, pixels.get());
     else
-        read_levels<uint8_t>(*in, spec, channels, decoding.transform, pixels.get());
+        read_levels<uint8_t>(in, spec, channels, decoding.transform, pixels.get());
 
-    warn(file, decoding);
+    warn(file, decoding, in.damage());
     Upright upright(spec.width, spec.height, spec.get_int_attribute("Orientation", 1));
     RetexNarrowImage image{spec.width, spec.height, nullptr};
     if (upright.orientation != 1) {

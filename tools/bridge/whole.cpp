@@ -1,6 +1,5 @@
-// Checks that a JPEG or PNG file is whole, before its decoder reads it. libjpeg silently replaces missing data by grey,
-// and libpng prints to standard error. A JPEG's markers are checked up to the end marker, a PNG's chunks with
-// checksums.
+// What is damaged in a file, before OpenImageIO's decoder of its format has it. Most of these tell of less than their
+// libraries know, or print it to standard error.
 #include "bridge.hpp"
 
 #include <cerrno>
@@ -8,8 +7,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <set>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace bridge
@@ -51,83 +52,45 @@ class Reader
     {
         std::rewind(file_.get());
     }
+    // All bytes of the file.
+    Bytes all()
+    {
+        struct stat status;
+        if (fstat(fileno(file_.get()), &status) != 0 || status.st_size < 0)
+            throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
+        Bytes bytes(size_t(status.st_size));
+        rewind();
+        bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file_.get()));
+        return bytes;
+    }
 
   private:
     std::unique_ptr<FILE, int (*)(FILE *)> file_;
 };
 
-[[noreturn]] void fail_truncated()
-{
-    throw Failure(RETEX_EFORMAT, "cannot read: the file is truncated");
-}
-
-// Check from after the start-of-image marker to the end-of-image marker. Data without markers is left to libjpeg, which
-// reports it.
-void check_jpeg(Reader &in)
+// Whether a JPEG has all segments from after the start-of-image marker to the end-of-image marker. Data without markers
+// are left to libjpeg, which reports them.
+bool has_all_segments(Reader &in)
 {
     enum { Stuffed = 0x00, Temporary = 0x01, Restart = 0xd0, RestartEnd = 0xd8, End = 0xd9, Scan = 0xda };
     for (bool scan = false;;) {
         int c = in.byte();
         if (c < 0)
-            fail_truncated();
+            return false;
         if (c != 0xff && !scan)
-            return;
+            return true;
         if (c != 0xff)
             continue;
         while (c == 0xff)
             c = in.byte();
         if (c == End)
-            return;
+            return true;
         if (c == Stuffed || c == Temporary || (c >= Restart && c < RestartEnd))
             continue;
         int64_t length = in.number(2);
         if (length < 0 || !in.skip(length - 2))
-            fail_truncated();
+            return false;
         scan = c == Scan;
-    }
-}
-
-uint32_t crc_of(uint32_t crc, int byte)
-{
-    crc ^= uint32_t(byte);
-    for (int bit = 0; bit < 8; bit++)
-        crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
-    return crc;
-}
-
-// A table of crc_of for all byte values.
-struct CrcTable {
-    uint32_t of[256];
-    CrcTable()
-    {
-        for (int i = 0; i < 256; i++)
-            of[i] = crc_of(0, i);
-    }
-};
-
-// Check the chunks from after the signature to IEND.
-void check_png(Reader &in)
-{
-    static const CrcTable table;
-    for (;;) {
-        int64_t length = in.number(4);
-        uint32_t crc = 0xffffffff, type = 0;
-        if (length < 0)
-            fail_truncated();
-        for (int64_t i = 0; i < length + 4; i++) {
-            int c = in.byte();
-            if (c < 0)
-                fail_truncated();
-            crc = table.of[(crc ^ uint32_t(c)) & 255] ^ crc >> 8;
-            type = i < 4 ? type << 8 | uint32_t(c) : type;
-        }
-        int64_t stored = in.number(4);
-        if (stored < 0)
-            fail_truncated();
-        if (uint32_t(stored) != ~crc)
-            throw Failure(RETEX_EFORMAT, "cannot read: the file is damaged: a checksum is wrong");
-        if (type == 0x49454e44) // IEND
-            return;
     }
 }
 
@@ -151,14 +114,57 @@ std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file)
     return stream;
 }
 
-void check_whole(const RetexBridgeFile &file)
+const char *format_by_content(const RetexBridgeFile &file)
 {
+    static const struct {
+        const char *format;
+        std::string mark;
+    } marks[] = {{"png", "\x89PNG\r\n\x1a\n"}, {"jpeg", "\xff\xd8\xff"}, {"gif", "GIF8"},
+                 {"tiff", {"II*\0", 4}},       {"tiff", {"MM\0*", 4}},   {"tiff", {"II+\0", 4}},
+                 {"tiff", {"MM\0+", 4}},       {"dpx", "SDPX"},          {"dpx", "XPDS"},
+                 {"ico", {"\0\0\1\0", 4}},     {"zfile", "\x1f\x8b\b"},  {"zfile", "\xab\x67\b\x2f"},
+                 {"zfile", "\x2f\b\x67\xab"}};
+    auto stream = open_file(file);
+    std::string begin(16, '\0');
+    begin.resize(std::fread(&begin[0], 1, begin.size(), stream.get()));
+    for (const auto &one : marks)
+        if (begin.compare(0, one.mark.size(), one.mark) == 0)
+            return one.format;
+    if (begin.compare(0, 4, "RIFF") == 0 && begin.compare(8, 4, "WEBP") == 0)
+        return "webp";
+    return begin.compare(0, 4, "FOR4") == 0 && begin.compare(8, 4, "CIMG") == 0 ? "iff" : nullptr;
+}
+
+std::string find_damage(const RetexBridgeHost *host, const RetexBridgeFile &file)
+{
+    const char *found = format_by_content(file);
+    const std::string format = found ? found : "";
     Reader in(file);
-    if (in.number(2) == 0xffd8)
-        return check_jpeg(in);
-    in.rewind();
-    if (in.number(8) == int64_t(0x89504e470d0a1a0a))
-        check_png(in);
+    RetexDamage damage = "";
+    if (format == "jpeg") {
+        in.skip(2);
+        return has_all_segments(in) ? "" : "the file is truncated";
+    }
+    if (format == "png") {
+        const Bytes bytes = in.all();
+        host->png_is_damaged(bytes.data(), bytes.size(), file.max_pixels, damage);
+        return damage;
+    }
+    static const std::set<std::string> structured = {"dpx", "ico", "iff", "webp", "zfile"};
+    return structured.count(format) ? check_structure(host, format, file.max_pixels, in.all()) : "";
+}
+
+std::string find_jpeg_damage(const RetexBridgeHost *host, const RetexBridgeFile &file)
+{
+    const Bytes bytes = Reader(file).all();
+    RetexDamage damage = "";
+    host->jpeg_is_damaged(bytes.data(), bytes.size(), damage);
+    return damage;
+}
+
+std::string find_targa_damage(const RetexBridgeFile &file)
+{
+    return check_targa(Reader(file).all());
 }
 
 } // namespace bridge

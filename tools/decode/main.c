@@ -91,7 +91,7 @@ static void give_up_rights(const RetexDecoderOrder *order)
 
 static int decode(const RetexDecoderOrder *order, RetexInput *input, RetexDecoded *decoded)
 {
-    const RetexAccess access = {.size = sizeof access, .safe = 2};
+    const RetexAccess access = {.size = sizeof access, .safe = 2, .accept_damaged = order->accept_damaged};
     RetexBudget *budget = NULL;
     RetexReadParams params = RETEX_READ_INIT;
     int code = retex_budget_create(&budget, &reply.error);

@@ -210,6 +210,11 @@ static int texels_to_image(const struct aiTexture *texture, int is_data, RetexIm
     return code;
 }
 
+static void warn_of_image(void *context, const char *text)
+{
+    import_tell(context, IMPORT_WARNING, "%s", text);
+}
+
 static int decode(Import *import, const Bytes *bytes, int is_data, RetexImage *image, RetexError *err)
 {
     RetexReadParams params = RETEX_READ_INIT;
@@ -218,6 +223,11 @@ static int decode(Import *import, const Bytes *bytes, int is_data, RetexImage *i
     if (bytes->texels)
         return texels_to_image(bytes->texels, is_data, image, err);
     access.safe = import->options->safe;
+    access.accept_damaged = import->options->accept_damaged;
+    if (access.accept_damaged) { /* otherwise warnings are of colours, which the renderer tells */
+        params.warn = warn_of_image;
+        params.warn_context = import;
+    }
     params.colorspace = is_data ? "linear" : NULL; /* either is read without OpenImageIO */
     params.access = &access;
     params.budget = import->options->budget;

@@ -450,6 +450,8 @@ typedef struct PaletteIndices {
     int width, height;
     const unsigned char *indices; /* in the arena */
 } PaletteIndices;
+/* A RetexWarn of pictures that are read for something else than their colours; the context is the Sdl. */
+void warn_of_picture(void *context, const char *text);
 int read_palette_indices(Sdl *sdl, const char *path, int side_max, PaletteIndices *out);
 void read_gif_indices(Sdl *sdl, const char *path, int side_max, PaletteIndices *out);
 

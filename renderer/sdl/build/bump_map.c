@@ -105,7 +105,9 @@ static void load_colors(Sdl *sdl, BumpMap *map)
                                     .max_pixels = (long)SIDE_MAX * SIDE_MAX,
                                     .access = sdl_access(sdl),
                                     .budget = options->budget,
-                                    .pixel_bytes = 16 + 4};
+                                    .pixel_bytes = 16 + 4,
+                                    .warn = warn_of_picture,
+                                    .warn_context = sdl};
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, map->image.path);

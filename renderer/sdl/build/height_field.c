@@ -69,7 +69,9 @@ static void take_colors(Sdl *sdl, HeightField *field, const char *path)
                                     .max_pixels = (long)LARGEST * LARGEST,
                                     .access = sdl_access(sdl),
                                     .budget = options->budget,
-                                    .pixel_bytes = 16 + 2 + 6};
+                                    .pixel_bytes = 16 + 2 + 6,
+                                    .warn = warn_of_picture,
+                                    .warn_context = sdl};
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, path);

@@ -102,6 +102,11 @@ static void warn_of_image(void *context, const char *text)
     sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
 }
 
+void warn_of_picture(void *context, const char *text)
+{
+    sdl_warn(context, "%s", text);
+}
+
 static int read_image(Sdl *sdl, const ParsedImage *image, ImageWarning *warning, RetexImage *pixels, RetexError *err)
 {
     const SdlOptions *options = sdl_options(sdl);

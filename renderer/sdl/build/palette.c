@@ -28,9 +28,11 @@ static void stop(png_structp png, png_const_charp message)
     png_longjmp(png, 1);
 }
 
-static void say_nothing(png_structp png, png_const_charp message)
+/* Warnings of the compressed pixels mean damage, unless they only go on after the last row. */
+static void stop_at_damage(png_structp png, png_const_charp message)
 {
-    (void)png, (void)message;
+    if (strncmp(message, "IDAT: ", 6) == 0 && !strstr(message, "Too much") && !strstr(message, "Extra compressed"))
+        stop(png, message);
 }
 
 /* Reads all rows into memory of the arena. Whatever libpng finds wrong ends in stop. */
@@ -48,6 +50,7 @@ static void read_rows(png_structp png, png_infop info, Arena *arena, PaletteIndi
     for (int pass = 0; pass < passes; pass++)
         for (int y = 0; y < out->height; y++)
             png_read_row(png, indices + (size_t)y * (size_t)out->width, NULL);
+    png_read_end(png, NULL);
     out->indices = indices;
 }
 
@@ -85,7 +88,7 @@ int read_palette_indices(Sdl *sdl, const char *path, int side_max, PaletteIndice
     Source source = {.message = "no memory"};
     source.next = (const unsigned char *)sdl_read_file(sdl, path, &size);
     source.end = source.next + size;
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, stop, say_nothing);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, stop, stop_at_damage);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (info && !setjmp(png_jmpbuf(png))) {
         png_set_user_limits(png, (png_uint_32)side_max, (png_uint_32)side_max);

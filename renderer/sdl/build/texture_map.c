@@ -172,7 +172,9 @@ static void take_red(Sdl *sdl, ImageMap *image)
                                     .max_pixels = (long)LARGEST_SIDE * LARGEST_SIDE,
                                     .access = sdl_access(sdl),
                                     .budget = options->budget,
-                                    .pixel_bytes = 16 + 1};
+                                    .pixel_bytes = 16 + 1,
+                                    .warn = warn_of_picture,
+                                    .warn_context = sdl};
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, image->path);

@@ -26,10 +26,11 @@ typedef struct SdlOptions {
     int width, height;   /* values of image_width and image_height in the scene; 0 = the scene's own size */
     int nthreads;        /* that images are read on; 0 = all cores */
     int safe;            /* 1: untrusted scene: safe access (retex/access.h), current folder excluded */
+    int accept_damaged;  /* 1: damaged pictures are read as far as possible, with a warning */
 } SdlOptions;
 #define SDL_OPTIONS_INIT                                                                                               \
     {                                                                                                                  \
-        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0                    \
+        sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0, 0, 0                 \
     }
 
 #endif

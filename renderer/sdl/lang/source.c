@@ -48,6 +48,7 @@ void folders_begin(Sdl *sdl, const char *scene_path)
     const char **roots = sdl_alloc(sdl, count * sizeof *roots);
     sdl->access = (RetexAccess)RETEX_ACCESS_INIT;
     sdl->access.safe = sdl->options.safe;
+    sdl->access.accept_damaged = sdl->options.accept_damaged;
     sdl->access.roots = roots;
     const char *slash = strrchr(scene_path, '/');
     if (!sdl->options.safe || !slash)

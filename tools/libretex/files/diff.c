@@ -244,26 +244,32 @@ static int compare_one(const Comparison *files, RetexError *err)
     return compare_parts(files, ia, ib, err);
 }
 
-int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiffParams *params, int nthreads,
+int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiffParams *given, int nthreads,
                RetexError *err)
 {
-    static const RetexDiffParams defaults = RETEX_DIFF_INIT;
+    RetexDiffParams params = RETEX_DIFF_INIT;
     *result = NULL;
-    if (!params)
-        params = &defaults;
+    if (given)
+        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
     if (strcmp(a, "-") == 0 && strcmp(b, "-") == 0)
         return retex_fail(err, RETEX_EINVAL, "only one of the two files can be standard input");
     RetexDiff *diff = calloc(1, sizeof *diff);
-    Comparison files = {.diff = diff, .params = params, .nthreads = nthreads};
-    int code = diff ? retex_layers_open(&files.a, a, params->access, params->budget, nthreads, err)
-                    : retex_fail(err, RETEX_ENOMEM, "no memory");
+    const RetexReadParams reading = {.size = sizeof reading,
+                                     .access = params.access,
+                                     .budget = params.budget,
+                                     .pixel_bytes = 16,
+                                     .warn = params.access && params.access->accept_damaged ? params.warn : NULL,
+                                     .warn_context = params.warn_context};
+    Comparison files = {.diff = diff, .params = &params, .nthreads = nthreads};
+    int code =
+        diff ? retex_layers_open(&files.a, a, &reading, nthreads, err) : retex_fail(err, RETEX_ENOMEM, "no memory");
     if (!code)
-        code = retex_layers_open(&files.b, b, params->access, params->budget, nthreads, err);
+        code = retex_layers_open(&files.b, b, &reading, nthreads, err);
     if (!code) {
         diff->parts = calloc((size_t)retex_layers_count(files.a), sizeof *diff->parts);
-        code = !diff->parts        ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)
-               : params->all_parts ? compare_all(&files, err)
-                                   : compare_one(&files, err);
+        code = !diff->parts       ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)
+               : params.all_parts ? compare_all(&files, err)
+                                  : compare_one(&files, err);
     }
     retex_layers_close(&files.a);
     retex_layers_close(&files.b);

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/image_file.h>
 #include <retex/pack.h>
 #include <retex/set_file.h>
 
@@ -36,8 +35,8 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 
-int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess *access, const RetexBudget *budget,
-                      int nthreads, RetexError *err)
+int retex_layers_open(RetexLayers **result, const char *path, const RetexReadParams *params, int nthreads,
+                      RetexError *err)
 {
     const char *reason;
     *result = NULL;
@@ -45,16 +44,15 @@ int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess 
     if (!layers)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     layers->nthreads = nthreads;
-    const RetexReadParams params = {.size = sizeof params, .access = access, .budget = budget, .pixel_bytes = 16};
-    int code = retex_input_open_allowed(&layers->input, path, access, err);
+    int code = retex_input_open_allowed(&layers->input, path, params->access, err);
     if (!code && retex_exr_probe(layers->input))
         code = retex_exr_open(&layers->exr, layers->input, err);
     else if (!code)
-        code = open_other(layers, path, &params, err);
+        code = open_other(layers, path, params, err);
     if (!code && layers->exr && !retex_exr_part_readable(layers->exr, 0, &reason)) {
         /* libretex's EXR reader does not support this file: OpenImageIO reads it */
         retex_exr_close(&layers->exr);
-        code = retex_image_read(&layers->picture, path, &params, nthreads, err);
+        code = retex_image_read(&layers->picture, path, params, nthreads, err);
     }
     if (code)
         retex_layers_close(&layers);

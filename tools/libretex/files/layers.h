@@ -2,7 +2,7 @@
 #ifndef RETEX_FILES_LAYERS_H
 #define RETEX_FILES_LAYERS_H
 
-#include <retex/image.h>
+#include <retex/image_file.h>
 
 typedef struct RetexLayers RetexLayers;
 
@@ -13,8 +13,8 @@ typedef struct RetexLayer {
 } RetexLayer;
 
 /* Open a file: an EXR or a pack, whose parts are the layers, or another picture, which is one layer R,G,B,A. */
-int retex_layers_open(RetexLayers **layers, const char *path, const RetexAccess *access, const RetexBudget *budget,
-                      int nthreads, RetexError *err);
+int retex_layers_open(RetexLayers **layers, const char *path, const RetexReadParams *params, int nthreads,
+                      RetexError *err);
 void retex_layers_close(RetexLayers **layers);
 int retex_layers_count(const RetexLayers *layers);
 const char *retex_layers_name(const RetexLayers *layers, int index); /* "" if it has no name */

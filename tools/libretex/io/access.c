@@ -11,11 +11,21 @@
 
 #include <retex/access.h>
 
-int retex_access_safe_requested(void)
+static int is_requested(const char *variable)
 {
-    const char *said = getenv("RETEX_SAFE");
+    const char *said = getenv(variable);
 
     return said && said[0] && strcmp(said, "0") != 0;
+}
+
+int retex_access_safe_requested(void)
+{
+    return is_requested("RETEX_SAFE");
+}
+
+int retex_access_damage_accepted(void)
+{
+    return is_requested("RETEX_ACCEPT_DAMAGED");
 }
 
 static int lies_inside(const RetexAccess *access, const char *resolved)

@@ -3,6 +3,8 @@
 #include "exr/color_tag.h"
 #include "io/pending_files.h"
 #include "picture/beside.h"
+#include "picture/jpeg_read.h"
+#include "picture/png_read.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -93,7 +95,9 @@ int retex_names_linear(const char *colorspace)
            strcasecmp(colorspace, "scene_linear") == 0;
 }
 
-static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free, retex_color_tag_to_rec709};
+static const RetexBridgeHost host = {
+    retex_image_alloc,     retex_image_free,    malloc, free, retex_color_tag_to_rec709,
+    retex_jpeg_is_damaged, retex_png_is_damaged};
 
 /* Ready to read a file, unless the bridge is left out. */
 static int ready_to_read(const RetexBridgeFile *file, RetexError *err)

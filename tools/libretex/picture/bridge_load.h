@@ -17,6 +17,9 @@ extern "C" {
  * OpenColorIO. */
 int retex_names_linear(const char *colorspace);
 
+/* What is damaged in a picture file, for messages. */
+typedef char RetexDamage[128];
+
 /* A file to read. */
 typedef struct RetexBridgeFile {
     const char *path;
@@ -29,6 +32,7 @@ typedef struct RetexBridgeFile {
     int nthreads;           /* that decode, at most; 0 = all cores */
     RetexWarn *warn;        /* as of RetexReadParams, or NULL */
     void *warn_context;
+    int accept_damaged;     /* 1: what is damaged is read all the same, and warned of */
 } RetexBridgeFile;
 
 /* Read any file that OpenImageIO reads as R,G,B,A, scene-linear Rec.709, unassociated alpha: the general case of
@@ -94,9 +98,11 @@ typedef struct RetexBridgeHost {
     void *(*alloc)(size_t bytes);
     void (*free)(void *block);
     int (*to_rec709)(const float chromaticities[8], double matrix[3][3]); /* retex_color_tag_to_rec709 */
+    int (*jpeg_is_damaged)(const void *data, size_t bytes, RetexDamage damage);
+    int (*png_is_damaged)(const void *data, size_t bytes, long max_pixels, RetexDamage damage);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 10
+#define RETEX_BRIDGE_ABI 11
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,

@@ -426,6 +426,7 @@ static int fill_order(RetexDecoderOrder *order, RetexDecode decode, const RetexI
                                  .all_pixels = retex_budget_pixels(params->budget),
                                  .left = retex_budget_left(params->budget),
                                  .seconds = PROCESSOR_SECONDS,
+                                 .accept_damaged = params->access && params->access->accept_damaged,
                                  .has_colorspace = space != NULL};
     order->memory = order->left == UINT64_MAX ? machine / 4 * 3 : order->left;
     if (snprintf(order->colorspace, sizeof order->colorspace, "%s", space ? space : "") >=

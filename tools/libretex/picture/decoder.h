@@ -41,6 +41,7 @@ typedef struct RetexDecoderOrder {
     uint64_t left;   /* memory that the command has left; UINT64_MAX = any */
     uint64_t memory; /* that the decoder may take; 0 = any */
     double seconds;  /* of processor time; */
+    int32_t accept_damaged; /* as of RetexAccess */
     int32_t has_colorspace;
     char colorspace[256], space_to_load[256]; /* the second: of a file that asked for it */
     char path[1024];                          /* for messages */

@@ -173,7 +173,8 @@ static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const 
                               .descriptor = -1,
                               .colorspace = params->colorspace,
                               .warn = params->warn,
-                              .warn_context = params->warn_context};
+                              .warn_context = params->warn_context,
+                              .accept_damaged = params->access && params->access->accept_damaged};
     set_limit(file, params);
     if (strcmp(path, "-") == 0)
         return 0;
@@ -319,6 +320,7 @@ static int bridge_check(RetexBridgeFile file, RetexError *err)
     RetexError error = {0};
 
     file.max_pixels = 1;
+    file.warn = NULL;
     const int status = retex_bridge_read(&image, &file, &error);
     retex_image_free(&image);
     if (status && status != RETEX_ELIMIT && err)

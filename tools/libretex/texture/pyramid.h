@@ -41,7 +41,7 @@ struct RetexTexture {
     int nlevels; /* 0 = constant */
     int opaque;  /* 1: alpha is 1 wherever the texture is looked up */
     RetexTexelDefects defects; /* defects of the file's texels */
-    char *color_warning;       /* why colours that the file states are not followed, or NULL */
+    char *color_warning;       /* what is odd about the file, in lines, such as colours not followed; or NULL */
     int narrow;  /* 1: texels are 16-bit integers, NARROW_ONE standing for 1; else floats */
     RetexTextureLevel levels[TEXTURE_MAX_LEVELS];
     char corners[4][16]; /* texels of the image: top left, top right, bottom left, bottom right */

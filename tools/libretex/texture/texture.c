@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -291,9 +292,11 @@ void retex_texture_close(RetexTexture **texture)
 void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec)
 {
     int width, height;
+    char *lines = texture->color_warning && spec->warn ? strdup(texture->color_warning) : NULL;
     retex_texture_size(texture, &width, &height);
-    if (texture->color_warning && spec->warn)
-        spec->warn(spec->warn_context, texture->color_warning);
+    for (char *rest = lines, *line; (line = strsep(&rest, "\n"));)
+        spec->warn(spec->warn_context, line);
+    free(lines);
     retex_texel_defects_report(&texture->defects, spec, (long)width * height);
 }
 
@@ -308,13 +311,17 @@ static void return_texture(RetexTexture **out, RetexTexture *texture, const floa
     *out = texture;
 }
 
-/* Keeps a warning of the file's colours for the report. */
+/* Keeps a warning of the file for the report. */
 static void keep_warning(void *context, const char *text)
 {
     RetexTexture *texture = context;
 
+    char *both = NULL;
+
+    if (texture->color_warning && asprintf(&both, "%s\n%s", texture->color_warning, text) < 0)
+        return;
     free(texture->color_warning);
-    texture->color_warning = strdup(text);
+    texture->color_warning = both ? both : strdup(text);
 }
 
 /* Parameters of reading. While an image is decoded, an image of 16-bit integers, or for other files the floats of the

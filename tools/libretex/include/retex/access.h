@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* Begin with RETEX_ACCESS_INIT, which allows everything, as NULL does. */
+/* Begin with RETEX_ACCESS_INIT, which allows every file, as NULL does. */
 typedef struct RetexAccess {
     size_t size;              /* of this struct */
     int safe;                 /* 1: safe access, as above; 2: the same, where this process is confined and may crash: it
@@ -24,8 +24,10 @@ typedef struct RetexAccess {
     const char *const *roots; /* folders as realpath(3) gives them, outside of which nothing is read; default NULL =
                                  anywhere, for names that the user said */
     int nroots;
+    int accept_damaged; /* 1: pictures that are damaged are read as far as they can be, and their readers are warned;
+                           default 0: they are refused */
 } RetexAccess;
-#define RETEX_ACCESS_INIT { sizeof(RetexAccess), 0, NULL, 0 }
+#define RETEX_ACCESS_INIT { sizeof(RetexAccess), 0, NULL, 0, 0 }
 
 typedef enum RetexAccessResult {
     RETEX_ACCESS_ALLOWED,
@@ -36,6 +38,8 @@ typedef enum RetexAccessResult {
 
 /* 1 if the environment asks for safe access: RETEX_SAFE is set, and neither empty nor 0. */
 int retex_access_safe_requested(void);
+/* The same of damaged pictures: RETEX_ACCEPT_DAMAGED. */
+int retex_access_damage_accepted(void);
 
 /* Check whether a file may be read. `name` is relative to `folder` (one of the roots, in any spelling; "" = the current
  * folder) unless it begins with /. Safe access refuses names that leave the folders even if they come back, so that

@@ -21,8 +21,10 @@ typedef struct RetexDiffParams {
     double fail_relmse, fail_flip, fail_abs, fail_rel; /* when relmse, flip_mean, max_abs, max_rel is above */
     const RetexAccess *access; /* which files may be read; sets and packs are, as pictures go; NULL = any */
     const RetexBudget *budget; /* what pictures may take; NULL = what there is */
+    RetexWarn *warn;           /* told, in the calling thread, of damaged pictures that access accepts; NULL = nobody */
+    void *warn_context;        /* handed to it */
 } RetexDiffParams;
-#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, NULL, NULL }
+#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, NULL, NULL, NULL, NULL }
 
 typedef struct RetexDiffPart {
     char name[192];          /* "" where the file's part has none */

@@ -1,0 +1,148 @@
+"""Reads picture files whole and damaged, with make_digests. `pictures.py whole` compares pixels with those that are
+recorded in data/pictures.txt, by another program: a build that did not look for damage. `pictures.py record DIGESTS` writes
+that file. `pictures.py damaged COUNT SEED` damages the files; `pictures.py accepted COUNT SEED` accepts it."""
+import collections
+import hashlib
+import os
+import re
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TABLE = os.path.join(HERE, "..", "data", "pictures.txt")
+
+# Files with checksums: what is damaged in their pixels is always found.
+CHECKED = re.compile(r"png|exr-(zip|zips)-|exr-tiled\.|tiff-zip")
+# Formats in which a changed byte is a changed pixel or another valid code; the readers cannot know of it.
+UNCHECKED = {
+    "bmp": "pixels as they are", "dds": "pixels as they are", "dpx": "pixels as they are", "fits": "pixels as they are",
+    "pfm": "pixels as they are", "pnm": "pixels as they are", "psd": "pixels as they are, or runs of them",
+    "sgi": "pixels as they are, or runs of them", "tga": "pixels as they are, or runs of them",
+    "iff": "pixels as they are, or runs of them", "rla": "runs of pixels", "hdr": "runs of pixels",
+    "ico": "pixels as they are", "zfile": "pixels as they are",
+    "exr": "pixels as they are, or codes without checksums (RLE, PIZ, B44, DWA)", "gif": "LZW without a checksum",
+    "tiff": "pixels as they are, or codes without checksums (LZW, PackBits, JPEG, fax); tags",
+    "jpeg": "Huffman codes find back into step after a change", "webp": "arithmetic codes",
+    "heif": "arithmetic codes", "jp2": "arithmetic codes", "j2k": "arithmetic codes",
+}
+
+
+def make_files():
+    os.makedirs("whole", exist_ok=True)
+    subprocess.run(["make_jpegs", "whole"], check=True)
+    subprocess.run(["make_tiffs", "whole"], check=True, stderr=subprocess.DEVNULL)
+    subprocess.run(["/usr/bin/python3", os.path.join(HERE, "..", "lib", "make_pictures.py"), "whole"], check=True)
+
+
+def read(folder, *options):
+    """By file: the lines of its pixels, warnings, and what was printed."""
+    results = collections.OrderedDict()
+    names = sorted(os.listdir(folder))
+    for first in range(0, len(names), 200):
+        batch = names[first:first + 200]
+        output = subprocess.run(["make_digests", *options, *batch], cwd=folder, stdout=subprocess.PIPE, check=False)
+        lines = [line for line in output.stdout.decode(errors="replace").split("\n") if line]
+        if output.returncode != 0:
+            print(f"make_digests ended with {output.returncode} after {lines[-1:]}")
+        warnings = []
+        for line in lines:
+            if line.startswith("warning: "):
+                warnings.append(line)
+            elif line.startswith("printed: "):
+                print(f"{list(results)[-1]}: {line}")
+            else:
+                name, result = line.split(" ", 1)
+                results[name] = (result, warnings)
+                warnings = []
+    return results
+
+
+def sum_of(name):
+    with open(os.path.join("whole", name), "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()[:16]
+
+
+def recorded():
+    with open(TABLE, encoding="ascii") as file:
+        return {line.split()[0]: line.split()[1:] for line in file if not line.startswith("#")}
+
+
+def whole():
+    """All are read, without a warning. Of those that are the same files as when they were recorded, the pixels are too:
+    other versions of the libraries may encode them otherwise."""
+    expected, same = recorded(), 0
+    results = read("whole")
+    for name, (result, warnings) in results.items():
+        known = expected.get(name, [""])
+        if "refused" in result or warnings:
+            print(name, result, *warnings)
+        elif known[0] == sum_of(name):
+            same += 1
+            if result.split() != known[1:]:
+                print(f"{name}: {result}, not {' '.join(known[1:])}")
+    print("read" if len(results) >= 150 else f"only {len(results)}")
+    print("# ", same, "files are those that were recorded")
+
+
+def damaged(count, seed, *options):
+    os.makedirs("damaged", exist_ok=True)
+    subprocess.run(["/usr/bin/python3", os.path.join(HERE, "..", "lib", "damage_pictures.py"), "whole", "damaged", count,
+                    seed], check=True)
+    right = {name: result for name, (result, _) in read("whole").items()}
+    found = collections.defaultdict(collections.Counter)
+    for name, (result, warnings) in read("damaged", *options).items():
+        base, damage, ending = re.fullmatch(r"(.*?)@(\w+)-\d+(\.\w+)", name).groups()
+        kind = "refused" if "refused" in result else "same" if result == right[base + ending] else "other"
+        group = re.split(r"[-.]", base)[0]
+        found[group][damage, kind] += 1
+        if kind == "other" and not warnings:
+            judge(name, group, base, damage)
+        if warnings and "-a" not in options:
+            print(f"{name}: {warnings}")
+        if kind == "refused" and warnings:
+            print(f"{name}: refused and warned of")
+    with open("shares.txt", "w", encoding="ascii") as table:
+        for group, counts in sorted(found.items()):
+            print(group, *(f"{damage} {counts[damage, 'refused']}/{counts[damage, 'same']}/{counts[damage, 'other']}"
+                           for damage in ("cut", "zeros", "flip", "missing", "surplus")), UNCHECKED.get(group, ""),
+                  file=table, sep="; ")
+    return found
+
+
+def judge(name, group, base, damage):
+    """A damaged file was read, with other pixels, and nobody was told."""
+    if damage == "cut":
+        print(f"{name}: cut off, and read")
+    elif group not in UNCHECKED or CHECKED.match(base):
+        # damage of a TIFF's tags is not damage of its pixels
+        if not (group == "tiff" and damage in ("flip", "zeros", "surplus")):
+            print(f"{name}: read with other pixels")
+
+
+def main():
+    what, *rest = sys.argv[1:]
+    if what == "record":
+        with open(rest[0], encoding="ascii") as digests, open(TABLE, "w", encoding="ascii") as table:
+            print("# Picture files: the first digits of their SHA-256, their size, and digests of their pixels as floats and",
+                  "# as integers, by a build that did not look for damage.", file=table, sep="\n")
+            for line in digests:
+                name, result = line.strip().split(" ", 1)
+                if os.path.exists(os.path.join("whole", name)):
+                    print(name, sum_of(name), result, file=table)
+        return
+    make_files()
+    if what == "whole":
+        whole()
+    elif what == "damaged":
+        found = damaged(*rest)
+        total = {kind: sum(n for (damage, k), n in found["jpeg"].items() if k == kind and damage != "cut")
+                 for kind in ("refused", "same", "other")}
+        # libjpeg warns of about half of the damages; of zeros in coded data, of more than two thirds
+        print("jpeg", total["refused"] > total["other"],
+              found["jpeg"]["zeros", "refused"] > 1.5 * found["jpeg"]["zeros", "other"])
+    elif what == "accepted":
+        damaged(*rest, "-a")
+
+
+if __name__ == "__main__":
+    main()
