@@ -24,7 +24,9 @@ static const CliOption options[] = {
     {"queue", 0, "N", "let at most N pictures wait; what is beyond is answered by 503; default 512", 0},
     {"deadline", 0, "SECONDS", "give up a picture that takes longer, waiting included; default 300", 0},
     {"connections", 0, "N", "accept at most N connections; default 1000", 0},
-    {"per-client", 0, "N", "accept at most N connections of one address; default 0, any number", 0},
+    {"per-client", 0, "N", "accept at most N connections of one client, N/8 images; 0: any number; default 64", 0},
+    {"trusted-proxy", 0, "ADDRESS", "clients of this proxy, or of a network a.b.c.d/BITS, are those it tells", 0},
+    {"min-rate", 0, "N", "close a connection that sends fewer than N bytes of an image a second; default 1000", 0},
     {"timeout", 0, "SECONDS", "close a connection that is silent, or sends a request for longer; default 30", 0},
     {"max-age", 0, "SECONDS", "let others keep an answer so long without asking again; default 60", 0},
     {"uploads", 0, "FOLDER", "accept images by POST and keep them in FOLDER; by default none are accepted", 0},
@@ -34,7 +36,7 @@ static const CliOption options[] = {
     {"upload-total", 0, "SIZE", "keep images of at most SIZE in all; default 1024 MB", 0},
     {"upload-age", 0, "SECONDS", "delete an image after this time; 0: never; default 86400, a day", 0},
     {"upload-time", 0, "SECONDS", "give up an image that takes longer to decode; default 10", 0},
-    {"base-url", 0, "URL", "the server's URL as clients know it; default by the header Host", 0},
+    {"base-url", 0, "URL", "the server's URL as clients know it; default that of this machine", 0},
     {0},
 };
 
@@ -66,6 +68,8 @@ static int parse_number(const Cli *cli, const CliOption *option, Job *job)
         http->connections = (int)cli_integer(cli, option, 1, 100000);
     else if (strcmp(name, "per-client") == 0)
         http->per_client = (int)cli_integer(cli, option, 0, 100000);
+    else if (strcmp(name, "min-rate") == 0)
+        http->min_rate = cli_number(cli, option, 0, 1e9);
     else if (strcmp(name, "timeout") == 0)
         http->timeout = cli_number(cli, option, 0.1, 3600);
     else if (strcmp(name, "max-age") == 0)
@@ -92,6 +96,16 @@ static void check_base(const Cli *cli)
                 cli->value);
 }
 
+static void add_proxy(const Cli *cli, Trusted *proxies)
+{
+    if (proxies->count == TRUSTED_MAX)
+        cli_die(cli, "--trusted-proxy: at most %d are taken", TRUSTED_MAX);
+    if (trusted_add(proxies, cli->value))
+        cli_die(cli,
+                "--trusted-proxy: expected an address such as 127.0.0.1, or a network such as 10.0.0.0/8, not '%s'",
+                cli->value);
+}
+
 static void parse(Cli *cli, Job *job)
 {
     for (const CliOption *option; (option = cli_next(cli));) {
@@ -109,6 +123,8 @@ static void parse(Cli *cli, Job *job)
             job->upload_size = cli_megabytes(cli, option);
         } else if (strcmp(option->name, "upload-total") == 0) {
             job->upload_total = cli_megabytes(cli, option);
+        } else if (strcmp(option->name, "trusted-proxy") == 0) {
+            add_proxy(cli, &job->http.proxies);
         } else if (strcmp(option->name, "base-url") == 0) {
             check_base(cli);
             job->http.base = cli->value;
@@ -270,8 +286,14 @@ int main(int argc, char **argv)
         .upload_count = 1000,
         .upload_age = 86400,
         .upload_time = 10,
-        .http = {
-            .address = "127.0.0.1", .port = 8080, .connections = 1000, .timeout = 30, .deadline = 300, .max_age = 60}};
+        .http = {.address = "127.0.0.1",
+                 .port = 8080,
+                 .connections = 1000,
+                 .per_client = 64,
+                 .min_rate = 1000,
+                 .timeout = 30,
+                 .deadline = 300,
+                 .max_age = 60}};
     Cli cli = {.tool = "retex-serve",
                .usage = "FOLDER [--port N] [--textures FOLDER]",
                .about = "Serve pictures of sets and packs, with the textures that URLs name.",

@@ -2,6 +2,10 @@
 # file, and ends it. Prints what differs, and at last the name of the function.
 import hashlib, http.client, json, os, re, select, shutil, signal, socket, subprocess, sys, threading, time
 
+sys.path.append(os.path.join(os.path.dirname(__file__), '..', 'serve'))
+sys.dont_write_bytecode = True
+import heads as heads_sent
+
 
 def start(*options, log='log'):
     if os.path.exists('address'):
@@ -18,8 +22,8 @@ def start(*options, log='log'):
     sys.exit('no server: ' + open(log).read())
 
 
-def ask(server, path, method='GET', **headers):
-    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+def ask(server, path, method='GET', source='127.0.0.1', **headers):
+    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60, source_address=(source, 0))
     connection.request(method, path, headers={name.replace('_', '-'): value for name, value in headers.items()})
     answer = connection.getresponse()
     answer.body = answer.read()
@@ -27,12 +31,12 @@ def ask(server, path, method='GET', **headers):
     return answer
 
 
-def send_all(server, paths):
+def send_all(server, paths, headers=''):
     """Sends requests without waiting for an answer, and returns their sockets."""
     clients = []
     for path in paths:
         clients.append(socket.create_connection(('127.0.0.1', server.port), 60))
-        clients[-1].sendall(f'GET {path} HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n'.encode())
+        clients[-1].sendall(f'GET {path} HTTP/1.1\r\nHost: a\r\nConnection: close\r\n{headers}\r\n'.encode())
     return clients
 
 
@@ -221,6 +225,91 @@ def refused(server):
     os.remove('textures/link.png'), os.remove('textures/outside.jpg')
 
 
+def heads(server):
+    """Requests that two programs may read differently are refused, and their connections are closed."""
+    for fault in heads_sent.faults(server.port):
+        print(fault)
+
+
+def iiif_answers(server, source='127.0.0.1', **headers):
+    """What the answers of IIIF say of the server's address."""
+    return [json.loads(ask(server, '/iiif/3/small/info.json', source=source, **headers).body)['id'],
+            ask(server, '/iiif/3/small', source=source, **headers).getheader('Location'),
+            ask(server, '/iiif/3/small/full/max/0/default.png', source=source, **headers).getheader('Link').split(';')[0]]
+
+
+def addresses(base):
+    return [base + '/iiif/3/small', base + '/iiif/3/small/info.json', f'<{base}/iiif/3/small/full/max/0/default.png>']
+
+
+TOLD = {'Host': 'pictures.example', 'X_Forwarded_Proto': 'https', 'X_Forwarded_Host': 'other.example'}
+
+
+def shared(server):
+    """What a client tells of the server stands in no answer, which a shared cache would give to others."""
+    expect('ids', iiif_answers(server, **TOLD), addresses(f'http://127.0.0.1:{server.port}'))
+    expect('afterwards', iiif_answers(server), addresses(f'http://127.0.0.1:{server.port}'))
+
+
+def proxied(server):
+    """A proxy that is trusted tells where the server is, and who asks: its clients have limits, and itself none."""
+    expect('ids', iiif_answers(server, **TOLD), addresses('https://pictures.example'))
+    expect('of another', iiif_answers(server, '127.0.0.2', **TOLD), addresses(f'http://127.0.0.1:{server.port}'))
+    idle = [socket.create_connection(('127.0.0.1', server.port), 10) for _ in range(20)]
+    image = open('outside.jpg', 'rb').read()
+    expect('an upload', send(server, image).status in (200, 201), True)
+    waiting = begin_upload(server, X_Forwarded_For='127.0.0.2, 192.0.2.1')
+    for who, status in (('192.0.2.1', 429), ('192.0.2.2, 192.0.2.1', 429), ('192.0.2.1, 127.0.0.1', 429),
+                        ('192.0.2.1:99', 429), ('192.0.2.1, 192.0.2.2', 200), ('2001:db8::1', 200), ('x', 200), ('', 200)):
+        expect(who, send(server, image, X_Forwarded_For=who).status, status)
+    network = begin_upload(server, X_Forwarded_For='2001:db8:1:2::1')
+    expect('its network', [send(server, image, X_Forwarded_For=who).status for who in
+                           ('2001:db8:1:2:ffff::', '2001:db8:1:3::1')], [429, 200])
+    expect('of another', send(server, image, source='127.0.0.3', X_Forwarded_For='192.0.2.1').status, 200)
+    expect('a picture', ask(server, '/v1/small/full.png', X_Forwarded_For='192.0.2.1').status, 200)
+    waiting.close(), network.close()
+    expect('afterwards', wait_for(lambda: send(server, image, X_Forwarded_For='192.0.2.1').status == 200), True)
+    crowd = send_all(server, [f'/v1/raw/Floor=rgb(0,0,.{n})/full.png' for n in range(100, 160)],
+                     'X-Forwarded-For: 192.0.2.1\r\n')
+    expect('beside a crowd', ask(server, '/v1/small', X_Forwarded_For='192.0.2.2').status, 200)
+    statuses = [answer.status for answer in receive_all(crowd)]
+    expect('too many at once', (set(statuses), statuses.count(200) >= 8), ({200, 429}, True))
+    [connection.close() for connection in idle]
+    expect('log', {json.loads(line)['client'] for line in open('log')} >= {'127.0.0.1', '127.0.0.3', '192.0.2.1',
+                                                                           '2001:db8::1'}, True)
+
+
+def clients(server):
+    """Who has as many connections, or uploads on their way, as one client may have shuts nobody else out."""
+    idle = [socket.create_connection(('127.0.0.1', server.port), 10) for _ in range(30)]
+    closed = lambda: len(select.select(idle, [], [], 0)[0])
+    expect('too many are closed', wait_for(lambda: closed() == 14) or closed(), True)
+    expect('another one', ask(server, '/v1/small/full.png', source='127.0.0.2').status, 200)
+    [connection.close() for connection in idle]
+    expect('afterwards', wait_for(lambda: can_ask(server, '/health')), True)
+    image = open('outside.jpg', 'rb').read()
+    slow = [begin_upload(server) for _ in range(2)]
+    third = send(server, image)
+    expect('too many uploads', (third.status, third.getheader('Retry-After')), (429, '2'))
+    expect('an upload of another one', send(server, image, source='127.0.0.2').status in (200, 201), True)
+    expect('a picture', ask(server, '/v1/small/full.png').status, 200)
+    [connection.close() for connection in slow]
+    expect('uploads afterwards', wait_for(lambda: send(server, image).status == 200), True)
+
+
+def crawling(server):
+    """A body that comes by fewer bytes a second than it must is given up; one that comes by more is not."""
+    slow, fair = begin_upload(server), begin_upload(server)
+    began = time.time()
+    while time.time() - began < 20 and not select.select([slow], [], [], .5)[0]:
+        try:
+            slow.sendall(bytes(100)), fair.sendall(bytes(2000))
+        except OSError:
+            break
+    expect('cut off', 9 < time.time() - began < 15 and ended(slow), True)
+    expect('in time', select.select([fair], [], [], 0)[0], [])
+
+
 def lists(server):
     """What there is."""
     site = json.loads(ask(server, '/v1').body)
@@ -228,8 +317,8 @@ def lists(server):
     room = json.loads(ask(server, '/v1/small').body)
     expect('room', (room['width'], room['height'], [target['name'] for target in room['targets']]),
            (64, 48, ['Floor', 'Wall']))
-    info = ask(server, '/iiif/3/small%3BFloor=oak/info.json', Host='pictures.example', X_Forwarded_Proto='https')
-    expect('info', json.loads(info.body)['id'].startswith('https://pictures.example/iiif/3/small'), True)
+    info = ask(server, '/iiif/3/small%3BFloor=oak/info.json')
+    expect('info', json.loads(info.body)['id'], f'http://127.0.0.1:{server.port}/iiif/3/small;Floor=oak')
     expect('base', ask(server, '/iiif/3/small').status, 303)
     expect('thumbnail', ask(server, '/v1/small/thumbnail').status, 200)
 
@@ -274,8 +363,43 @@ def documented(server):
 
 # ---- uploads ----
 
-def send(server, body, path='/v1/uploads', method='POST', **headers):
-    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+def begin_upload(server, **headers):
+    """Sends the beginning of an image, and returns its socket when the server has it."""
+    client = socket.create_connection(('127.0.0.1', server.port), 60)
+    head = ''.join(f'{name.replace("_", "-")}: {value}\r\n' for name, value in headers.items())
+    client.sendall(f'POST /v1/uploads HTTP/1.1\r\nHost: a\r\nContent-Length: 900000\r\n'
+                   f'Expect: 100-continue\r\n{head}\r\n'.encode())
+    expect('continue', client.recv(100), b'HTTP/1.1 100 Continue\r\n\r\n')
+    client.sendall(b'\xff\xd8')
+    return client
+
+
+def ended(client):
+    """Whether the server has closed a connection."""
+    try:
+        return client.recv(100) == b''
+    except OSError:
+        return True
+
+
+def can_ask(server, path):
+    try:
+        return ask(server, path).status == 200
+    except OSError:
+        return False
+
+
+def wait_for(condition, seconds=20):
+    until = time.time() + seconds
+    while not condition():
+        if time.time() > until:
+            return False
+        time.sleep(.02)
+    return True
+
+
+def send(server, body, path='/v1/uploads', method='POST', source='127.0.0.1', **headers):
+    connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60, source_address=(source, 0))
     try:
         connection.request(method, path, body, {name.replace('_', '-'): value for name, value in headers.items()})
     except BrokenPipeError:  # the server has answered, and closed, before it had all; its answer is there to be read
@@ -474,7 +598,10 @@ OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-c
                        '--upload-age', '3600'],
            'decoders': ['--uploads', 'strange', '--upload-time', '2'],
            'hurried': ['--uploads', 'strange', '--deadline', '1'],
-           'documented': ['--uploads', 'uploads'], 'texts': ['--threads', '1'], 'refused': ['--timeout', '1'],
+           'documented': ['--uploads', 'uploads'], 'heads': ['--uploads', 'uploads'],
+           'proxied': ['--uploads', 'uploads', '--trusted-proxy', '127.0.0.1', '--per-client', '8', '--threads', '1'],
+           'clients': ['--uploads', 'uploads', '--per-client', '16'], 'crawling': ['--uploads', 'uploads'],
+           'texts': ['--threads', '1', '--per-client', '0'], 'refused': ['--timeout', '1'],
            'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
 for name in sys.argv[1:]:

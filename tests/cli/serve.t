@@ -18,13 +18,24 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together texts cro
 > end
 
 # Images that clients send.
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads documented off
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads documented off heads
 > uploads
 > documented
 > off
 $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir strange; python3 "$TESTS/decoder.py"; serve decoders hurried
 > decoders
 > hurried
+> heads
+
+# What one client may have, and what it may tell.
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve shared proxied clients crawling
+> shared
+> proxied
+> clients
+> crawling
+$ retex-serve rooms --trusted-proxy example.org
+! retex-serve: error: --trusted-proxy: expected an address such as 127.0.0.1, or a network such as 10.0.0.0/8, not 'example.org'
+= 2
 $ retex-serve rooms --uploads none --port 0
 ! retex-serve: error: --uploads: there is no folder none
 = 2

@@ -32,7 +32,7 @@ def main():
             abuse.check_uploads(server, folder, file.read(), 2000)
         server.stop()
     if "load" in parts:
-        server = Server(rooms, textures, "--picture-memory", "16", "-q", log=log)
+        server = Server(rooms, textures, "--picture-memory", "16", "--per-client", "0", "-q", log=log)
         load.check_clients(server, seconds, work)
         server.stop()
         load.check_queue(rooms, textures, log)

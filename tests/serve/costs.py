@@ -62,7 +62,7 @@ def main():
     log = os.path.join(work, "server.log")
     costs = Costs(rooms, textures, log, int(count))
     costs.measure_all()
-    server = Server(rooms, textures, "--picture-memory", "16", "-q", log=log)
+    server = Server(rooms, textures, "--picture-memory", "16", "--per-client", "0", "-q", log=log)
     _, figures = load.measure_clients(server, int(seconds), work)
     server.stop()
     costs.add("clients", seconds=int(seconds), **figures)

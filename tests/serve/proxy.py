@@ -11,7 +11,11 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import heads
 from serving import Server, Tap, end_with_the_checks, fetch, wait_until
+
+
+TRUST = ["--trusted-proxy", "127.0.0.1"]
 
 
 def free_port():
@@ -103,6 +107,24 @@ def check_refusals(nginx):
                "nginx: errors are not immutable")
 
 
+def check_heads(nginx, server):
+    """What nginx refuses, and what it passes on, reaches the server as one request or none."""
+    right = fetch(server.port, "/v1/small/64x.png").body
+    faults = heads.faults(nginx.port, proxied=True)
+    Tap.result(not faults, "nginx: requests that programs may read differently are refused", "; ".join(faults))
+    bodies = {fetch(nginx.port, "/v1/small/64x.png").body for _ in range(8)}
+    Tap.result(bodies == {right}, "nginx: and its connections to the server are as before")
+
+
+def check_shared(nginx):
+    """What a client tells of other addresses changes neither what nginx keeps nor who is limited."""
+    def ids(port, **more):
+        return re.search(rb'"id": "([^"]*)"', fetch(port, "/iiif/3/large/info.json", headers=more).body)[1].decode()
+    told = {"X-Forwarded-Proto": "https", "X-Forwarded-Host": "evil.example", "X-Forwarded-For": "192.0.2.1"}
+    Tap.result([ids(nginx.port, **told), ids(nginx.port)] == [f"http://127.0.0.1:{nginx.port}/iiif/3/large"] * 2,
+               "nginx: info.json has nothing of a client's headers", ids(nginx.port))
+
+
 def check_lock(nginx, server):
     """Sixteen ask for the same new picture at once; the server makes one."""
     def counted():
@@ -130,7 +152,7 @@ def check_stale(nginx, rooms, textures, server, log, path):
                {r["X-Cache-Status"] for r in stale} <= {"STALE", "UPDATING"},
                "nginx: a killed server's pictures are served", str([(r.status, r["X-Cache-Status"]) for r in stale]))
     Tap.result(fetch(nginx.port, "/v1/small/Floor=rgb(1,1,1)/99x.jpg").status == 502, "nginx: others are 502")
-    server = Server(rooms, textures, "--max-age", "1", "-q", log=log, port=port)
+    server = Server(rooms, textures, "--max-age", "1", *TRUST, "-q", log=log, port=port)
 
     def is_fresh():  # nginx asks in the background, and the server opens the room first
         reply = fetch(nginx.port, path)
@@ -155,7 +177,7 @@ def check_torn(nginx, rooms, textures, server, log):
         time.sleep(0.01)
         server.kill()
         thread.join()
-        server = Server(rooms, textures, "-q", log=log, port=port)
+        server = Server(rooms, textures, *TRUST, "-q", log=log, port=port)
     bodies = [fetch(nginx.port, path).body for path in paths for _ in range(2)]
     Tap.result(bodies == [body for body in right for _ in range(2)], "nginx: no torn picture is kept",
                str([len(body) for body in bodies]))
@@ -173,7 +195,7 @@ def check_rate(server, work):
 def check_uploads(rooms, textures, work, log):
     folder = os.path.join(work, "uploads-nginx")
     os.makedirs(folder)
-    server = Server(rooms, textures, "--uploads", folder, "-q", log=log)
+    server = Server(rooms, textures, "--uploads", folder, *TRUST, log=log)
     nginx = Nginx(server.port, work, uploads=True)
     with open(os.path.join(textures, "brick.jpg"), "rb") as file:
         image = file.read()
@@ -235,16 +257,18 @@ def ask_slowly(work):
 def check(rooms, textures, work, log):
     slow_statuses = ask_slowly(work)
     check_uploads(rooms, textures, work, log)
-    server = Server(rooms, textures, "-q", log=log)
+    server = Server(rooms, textures, *TRUST, "-q", log=log)
     nginx = Nginx(server.port, work)
     try:
         check_cache(nginx, server, "/v1/small/Floor=brick;Wall=rgb(.2,.3,.4)/200x.jpg")
         check_refusals(nginx)
+        check_heads(nginx, server)
+        check_shared(nginx)
         check_lock(nginx, server)
         check_rate(server, work)
         server = check_torn(nginx, rooms, textures, server, log)
         server.stop()
-        server = Server(rooms, textures, "--max-age", "1", "-q", log=log, port=server.port)
+        server = Server(rooms, textures, "--max-age", "1", *TRUST, "-q", log=log, port=server.port)
         server = check_stale(nginx, rooms, textures, server, log, "/v1/small/Floor=damask/200x.jpg")
     finally:
         nginx.stop()

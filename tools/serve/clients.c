@@ -14,6 +14,8 @@ struct Client {
     int socket;
     ClientState state;
     double since;
+    double counted; /* of an image: since when its bytes are counted */
+    size_t bytes;
 };
 
 struct Clients {
@@ -48,7 +50,11 @@ Client *clients_add(Clients *clients, int socket)
     if (!client)
         return NULL;
     pthread_mutex_lock(&clients->lock);
-    *client = (Client){clients->first, &clients->first, socket, CLIENT_SENDS, retex_clock_seconds()};
+    *client = (Client){.next = clients->first,
+                       .place = &clients->first,
+                       .socket = socket,
+                       .state = CLIENT_SENDS,
+                       .since = retex_clock_seconds()};
     if (client->next)
         client->next->place = &client->next;
     clients->first = client;
@@ -76,18 +82,43 @@ void clients_set(Clients *clients, Client *client, ClientState state)
         return;
     pthread_mutex_lock(&clients->lock);
     client->state = state;
-    client->since = retex_clock_seconds();
+    client->since = client->counted = retex_clock_seconds();
+    client->bytes = 0;
     pthread_mutex_unlock(&clients->lock);
 }
 
-void clients_sweep(Clients *clients, double seconds)
+void clients_received(Clients *clients, Client *client, size_t bytes)
 {
-    const double now = retex_clock_seconds();
+    if (!client)
+        return;
+    pthread_mutex_lock(&clients->lock);
+    client->bytes += bytes;
+    pthread_mutex_unlock(&clients->lock);
+}
+
+/* Whether an image comes too slowly; the next bytes are counted anew. */
+static int crawls(Client *client, double now, double rate)
+{
+    if (client->state != CLIENT_UPLOADS || now - client->counted < CLIENTS_RATE_SECONDS)
+        return 0;
+    const int is_slow = (double)client->bytes < rate * CLIENTS_RATE_SECONDS;
+    client->counted = now;
+    client->bytes = 0;
+    return is_slow;
+}
+
+static int is_late(const Client *client, double now, double seconds)
+{
+    const double waited = now - client->since;
+    return (client->state == CLIENT_SENDS && waited > seconds) ||
+           ((client->state == CLIENT_TAKES || client->state == CLIENT_UPLOADS) && waited > TAKES_LONGER * seconds);
+}
+
+void clients_sweep(Clients *clients, double now, double seconds, double rate)
+{
     pthread_mutex_lock(&clients->lock); /* so that no socket is closed, and its number used again, meanwhile */
     for (Client *client = clients->first; client; client = client->next)
-        if ((client->state == CLIENT_SENDS && now - client->since > seconds) ||
-            ((client->state == CLIENT_TAKES || client->state == CLIENT_UPLOADS) &&
-             now - client->since > TAKES_LONGER * seconds))
+        if (is_late(client, now, seconds) || crawls(client, now, rate))
             shutdown(client->socket, SHUT_RDWR);
     pthread_mutex_unlock(&clients->lock);
 }

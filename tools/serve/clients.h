@@ -3,6 +3,8 @@
 #ifndef RETEX_SERVE_CLIENTS_H
 #define RETEX_SERVE_CLIENTS_H
 
+#include <stddef.h>
+
 typedef struct Clients Clients;
 typedef struct Client Client;
 
@@ -21,9 +23,14 @@ Client *clients_add(Clients *clients, int socket); /* NULL: no memory */
 void clients_remove(Clients *clients, Client *client);
 void clients_set(Clients *clients, Client *client, ClientState state);
 
-/* Shut down the sockets of those that take longer than `seconds` to send a request, or ten times as long to send an
- * image or to take an answer. */
-void clients_sweep(Clients *clients, double seconds);
+/* So many bytes of an image have come. */
+void clients_received(Clients *clients, Client *client, size_t bytes);
+
+/* Shut down the sockets of those that, at the time `now` of retex_clock_seconds, took longer than `seconds` to send a
+ * request, or ten times as long to send an image or to take an answer, or that sent fewer than `rate` bytes of an image
+ * a second over CLIENTS_RATE_SECONDS. */
+enum { CLIENTS_RATE_SECONDS = 10 };
+void clients_sweep(Clients *clients, double now, double seconds, double rate);
 int clients_count(Clients *clients);
 
 #endif

@@ -5,14 +5,20 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #define HASH_BEGIN UINT64_C(14695981039346656037)
 
-static inline uint64_t hash_text(uint64_t hash, const char *text)
+static inline uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t count)
 {
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++)
+    for (const unsigned char *c = bytes; count > 0; c++, count--)
         hash = (hash ^ *c) * UINT64_C(1099511628211);
     return hash;
+}
+
+static inline uint64_t hash_text(uint64_t hash, const char *text)
+{
+    return hash_bytes(hash, text, strlen(text));
 }
 
 typedef struct Hash128 {

@@ -3,6 +3,7 @@
 #ifndef RETEX_SERVE_HTTP_H
 #define RETEX_SERVE_HTTP_H
 
+#include "address.h"
 #include "metrics.h"
 #include "site.h"
 
@@ -10,11 +11,13 @@ typedef struct HttpParams {
     const char *address; /* to listen on, "127.0.0.1", "::1" */
     int port;            /* 0: the system chooses */
     int connections;     /* at most */
-    int per_client;      /* connections of one address, at most; 0 = any number */
+    int per_client;      /* connections of one client, at most; 0 = any number, of uploads too */
+    Trusted proxies;     /* whose clients are counted instead of themselves */
+    double min_rate;     /* bytes a second of an image, at least */
     double timeout;      /* seconds within which a request must arrive, and after which a silent connection is closed */
     double deadline;     /* seconds within which a picture must be made */
     int max_age;         /* seconds for which others may keep an answer without asking again */
-    const char *base;    /* beginning of the server's own URLs, or NULL: by the header Host */
+    const char *base;    /* beginning of the server's own URLs, or NULL: by who is in `proxies`, or its address */
     int is_quiet;        /* 1: requests are not logged */
     const Site *site;
     Work *pictures; /* work that makes pictures */
