@@ -287,6 +287,11 @@ def clients(server):
     expect('another one', ask(server, '/v1/small/full.png', source='127.0.0.2').status, 200)
     [connection.close() for connection in idle]
     expect('afterwards', wait_for(lambda: can_ask(server, '/health')), True)
+    for _ in range(40):  # who leaves in the middle of a request
+        with socket.create_connection(('127.0.0.1', server.port), 10, ('127.0.0.3', 0)) as plain:
+            plain.sendall(b'GET /v1')
+        time.sleep(.01)
+    expect('after those who left', wait_for(lambda: can_ask(server, '/health', '127.0.0.3'), 5), True)
     image = open('outside.jpg', 'rb').read()
     slow = [begin_upload(server) for _ in range(2)]
     third = send(server, image)
@@ -382,9 +387,9 @@ def ended(client):
         return True
 
 
-def can_ask(server, path):
+def can_ask(server, path, source='127.0.0.1'):
     try:
-        return ask(server, path).status == 200
+        return ask(server, path, source=source).status == 200
     except OSError:
         return False
 

@@ -22,10 +22,10 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch upl
 > uploads
 > documented
 > off
+> heads
 $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir strange; python3 "$TESTS/decoder.py"; serve decoders hurried
 > decoders
 > hurried
-> heads
 
 # What one client may have, and what it may tell.
 $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve shared proxied clients crawling
@@ -36,11 +36,11 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve shared proxied cli
 $ retex-serve rooms --trusted-proxy example.org
 ! retex-serve: error: --trusted-proxy: expected an address such as 127.0.0.1, or a network such as 10.0.0.0/8, not 'example.org'
 = 2
+
+# What cannot start.
 $ retex-serve rooms --uploads none --port 0
 ! retex-serve: error: --uploads: there is no folder none
 = 2
-
-# What cannot start.
 $ retex-serve
 ! retex-serve: error: no folder of rooms given
 = 2

@@ -119,9 +119,9 @@ def check_heads(nginx, server):
 def check_shared(nginx):
     """What a client tells of other addresses changes neither what nginx keeps nor who is limited."""
     def ids(port, **more):
-        return re.search(rb'"id": "([^"]*)"', fetch(port, "/iiif/3/large/info.json", headers=more).body)[1].decode()
+        return re.search(rb'"id": "([^"]*)"', fetch(port, "/iiif/3/small;Wall=brick/info.json", headers=more).body)[1].decode()
     told = {"X-Forwarded-Proto": "https", "X-Forwarded-Host": "evil.example", "X-Forwarded-For": "192.0.2.1"}
-    Tap.result([ids(nginx.port, **told), ids(nginx.port)] == [f"http://127.0.0.1:{nginx.port}/iiif/3/large"] * 2,
+    Tap.result([ids(nginx.port, **told), ids(nginx.port)] == [f"http://127.0.0.1:{nginx.port}/iiif/3/small;Wall=brick"] * 2,
                "nginx: info.json has nothing of a client's headers", ids(nginx.port))
 
 

@@ -169,7 +169,7 @@ static int is_cut(int seen)
 
 static void test_slow_clients(void **state)
 {
-    enum { SENDS, WAITS, CRAWLS, FAST, COUNT };
+    enum { SENDS, WAITS, CRAWLS, FAST, LEFT, ASKS, COUNT };
     int pairs[COUNT][2];
     Client *each[COUNT];
     Clients *clients = clients_open();
@@ -184,9 +184,18 @@ static void test_slow_clients(void **state)
     const double began = retex_clock_seconds();
     clients_received(clients, each[CRAWLS], 9000);
     clients_received(clients, each[FAST], 10100);
-    clients_sweep(clients, began + 9.9, 30, 1000);
+    /* LEFT has ended what it sends; ASKS too, but has asked for something before */
+    assert_int_equal(send(pairs[ASKS][1], "x", 1, 0), 1);
+    shutdown(pairs[ASKS][1], SHUT_WR);
+    clients_sweep(clients, began + 9, 30, 1000);
     for (int i = 0; i < COUNT; i++)
         assert_false(is_cut(pairs[i][1]));
+    shutdown(pairs[LEFT][1], SHUT_WR);
+    clients_sweep(clients, began + 9.1, 30, 1000); /* is looked at a few times a second */
+    assert_false(is_cut(pairs[LEFT][1]));
+    clients_sweep(clients, began + 9.9, 30, 1000);
+    for (int i = 0; i < COUNT; i++)
+        assert_int_equal(is_cut(pairs[i][1]), i == LEFT);
     clients_sweep(clients, began + 10.05, 30, 1000);
     assert_true(is_cut(pairs[CRAWLS][1]) && !is_cut(pairs[FAST][1]) && !is_cut(pairs[SENDS][1]));
     clients_received(clients, each[FAST], 9900); /* what came before does not count again */

@@ -8,6 +8,7 @@
 #include <retex/clock.h>
 
 enum { TAKES_LONGER = 10 };
+static const double look_seconds = 0.2;
 
 struct Client {
     Client *next, **place;
@@ -22,6 +23,7 @@ struct Clients {
     pthread_mutex_t lock;
     Client *first;
     int count;
+    double looked; /* for those that have left */
 };
 
 Clients *clients_open(void)
@@ -114,12 +116,23 @@ static int is_late(const Client *client, double now, double seconds)
            ((client->state == CLIENT_TAKES || client->state == CLIENT_UPLOADS) && waited > TAKES_LONGER * seconds);
 }
 
+/* Whether it is waited for somebody who has closed the connection, which libmicrohttpd 0.9.75 does not notice before a
+ * request's first line, or an image, is complete. */
+static int has_left(const Client *client)
+{
+    char byte;
+    return (client->state == CLIENT_SENDS || client->state == CLIENT_UPLOADS) &&
+           recv(client->socket, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+}
+
 void clients_sweep(Clients *clients, double now, double seconds, double rate)
 {
     pthread_mutex_lock(&clients->lock); /* so that no socket is closed, and its number used again, meanwhile */
+    const int looks = now - clients->looked >= look_seconds;
     for (Client *client = clients->first; client; client = client->next)
-        if (is_late(client, now, seconds) || crawls(client, now, rate))
+        if (is_late(client, now, seconds) || crawls(client, now, rate) || (looks && has_left(client)))
             shutdown(client->socket, SHUT_RDWR);
+    clients->looked = looks ? now : clients->looked;
     pthread_mutex_unlock(&clients->lock);
 }
 

@@ -28,7 +28,7 @@ void clients_received(Clients *clients, Client *client, size_t bytes);
 
 /* Shut down the sockets of those that, at the time `now` of retex_clock_seconds, took longer than `seconds` to send a
  * request, or ten times as long to send an image or to take an answer, or that sent fewer than `rate` bytes of an image
- * a second over CLIENTS_RATE_SECONDS. */
+ * a second over CLIENTS_RATE_SECONDS, or that have left. */
 enum { CLIENTS_RATE_SECONDS = 10 };
 void clients_sweep(Clients *clients, double now, double seconds, double rate);
 int clients_count(Clients *clients);

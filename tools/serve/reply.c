@@ -120,7 +120,8 @@ static void add_headers(struct MHD_Response *response, const Exchange *exchange,
     const int is_info = exchange->request.route == SERVE_IIIF_INFO && status == 200;
     char seconds[16];
     if (answer->bytes && status != 304 && status != 416)
-        add_header(response, "Content-Type", is_info ? iiif_info_type(exchange_header(exchange, "Accept")) : answer->type);
+        add_header(response, "Content-Type",
+                   is_info ? iiif_info_type(exchange_header(exchange, "Accept")) : answer->type);
     add_cache_headers(response, exchange, status);
     add_header(response, "X-Content-Type-Options", "nosniff");
     add_header(response, "Access-Control-Allow-Origin", "*");
