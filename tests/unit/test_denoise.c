@@ -232,8 +232,16 @@ static void test_missing_parts(void **state)
 
 /* ---- few paths ---- */
 
-/* Leave light at one pixel of so many, and none at others. */
-static void thin_out(RetexSet *set, int one_of, uint32_t seed)
+/* A pixel without light on a cluster has no footprint of it either. */
+static void clear_cluster(RetexSet *set, const RetexSignalMember *member, int i)
+{
+    const int footprint = retex_signal_cluster(set, member);
+    if (footprint >= 0)
+        memset(set->parts[set->footprints[footprint].uv].image.pixels + (size_t)3 * (size_t)i, 0, 3 * sizeof(float));
+}
+
+/* Leave light at one pixel of so many, and none at others; bare: also no footprints of clusters at others. */
+static void thin_out(RetexSet *set, int one_of, uint32_t seed, int bare)
 {
     RetexSignals signals = denoise_signals(set);
     for (int s = 0; s < signals.count; s++)
@@ -242,33 +250,48 @@ static void thin_out(RetexSet *set, int one_of, uint32_t seed)
             for (int k = -1; k < signals.of[s].nmembers && !kept; k++) {
                 const int part = k < 0 ? signals.of[s].noise : signals.of[s].members[k].part;
                 memset(set->parts[part].image.pixels + (size_t)3 * (size_t)i, 0, 3 * sizeof(float));
+                if (bare && k >= 0)
+                    clear_cluster(set, &signals.of[s].members[k], i);
             }
         }
     retex_signals_close(&signals);
 }
 
-/* Where the weights that members' proportions are made with meet no light, and other candidates do, it is not lost. */
+static void expect_kept(const char *layout, int one_of, int bare, const RetexDenoiseParams *params)
+{
+    RetexSet *before = noisy_set(layout, 150, 130), *set = noisy_set(layout, 150, 130);
+    thin_out(before, one_of, 3, bare);
+    thin_out(set, one_of, 3, bare);
+    RetexSignals signals = denoise_signals(before);
+    denoise_all(set, params, 2);
+    denoise_expect_finite(set);
+    for (int s = 0; s < signals.count; s++)
+        for (int c = 0; c < 3; c++) {
+            const double a = denoise_mean(before, &signals.of[s], c), b = denoise_mean(set, &signals.of[s], c);
+            if (!(fabs(a - b) < 2e-3 * a))
+                fail_msg("%s, one of %d, bare %d: signal %d had %g, has %g", layout, one_of, bare, s, a, b);
+        }
+    retex_signals_close(&signals);
+    retex_set_close(&before);
+    retex_set_close(&set);
+}
+
+/* Light is not lost where the weights that members' proportions are made with meet none, and other candidates do, nor
+ * where the pixels whose footprints are pooled, a grid of the window, have none. */
 static void test_rare_light_is_kept(void **state)
 {
     (void)state;
+    RetexDenoiseParams wide = RETEX_DENOISE_INIT, still = RETEX_DENOISE_INIT;
+    wide.radius = 10;
+    still.footprints = 0;
     for (int one_of = 30; one_of <= 300; one_of *= 10)
-        for (int k = 1; k < 3; k++) {
-            RetexSet *before = noisy_set(layouts[k], 150, 130), *set = noisy_set(layouts[k], 150, 130);
-            thin_out(before, one_of, 3);
-            thin_out(set, one_of, 3);
-            RetexSignals signals = denoise_signals(before);
-            denoise_all(set, NULL, 2);
-            denoise_expect_finite(set);
-            for (int s = 0; s < signals.count; s++)
-                for (int c = 0; c < 3; c++) {
-                    const double a = denoise_mean(before, &signals.of[s], c), b = denoise_mean(set, &signals.of[s], c);
-                    if (!(fabs(a - b) < 2e-3 * a))
-                        fail_msg("%s, one of %d: signal %d had %g, has %g", layouts[k], one_of, s, a, b);
-                }
-            retex_signals_close(&signals);
-            retex_set_close(&before);
-            retex_set_close(&set);
-        }
+        for (int k = 1; k < 3; k++)
+            expect_kept(layouts[k], one_of, 0, NULL);
+    for (int one_of = 5; one_of <= 500; one_of *= 10) {
+        expect_kept("footprints", one_of, 1, NULL);
+        expect_kept("footprints", one_of, 1, &wide);
+        expect_kept("footprints", one_of, 1, &still);
+    }
 }
 
 /* Scale light, and its noise, pixel by pixel: by e^(-0.9 span) to e^(0.1 span). */
@@ -293,7 +316,7 @@ static void test_light_of_all_sizes(void **state)
     for (int k = 1; k < 3; k++)
         for (uint32_t seed = 1; seed <= 8; seed++) {
             RetexSet *set = noisy_set(layouts[k], 80, 75);
-            thin_out(set, 10, seed);
+            thin_out(set, 10, seed, 0);
             scale_light(set, 70, seed);
             denoise_all(set, NULL, 2);
             denoise_expect_finite(set);

@@ -1,4 +1,5 @@
 /* See footprints.h. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -100,17 +101,38 @@ static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const R
     return sum;
 }
 
-/* The neighbour with the largest weight that has clusters; else the pixel itself. */
+/* The nearest pixel of the window that has clusters; else the pixel itself. */
+static size_t find_nearest_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t self)
+{
+    const int width = (int)f->width, height = (int)(f->pixels / f->width);
+    const int x = (int)(self % f->width), y = (int)(self / f->width), radius = f->radius;
+    int least = INT_MAX;
+    size_t donor = self;
+    for (int dy = -radius; dy <= radius; dy++)
+        for (int dx = -radius; dx <= radius; dx++) {
+            const int squared = dx * dx + dy * dy;
+            if (squared >= least || x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height)
+                continue;
+            const size_t i = (size_t)(y + dy) * f->width + (size_t)(x + dx);
+            if (sum_over(g, i, cluster_cover) > 0)
+                least = squared, donor = i;
+        }
+    return donor;
+}
+
+/* The neighbour with the largest weight that has clusters. Neighbours are but a grid of the window: where none has
+ * clusters, the light came from pixels between them. */
 static size_t find_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
                          int count, size_t self)
 {
     float best = 0;
+    size_t donor = self;
     for (int n = 0; n < count; n++) {
         size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
         if (neighbours[n].weight > best && sum_over(g, i, cluster_cover) > 0)
-            best = neighbours[n].weight, self = i;
+            best = neighbours[n].weight, donor = i;
     }
-    return self;
+    return best > 0 ? donor : find_nearest_donor(f, g, self);
 }
 
 /* Filtered interreflected light may come to a pixel that had none, so that no cluster has a share in it. Shares of 0

@@ -17,9 +17,9 @@ void retex_denoise_footprints_close(RetexDenoiseFootprints **footprints);
 
 /* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into band. signal is one of
  * denoiser->signals. Sharp clusters keep their UV and the proportions of their light; where the pixel has none, those
- * of the neighbour with the largest weight are copied. Broad clusters are pooled over neighbours if params.footprints.
- * Shares in interreflected light are kept or pooled in the same way; where all shares are 0 they become those of the
- * light. */
+ * of the neighbour with the largest weight are copied, or of the nearest pixel of the window. Broad clusters are pooled
+ * over neighbours if params.footprints. Shares in interreflected light are kept or pooled in the same way; where all
+ * shares are 0 they become those of the light. */
 void retex_denoise_share_light(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser,
                                const RetexSignal *signal, int x, int y, const RetexNeighbour *neighbours, int count,
                                const float light[3], RetexDenoisedRows *band);

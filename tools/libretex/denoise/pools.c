@@ -187,7 +187,7 @@ int retex_denoise_footprints_open(RetexDenoiseFootprints **out, const RetexDenoi
     int code = RETEX_OK;
     if (f) {
         f->width = (size_t)set->width, f->pixels = f->width * (size_t)set->height, f->nsignals = d->signals.count,
-        f->spp = set->spp;
+        f->spp = set->spp, f->radius = d->params.radius;
         f->uses = calloc((size_t)set->nparts + 1, sizeof *f->uses);
         f->signals = calloc(signals + 1, sizeof *f->signals);
         f->interreflections = calloc(RETEX_MAX_TARGETS + 1, sizeof *f->interreflections);

@@ -37,6 +37,7 @@ typedef struct RetexPoolGroup {
 
 struct RetexDenoiseFootprints {
     size_t width, pixels;
+    int radius; /* of the window */
     double spp;
     RetexPoolGroup *signals;      /* by signal */
     RetexPoolGroup *interreflections, *hits; /* interreflections by target; hits: one group for each footprint */
