@@ -119,6 +119,47 @@ def judge(name, group, base, damage):
             print(f"{name}: read with other pixels")
 
 
+# How files begin by the specifications of their formats: where, and with what. Nothing else may have the ending.
+SIGNATURES = [
+    ("png", 0, "89504e470d0a1a0a"), ("jpg jpe jpeg jif jfif jfi", 0, "ffd8ff"),
+    ("tif tiff tx env sm vsm", 0, "49492a00 4d4d002a"), ("exr sxr mxr", 0, "762f3101"), ("hdr rgbe", 0, "233f52"),
+    ("bmp dib", 0, "424d"), ("tga tpic", 0, "000002 00000a"), ("webp", 8, "57454250"), ("avif", 4, "6674797061766966"),
+    ("heic", 4, "6674797068656963"), ("heif", 4, "6674797068656963 667479706d696631"),
+    ("jp2", 0, "0000000c6a5020200d0a870a"), ("j2k j2c", 0, "ff4fff51"), ("dpx", 0, "53445058 58504453"),
+    ("gif", 0, "474946383761 474946383961"), ("ppm", 0, "5036"), ("pnm", 0, "5036"), ("pfm", 0, "5046"),
+    ("sgi rgb rgba bw int inta", 0, "01da"), ("ico", 0, "00000100"), ("iff", 0, "464f5234"), ("rla", 26, "fffe"),
+    ("fits", 0, "53494d504c45"),
+]
+
+
+def endings():
+    """Writes a picture with each ending of OpenImageIO's. It is of that format, and can be read, or the ending is refused,
+    with those that can be written."""
+    import OpenImageIO as oiio  # pylint: disable=import-outside-toplevel
+    signatures = {ending: (at, marks.split()) for names, at, marks in SIGNATURES for ending in names.split()}
+    known = {ending for part in oiio.get_string_attribute("extension_list").split(";")
+             for ending in part.split(":")[1].split(",")}
+    written = []
+    for ending in sorted(known | set(signatures) | {"xyz"}):
+        name = f"c.{ending}"
+        done = subprocess.run(["retex-combine", "-q", "s.exr", "-o", name], stderr=subprocess.PIPE, check=False)
+        told = done.stderr.decode()
+        if done.returncode == 0 and ending in signatures:
+            at, marks = signatures[ending]
+            with open(name, "rb") as file:
+                begin = file.read(64)[at:].hex()
+            if not any(begin.startswith(mark) for mark in marks):
+                print(f"{name}: begins with {begin}")
+            written.append(name)
+        elif done.returncode != 2 or os.path.exists(name) or ".tif .exr .hdr" not in told or told.count("\n") != 1:
+            print(f"{name}: {done.returncode} {told}")
+    for line in subprocess.run(["make_digests", *written], stdout=subprocess.PIPE, check=True).stdout.decode().split("\n"):
+        if "refused" in line or "printed" in line:
+            print(line)
+    missing = {"png", "jpg", "tif", "exr", "hdr", "bmp", "tga", "webp", "avif"} - {name[2:] for name in written}
+    print("written" if not missing else missing)
+
+
 def main():
     what, *rest = sys.argv[1:]
     if what == "record":
@@ -129,6 +170,9 @@ def main():
                 name, result = line.strip().split(" ", 1)
                 if os.path.exists(os.path.join("whole", name)):
                     print(name, sum_of(name), result, file=table)
+        return
+    if what == "endings":
+        endings()
         return
     make_files()
     if what == "whole":

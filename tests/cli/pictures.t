@@ -60,3 +60,7 @@ $ printf 'newmtl m\nmap_Kd zeros.jpg\n' >m.mtl; printf 'mtllib m.mtl\nv 0 0 0\nv
 > retex-import: warning: the image `zeros.jpg` cannot be read: cannot read: the file is damaged: Corrupt JPEG data: 34 extraneous bytes before marker 0xd9 (--accept-damaged reads it)
 > retex-import: warning: zeros.jpg: the file is damaged: Corrupt JPEG data: 34 extraneous bytes before marker 0xd9; it is read as far as possible
 > Zeros.jpg
+
+# What is written has the format that the ending of its name says, or is refused.
+$ /usr/bin/python3 "$TESTS/pictures.py" endings
+> written

@@ -57,9 +57,9 @@ static void read_file(const char *path, const RetexReadParams *params)
     if (!code != !any_code)
         printf(" but not as integers: %s", any_err.message);
     if (!any_code && any.narrow.pixels)
-        printf(" %016llx", (unsigned long long)digest(any.narrow.pixels, sizeof(uint16_t) * 4 *
-                                                                             (size_t)any.narrow.width *
-                                                                             (size_t)any.narrow.height));
+        printf(" %016llx",
+               (unsigned long long)digest(any.narrow.pixels,
+                                          sizeof(uint16_t) * 4 * (size_t)any.narrow.width * (size_t)any.narrow.height));
     printf("\n");
     retex_image_free(&wide);
     if (!any_code)

@@ -74,7 +74,7 @@ def by_openimageio(folder):
         write(f"{folder}/webp-{channels}.webp", channels, "uint8", [("compression", "webp:80")])
         write(f"{folder}/webp-lossless-{channels}.webp", channels, "uint8", [("compression", "lossless:60")])
         write(f"{folder}/heif-{channels}.heic", channels, "uint8", [("compression", "heif:75")])
-        write(f"{folder}/ico-{channels}.ico", channels, "uint8")
+    write(f"{folder}/ico.ico", 4, "uint8")
     write(f"{folder}/ico-png.ico", 4, "uint8", [("ico:PNG", 1)])
     write(f"{folder}/gif.gif", 3, "uint8")
     write(f"{folder}/gif-interlaced.gif", 3, "uint8", [("gif:Interlacing", 1)])

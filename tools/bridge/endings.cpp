@@ -27,7 +27,9 @@ const std::vector<Format> &formats()
     static const std::vector<Format> all = {
         {{"png"}, 0, {"\x89PNG\r\n\x1a\n"}},
         {{"jpg", "jpe", "jpeg", "jif", "jfif", "jfi"}, 0, {"\xff\xd8\xff"}},
-        {{"tif", "tiff", "tx", "env", "sm", "vsm"}, 0, {bytes("II*\0"), bytes("MM\0*"), bytes("II+\0"), bytes("MM\0+")}},
+        {{"tif", "tiff", "tx", "env", "sm", "vsm"},
+         0,
+         {bytes("II*\0"), bytes("MM\0*"), bytes("II+\0"), bytes("MM\0+")}},
         {{"exr", "sxr", "mxr"}, 0, {"\x76\x2f\x31\x01"}},
         {{"hdr", "rgbe"}, 0, {"#?RADIANCE", "#?RGBE"}},
         {{"bmp", "dib"}, 0, {"BM"}},
@@ -56,7 +58,8 @@ const std::vector<Format> &formats()
 const Format *find_format(const std::string &ending)
 {
     const auto &all = formats();
-    auto found = std::find_if(all.begin(), all.end(), [&](const Format &one) { return one.endings.count(ending) != 0; });
+    auto found =
+        std::find_if(all.begin(), all.end(), [&](const Format &one) { return one.endings.count(ending) != 0; });
     return found == all.end() ? nullptr : &*found;
 }
 
@@ -75,9 +78,9 @@ bool has_known_ending(const std::string &ending)
 
 std::vector<std::string> known_endings()
 {
-    static const std::vector<std::string> shown = {"tif", "exr", "hdr", "bmp", "tga", "webp", "avif", "heic",
-                                                   "jp2", "j2k", "dpx", "gif", "ppm", "pnm",  "sgi",  "ico",
-                                                   "iff", "rla", "fits"};
+    static const std::vector<std::string> shown = {"tif",  "exr", "hdr", "bmp", "tga", "webp", "avif",
+                                                   "heic", "jp2", "j2k", "dpx", "gif", "ppm",  "pnm",
+                                                   "sgi",  "ico", "iff", "rla", "fits"};
     return shown;
 }
 

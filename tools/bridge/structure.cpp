@@ -44,6 +44,8 @@ std::string check_ico(const RetexBridgeHost *host, long max_pixels, const Bytes 
         if (number(data, at, 4, false) != BITMAP_HEADER || width == 0 || width > 65536 ||
             (bits != 1 && bits != 4 && bits != 8 && bits != 16 && bits != 24 && bits != 32))
             return damaged;
+        if (bits != 32 && width % 8 != 0) // OpenImageIO 2.4 would write beyond its memory
+            throw Failure(RETEX_EUNSUPPORTED, "an icon with a mask, whose width is no multiple of 8: it is not read");
     }
     return "";
 }

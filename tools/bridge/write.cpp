@@ -2,6 +2,7 @@
 // the display transform. The file is encoded in memory and then written, because few format libraries detect a full
 // disk.
 #include "bridge.hpp"
+#include "endings.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -30,6 +32,9 @@ namespace
 {
 
 enum class Depth { Eight, Sixteen, Half, Float };
+
+std::string endings_to_write();
+void check_ending(const std::string &path, const OIIO::ImageOutput &out, int channels);
 
 std::string ending(const std::string &path)
 {
@@ -88,10 +93,14 @@ class MemoryFile
     {
         return "/proc/self/fd/" + std::to_string(fd_);
     }
-    bool empty() const
+    long size() const
     {
         struct stat status;
-        return fstat(fd_, &status) != 0 || status.st_size == 0;
+        return fstat(fd_, &status) != 0 ? 0 : long(status.st_size);
+    }
+    bool empty() const
+    {
+        return size() == 0;
     }
     void append(const void *data, size_t bytes)
     {
@@ -198,13 +207,20 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
     std::string end = ending(path);
     if (end.empty())
         throw Failure(RETEX_EINVAL, "cannot tell the picture's format: the name has no ending, such as .png or .exr");
-    auto out = OIIO::ImageOutput::create(path);
+    auto out = has_known_ending(end) ? OIIO::ImageOutput::create(path) : nullptr;
     if (!out) {
         OIIO::geterror(); // clears OpenImageIO's error
-        throw Failure(RETEX_EINVAL,
-                      "no picture format has the ending ." + end + "; try .png, .jpg, .tif, .exr or .hdr");
+        throw Failure(RETEX_EINVAL, "no picture format that can be written has the ending ." + end +
+                                        "; these have: " + endings_to_write());
     }
     return out;
+}
+
+// Channels of the file: formats without alpha, and those that have no grey.
+int stored_channels(const std::string &format, bool has_alpha, int channels)
+{
+    static const std::set<std::string> coloured = {"hdr", "webp", "gif", "heif", "iff"};
+    return (channels == 4 && !has_alpha) || (channels == 1 && coloured.count(format)) ? 3 : channels;
 }
 
 // Formats to which OpenImageIO passes unassociated colours unchanged. Others need or keep colours multiplied by alpha.
@@ -273,18 +289,17 @@ std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int heig
     auto plan = std::make_unique<RetexBridgePlan>();
     bool pfm = is_pfm(path);
     auto out = pfm ? nullptr : find_writer(path);
+    if (out)
+        check_ending(path, *out, channels);
     plan->path = path;
     plan->format = pfm ? "pfm" : out->format_name();
     plan->width = width;
     plan->height = height;
-    plan->channels = plan->stored = channels;
+    plan->channels = channels;
+    plan->stored = stored_channels(plan->format, pfm ? false : out->supports("alpha"), channels);
     plan->depth = depth_of(plan->format, params.depth);
     plan->quality = std::min(100, std::max(1, params.quality));
     plan->names_colorspace = params.colorspace && *params.colorspace;
-    if (channels == 4 && (pfm || !out->supports("alpha")))
-        plan->stored = 3;
-    if (channels == 1 && (plan->format == "hdr" || plan->format == "webp"))
-        plan->stored = 3;
     // A format without alpha gets the picture over black. WebP's writer divides by alpha in linear light.
     plan->multiply_light = channels == 4 && (plan->stored != 4 || plan->format == "webp");
     plan->multiply_codes = plan->stored == 4 && !keeps_unassociated(plan->format) && plan->format != "webp";
@@ -364,6 +379,12 @@ OIIO::ImageSpec describe(const RetexBridgePlan &plan)
     return spec;
 }
 
+// Whether OpenImageIO chooses what it writes by the ending of the file's name.
+bool goes_by_name(const std::string &format)
+{
+    return format == "heif";
+}
+
 void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink &sink)
 {
     MemoryFile memory_file;
@@ -379,22 +400,86 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
         OIIO::default_thread_pool()->resize(2);
     auto write_to = [&](const std::string &name) {
         auto out = find_writer(plan.path);
-        if (!out->open(name, spec) || !out->write_image(sample_type(plan), samples) || !out->close())
-            throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
+        const bool is_written = out->open(name, spec) && out->write_image(sample_type(plan), samples) && out->close();
+        const std::string why = out->geterror();
+        // some writers tell of a failure only so; that of TIFF fails to add a list of what nobody gave
+        if (!is_written || (!why.empty() && why.find("Exif") == std::string::npos))
+            throw Failure(RETEX_EIO, "cannot write: " + why.substr(0, why.find('\n')));
     };
-    write_to(memory_file.path());
+    if (!goes_by_name(plan.format))
+        write_to(memory_file.path());
     if (memory_file.empty()) {
         TemporaryFile named(ending(plan.path));
         write_to(named.path);
         copy_file(named.path, memory_file);
     }
+    if (plan.format == "iff") // whose last chunk says that it is padded, but OpenImageIO does not pad it
+        memory_file.append("\0\0\0", size_t(-memory_file.size() & 3));
     memory_file.copy_to(sink);
+}
+
+// What keeps a picture of so many channels from being written with this ending, or "": a small one is written, and its
+// first bytes are compared with those of the format. The library at hand may have no encoder, or take another.
+std::string find_obstacle(const std::string &path, const OIIO::ImageOutput &out, int channels)
+{
+    enum { Side = 64, Beyond = 1024 }; // see stored.c
+    static std::mutex mutex;
+    static std::map<std::pair<std::string, int>, std::string> known;
+    std::lock_guard<std::mutex> lock(mutex);
+    const auto key = std::make_pair(lower(ending(path)), channels);
+    const auto found = known.find(key);
+    if (found != known.end())
+        return found->second;
+    RetexBridgePlan plan{};
+    plan.path = "x." + key.first;
+    plan.format = out.format_name();
+    plan.width = plan.height = Side;
+    plan.channels = channels;
+    plan.stored = stored_channels(plan.format, out.supports("alpha"), channels);
+    plan.depth = depth_of(plan.format, 0);
+    plan.quality = 95;
+    std::string begin, obstacle;
+    try {
+        std::vector<char> samples(size_t(Side) * Side * 4 * sizeof(float) + Beyond);
+        write_picture(plan, samples.data(), [&](const void *data, size_t bytes) {
+            begin.append(static_cast<const char *>(data), std::min(bytes, size_t(64)));
+        });
+        if (!begins_as(key.first, begin))
+            obstacle = "cannot be written here: OpenImageIO writes something else";
+    } catch (const Failure &failure) {
+        obstacle = std::string("cannot be written here: ") + failure.what();
+    }
+    return known[key] = obstacle.substr(0, obstacle.find('\n'));
+}
+
+void check_ending(const std::string &path, const OIIO::ImageOutput &out, int channels)
+{
+    const std::string obstacle = find_obstacle(path, out, channels);
+    if (!obstacle.empty())
+        throw Failure(RETEX_EUNSUPPORTED, "a ." + lower(ending(path)) + " of " + std::to_string(channels) +
+                                              " channels " + obstacle + "; these can: " + endings_to_write());
+}
+
+std::string endings_to_write()
+{
+    std::string list = ".png .jpg .pfm";
+    for (const std::string &end : known_endings()) {
+        const std::string path = "x." + end;
+        auto out = OIIO::ImageOutput::create(path);
+        if (out && find_obstacle(path, *out, 3).empty())
+            list += " ." + end;
+    }
+    OIIO::geterror();
+    return list;
 }
 
 // Check the transform only if the user named a part of it; the built-in default is valid.
 void check_picture(const char *path, const RetexWriteParams &params)
 {
-    Depth depth = depth_of(is_pfm(path) ? "pfm" : find_writer(path)->format_name(), params.depth);
+    auto out = is_pfm(path) ? nullptr : find_writer(path);
+    if (out)
+        check_ending(path, *out, 3);
+    Depth depth = depth_of(out ? out->format_name() : "pfm", params.depth);
     bool named = params.display || params.view || params.colorspace;
     if (named || std::getenv("OCIO"))
         encoding(params, depth);
