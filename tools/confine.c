@@ -14,8 +14,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* Numbers of calls are those of one machine; a program can make calls by those of another. */
-#if defined(__aarch64__)
+/* Numbers of calls are those of one machine; a program can make calls by those of another. Sanitizers make calls of
+ * their own, which are not listed below. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#elif defined(__aarch64__)
 #define MACHINE AUDIT_ARCH_AARCH64
 #elif defined(__NR_arch_prctl) && __SIZEOF_POINTER__ == 8
 #define MACHINE AUDIT_ARCH_X86_64

@@ -5,7 +5,7 @@ import zlib
 
 def tiff(name, width, height, channels, bits, data, tile=None, floats=False):
     """One directory, compressed by deflate, one strip or tiles."""
-    tags = {256: (3, [width]), 257: (3, [height]), 258: (3, [bits] * channels), 259: (3, [8]), 262: (3, [1]),
+    tags = {256: (4, [width]), 257: (4, [height]), 258: (3, [bits] * channels), 259: (3, [8]), 262: (3, [1]),
             277: (3, [channels]), 284: (3, [1]), 339: (3, [3 if floats else 1] * channels)}
     if channels > 1:
         tags[338] = (3, [0] * (channels - 1))
@@ -57,10 +57,11 @@ def png(name, megabytes):
                    chunk(b"IDAT", data) + chunk(b"IEND", b""))
 
 
-tiff("tile.tif", 8, 8, 1, 8, zlib.compress(b""), tile=40000)
-tiff("channels.tif", 8, 8, 128, 8, zlib.compress(bytes(8 * 8 * 128)))
-tiff("wide.tif", 1000, 500, 60, 32, zlib.compress(bytes(1000 * 500 * 60 * 4), 1), floats=True)
-tiff("few.tif", 8, 8, 3, 8, zlib.compress(bytes(256 * 256 * 3)), tile=256)
-jpeg("scans.jpg", 64, 64, 201)
-jpeg("most.jpg", 64, 64, 200)
-png("long.png", 4000)
+if __name__ == "__main__":
+    tiff("tile.tif", 8, 8, 1, 8, zlib.compress(b""), tile=40000)
+    tiff("channels.tif", 8, 8, 128, 8, zlib.compress(bytes(8 * 8 * 128)))
+    tiff("wide.tif", 1000, 500, 60, 32, zlib.compress(bytes(1000 * 500 * 60 * 4), 1), floats=True)
+    tiff("few.tif", 8, 8, 3, 8, zlib.compress(bytes(256 * 256 * 3)), tile=256)
+    jpeg("scans.jpg", 64, 64, 201)
+    jpeg("most.jpg", 64, 64, 200)
+    png("long.png", 4000)

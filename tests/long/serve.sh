@@ -1,7 +1,8 @@
 #!/bin/sh
-# retex-serve as programs see it: images of IIIF, ten thousand malformed requests, 64 clients of wrk for two minutes
-# (SERVE_SECONDS), a full queue, kills, processor time beside --batch, and nginx with tools/serve/nginx.conf.
-# SERVE_PARTS='iiif abuse load nginx unit' selects.
+# retex-serve as programs see it: images of IIIF, ten thousand malformed requests, 200 uploads made to hurt, 64 clients
+# of wrk for two minutes (SERVE_SECONDS), a full queue, kills, processor time beside --batch, and nginx with
+# tools/serve/nginx.conf.
+# SERVE_PARTS='iiif abuse strangers load nginx unit' selects.
 set -u
 . tests/lib/tap.sh
 if ! tools/setup.sh serve >&2 2>&1; then
@@ -19,4 +20,4 @@ done
 retex-combine -q "$work/rooms/small.retex" --texture Floor="$scenes/textures/brick.jpg" -o "$work/reference.png"
 # shellcheck disable=SC2086 # words wanted
 timeout 1800 /usr/bin/python3 -B tests/serve/check.py "$work/rooms" "$scenes/textures" "$work/reference.png" "$work" \
-    "${SERVE_SECONDS:-120}" ${SERVE_PARTS:-iiif abuse load nginx unit}
+    "${SERVE_SECONDS:-120}" ${SERVE_PARTS:-iiif abuse strangers load nginx unit}

@@ -1,8 +1,8 @@
 """Checks of retex-serve, as TAP: check.py ROOMS TEXTURES REFERENCE.png WORK SECONDS PART…
 
 ROOMS has small.retex, of 480x270 with the targets Floor and Wall, and large.retex, of 1920x1080. REFERENCE.png is the
-small room with the texture `brick` on Floor. SECONDS is the time of long parts. PART: iiif, abuse, load, nginx,
-unit."""
+small room with the texture `brick` on Floor. SECONDS is the time of long parts. PART: iiif, abuse, strangers,
+load, nginx, unit."""
 import os
 import sys
 
@@ -10,6 +10,7 @@ import abuse
 import iiif
 import load
 import proxy
+import strangers
 import unit_file
 from serving import Server, Tap
 
@@ -31,6 +32,15 @@ def main():
         with open(reference, "rb") as file:
             abuse.check_uploads(server, folder, file.read(), 2000)
         server.stop()
+    if "strangers" in parts:
+        folder = os.path.join(work, "strangers")
+        os.makedirs(folder, exist_ok=True)
+        server = Server(rooms, textures, "--uploads", folder, "--deadline", str(strangers.DEADLINE), "-q", log=log)
+        with open(reference, "rb") as file:
+            quiet = Server(rooms, textures, "-q", log=log)
+            strangers.check(server, quiet, folder, work, file.read())
+        server.stop()
+        quiet.stop()
     if "load" in parts:
         server = Server(rooms, textures, "--picture-memory", "16", "--per-client", "0", "-q", log=log)
         load.check_clients(server, seconds, work)

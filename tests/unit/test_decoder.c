@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -101,6 +102,7 @@ static int act(const char *what)
 {
     RetexDecoderOrder order;
     RetexDecoderReply reply = good_reply();
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (read(RETEX_DECODER_ORDERS, &order, sizeof order) != sizeof order)
         return 3;
     set_reply(&reply, what, &order);

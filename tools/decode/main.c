@@ -139,7 +139,8 @@ int main(void)
         const int layers = confine_to_open_files();
         printf("retex-decode: other programs of retex start it, to decode a picture; seccomp: %s, Landlock: %s\n",
                layers & CONFINE_CALLS ? "yes" : "no", layers & CONFINE_FILES ? "yes" : "no");
-        return 2;
+        fflush(stdout);
+        _exit(2);
     }
     syscall(SYS_close_range, RETEX_DECODER_ORDERS, ~0u, 0);
     ignore_signals();
