@@ -1,0 +1,199 @@
+/* Runs the player's shaders: a translator of the part of GLSL ES 3.00 that they use into JavaScript. Floats are numbers,
+ * integers BigInt, vectors lists, matrices lists of columns. GLSL converts nothing by itself, so the kind of a literal is
+ * the kind of its value. */
+
+const TOKEN = /\s+|\/\/.*|(\d*\.\d+(?:e[+-]?\d+)?|\d+\.(?:\d+)?|\d+e[+-]?\d+)|(\d+)u?|([A-Za-z_]\w*)|([-+*\/&|<>=!]=|&&|\|\||<<|>>|\+\+|[-+*\/&|<>=!?:;,.(){}[\]])/y;
+const TYPES = new Set("void float int uint bool vec2 vec3 vec4 ivec2 ivec3 uvec4 mat2 sampler2D sampler2DArray usampler2D usampler2DArray".split(" "));
+const LEVELS = [["||"], ["&&"], ["|"], ["&"], ["==", "!="], ["<", ">", "<=", ">="], ["<<", ">>"], ["+", "-"], ["*", "/"]];
+
+function tokens(text) {
+  const found = [];
+  TOKEN.lastIndex = 0;
+  while (TOKEN.lastIndex < text.length) {
+    const at = TOKEN.lastIndex, match = TOKEN.exec(text);
+    if (!match) throw new Error(`GLSL: ${text.slice(at, at + 40)}`);
+    const [, float, whole, word, sign] = match;
+    if (float) found.push({ kind: "number", text: String(Number(float)) });
+    else if (whole) found.push({ kind: "number", text: `${whole}n` });
+    else if (word) found.push({ kind: "word", text: word });
+    else if (sign) found.push({ kind: "sign", text: sign });
+  }
+  return found;
+}
+
+/* Translates a shader; returns the text of its functions and its uniforms. */
+function translate(text) {
+  const list = tokens(text.replace(/^#version.*$/m, "").replace(/\bprecision \w+ \w+;/g, ""));
+  let at = 0;
+  const uniforms = [];
+  const peek = (k = 0) => list[at + k]?.text, take = (text) => {
+    if (text !== undefined && peek() !== text) throw new Error(`GLSL: ${peek()} instead of ${text}`);
+    return list[at++].text;
+  };
+  const accept = (text) => peek() === text && !!take();
+
+  function primary() {
+    if (accept("(")) {
+      const inner = expression();
+      take(")");
+      return `(${inner})`;
+    }
+    if (accept("-")) return `G.negative(${postfix()})`;
+    if (accept("!")) return `!${postfix()}`;
+    return list[at].kind === "number" ? take() : take().replace(/^(?!gl_|true$|false$)/, "$$$&");
+  }
+  function postfix() {
+    let left = primary();
+    for (;;) {
+      if (accept("(")) {
+        const args = [];
+        while (!accept(")")) args.push(expression()), accept(",");
+        left = `${left}(${args.join(", ")})`;
+      } else if (accept("[")) {
+        left += `[${expression()}]`;
+        take("]");
+      } else if (accept(".")) left = `G.swizzle(${left}, "${take()}")`;
+      else return left;
+    }
+  }
+  function binary(level) {
+    if (level === LEVELS.length) return postfix();
+    let left = binary(level + 1);
+    while (LEVELS[level].includes(peek())) {
+      const sign = take(), right = binary(level + 1);
+      left = level === 0 || level === 1 || level === 4 || level === 5 ? `(${left} ${sign} ${right})` : `G.apply("${sign}", ${left}, ${right})`;
+    }
+    return left;
+  }
+  function expression() {
+    const left = binary(0);
+    if (!accept("?")) return left;
+    const yes = expression();
+    take(":");
+    return `(${left} ? ${yes} : ${expression()})`;
+  }
+  function assignment() {
+    const left = postfix(), sign = take(), swizzled = /^G\.swizzle\((\$\w+), "(\w+)"\)$/.exec(left);
+    if (sign === "++") return `${left}++`;
+    const value = sign === "=" ? expression() : `G.apply("${sign[0]}", ${left}, ${expression()})`;
+    return swizzled ? `G.store(${swizzled[1]}, "${swizzled[2]}", ${value})` : `${left} = ${value}`;
+  }
+  function declaration() {
+    const names = [];
+    accept("const");
+    take();
+    do names.push(`$${take()}${accept("=") ? ` = ${expression()}` : ""}`); while (accept(","));
+    return `let ${names.join(", ")}`;
+  }
+  const simple = () => (peek() === "const" || (TYPES.has(peek()) && list[at + 1].kind === "word") ? declaration() : assignment());
+  function statement() {
+    if (peek() === "{") return block();
+    if (accept("if")) {
+      take("(");
+      const condition = expression();
+      take(")");
+      const yes = statement();
+      return `if (${condition}) ${yes}${accept("else") ? ` else ${statement()}` : ""}`;
+    }
+    if (accept("for")) {
+      take("(");
+      const begin = simple();
+      take(";");
+      const condition = expression();
+      take(";");
+      const step = assignment();
+      take(")");
+      return `for (${begin}; ${condition}; ${step}) ${statement()}`;
+    }
+    if (accept(";")) return ";";
+    const text = accept("continue") ? "continue" : accept("return") ? `return ${expression()}` : simple();
+    take(";");
+    return `${text};`;
+  }
+  function block() {
+    take("{");
+    let body = "";
+    while (!accept("}")) body += `${statement()}\n`;
+    return `{\n${body}}`;
+  }
+
+  let code = "";
+  while (at < list.length) {
+    if (accept("uniform")) {
+      const type = take();
+      do {
+        const name = take(), isList = accept("[");
+        if (isList) take(), take("]");
+        uniforms.push({ type, name, isList });
+      } while (accept(","));
+      take(";");
+    } else if (accept("out")) {
+      take();
+      code += `let $${take()};\n`;
+      take(";");
+    } else {
+      take();
+      const name = take(), parameters = [];
+      take("(");
+      while (!accept(")")) take(), parameters.push(`$${take()}`), accept(",");
+      code += `function $${name}(${parameters.join(", ")}) ${block()}\n`;
+    }
+  }
+  return { code, uniforms };
+}
+
+/* ---- what GLSL has ---- */
+
+const each = (f, ...args) => {
+  const longest = Math.max(...args.map((x) => (Array.isArray(x) ? x.length : 0)));
+  if (!longest) return f(...args);
+  return Array.from({ length: longest }, (_, i) => f(...args.map((x) => (Array.isArray(x) ? x[i] : x))));
+};
+const isMatrix = (x) => Array.isArray(x) && Array.isArray(x[0]);
+const SIGNS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, "&": (a, b) => a & b, "|": (a, b) => a | b,
+  "<<": (a, b) => a << b, ">>": (a, b) => a >> b };
+const times = (m, v) => v.map((_, row) => v.reduce((sum, x, column) => sum + m[column][row] * x, 0));
+const places = (name) => [...name].map((c) => Math.max("xyzw".indexOf(c), "rgba".indexOf(c)));
+const G = {
+  negative: (x) => each((a) => -a, x),
+  apply: (sign, a, b) => {
+    if (sign === "*" && isMatrix(a)) return isMatrix(b) ? b.map((column) => times(a, column)) : times(a, b);
+    return each(SIGNS[sign], a, b);
+  },
+  swizzle: (x, name) => (name.length === 1 ? x[places(name)[0]] : places(name).map((k) => x[k])),
+  store: (x, name, value) => places(name).forEach((k, i) => { x[k] = value[i]; }),
+};
+
+const floats = (x) => Number(x), wholes = (x) => BigInt(Math.trunc(Number(x)));
+const vector = (size, convert) => (...args) => {
+  const flat = args.flat().map(convert);
+  return flat.length === 1 ? Array(size).fill(flat[0]) : flat.slice(0, size);
+};
+const bits = new DataView(new ArrayBuffer(4));
+const BUILT_IN = {
+  float: floats, int: wholes, vec2: vector(2, floats), vec3: vector(3, floats), vec4: vector(4, floats), ivec2: vector(2, wholes), ivec3: vector(3, wholes),
+  mat2: (a, b, c, d) => [[a, b], [c, d]],
+  transpose: (m) => [[m[0][0], m[1][0]], [m[0][1], m[1][1]]],
+  inverse: ([[a, b], [c, d]]) => { const e = a * d - b * c; return [[d / e, -b / e], [-c / e, a / e]]; },
+  mix: (a, b, t) => each((x, y, s) => (typeof s === "boolean" ? (s ? y : x) : x * (1 - s) + y * s), a, b, t),
+  clamp: (x, low, high) => each((a, l, h) => (a < l ? l : a > h ? h : a), x, low, high),
+  min: (a, b) => each((x, y) => (y < x ? y : x), a, b), max: (a, b) => each((x, y) => (y > x ? y : x), a, b),
+  pow: (a, b) => each(Math.pow, a, b), atan: (y, x) => Math.atan2(y, x), exp2: (x) => each((a) => 2 ** a, x), fract: (x) => each((a) => a - Math.floor(a), x),
+  length: (x) => Math.hypot(...x), any: (x) => x.some(Boolean),
+  lessThan: (a, b) => each((x, y) => x < y, a, b), greaterThan: (a, b) => each((x, y) => x > y, a, b),
+  uintBitsToFloat: (x) => (bits.setUint32(0, Number(x)), bits.getFloat32(0)),
+  texelFetch: (sampler, place) => sampler.texel(...place.map(Number)),
+  textureSize: (sampler) => (sampler.layers ? [sampler.width, sampler.height, sampler.layers] : [sampler.width, sampler.height]).map(BigInt),
+  texture: (sampler, place) => sampler.lookUp(place, 0), textureLod: (sampler, place, lod) => sampler.lookUp(place, lod),
+  ...Object.fromEntries("exp floor ceil sqrt cos sin abs log2".split(" ").map((name) => [name, (x) => each(Math[name], x)])),
+};
+
+/* Compiles a fragment shader: its uniforms, and a function of their values, by name, that returns one of a place on the
+ * picture that returns the colour there. */
+export function compile(text) {
+  const { code, uniforms } = translate(text), own = uniforms.map((u) => u.name);
+  const built = Object.keys(BUILT_IN).filter((name) => !new RegExp(`function \\$${name}\\(`).test(code));
+  const make = new Function("G", "B", "U", `const { ${built.map((n) => `${n}: $${n}`).join(", ")} } = B, { ${own.map((n) => `${n}: $${n}`).join(", ")} } = U;
+    let gl_FragCoord;\n${code}\nreturn (place) => { gl_FragCoord = place; $main(); return $result; };`);
+  return { uniforms, run: (values) => make(G, BUILT_IN, values) };
+}

@@ -1,0 +1,141 @@
+/* The player's whole picture, shaders included: a room that retex-pack wrote, drawn by the Renderer on webgl.mjs, against
+ * retex-combine's pictures of its set. */
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { inflateSync } from "node:zlib";
+import { near, test } from "./tap.mjs";
+import { player } from "./player.mjs";
+import { compile } from "./glsl.mjs";
+import { context, WebGLTexture } from "./webgl.mjs";
+
+const here = new URL(".", import.meta.url).pathname, scenes = `${here}/../../scenes`;
+const folder = mkdtempSync(`${tmpdir()}/player-`), bin = `${process.env.BUILD || "build"}/bin`;
+const run = (program, ...args) => execFileSync(program, args, { cwd: folder, maxBuffer: 1 << 28 });
+const tool = (name, ...args) => run(name.startsWith("/") ? name : new URL(`../../${bin}/${name}`, import.meta.url).pathname, ...args);
+process.on("exit", () => rmSync(folder, { recursive: true }));
+
+/* Pictures as images of a page: rows of red, green, blue and alpha. */
+function images(names) {
+  run("/usr/bin/python3", "-B", `${here}/pixels.py`, ...names.flatMap((name, i) => [name, `pixels-${i}`]));
+  return names.map((_, i) => {
+    const data = readFileSync(`${folder}/pixels-${i}`);
+    return { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) };
+  });
+}
+
+/* What isClear does with a canvas. */
+const document = { createElement: () => {
+  let shown;
+  return { getContext: () => ({ drawImage: (image) => (shown = image), getImageData: () => ({ data: shown.rgba }) }) };
+} };
+const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest } = player({ WebGLTexture, document });
+
+function open(name, { classes = () => true } = {}) {
+  const room = JSON.parse(readFileSync(`${folder}/${name}/room.json`, "utf8"));
+  checkManifest(room);
+  const canvas = {}, gl = context(canvas), renderer = new Renderer({ getContext: () => gl }, room);
+  const [still, reduced, ...lights] = images([room.picture, room.reduced, ...room.lights].map((entry) => `${name}/${entry.file}`));
+  renderer.putStill(still);
+  renderer.putReduced(reduced);
+  lights.forEach((light, i) => renderer.putLight(i, light));
+  for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base));
+  const draw = (textures, { split = 0, lamp = [1, 1, 1] } = {}) => {
+    const all = room.targets.map((t, i) => {
+      const { image = null, ...options } = textures[t.name] || {};
+      renderer.putTexture(i, image);
+      return { ...plainTexture(), ...placing(plainTexture(), options), image, put: { shifted: "" } };
+    });
+    const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room }).settings();
+    renderer.render(settings, split, lamp);
+    return canvas.picture;
+  };
+  return { room, draw };
+}
+
+/* PSNR of the canvas against a picture: both are encoded in sRGB. */
+function psnr(picture, image, columns = [0, image.naturalWidth]) {
+  const { naturalWidth: width, naturalHeight: height, rgba } = image;
+  let sum = 0, count = 0;
+  for (let y = 0; y < height; y++)
+    for (let x = columns[0]; x < columns[1]; x++)
+      for (let k = 0; k < 3; k++, count++) sum += (picture.values[4 * ((height - 1 - y) * width + x) + k] - rgba[4 * (y * width + x) + k] / 255) ** 2;
+  return -10 * Math.log10(sum / count);
+}
+function least(found, decibels, what) {
+  console.log(`# ${what}: ${found.toFixed(1)} dB`);
+  if (!(found >= decibels)) throw new Error(`${what}: ${found} dB, less than ${decibels}`);
+}
+
+const TEXTURES = `${scenes}/textures`;
+let whole;
+
+test("a room is made", () => {
+  tool("retex-render", "-q", "--size", "48x27", "--spp", "32", "--denoise", "-t", "Floor", "-t", "Wall", `${scenes}/living-room/living-room.pov`, "-o", "s.exr");
+  tool("retex-pack", "-q", "s.exr", "--web", "room");
+  whole = open("room");
+});
+
+const cases = [
+  ["originals", {}, [], 38],
+  ["a floor", { Floor: "walnut-herringbone.jpg" }, [], 37],
+  ["a floor that is turned, moved, scaled and flipped", { Floor: ["fans.jpg", { scale: [3, 2], rotate: 30, offset: [0.2, 0.5], flip: "u" }] },
+    ["scale=3,2:rotate=30:offset=0.2,0.5:flip=u"], 36],
+  ["both", { Floor: "terrazzo.jpg", Wall: "damask.jpg" }, [], 36],
+  ["colours", { Floor: [0.8, 0.1, 0.1], Wall: [0.2, 0.3, 0.7] }, [], 38],
+  ["black beyond a wall's picture", { Wall: ["brick.jpg", { scale: [0.5, 0.5], offset: [0.2, 0.1], wrap: "black" }] }, ["scale=0.5:offset=0.2,0.1:wrap=black"], 35],
+];
+for (const [name, edits, options, decibels] of cases)
+  test(`drawn as retex-combine does: ${name}`, () => {
+    const textures = {}, args = [];
+    Object.entries(edits).forEach(([target, edit], i) => {
+      const isColor = typeof edit[0] === "number", [file, placed] = Array.isArray(edit) && !isColor ? edit : [edit, {}];
+      textures[target] = { ...placed, image: isColor ? edit : images([`${TEXTURES}/${file}`])[0] };
+      args.push(["--texture", ...(options[i] ? [options[i]] : [])].join(":"), `${target}=${isColor ? `rgb(${edit})` : `${TEXTURES}/${file}`}`);
+    });
+    tool("retex-combine", "-q", "s.exr", ...args, "-o", "expected.png");
+    least(psnr(whole.draw(textures), images(["expected.png"])[0]), decibels, name);
+  });
+
+test("left of the split are the original textures, right of it the new ones", () => {
+  tool("retex-combine", "-q", "s.exr", "-o", "before.png");
+  tool("retex-combine", "-q", "s.exr", "--texture", "Floor=rgb(0.1,0.2,0.7)", "-o", "after.png");
+  const [before, after] = images(["before.png", "after.png"]), picture = whole.draw({ Floor: { image: [0.1, 0.2, 0.7] } }, { split: 20 });
+  least(psnr(picture, before, [0, 20]), 36, "left");
+  least(psnr(picture, after, [20, 48]), 36, "right");
+});
+
+test("tints and the light multiply linear colours", () => {
+  const white = whole.draw({ Floor: { image: [0.5, 0.4, 0.3], tint: "#bc80ff" } }), direct = whole.draw({ Floor: { image: [0.5, 0.4, 0.3].map((x, k) =>
+    x * [((188 / 255 + 0.055) / 1.055) ** 2.4, ((128 / 255 + 0.055) / 1.055) ** 2.4, 1][k]) } });
+  near([...white.values], [...direct.values], 1e-6, "tint");
+  const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4), lamp = [0.5, 0.25, 0.125];
+  const plain = whole.draw({}), dim = whole.draw({}, { lamp });
+  plain.values.forEach((y, i) => i % 4 < 3 && y < 0.999 && near(linear(dim.values[i]), linear(y) * lamp[i % 4], 1e-6, `value ${i}`));
+});
+
+test("a transparent part of a texture shows the original one", () => {
+  const size = 2, rgba = Uint8Array.from([...Array(size * size)].flatMap(() => [255, 0, 0, 0])), clear = { naturalWidth: size, naturalHeight: size, rgba };
+  const original = whole.draw({}), under = whole.draw({ Floor: { image: clear } });
+  near([...under.values], [...original.values], 1e-9);
+});
+
+test("while not all is loaded, the picture is the still one and what new textures change", () => {
+  const partial = open("room", { classes: (c) => c.target === 0 || c.kind === "interreflection" }), [still] = images([`room/${partial.room.picture.file}`]);
+  least(psnr(partial.draw({}), still), 50, "original");
+  tool("retex-combine", "-q", "s.exr", "--texture", "Floor=rgb(0.8,0.1,0.1)", "-o", "expected.png");
+  least(psnr(partial.draw({ Floor: { image: [0.8, 0.1, 0.1] } }), images(["expected.png"])[0]), 28, "a new floor");
+});
+
+test("levels of light are those of retex-web(5)", () => {
+  const { mixtureShader } = player(), room = whole.room;
+  const { run: values } = compile(`${mixtureShader(room).split("uniform usampler2D records")[0]}
+    uniform vec3 code; uniform float white, levels; out vec4 result;
+    void main() { result = vec4(light(code, white, levels), 1.0); }`);
+  const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
+  for (const [white, levels] of [[1, 255], [2.5, 200], [0.1, 120]])
+    for (let level = 0; level <= 255; level++) {
+      const expected = level <= levels ? white * linear(level / levels) : white * Math.exp(((level / levels - 1) * 255) / 48);
+      near(values({ code: [level / 255, level / 255, level / 255], white, levels })([0, 0])[0], expected, expected * 1e-9, `level ${level} of ${levels}`);
+    }
+});
