@@ -26,7 +26,7 @@ static void list_idents(Arguments *a, const Scene *scene)
     if (render_ident_shares(scene, &a->render, shares, &err))
         cli_fail(a->cli, &err);
     for (int k = 0; k < scene->nidents; k++)
-        list[k] = (IdentShare){scene->idents[k], shares[k]};
+        list[k] = (IdentShare){scene_name_of(scene, scene->idents[k]), shares[k]};
     qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
     for (int k = 0; k < scene->nidents; k++)
         printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);

@@ -6,16 +6,20 @@
 #include "render/first_hit.h"
 #include "retex-render.h"
 
+/* As retex_set_find_target. */
 static int find_target(const Scene *scene, const char *name)
 {
-    int found = -1, count = 0;
+    int found = -1, count = 0, of_ident = 0;
     for (int k = 0; k < scene->ntargets; k++) {
         if (!strcmp(scene->targets[k].name, name))
             return k;
         if (!strcasecmp(scene->targets[k].name, name))
             found = k, count++;
     }
-    return count == 1 ? found : -1;
+    for (int k = 0; !count && k < scene->ntargets; k++)
+        if (!strcmp(scene->targets[k].idents, name))
+            found = k, of_ident++;
+    return count + of_ident == 1 ? found : -1;
 }
 
 /* Advice for a name that is no target: the name probably meant, or the option to add. */

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <retex/parallel.h>
+#include <retex/target_name.h>
 #include "render/originals.h"
 #include "shade/pigment.h"
 #include "shape/shapes.h"
@@ -115,9 +116,10 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
         target->original_max[k] = whole ? 1 : target->uv_max[k];
     }
     int width, height, part;
-    char name[RETEX_NAME_MAX];
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
     original_size(pigment, &width, &height);
-    snprintf(name, sizeof name, "original_%.100s", target->name);
+    retex_target_word(word, target->name);
+    snprintf(name, sizeof name, "original_%.100s", word);
     int code = retex_set_add_part(set, name, "RGB", RETEX_HALF, width, height, &part, err);
     if (code)
         return code;

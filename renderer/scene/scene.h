@@ -570,6 +570,11 @@ typedef struct Target {
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
 } Target;
 
+/* What an identifier is called where it comes from, which identifiers cannot be called. */
+typedef struct SceneName {
+    const char *ident, *name;
+} SceneName;
+
 typedef struct SceneFile {
     const char *path;
     const struct SceneFile *next;
@@ -604,6 +609,8 @@ typedef struct Scene {
     /* every identifier that textures, pigments, materials or objects in use came through */
     int nidents;
     const char **idents;
+    int nnames;
+    SceneName *names;        /* of retex_names */
     int ntargets;
     Target targets[RETEX_MAX_TARGETS];
 } Scene;
@@ -611,6 +618,8 @@ typedef struct Scene {
 /* The k-th texture of a primitive, from 0: its own, the interior's, those of its parts; and the target that it is as a
  * whole, or -1. NULL: there are no more. */
 const Texture *primitive_texture(const Primitive *primitive, int k, int *target);
+/* What people call that identifier: its name of retex_names, where a target can be named so, or itself. */
+const char *scene_name_of(const Scene *scene, const char *ident);
 /* The target of a leaf of a texture that is a target as a whole, or -1: the first that was asked for wins. */
 static inline int texture_leaf_target(const Texture *leaf, int whole)
 {

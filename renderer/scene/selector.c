@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/nearest.h>
+#include <retex/target_name.h>
 #include "scene/selector.h"
 
 struct SelectorForm {
@@ -44,6 +45,14 @@ static const char *base_name(const char *path)
 static int malformed(const Selector *selector, const char *expected, RetexError *err)
 {
     return retex_fail(err, RETEX_EINVAL, "target `%s`: expected %s", selector->text, expected);
+}
+
+const char *scene_name_of(const Scene *scene, const char *ident)
+{
+    for (int k = 0; k < scene->nnames; k++)
+        if (strcmp(scene->names[k].ident, ident) == 0 && retex_target_name_is_valid(scene->names[k].name))
+            return scene->names[k].name;
+    return ident;
 }
 
 /* ---- IDENT ---- */
@@ -87,12 +96,13 @@ static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
     char list[512] = "";
     int shown = 0, close = 0;
     for (int i = 0; i < scene->nidents; i++)
-        close += near(scene->idents[i], wanted);
+        close += near(scene->idents[i], wanted) || near(scene_name_of(scene, scene->idents[i]), wanted);
     for (int i = 0; i < scene->nidents && shown < 12; i++) {
-        if (close > 0 && !near(scene->idents[i], wanted))
+        const char *name = scene_name_of(scene, scene->idents[i]);
+        if (close > 0 && !near(scene->idents[i], wanted) && !near(name, wanted))
             continue;
         append(list, sizeof list, shown++ ? ", " : "");
-        append(list, sizeof list, scene->idents[i]);
+        append(list, sizeof list, name);
     }
     if (scene->nidents == 0)
         return retex_fail(err, RETEX_ENOTFOUND, "no target `%s`: the scene uses no declared texture or object", wanted);
@@ -101,7 +111,17 @@ static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
                       close == 0 && scene->nidents > shown ? ", …" : "");
 }
 
-/* Exact, else the only one that differs in case alone. */
+/* The identifier that people call so, exactly. */
+static const char *find_named(const Scene *scene, const char *wanted)
+{
+    for (int k = 0; k < scene->nnames; k++)
+        for (int i = 0; i < scene->nidents && strcmp(scene->names[k].name, wanted) == 0; i++)
+            if (strcmp(scene->idents[i], scene->names[k].ident) == 0)
+                return scene->idents[i];
+    return NULL;
+}
+
+/* Exact, else by its name, else the only one that differs in case alone, of identifiers and names. */
 static int find_ident(const Scene *scene, const char *wanted, const char **found, RetexError *err)
 {
     const char *any_case = NULL, *second = NULL;
@@ -110,11 +130,13 @@ static int find_ident(const Scene *scene, const char *wanted, const char **found
             *found = scene->idents[i];
             return 0;
         }
-        if (lower_equal(scene->idents[i], wanted)) {
+        if (lower_equal(scene->idents[i], wanted) || lower_equal(scene_name_of(scene, scene->idents[i]), wanted)) {
             second = any_case;
             any_case = scene->idents[i];
         }
     }
+    if ((*found = find_named(scene, wanted)))
+        return 0;
     if (second)
         return retex_fail(err, RETEX_ENOTFOUND, "`%s` could be `%s` or `%s`: write it as the scene does", wanted,
                           second, any_case);

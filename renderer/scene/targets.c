@@ -1,7 +1,7 @@
 /* Targets: NAME=SELECTOR,… of the command line is read, and the surfaces that they select are marked. */
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <retex/target_name.h>
 #include "scene/selector.h"
 
 /* ---- reading NAME=SELECTOR,SELECTOR ---- */
@@ -16,12 +16,11 @@ typedef struct Selectors {
 static int read_name(Target *target, const char *spec, size_t length, RetexError *err)
 {
     if (length == 0 || length >= sizeof target->name)
-        return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has 1 to %d characters", spec, RETEX_NAME_MAX - 1);
-    for (size_t i = 0; i < length; i++)
-        if (!isalnum((unsigned char)spec[i]) && spec[i] != '_' && spec[i] != '-')
-            return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has letters, digits, `_` and `-` only", spec);
+        return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has 1 to %d bytes", spec, RETEX_NAME_MAX - 1);
     memcpy(target->name, spec, length);
     target->name[length] = 0;
+    if (!retex_target_name_is_valid(target->name))
+        return retex_fail(err, RETEX_EINVAL, "target `%s`: a name has letters, digits, spaces and `_-.+()` only", spec);
     return 0;
 }
 

@@ -147,8 +147,8 @@ $ for m in ramp_numbers ramp_colors ramp_weak ramp_none; do retex-import -q -f $
 >   #ifdef (Retex) normal { retex_height_map { image_map { png "textures/Ramp.png" gamma 1 interpolate 2 } } -0.6 strength 0.5 } #end
 > 0.27 0 -0.96
 > 0.00 0 -1.00
-$ retex-import -q --scale 10 ramp_numbers.gltf -o large && grep -o '3 strength 1' large/large.pov
-> 3 strength 1
+$ retex-import -q --scale 10 ramp_numbers.gltf -o large && grep -o '} 3 strength 1' large/large.pov
+> } 3 strength 1
 
 # A lamp shines with glTF's strength.
 $ retex-import glowing.gltf -o glowing && grep -A3 declare.Lamp glowing/glowing.pov

@@ -33,3 +33,39 @@ $ for m in cards_colors.gltf cards_images.gltf cards_folders.gltf cards_obj.obj 
 $ /usr/bin/python3 $TESTS/import_names.py places cards_3ds; grep -o 'radius.*falloff [0-9]*' cards_3ds/cards_3ds.pov
 > radius 14.99 falloff 15
 > radius 15 falloff 25
+
+# What people type: materials have their names, of the first that has it.
+$ sed -n '/retex_names/,/#end/p' cards_colors/cards_colors.pov; retex-render --list-targets cards_colors/cards_colors.pov | sed 's/.*%  //' | grep -v ^Mesh | sort
+> #ifdef (Retex) global_settings { retex_names {
+>   "Wand_gr_n" "Wand grün"
+>   "Wand_gr_n_2" "Wand-grün"
+>   "Wand_gr_n_3" "wand_grön"
+>   "Material" "木"
+> } } #end
+> Material_2
+> Wand grün
+> Wand-grün
+> Wand_gr_n_4
+> wand_grön
+> 木
+
+# They are names of targets too, in all steps, beside names that differ from them in such characters only.
+$ cp -r cards_colors room; mv room/cards_colors.pov room/room.pov; cat eye.inc >>room/room.pov; echo 'light_source { <0, 5, -20> rgb 1 }' >>room/room.pov
+$ retex-render -q --spp 4 --size 120x10 --denoise -t 'Wand grün' -t WAND-grün -t Wand_gr_n=Wand_gr_n_4 -t '木' -t 'wand (alt)=wand_grön' room/room.pov -o set.exr; retex-info --json set.exr | tr '{' '\n' | sed -n 's/.*"name": *"\([^"]*\)", *"idents": *"\([^"]*\)".*/\1: \2/p'
+> Wand grün: Wand_gr_n
+> WAND-grün: Wand_gr_n_2
+> Wand_gr_n: Wand_gr_n_4
+> 木: Material
+> wand (alt): Wand_gr_n_3
+$ retex-info -q --check set.exr; retex-pack -q set.exr -o set.retex; retex-info -q --check set.retex
+$ retex-render -q --plain --spp 4 --size 120x10 -t 'Wand grün' -t '木' --replace 'Wand grün=rgb(.2,.3,.4)' --replace '木=rgb(.5,.6,.1)' room/room.pov -o truth.exr
+$ retex-render -q --spp 4 --size 120x10 -t 'Wand grün' -t '木' room/room.pov -o two.exr; retex-combine -q two.exr --texture 'Wand grün=rgb(.2,.3,.4)' --texture '木=rgb(.5,.6,.1)' -o new.exr; retex-diff -q --fail-psnr 55 new.exr truth.exr
+$ printf '%s\n' 'output,wand grün,木' 'row.exr,"rgb(.2,.3,.4)","rgb(.5,.6,.1)"' >table.csv; retex-combine -q two.exr --batch table.csv; retex-diff -q --fail-abs 0 row.exr new.exr
+$ retex-sample -q two.exr --texture 'Wand grün=rgb(.2,.3,.4)' --texture 'Material=rgb(.5,.6,.1)' | retex-combine -q - -o piped.exr; retex-diff -q --fail-abs 1e-5 piped.exr new.exr
+$ retex-render -q --layout paper --spp 4 --size 120x10 -t 'Wand grün' -t Wand_gr_n_4 room/room.pov -o paper.exr; retex-combine -q paper.exr --texture 'Wand_gr_n=rgb(.2,.3,.4)' -o paper-new.exr; retex-combine -q paper.exr --texture 'Wand grün=rgb(.2,.3,.4)' -o same.exr; cmp paper-new.exr same.exr
+$ retex-render -q --layout paper -t 'Wand gr' room/room.pov -o x.exr
+! retex-render: error: no texture, pigment, material or object `Wand gr` in the scene; similar: Wand grün
+= 2
+$ retex-render -q -t 'a:b=Material' room/room.pov -o x.exr
+! retex-render: error: target `a:b=Material`: a name has letters, digits, spaces and `_-.+()` only
+= 2

@@ -34,9 +34,9 @@ most=$(regions "$work/cycles.exr" "$work/plain.exr")
 echo "# largest difference of a region from Cycles: $most"
 result "$(at_most "${most:-1}" 0.05)" "regions within 5 % of Cycles"
 result "$(grep -c 'clearcoat 0.25 ' "$work/room/room.pov")" "a coat of Blender 3 is a quarter of a coat"
-result "$(retex-info "$work/room/room.exr" | grep -c Floor_1 | awk '{ print ($1 > 0) }')" "the ticked material is the target"
-retex-combine -q "$work/room/room.exr" --texture 'Floor_1=rgb(0.7,0.1,0.1)' -o "$work/red.exr"
-retex-render -q --plain --spp 256 --size 96x72 -t Floor_1 --replace 'Floor_1=rgb(0.7,0.1,0.1)' "$work/room/room.pov" \
+result "$(retex-info "$work/room/room.exr" | grep -c 'floor 1' | awk '{ print ($1 > 0) }')" "the ticked material is the target"
+retex-combine -q "$work/room/room.exr" --texture 'floor 1=rgb(0.7,0.1,0.1)' -o "$work/red.exr"
+retex-render -q --plain --spp 256 --size 96x72 -t 'floor 1' --replace 'floor 1=rgb(0.7,0.1,0.1)' "$work/room/room.pov" \
     -o "$work/truth.exr"
 same "$work/red.exr" "$work/truth.exr" 45 "a red floor is what rendering again gives"
 # What was changed for the export is changed back.

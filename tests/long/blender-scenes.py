@@ -76,7 +76,7 @@ def bumps():
     wood = image("wood", np.dstack([rise, .7 * rise + .05, .4 * rise]))
     dents = image("dents", np.dstack([.5 + .4 * np.sin(6 * x) * np.sin(5 * y)] * 3), "png")
     dents.colorspace_settings.name = "Non-Color"
-    plank, tree, shader = material("plank", Roughness=.35)
+    plank, tree, shader = material("Wand gr\u00fcn", Roughness=.35)
     picture, bump = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeBump")
     picture.image = wood
     bump.inputs["Strength"].default_value, bump.inputs["Distance"].default_value = .7, .3

@@ -31,6 +31,10 @@ result "$(grep -v -e '^Blender' -e '^Read blend' -e '^retex-import: ' -e '^$' "$
 in_blender export.log "$work/bumps.blend" --python $addon -- -o "$work/bumps" -v
 result "$(grep -c 'glTF 2.0 export' "$work/export.log" | awk '{ print ($1 > 0) }')" "with -v what the exporter prints"
 
+in_blender export.log "$work/bumps.blend" --python $addon -- -o "$work/named" -t 'Wand grün' --render --spp 1
+result "$(retex-combine -q "$work/named/named.exr" --texture 'Wand grün=rgb(.1,.2,.3)' -o "$work/named.png" && echo 1)" \
+    "a material's name is that of its target"
+
 in_blender build.log --python tests/long/blender-scenes.py -- left-out "$work"
 in_blender told.log "$work/left-out.blend" --python $addon -- -o "$work/left-out"
 grep '^warning: ' "$work/told.log" | sort >"$work/told"

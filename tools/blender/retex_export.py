@@ -8,10 +8,12 @@ Without a window:  blender -b FILE.blend --python retex_export.py -- -o FOLDER [
 """
 import argparse
 import contextlib
+import json
 import math
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -592,6 +594,34 @@ def identifier(name):
     return words[0].upper() + words[1:]
 
 
+def identifiers(names):
+    """The same of several, in their order: no two are the same, whatever the case."""
+    taken, found = {}, []
+    for name in names:
+        made = first = identifier(name)
+        number = taken.get(first.lower(), 2)
+        while made.lower() in taken:
+            made, number = f"{first[:52]}_{number}", number + 1
+            taken[first.lower()] = number
+        taken[made.lower()] = 2
+        found.append(made)
+    return found
+
+
+def material_identifiers(glb):
+    """Of each material of the file, by the name that Blender has."""
+    with open(glb, "rb") as file:
+        text = json.loads(file.read(struct.unpack("<5I", file.read(20))[3]))
+    names = [material["name"] for material in text.get("materials", ())]
+    return dict(reversed(list(zip(names, identifiers(names)))))
+
+
+def target_name(name):
+    """Without what the name of a target cannot have."""
+    legal = "".join(c if c.isalnum() or c in " _-.+()" or ord(c) > 160 else "_" for c in name).strip().lstrip(".")
+    return legal.encode()[:127].decode(errors="ignore") or "target"
+
+
 # ---- the world ----
 
 
@@ -755,7 +785,8 @@ class Export:
                 prepare_material(stack, material, self.warn)
             with self.quiet():
                 export_gltf(path, export_colors=uses_vertex_colors(materials.values()))
-        self.targets = [(identifier(m.retex_target_name or m.name), identifier(m.name))
+        known = material_identifiers(path)
+        self.targets = [(target_name(m.retex_target_name or m.name), known.get(m.name, identifier(m.name)))
                         for m in materials.values() if m.retex_target]
 
     def write(self):
@@ -791,8 +822,8 @@ class Export:
     def render_command(self, scene, samples):
         width, height = picture_size(self.scene)
         command = [tool("retex-render"), "--size", f"{width}x{height}", "--spp", str(samples), scene]
-        for name, ident in self.targets:
-            command += ["-t", name if name == ident else f"{name}={ident}"]
+        for name in dict(self.targets):  # materials of one name are one target
+            command += ["-t", name + "=" + ",".join(ident for other, ident in self.targets if other == name)]
         return command + ["-o", os.path.join(self.folder, self.name + ".exr")]
 
     def render(self, scene, samples):

@@ -2,6 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+
+#include <retex/target_name.h>
 
 #include "import/surface.h"
 
@@ -393,6 +396,34 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     return RETEX_OK;
 }
 
+static void get_name(const struct aiMaterial *material, struct aiString *name)
+{
+    if (aiGetMaterialString(material, AI_MATKEY_NAME, name) != aiReturn_SUCCESS)
+        name->data[0] = '\0';
+}
+
+/* What people call materials, where identifiers are not that but for the case of letters. Of several of one name it is
+ * the first. */
+static int write_names(Import *import, FILE *out)
+{
+    Names called = {0};
+    struct aiString name;
+    int any = 0, is_new = 1;
+    for (unsigned i = 0; i < import->scene->mNumMaterials && is_new >= 0; i++) {
+        const ImportMaterial *material = &import->materials[i];
+        get_name(import->scene->mMaterials[i], &name);
+        if (!material->is_used || strcasecmp(material->name, name.data) == 0 || names_have(&import->names, name.data) ||
+            !retex_target_name_is_valid(name.data) || (is_new = names_add(&called, name.data)) <= 0)
+            continue;
+        fprintf(out, "%s\n  \"%s\" \"%s\"", any++ ? "" : "#ifdef (Retex) global_settings { retex_names {",
+                material->name, name.data);
+    }
+    if (any)
+        fprintf(out, "\n} } #end\n");
+    names_free(&called);
+    return is_new >= 0;
+}
+
 int materials_write(Import *import, FILE *out, RetexError *err)
 {
     const struct aiScene *scene = import->scene;
@@ -408,14 +439,14 @@ int materials_write(Import *import, FILE *out, RetexError *err)
         ImportMaterial *to = &import->materials[i];
         if (!to->is_used)
             continue;
-        if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) != aiReturn_SUCCESS)
-            name.data[0] = '\0';
+        get_name(scene->mMaterials[i], &name);
         if (!names_make(&import->names, name.data, "Material", to->name))
             return retex_fail(err, RETEX_ENOMEM, "out of memory");
         const int code = write_material(import, (int)i, to, out, err);
         if (code)
             return code;
     }
+    const int done = write_names(import, out);
     fprintf(out, "\n");
-    return RETEX_OK;
+    return done ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");
 }

@@ -85,6 +85,24 @@ int names_make(Names *names, const char *text, const char *fallback, char name[N
     return entry->name != NULL;
 }
 
+int names_have(const Names *names, const char *text)
+{
+    const struct NamesEntry *entry = names->size ? find(names, text) : NULL;
+    return entry && entry->name && strcmp(entry->name, text) == 0;
+}
+
+int names_add(Names *names, const char *text)
+{
+    struct NamesEntry *entry = grow(names) ? find(names, text) : NULL;
+    if (!entry)
+        return -1;
+    if (entry->name)
+        return 0;
+    entry->name = strdup(text);
+    names->count++;
+    return entry->name ? 1 : -1;
+}
+
 void names_free(Names *names)
 {
     for (size_t k = 0; k < names->size; k++)

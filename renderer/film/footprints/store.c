@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <retex/rounding.h>
+#include <retex/target_name.h>
 #include "film/footprints/pixel.h"
 
 #define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
@@ -28,11 +29,12 @@ static int add_image(FootprintFilm *film, const char *what, int t, int kind, int
                  {"albedo", "RGB", RETEX_HALF},
                  {"dep", "RGB", RETEX_HALF},
                  {"share", "R", RETEX_HALF}};
-    char name[RETEX_NAME_MAX];
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
     int i = 0;
     while (strcmp(table[i].what, what))
         i++;
-    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, film->scene->targets[t].name, kind_name(kind), k + 1);
+    retex_target_word(word, film->scene->targets[t].name);
+    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, word, kind_name(kind), k + 1);
     return bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
 }
 
@@ -56,7 +58,9 @@ static int add_footprint(FootprintFilm *film, FootprintImages *f, int t, int kin
 static void interreflected_name(const Scene *scene, int t, int kind, const PlanCoefficient *c,
                                 char name[RETEX_NAME_MAX])
 {
-    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", scene->targets[t].name, kind_name(kind));
+    char word[RETEX_NAME_MAX];
+    retex_target_word(word, scene->targets[t].name);
+    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", word, kind_name(kind));
     if (c->mixed)
         snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
     for (int other = 0; other < scene->ntargets; other++)
@@ -68,12 +72,13 @@ static void interreflected_name(const Scene *scene, int t, int kind, const PlanC
 static int add_corrections(FootprintFilm *film, int t, RetexError *err)
 {
     CorrectionImages *images = &film->targets[t].corrections;
-    char name[RETEX_NAME_MAX];
-    snprintf(name, sizeof name, "correction_%.90s", film->scene->targets[t].name);
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
+    retex_target_word(word, film->scene->targets[t].name);
+    snprintf(name, sizeof name, "correction_%.90s", word);
     int code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->without, err);
     for (int kind = 0; kind < CORRECTION_KINDS; kind++)
         for (int n = 0; n < CORRECTION_POWERS && !code; n++) {
-            snprintf(name, sizeof name, "correction_%.80s_%s%d", film->scene->targets[t].name, kind_name(kind), n + 1);
+            snprintf(name, sizeof name, "correction_%.80s_%s%d", word, kind_name(kind), n + 1);
             code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->with[kind][n], err);
         }
     return code;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/target_name.h>
 #include "film/corrections.h"
 #include "film/paper/expansion.h"
 #include "film/paper/paper.h"
@@ -60,9 +61,9 @@ static int footprint_number(const TargetHit *hit)
 
 static int add_footprint(PaperFilm *film, int k, RetexError *err)
 {
-    const char *target = film->scene->targets[k / RETEX_MAX_ORDERS].name;
     int hit = k % RETEX_MAX_ORDERS + 1;
-    char name[RETEX_NAME_MAX];
+    char name[RETEX_NAME_MAX], target[RETEX_NAME_MAX];
+    retex_target_word(target, film->scene->targets[k / RETEX_MAX_ORDERS].name);
     snprintf(name, sizeof name, "uv_%.90s_%d", target, hit);
     int code = bands_add(film->bands, name, "RGA", RETEX_FLOAT, &film->uv[k], err);
     snprintf(name, sizeof name, "spread_%.90s_%d", target, hit);
@@ -86,11 +87,12 @@ static int last_correction(const PaperFilm *film)
 /* correction_Floor_2: with two hits on the target. */
 static int add_corrections(PaperFilm *film, RetexError *err)
 {
-    char name[RETEX_NAME_MAX];
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
     int code = RETEX_OK;
     for (int t = 0; t < corrected(film); t++)
         for (int n = 0; n <= last_correction(film) && !code; n++) {
-            snprintf(name, sizeof name, "correction_%.90s_%d", film->scene->targets[t].name, n);
+            retex_target_word(word, film->scene->targets[t].name);
+            snprintf(name, sizeof name, "correction_%.90s_%d", word, n);
             code = bands_add(film->bands, name, "RGB", RETEX_HALF, &film->corrections[t].of[n], err);
         }
     return code;

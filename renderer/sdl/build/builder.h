@@ -253,6 +253,7 @@ typedef struct Builder {
     int radiosity;        /* global_settings has a block of it */
     int photons;          /* global_settings has a block of them */
     Rgb irid_wavelength;
+    int name_capacity; /* of the scene's names */
     int has_subsurface;  /* global_settings has the block, without which POV-Ray has none either */
     double mm_per_unit;
     int depth;            /* of nested statements being read */

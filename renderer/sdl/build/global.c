@@ -39,6 +39,22 @@ static void ignored(Sdl *sdl)
     sdl_expected(sdl, "a global setting or }");
 }
 
+/* `retex_names { "IDENTIFIER" "name" … }` */
+static void parse_names(Sdl *sdl)
+{
+    Builder *builder = builder_of(sdl);
+    Scene *scene = sdl_scene(sdl);
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        SceneName name;
+        name.ident = sdl_string(sdl);
+        name.name = sdl_string(sdl);
+        scene->names = builder_grow(sdl, scene->names, scene->nnames, &builder->name_capacity, sizeof *scene->names);
+        scene->names[scene->nnames++] = name;
+        sdl_optional_comma(sdl);
+    }
+}
+
 void parse_global_settings(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
@@ -46,6 +62,8 @@ void parse_global_settings(Sdl *sdl)
     while (!sdl_accept(sdl, "}")) {
         if (sdl_accept(sdl, "assumed_gamma"))
             assumed_gamma(sdl);
+        else if (sdl_accept(sdl, "retex_names"))
+            parse_names(sdl);
         else if (sdl_accept(sdl, "ambient_light")) {
             Rgbft c = sdl_color(sdl);
             scene->ambient_light = rgb(c.r, c.g, c.b);

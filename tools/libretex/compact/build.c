@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/target_name.h>
+
 #include "compact/bands.h"
 #include "compact/clusters.h"
 #include "compact/gains.h"
@@ -233,7 +235,9 @@ void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight 
 static int add_cluster(Compaction *work, int number, RetexCompactClusters *clusters, int k, int albedo, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
-    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
+    const char *name = retex_footprint_kind_name(kind->kind);
+    char target[RETEX_NAME_MAX];
+    retex_target_word(target, work->set->targets[kind->target].name);
     RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
     f.hit = work->light->set->footprints[kind->footprints[k]].hit;
     int code =
@@ -276,12 +280,14 @@ static int add_clusters(Compaction *work, int number, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
     RetexCompactClusters clusters;
+    char target[RETEX_NAME_MAX];
     int albedo, code = make_clusters(&clusters, work, number, err);
     if (code)
         return code;
     work->counts[number] = clusters.count;
-    code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s",
-                      work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
+    retex_target_word(target, work->set->targets[kind->target].name);
+    code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s", target,
+                      retex_footprint_kind_name(kind->kind));
     for (int k = 0; k < clusters.count && !code; k++)
         code = add_cluster(work, number, &clusters, k, albedo, err);
     retex_compact_clusters_free(&clusters);
@@ -344,7 +350,9 @@ static int interreflection_factor(const Compaction *work, int factor)
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
-    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
+    const char *name = retex_footprint_kind_name(kind->kind);
+    char target[RETEX_NAME_MAX];
+    retex_target_word(target, work->set->targets[kind->target].name);
     RetexImage gain = {0};
     int code = make_gain(&gain, work, number, radiance, place, err);
     if (!code)
@@ -380,13 +388,15 @@ static int add_terms(Compaction *work, int number, RetexError *err)
     const RetexCompactKind *kind = &work->light->kinds[number];
     RetexImage sum = {0};
     const int single = has_single(kind);
+    char target[RETEX_NAME_MAX];
     int radiance;
     if (!single && !kind->ninterreflections)
         return RETEX_OK;
+    retex_target_word(target, work->set->targets[kind->target].name);
     int code = make_sum(&sum, work, number, err);
     if (!code)
-        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
-                          work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
+        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s", target,
+                          retex_footprint_kind_name(kind->kind));
     if (!code && single)
         code = add_term(work, number, radiance, 0, kind->ninterreflections > 0, err);
     for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)

@@ -1,5 +1,6 @@
 /* See retex/denoise_data.h. */
 #include <retex/denoise_data.h>
+#include <retex/target_name.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -11,14 +12,18 @@ const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABL
 
 void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target)
 {
-    snprintf(name, RETEX_NAME_MAX, RETEX_FEATURE_PREFIX "cover_%.90s", target);
+    char word[RETEX_NAME_MAX];
+    retex_target_word(word, target);
+    snprintf(name, RETEX_NAME_MAX, RETEX_FEATURE_PREFIX "cover_%.90s", word);
 }
 
 void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const char *signal)
 {
-    if (target)
-        snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%.90s_%s", target, signal);
-    else
+    char word[RETEX_NAME_MAX];
+    if (target) {
+        retex_target_word(word, target);
+        snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%.90s_%s", word, signal);
+    } else
         snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%s", signal);
 }
 

@@ -309,7 +309,7 @@ double retex_correction_weight(int ntargets, int edited)
 
 int retex_set_find_target(const RetexSet *set, const char *name)
 {
-    int found = -1, count = 0;
+    int found = -1, count = 0, of_ident = 0;
 
     for (int i = 0; i < set->ntargets; i++) {
         if (strcmp(set->targets[i].name, name) == 0)
@@ -319,7 +319,12 @@ int retex_set_find_target(const RetexSet *set, const char *name)
             count++;
         }
     }
-    return count == 1 ? found : -1;
+    for (int i = 0; !count && i < set->ntargets; i++)
+        if (strcmp(set->targets[i].idents, name) == 0) {
+            found = i;
+            of_ident++;
+        }
+    return count + of_ident == 1 ? found : -1;
 }
 
 void retex_set_identify(RetexSet *set)

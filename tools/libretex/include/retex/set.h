@@ -183,7 +183,8 @@ int retex_set_part_is_color(const RetexSet *set, int part);
 /* The weight of the corrections of each edited target, where `edited` of `ntargets` have a new texture: 1 of one, 0 of
  * all, between them linear, divided among the edited ones. */
 double retex_correction_weight(int ntargets, int edited);
-/* The target of that name, exactly, else ignoring case if that is unique; or -1. */
+/* The target of that name, exactly, else ignoring case if that is unique, else the one whose only identifier that is;
+ * or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
 
 #ifdef __cplusplus
