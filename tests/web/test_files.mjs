@@ -27,6 +27,34 @@ test("CRC-32: the check value of its definition, and long division", () => {
   }
 });
 
+test("pictures that are cut off, lose a byte or have a wrong checksum", () => {
+  const { isDamaged, crc32 } = player();
+  const text = (word) => [...word].map((letter) => letter.charCodeAt(0));
+  const number = (value) => [value >>> 24, (value >>> 16) & 255, (value >>> 8) & 255, value & 255];
+  const chunk = (name, data) => [...number(data.length), ...text(name), ...data, ...number(crc32(Uint8Array.from([...text(name), ...data])))];
+  const coded = Array.from({ length: 200 }, (_, k) => (k * 37) % 255);
+  const files = {
+    png: [0x89, ...text("PNG\r\n\x1a\n"), ...chunk("IHDR", [1, 2, 3]), ...chunk("IDAT", coded), ...chunk("IEND", [])],
+    // a comment, fill bytes before a marker, a scan with a stuffed byte and a restart
+    jpeg: [0xff, 0xd8, 0xff, 0xfe, 0, 4, 65, 66, 0xff, 0xff, 0xda, 0, 3, 1, ...coded, 0xff, 0, ...coded, 0xff, 0xd0, ...coded, 0xff, 0xd9],
+    webp: [...text("RIFF"), 208, 0, 0, 0, ...text("WEBP"), ...coded.slice(0, 196), ...text("WEBP"), ...coded.slice(0, 4)],
+  };
+  for (const [name, whole] of Object.entries(files)) {
+    same([name, isDamaged(Uint8Array.from(whole))], [name, false]);
+    same([name, isDamaged(Uint8Array.from([...whole, ...coded]))], [name, false]); // cameras and programs add bytes
+    for (let tenth = 1; tenth < 10; tenth++)
+      same([name, tenth, isDamaged(Uint8Array.from(whole.slice(0, (whole.length * tenth) / 10)))], [name, tenth, true]);
+  }
+  for (let at = 8; at < files.png.length; at++) {
+    const changed = Uint8Array.from(files.png);
+    changed[at] ^= 4;
+    same([at, isDamaged(changed)], [at, true]);
+  }
+  same(isDamaged(Uint8Array.from([0xff, 0xd8, 1, ...files.jpeg.slice(2)])), true); // a byte before a marker
+  same(isDamaged(Uint8Array.from(text("<svg></svg>"))), false);
+  same(isDamaged(new Uint8Array(0)), false);
+});
+
 test("names of addresses", () => {
   const { nameOf, wordsOf } = player();
   same(nameOf("https://x.org/a/b%20c.jpg?q=1#there"), "b c.jpg");

@@ -617,8 +617,8 @@ const DRAWING = "image/svg+xml";
 /* A visitor's picture. Drawings may have no size of their own. A JPEG file has no transparent parts, but if its end is
  * missing the browser leaves some. */
 async function decodePicture(blob, name) {
-  const image = await decodeImage(blob, name), [first] = new Uint8Array(await blob.slice(0, 1).arrayBuffer());
-  if (first === 255 && isClear(image)) throw new Error(`${name} is damaged.`);
+  const image = await decodeImage(blob, name), bytes = new Uint8Array(await blob.arrayBuffer());
+  if (isDamaged(bytes) || (bytes[0] === 255 && isClear(image))) throw new Error(`${name} is damaged.`);
   return blob.type === DRAWING ? smaller(image, 1024) : image;
 }
 
