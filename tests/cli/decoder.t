@@ -39,3 +39,9 @@ $ RETEX_DECODER=/nowhere/decode retex-combine -q --safe s.exr --texture floor=mo
 # What it says to a user: which layers this kernel has.
 $ $(dirname "$(command -v retex-combine)")/../lib/retex-decode | sed 's/: \(yes\|no\)/: ANSWER/g'
 > retex-decode: other programs of retex start it, to decode a picture; seccomp: ANSWER, Landlock: ANSWER
+# The user's configuration, and the tables of its spaces, are read before the decoder gives up its rights.
+$ printf 'Version 1\nFrom 0.0 1.0\nLength 3\nComponents 1\n{\n0.0\n0.2\n1.0\n}\n' >table.spi1d; printf '%s\n' 'ocio_profile_version: 1' 'search_path: .' 'roles: {default: lin, scene_linear: lin}' 'displays: {d: [!<View> {name: v, colorspace: lin}]}' 'colorspaces:' '  - !<ColorSpace> {name: lin}' '  - !<ColorSpace> {name: odd, to_reference: !<FileTransform> {src: table.spi1d, interpolation: linear}}' >c.ocio; retex-combine -q s.exr -o t.png; for f in t.png few.tif s.exr; do OCIO=c.ocio retex-combine -q s.exr --texture:colorspace=odd floor=$f -o any.exr; OCIO=c.ocio retex-combine --safe -q s.exr --texture:colorspace=odd floor=$f -o safe.exr && cmp any.exr safe.exr && echo $f; done; retex-combine -q s.exr --texture floor=t.png -o any.exr; cmp -s any.exr safe.exr
+> t.png
+> few.tif
+> s.exr
+= 1
