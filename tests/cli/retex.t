@@ -154,6 +154,8 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >                               read only their own folder; limits of 2G, 60
 >                               seconds and 33177600 pixels, unless others are
 >                               given; also RETEX_SAFE=1
+>       --accept-damaged        read damaged pictures as far as possible, with a
+>                               warning; also RETEX_ACCEPT_DAMAGED=1
 >       --max-memory SIZE       use at most SIZE of memory, such as 4G, 512M, or
 >                               a number of MB; default three quarters of the
 >                               machine's; also RETEX_MAX_MEMORY
