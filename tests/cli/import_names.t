@@ -69,3 +69,10 @@ $ retex-render -q --layout paper -t 'Wand gr' room/room.pov -o x.exr
 $ retex-render -q -t 'a:b=Material' room/room.pov -o x.exr
 ! retex-render: error: target `a:b=Material`: a name has letters, digits, spaces and `_-.+()` only
 = 2
+# A name as it is comes before an identifier that differs in case.
+$ printf '%s\n' '#version 3.7;' 'global_settings { assumed_gamma 1 retex_names { "A_b" "a b" "A_b_2" "a_b" } }' '#declare A_b = texture { pigment { rgb 1 } }' '#declare A_b_2 = texture { pigment { rgb .5 } }' 'camera { location -9*z look_at 0 }' 'light_source { -9*z rgb 1 }' 'sphere { -x, 1 texture { A_b } }' 'sphere { x, 1 texture { A_b_2 } }' >alike.pov; for t in a_b 'a b' A_b A_B; do retex-render -q --spp 1 --size 16x12 -t "$t" alike.pov -o alike-set.exr && retex-info --json alike-set.exr | grep -o '"idents": *"[^"]*"' | tr -d ' '; done
+> "idents":"A_b_2"
+> "idents":"A_b"
+> "idents":"A_b"
+! retex-render: error: `A_B` could be `A_b` or `A_b_2`: write it as the scene does
+= 2
