@@ -35,7 +35,7 @@ SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif)
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
 $(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/serve/%.o,address clients head peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
-	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work shrink names kept decoding images rooms uploads)
+	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work shrink names kept content decoding images rooms uploads)
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

@@ -1,6 +1,6 @@
 # What serve.t asks of retex-serve: starts it at a port that the system chooses, runs the checks of one function of this
 # file, and ends it. Prints what differs, and at last the name of the function.
-import hashlib, http.client, json, os, re, select, shutil, signal, socket, subprocess, sys, threading, time
+import hashlib, http.client, json, os, re, select, shutil, signal, socket, struct, subprocess, sys, threading, time
 
 sys.path.append(os.path.join(os.path.dirname(__file__), '..', 'serve'))
 sys.dont_write_bytecode = True
@@ -173,12 +173,15 @@ def replaced(server):
     shutil.copy('textures/oak.jpg', 'textures/t.jpg')
     before = ask(server, url)
     expect('before', before.status, 200)
+    time.sleep(.2)  # files that have changed just now are not kept
     shutil.copy('textures/brick.jpg', 'textures/new'), os.rename('textures/new', 'textures/t.jpg')
     texture = ask(server, url, If_None_Match=before.getheader('ETag'))
     expect('texture', (texture.status, texture.body != before.body), (200, True))
     shutil.copy('second.retex', 'rooms/new'), os.rename('rooms/new', 'rooms/other.retex')
     room = ask(server, url, If_None_Match=texture.getheader('ETag'))
     expect('room', (room.status, room.body not in (before.body, texture.body)), (200, True))
+    time.sleep(.2)
+    expect('again', ask(server, url).body, room.body)
     expect('rooms that are open', metric(server, 'rooms_open'), 1)
     open('rooms/new', 'wb').write(open('second.retex', 'rb').read()[:5000]), os.rename('rooms/new', 'rooms/other.retex')
     broken = ask(server, url)
@@ -188,6 +191,56 @@ def replaced(server):
     expect('broken texture', ask(server, '/v1/small/Floor=t/full.png').status, 500)
     os.remove('rooms/other.retex'), os.remove('textures/t.jpg')
     expect('gone', ask(server, url).status, 404)
+
+
+def bmp(color, width=8):
+    pixels = (bytes(color) * width + bytes(-3 * width % 4)) * 8
+    head = struct.pack('<IHHIIiiHHIIiiII', 54 + len(pixels), 0, 0, 54, 40, width, 8, 1, 24, 0, len(pixels), 0, 0, 0, 0)
+    return b'BM' + head + pixels
+
+
+def contents(server):
+    """Entity tags are of what files hold, whatever their size and time, and also where names change all the time."""
+    pictures = {}
+    for name, color in ('red', (0, 0, 255)), ('blue', (255, 0, 0)):
+        open(name, 'wb').write(bmp(color))
+        os.utime(name, (1, 1))
+        shutil.copy2(name, 'textures/new'), os.rename('textures/new', 'textures/t.bmp')
+        pictures[name] = ask(server, '/v1/small/Floor=t/full.png')
+    red, blue = pictures['red'], pictures['blue']
+    expect('another tag', red.getheader('ETag') != blue.getheader('ETag') and red.body != blue.body, True)
+    for tag, status in (red, 200), (blue, 304):
+        expect('a known tag', ask(server, '/v1/small/Floor=t/full.png', If_None_Match=tag.getheader('ETag')).status, status)
+    # two files take turns by a link, so that identities come back
+    time.sleep(.2)
+    os.remove('textures/t.bmp')
+    shutil.copy('red', 'textures/a.dat'), shutil.copy('blue', 'textures/b.dat')
+    os.symlink('a.dat', 'textures/t.bmp')
+    is_over = threading.Event()
+
+    def take_turns():
+        for turn in range(10**9):
+            if is_over.is_set():
+                break
+            os.symlink('ab'[turn % 2] + '.dat', 'textures/next'), os.rename('textures/next', 'textures/t.bmp')
+            time.sleep(.0005)
+    turns = threading.Thread(target=take_turns)
+    turns.start()
+    bodies = {}
+    until = time.monotonic() + 3
+    while time.monotonic() < until:
+        for quality in range(1, 101):
+            paths = [f'/v1/small/Floor=t/full.png?quality={quality}'] * 4
+            for answer in receive_all(send_all(server, paths)):
+                expect('while names change', answer.status, 200)
+                bodies.setdefault(answer.getheader('ETag'), set()).add(answer.body)
+    is_over.set(), turns.join()
+    expect('one body a tag', {len(of_tag) for of_tag in bodies.values()}, {1})
+    for name, file in ('red', 'a.dat'), ('blue', 'b.dat'):
+        os.remove('textures/t.bmp'), os.symlink(file, 'textures/t.bmp')
+        expect('afterwards ' + name, {ask(server, f'/v1/small/Floor=t/full.png?quality={quality}').body
+                                      for quality in range(1, 101)}, {pictures[name].body})
+    [os.remove('textures/' + name) for name in ('t.bmp', 'a.dat', 'b.dat')]
 
 
 def refused(server):

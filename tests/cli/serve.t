@@ -4,8 +4,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve pictures parts con
 > pictures
 > parts
 > conditions
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced refused lists metrics
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced contents refused lists metrics
 > replaced
+> contents
 > refused
 > lists
 > metrics

@@ -14,15 +14,26 @@ typedef struct FileId {
     long long change_seconds, change_nanoseconds; /* of the last change of the file or its attributes */
 } FileId;
 
+static inline int file_id_of_status(FileId *id, const struct stat *info)
+{
+    if (!S_ISREG(info->st_mode))
+        return -1;
+    *id = (FileId){info->st_dev,          info->st_ino,         (unsigned long long)info->st_size, info->st_mtim.tv_sec,
+                   info->st_mtim.tv_nsec, info->st_ctim.tv_sec, info->st_ctim.tv_nsec};
+    return 0;
+}
+
 /* Return 0 and the identity of a regular file, else -1. */
 static inline int file_id_of(FileId *id, const char *path)
 {
     struct stat info;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        return -1;
-    *id = (FileId){info.st_dev,         info.st_ino,          (unsigned long long)info.st_size, info.st_mtim.tv_sec,
-                   info.st_mtim.tv_nsec, info.st_ctim.tv_sec, info.st_ctim.tv_nsec};
-    return 0;
+    return stat(path, &info) != 0 ? -1 : file_id_of_status(id, &info);
+}
+
+static inline int file_id_of_descriptor(FileId *id, int descriptor)
+{
+    struct stat info;
+    return fstat(descriptor, &info) != 0 ? -1 : file_id_of_status(id, &info);
 }
 
 static inline int file_id_is_same(const FileId *a, const FileId *b)

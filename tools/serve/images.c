@@ -18,6 +18,7 @@ struct OpenImage {
     Kept kept;
     RetexTextureSpec spec; /* as the image was read, in its simplest placement */
     RetexTexture *texture;
+    Content content;     /* of its file */
     RetexBudget *shared; /* of all images: the memory of this one is charged to it */
     RetexBudget *budget; /* while it is decoded; the texture keeps it */
     uint64_t charged;
@@ -25,6 +26,7 @@ struct OpenImage {
 
 struct Images {
     ImagesParams params;
+    Contents *contents;
     KeptList list;
 };
 
@@ -69,6 +71,12 @@ int images_open(Images **images, const ImagesParams *params, RetexError *err)
         return code;
     if (!(*images = calloc(1, sizeof **images)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for images");
+    code = contents_open(&(*images)->contents, err);
+    if (code) {
+        free(*images);
+        *images = NULL;
+        return code;
+    }
     (*images)->params = *params;
     (*images)->list = (KeptList){.most_bytes = params->memory,
                                  .most = MOST_OPEN,
@@ -85,6 +93,7 @@ void images_close(Images *images)
     if (!images)
         return;
     kept_end(&images->list);
+    contents_close(images->contents);
     free(images);
 }
 
@@ -131,6 +140,24 @@ int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
     return !kept;
 }
 
+/* Decode the file that is read for the digest: the name may be another file's by then. */
+static int load(const Images *images, OpenImage *image, int threads, RetexError *err)
+{
+    ContentReading reading = {.contents = images->contents, .file = -1};
+    RetexAccess access = *image->spec.access;
+    RetexTextureSpec spec = image->spec;
+    access.opened = content_read;
+    access.context = &reading;
+    spec.access = &access;
+    int code = retex_texture_load(&image->texture, &spec, threads, err);
+    if (!code)
+        code = content_end(&reading, err);
+    else
+        content_end(&reading, NULL);
+    image->content = reading.content;
+    return code;
+}
+
 /* Those of strangers get one thread, and less time. */
 static int open_image(const Images *images, OpenImage *image, double deadline, RetexError *err)
 {
@@ -139,7 +166,7 @@ static int open_image(const Images *images, OpenImage *image, double deadline, R
         decoding_budget(&image->budget, image->shared, deadline, of_stranger ? images->params.decoding : INFINITY, err);
     image->spec.budget = image->budget;
     if (!code)
-        code = retex_texture_load(&image->texture, &image->spec, of_stranger ? 1 : images->params.threads, err);
+        code = load(images, image, of_stranger ? 1 : images->params.threads, err);
     if (!code) {
         retex_budget_set_seconds(image->budget, 0);
         code = retex_budget_charge(image->shared, retex_texture_bytes(image->texture), "an image", err);
@@ -160,10 +187,21 @@ int images_take(Images *images, const RetexTextureSpec *spec, double deadline, O
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
     int code = is_new ? open_image(images, image, deadline, err) : RETEX_OK;
     if (is_new)
-        kept_opened(&images->list, &image->kept, code, code ? 0 : retex_texture_bytes(image->texture));
+        kept_opened(&images->list, &image->kept, code, &image->content, code ? 0 : retex_texture_bytes(image->texture));
     if (!code)
         *result = image;
     return code;
+}
+
+const Content *images_content(const OpenImage *image)
+{
+    return &image->content;
+}
+
+int images_find_content(const Images *images, const RetexTextureSpec *spec, Content *content)
+{
+    FileId id;
+    return file_id_of(&id, spec->image) == 0 && contents_find(images->contents, &id, content);
 }
 
 int images_place(const OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec, RetexTexture **texture,

@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <retex/combine.h>
 
-#include "file_id.h"
+#include "content.h"
 
 typedef struct Images Images;
 typedef struct OpenImage OpenImage;
@@ -31,6 +31,9 @@ int images_find(const Images *images, const char *name, char *path, size_t size,
 /* The image of a texture, by the path that images_find gave, read within a time: deadline is one of
  * retex_clock_seconds. */
 int images_take(Images *images, const RetexTextureSpec *spec, double deadline, OpenImage **image, RetexError *err);
+const Content *images_content(const OpenImage *image);
+/* The content of a texture's file, if it is known without reading: 1, or 0. */
+int images_find_content(const Images *images, const RetexTextureSpec *spec, Content *content);
 /* The texture as spec says, of a target of the set. To be closed before the image is returned. */
 int images_place(const OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec, RetexTexture **texture,
                  RetexError *err);

@@ -109,7 +109,7 @@ Kept *kept_peek(KeptList *list, const void *key, const FileId *id)
     return kept;
 }
 
-void kept_opened(KeptList *list, Kept *kept, int failed, unsigned long long bytes)
+void kept_opened(KeptList *list, Kept *kept, int failed, const Content *content, unsigned long long bytes)
 {
     pthread_mutex_lock(&list->lock);
     *(failed ? &list->failed : &list->opened) += 1;
@@ -118,6 +118,7 @@ void kept_opened(KeptList *list, Kept *kept, int failed, unsigned long long byte
         release(list, kept);
     } else {
         kept->is_ready = 1;
+        kept->is_stale = !content->is_settled || !file_id_is_same(&kept->id, &content->id);
         kept->bytes = bytes;
         list->bytes += bytes;
         kept_make_space(list, 0);

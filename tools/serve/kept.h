@@ -6,7 +6,7 @@
 
 #include <pthread.h>
 
-#include "file_id.h"
+#include "content.h"
 
 typedef struct Kept {
     struct Kept *next;
@@ -42,8 +42,9 @@ void kept_end(KeptList *list); /* when nothing is in use */
 Kept *kept_take(KeptList *list, const void *key, const FileId *id, int *is_new);
 /* The same, if it is there and ready; or NULL. Never waits. */
 Kept *kept_peek(KeptList *list, const void *key, const FileId *id);
-/* It takes so many bytes, or could not be opened: then it is no longer in use, and gone. */
-void kept_opened(KeptList *list, Kept *kept, int failed, unsigned long long bytes);
+/* It takes so many bytes, or could not be opened: then it is no longer in use, and gone. `content`: what was read; where
+ * that is another file than the one asked for, or one that changes just now, nobody else gets it. */
+void kept_opened(KeptList *list, Kept *kept, int failed, const Content *content, unsigned long long bytes);
 void kept_return(KeptList *list, Kept *kept); /* NULL is fine */
 
 /* Close what nobody uses, what was used least recently first, until so many more bytes are within the limit. The caller

@@ -1,9 +1,12 @@
 /* See rooms.h. */
 #include "rooms.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "kept.h"
 #include "names.h"
@@ -27,6 +30,7 @@ typedef struct OpenRoom {
 
 struct Rooms {
     RoomsParams params;
+    Contents *contents;
     KeptList list;
 };
 
@@ -63,6 +67,12 @@ int rooms_open(Rooms **rooms, const RoomsParams *params, RetexError *err)
         return code;
     if (!(*rooms = calloc(1, sizeof **rooms)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for rooms");
+    code = contents_open(&(*rooms)->contents, err);
+    if (code) {
+        free(*rooms);
+        *rooms = NULL;
+        return code;
+    }
     (*rooms)->params = *params;
     (*rooms)->list = (KeptList){
         .most_bytes = params->memory, .most = MOST_OPEN, .is_of = is_of, .create = create, .close = close_room};
@@ -75,6 +85,7 @@ void rooms_close(Rooms *rooms)
     if (!rooms)
         return;
     kept_end(&rooms->list);
+    contents_close(rooms->contents);
     free(rooms);
 }
 
@@ -94,30 +105,39 @@ int rooms_list(const Rooms *rooms, void (*tell)(void *context, const char *name)
 
 /* ---- opening ---- */
 
-static int identify(OpenRoom *room, RetexError *err)
+/* The set of an open file: by its name, the file might be another one than was read for the digest. */
+static int open_set(Rooms *rooms, OpenRoom *room, int file, RetexError *err)
 {
-    const Hash128 begin = HASH128_BEGIN;
-    const FileId *id = &room->kept.id;
-    char *manifest = NULL, file[64];
-    int code = retex_set_manifest(room->set, NULL, &manifest, err);
-    snprintf(file, sizeof file, "%llx %llx.%llx", id->size, (unsigned long long)id->seconds,
-             (unsigned long long)id->nanoseconds);
-    if (!code)
-        room->room.content = hash128_text(hash128_text(begin, manifest), file);
-    free(manifest);
+    char path[64];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    int code = retex_set_open(path, &room->set, NULL, rooms->params.threads, err);
+    if (!code && !room->set)
+        code = retex_fail(err, RETEX_EFORMAT, "it holds no set");
+    if (!code && (long)room->set->width * room->set->height > rooms->params.pixels)
+        code = retex_fail(err, RETEX_EFORMAT, "room %s is too large: %d x %d pixels", room->name, room->set->width,
+                          room->set->height);
+    room->room.set = room->set;
     return code;
 }
 
 static int open_file(Rooms *rooms, OpenRoom *room, const char *path, RetexError *err)
 {
-    int code = retex_set_open(path, &room->set, NULL, rooms->params.threads, err);
-    if (!code && !room->set)
-        code = retex_fail(err, RETEX_EFORMAT, "%s holds no set", path);
-    if (!code && (long)room->set->width * room->set->height > rooms->params.pixels)
-        code = retex_fail(err, RETEX_EFORMAT, "room %s is too large: %d x %d pixels", room->name, room->set->width,
-                          room->set->height);
-    room->room.set = room->set;
-    return code ? code : identify(room, err);
+    ContentReading reading = {.contents = rooms->contents, .file = -1};
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    int code = file < 0 ? retex_fail(err, RETEX_EIO, "cannot read it: %s", strerror(errno))
+                        : content_read(&reading, file, err);
+    if (!code)
+        code = open_set(rooms, room, file, err);
+    if (!code)
+        code = content_end(&reading, err);
+    else
+        content_end(&reading, NULL);
+    if (file >= 0)
+        close(file);
+    room->room.content = reading.content;
+    if (code && err)
+        snprintf(err->file, sizeof err->file, "%.*s", (int)sizeof err->file - 1, path);
+    return code;
 }
 
 int rooms_take(Rooms *rooms, const char *name, const Room **result, RetexError *err)
@@ -133,7 +153,7 @@ int rooms_take(Rooms *rooms, const char *name, const Room **result, RetexError *
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a room");
     int code = is_new ? open_file(rooms, room, path, err) : RETEX_OK;
     if (is_new)
-        kept_opened(&rooms->list, &room->kept, code, 0);
+        kept_opened(&rooms->list, &room->kept, code, &room->room.content, 0);
     if (!code)
         *result = &room->room;
     return code;

@@ -1,4 +1,4 @@
-/* Rooms: the sets and packs of a folder, by name. A set is opened once, which takes milliseconds. What recombination
+/* Rooms: the sets and packs of a folder, by name. A set is opened once, and read for its digest. What recombination
  * reads of it is decoded when a picture first needs it, and stays in memory as long as all rooms together keep within a
  * limit, see kept.h. Any thread may call. */
 #ifndef RETEX_SERVE_ROOMS_H
@@ -7,14 +7,13 @@
 #include <limits.h>
 #include <retex/set_file.h>
 
-#include "file_id.h"
-#include "hash.h"
+#include "content.h"
 
 typedef struct Rooms Rooms;
 
 typedef struct Room {
     const RetexSet *set;
-    Hash128 content; /* of the set's manifest, with the size and the time of its file */
+    Content content; /* of its file */
 } Room;
 
 typedef struct RoomsParams {

@@ -7,6 +7,7 @@
 
 #include <retex/version.h>
 
+#include "hash.h"
 #include "json_text.h"
 #include "picture.h"
 
@@ -47,35 +48,39 @@ static int quality_of(const Site *site, const ServeRequest *request)
     return request->quality ? request->quality : site->quality;
 }
 
-/* The files of the textures; their specs get the paths. */
-static Answer *key_of_images(const Site *site, ServeRequest *request, Text *key)
+/* What an answer is made of. */
+typedef struct SiteFiles {
+    FileId room, images[RETEX_MAX_TARGETS]; /* the latter by spec */
+} SiteFiles;
+
+/* The files that names stand for now; the specs of textures get the paths. */
+static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *files)
 {
+    char path[PATH_MAX];
+    if (rooms_find(site->rooms, request->room, path, &files->room))
+        return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
     for (int i = 0; i < request->nspecs; i++) {
         RetexTextureSpec *spec = &request->specs[i];
-        char path[sizeof spec->image], text[FILE_ID_TEXT];
-        FileId id;
+        char image[sizeof spec->image];
         if (spec->constant)
             continue;
-        if (images_find(site->images, spec->image, path, sizeof path, &id))
+        if (images_find(site->images, spec->image, image, sizeof image, &files->images[i]))
             return answer_error(404, "%s: there is no texture '%s'; /v1 lists them", spec->target, spec->image);
-        strcpy(spec->image, path);
-        append(key, "\n%s", file_id_text(&id, text));
+        strcpy(spec->image, image);
     }
     return NULL;
 }
 
-Answer *site_key(const Site *site, ServeRequest *request, const char *base, char text[SITE_KEY_MAX])
+static void write_key(const Site *site, const ServeRequest *request, const char *base, const SiteFiles *files,
+                      char text[SITE_KEY_MAX])
 {
     Text key = {text, 0, SITE_KEY_MAX};
-    char path[PATH_MAX], id_text[FILE_ID_TEXT];
-    FileId id;
-    append(&key, "%d", is_picture(request->route) ? SERVE_PICTURE : request->route);
-    if (request->route == SERVE_ROOMS)
-        return NULL;
-    if (rooms_find(site->rooms, request->room, path, &id))
-        return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
-    append(&key, "\n%s\n%s\n%s", request->room, file_id_text(&id, id_text), request->edits);
-    Answer *error = key_of_images(site, request, &key);
+    char id_text[FILE_ID_TEXT];
+    append(&key, "%d\n%s\n%s\n%s", is_picture(request->route) ? SERVE_PICTURE : request->route, request->room,
+           file_id_text(&files->room, id_text), request->edits);
+    for (int i = 0; i < request->nspecs; i++)
+        if (!request->specs[i].constant)
+            append(&key, "\n%s", file_id_text(&files->images[i], id_text));
     if (is_picture(request->route)) {
         const ServeRegion *r = &request->region;
         const ServeSize *s = &request->size;
@@ -85,35 +90,42 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     } else {
         append(&key, "\n%s", base);
     }
+}
+
+Answer *site_key(const Site *site, ServeRequest *request, const char *base, char text[SITE_KEY_MAX])
+{
+    SiteFiles files = {0};
+    if (request->route == SERVE_ROOMS) {
+        Text key = {text, 0, SITE_KEY_MAX};
+        append(&key, "%d", request->route);
+        return NULL;
+    }
+    Answer *error = find_files(site, request, &files);
+    if (!error)
+        write_key(site, request, base, &files, text);
     return error;
 }
 
-/* The tag says what the picture is made of: the build, the colours that a display needs, the content of the room, the
- * edits with the size and time of their images, and the pixels. It is the same on all machines that have copies of the
- * files with their times. */
-static int make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
-                     char etag[ETAG_SIZE])
+/* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and of
+ * the images, the edits, and the pixels. It is the same on all machines that have the same files. contents: of images,
+ * by spec. */
+static void make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
+                      const Content contents[RETEX_MAX_TARGETS], char etag[ETAG_SIZE])
 {
     static const Hash128 begin = HASH128_BEGIN;
     const char *config = getenv("OCIO");
-    char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * 64 + 1024];
+    char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * 64 + 1024], digest[2 * CONTENT_DIGEST + 1];
     Text all = {text, 0, sizeof text};
-    append(&all, RETEX_VERSION "\n%.256s\n%016llx%016llx\n%s", config ? config : "",
-           (unsigned long long)room->content.high, (unsigned long long)room->content.low, request->edits);
-    for (int i = 0; i < request->nspecs; i++) {
-        FileId id;
-        if (request->specs[i].constant)
-            continue;
-        if (file_id_of(&id, request->specs[i].image))
-            return -1;
-        append(&all, "\n%llx %llx.%llx", id.size, (unsigned long long)id.seconds, (unsigned long long)id.nanoseconds);
-    }
+    append(&all, RETEX_VERSION "\n%.256s\n%s\n%s", config ? config : "", content_text(&room->content, digest),
+           request->edits);
+    for (int i = 0; i < request->nspecs; i++)
+        if (!request->specs[i].constant)
+            append(&all, "\n%s", content_text(&contents[i], digest));
     append(&all, "\n%d %d %d %d %d %d %d %d %d %d %d", place->x, place->y, place->width, place->height,
            place->scaled_width, place->scaled_height, request->quarter_turns, request->mirror, request->gray,
            request->format, quality_of(site, request));
     const Hash128 hash = hash128_text(begin, text);
     snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
-    return 0;
 }
 
 int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETAG_SIZE])
@@ -121,12 +133,17 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
     char path[PATH_MAX];
     FileId id;
     ServePlace place;
+    Content contents[RETEX_MAX_TARGETS] = {0};
     if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
         return 0;
+    for (int i = 0; i < request->nspecs; i++)
+        if (!request->specs[i].constant && !images_find_content(site->images, &request->specs[i], &contents[i]))
+            return 0;
     const Room *room = rooms_peek(site->rooms, request->room, &id);
     ServeRequest copy = *request; /* iiif_place may put an error into it */
-    const int is_known = room && !iiif_place(&copy, room->set->width, room->set->height, &place) &&
-                         !make_etag(site, request, &place, room, etag);
+    const int is_known = room && !iiif_place(&copy, room->set->width, room->set->height, &place);
+    if (is_known)
+        make_etag(site, request, &place, room, contents, etag);
     rooms_return(site->rooms, room);
     return is_known;
 }
@@ -138,9 +155,8 @@ typedef struct Textures {
     OpenImage *images[RETEX_MAX_TARGETS];      /* by spec */
 } Textures;
 
-static void close_textures(const Site *site, Textures *textures)
+static void return_images(const Site *site, Textures *textures)
 {
-    retex_textures_close(textures->textures);
     for (int i = 0; i < RETEX_MAX_TARGETS; i++)
         images_return(site->images, textures->images[i]);
 }
@@ -188,24 +204,62 @@ static void find_corrected(const ServeRequest *request, const RetexSet *set, int
 }
 
 /* The file of a picture: 0. Placing textures looks at the parts of the set, so that no other thread may decode them
- * meanwhile; reading images, which may take long, does not. */
-static int make_file(const Site *site, const ServeRequest *request, PicturePlan *plan, const Room *room, int nthreads,
-                     void **data, size_t *bytes, RetexError *err)
+ * meanwhile. */
+static int make_file(const Site *site, const ServeRequest *request, PicturePlan *plan, const Room *room,
+                     Textures *textures, int nthreads, void **data, size_t *bytes, RetexError *err)
 {
     int corrected[RETEX_MAX_TARGETS];
-    Textures textures = {0};
     find_corrected(request, room->set, corrected);
-    int code = take_images(site, request, plan->deadline, &textures, err);
-    const int is_begun = !code && !(code = rooms_begin_picture(site->rooms, room, corrected, err));
-    plan->textures = textures.textures;
+    int code = rooms_begin_picture(site->rooms, room, corrected, err);
+    const int is_begun = !code;
+    plan->textures = textures->textures;
     if (!code)
-        code = place_textures(request, room->set, &textures, err);
+        code = place_textures(request, room->set, textures, err);
     if (!code)
         code = picture_make(plan, nthreads, data, bytes, err);
-    close_textures(site, &textures);
+    retex_textures_close(textures->textures);
     if (is_begun)
         rooms_end_picture(site->rooms, room);
     return code;
+}
+
+/* Whether the files that were read are those of the key, and no change of them could be missed. */
+static int is_of_key(const Site *site, const WorkItem *item, const Room *room,
+                     const Content contents[RETEX_MAX_TARGETS])
+{
+    SiteFiles files = {.room = room->content.id};
+    char key[SITE_KEY_MAX];
+    int are_settled = room->content.is_settled;
+    for (int i = 0; i < item->request.nspecs; i++) {
+        files.images[i] = contents[i].id;
+        are_settled &= item->request.specs[i].constant || contents[i].is_settled;
+    }
+    write_key(site, &item->request, item->base, &files, key);
+    return are_settled && strcmp(key, item->key) == 0;
+}
+
+static Answer *make_picture_of(const Site *site, const WorkItem *item, const Room *room, PicturePlan *plan,
+                               Textures *textures, int nthreads)
+{
+    const ServeRequest *request = &item->request;
+    Content contents[RETEX_MAX_TARGETS] = {0};
+    RetexError err = {0};
+    void *data = NULL;
+    size_t bytes = 0;
+    for (int i = 0; i < request->nspecs; i++)
+        if (textures->images[i])
+            contents[i] = *images_content(textures->images[i]);
+    if (make_file(site, request, plan, room, textures, nthreads, &data, &bytes, &err))
+        return answer_of_error(&err);
+    Answer *answer = answer_new(200, serve_format_type(request->format), data, bytes);
+    if (!answer)
+        return NULL;
+    make_etag(site, request, &plan->place, room, contents, answer->etag);
+    answer->width = room->set->width;
+    answer->height = room->set->height;
+    if (is_of_key(site, item, room, contents))
+        cache_add(site->pictures, item->key, answer);
+    return answer;
 }
 
 static Answer *make_picture(const Site *site, const WorkItem *item, const Room *room, int nthreads)
@@ -218,24 +272,14 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                         .format = request.format,
                         .quality = quality_of(site, &request),
                         .deadline = item->deadline};
+    Textures textures = {0};
     RetexError err = {0};
-    char etag[ETAG_SIZE];
-    void *data = NULL;
-    size_t bytes = 0;
     if (iiif_place(&request, room->set->width, room->set->height, &plan.place))
         return answer_error(request.status, "%s", request.reason);
-    const int code = make_etag(site, &request, &plan.place, room, etag)
-                         ? retex_fail(&err, RETEX_ENOTFOUND, "a texture is gone")
-                         : make_file(site, &request, &plan, room, nthreads, &data, &bytes, &err);
-    if (code)
-        return answer_of_error(&err);
-    Answer *answer = answer_new(200, serve_format_type(request.format), data, bytes);
-    if (!answer)
-        return NULL;
-    strcpy(answer->etag, etag);
-    answer->width = room->set->width;
-    answer->height = room->set->height;
-    cache_add(site->pictures, item->key, answer);
+    Answer *answer = take_images(site, &request, item->deadline, &textures, &err)
+                         ? answer_of_error(&err)
+                         : make_picture_of(site, item, room, &plan, &textures, nthreads);
+    return_images(site, &textures);
     return answer;
 }
 

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,6 +142,13 @@ static int store(RetexInput *input, RetexError *err)
     return status;
 }
 
+/* Whether somebody is told of files that are opened. Callers that were compiled with an older library have a shorter
+ * struct. */
+static int tells(const RetexAccess *access)
+{
+    return access && access->size >= offsetof(RetexAccess, context) + sizeof access->context && access->opened;
+}
+
 static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *access, RetexError *err)
 {
     struct stat status;
@@ -149,7 +157,9 @@ static int open_descriptor(RetexInput *input, const char *path, const RetexAcces
         input->descriptor = STDIN_FILENO;
         input->borrowed = 1;
     } else {
-        const int code = retex_access_open(access, path, &input->descriptor, err);
+        int code = retex_access_open(access, path, &input->descriptor, err);
+        if (!code && tells(access))
+            code = access->opened(access->context, input->descriptor, err);
         if (code)
             return code;
     }
