@@ -106,9 +106,9 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     return error;
 }
 
-/* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and of
- * the images, the edits, and the pixels. It is the same on all machines that have the same files. contents: of images,
- * by spec. */
+/* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and
+ * of the images, the edits, and the pixels. It is the same on all machines that have the same files. contents: of
+ * images, by spec. */
 static void make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
                       const Content contents[RETEX_MAX_TARGETS], char etag[ETAG_SIZE])
 {
