@@ -21,10 +21,10 @@ typedef struct Kept {
 typedef struct KeptList {
     /* what is kept: set before kept_begin */
     unsigned long long most_bytes;
-    int most;                                           /* number */
-    int (*is_of)(const Kept *kept, const void *key);    /* whether it is that of the key */
+    int most;                                             /* number */
+    int (*is_of)(const Kept *kept, const void *key);      /* whether it is that of the key */
     Kept *(*create)(const void *key, const void *params); /* not opened yet, from malloc; NULL: no memory */
-    void (*close)(Kept *kept);                          /* all but Kept itself, which is then freed */
+    void (*close)(Kept *kept);                            /* all but Kept itself, which is then freed */
     const void *params;
 
     pthread_mutex_t lock;   /* protects all below, and all of Kept but what is_ready says is complete */
@@ -42,8 +42,8 @@ void kept_end(KeptList *list); /* when nothing is in use */
 Kept *kept_take(KeptList *list, const void *key, const FileId *id, int *is_new);
 /* The same, if it is there and ready; or NULL. Never waits. */
 Kept *kept_peek(KeptList *list, const void *key, const FileId *id);
-/* It takes so many bytes, or could not be opened: then it is no longer in use, and gone. `content`: what was read; where
- * that is another file than the one asked for, or one that changes just now, nobody else gets it. */
+/* It takes so many bytes, or could not be opened: then it is no longer in use, and gone. `content`: what was read;
+ * where that is another file than the one asked for, or one that changes just now, nobody else gets it. */
 void kept_opened(KeptList *list, Kept *kept, int failed, const Content *content, unsigned long long bytes);
 void kept_return(KeptList *list, Kept *kept); /* NULL is fine */
 
