@@ -26,8 +26,8 @@ typedef struct RetexAccess {
     int nroots;
     int accept_damaged; /* 1: pictures that are damaged are read as far as they can be, and their readers are warned;
                            default 0: they are refused */
-    /* Called with each file that is opened, before anything of it is decoded; what it returns, 0 or an error, is that of
-     * the call that reads. It neither closes the descriptor nor moves its position. Default NULL = nobody is told */
+    /* Called with each file that is opened, before anything of it is decoded; what it returns, 0 or an error, is that
+     * of the call that reads. It neither closes the descriptor nor moves its position. Default NULL = nobody is told */
     int (*opened)(void *context, int descriptor, RetexError *err);
     void *context; /* handed to it; default NULL */
 } RetexAccess;
