@@ -76,7 +76,7 @@ static void remember(Contents *contents, const Content *content)
 static int is_settled(const FileId *id)
 {
     struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
+    timespec_get(&now, TIME_UTC); /* files have times of this clock */
     const double age =
         difftime(now.tv_sec, (time_t)id->change_seconds) + 1e-9 * (double)(now.tv_nsec - id->change_nanoseconds);
     return age > (id->change_nanoseconds ? 1e-3 * TICK_MILLISECONDS : COARSE_SECONDS);

@@ -16,6 +16,10 @@
 extern "C" {
 #endif
 
+/* Called with a file that was opened, before anything of it is decoded. It neither closes the descriptor nor moves its
+ * position. What it returns, 0 or an error, is that of the call that reads. */
+typedef int RetexOpened(void *context, int descriptor, RetexError *err);
+
 /* Begin with RETEX_ACCESS_INIT, which allows every file, as NULL does. */
 typedef struct RetexAccess {
     size_t size;              /* of this struct */
@@ -26,9 +30,7 @@ typedef struct RetexAccess {
     int nroots;
     int accept_damaged; /* 1: pictures that are damaged are read as far as they can be, and their readers are warned;
                            default 0: they are refused */
-    /* Called with each file that is opened, before anything of it is decoded; what it returns, 0 or an error, is that
-     * of the call that reads. It neither closes the descriptor nor moves its position. Default NULL = nobody is told */
-    int (*opened)(void *context, int descriptor, RetexError *err);
+    RetexOpened *opened; /* told which files are opened; default NULL = nobody */
     void *context; /* handed to it; default NULL */
 } RetexAccess;
 #define RETEX_ACCESS_INIT { sizeof(RetexAccess), 0, NULL, 0, 0, NULL, NULL }
