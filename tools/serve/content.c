@@ -8,8 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
+
+#include <retex/clock.h>
 
 #include "hash.h"
 
@@ -75,10 +76,9 @@ static void remember(Contents *contents, const Content *content)
 /* Whether a change now would give the file another time than it has. */
 static int is_settled(const FileId *id)
 {
-    struct timespec now;
-    timespec_get(&now, TIME_UTC); /* files have times of this clock */
+    const struct timespec now = retex_clock_time_after(0);
     const double age =
-        difftime(now.tv_sec, (time_t)id->change_seconds) + 1e-9 * (double)(now.tv_nsec - id->change_nanoseconds);
+        (double)(now.tv_sec - id->change_seconds) + 1e-9 * (double)(now.tv_nsec - id->change_nanoseconds);
     return age > (id->change_nanoseconds ? 1e-3 * TICK_MILLISECONDS : COARSE_SECONDS);
 }
 
