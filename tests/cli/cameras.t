@@ -8,6 +8,7 @@ $ for s in 'round 0,0 4,4' 'mesh 4,4' 'lens 0,4 4,4 7,4'; do set -- $s; s=$1; sh
 > lens 0.03
 > lens 0.58
 > lens 0.97
+! retex-render: round.pov: warning: no object in the scene
 # A view that cannot be shown is an error that says how to render all the same.
 $ echo '#version 3.7; camera { user_defined { location { function { 0 } } } } light_source { <0, 0, -9> rgb 1 } sphere { 4 * z, 1 pigment { rgb 1 } }' >own.pov; r='retex-render -q --size 8x6 --spp 1 own.pov -o own.exr'; $r; $r --strict; $r --strict --lenient; $r --lenient
 ! retex-render: error: own.pov:1:24: `user_defined` is not supported yet; with --lenient, a perspective camera is used

@@ -46,7 +46,7 @@ $ OIIO_LIBRARY_PATH='a stage/opt/retex tools/lib/retex/plugins' oiiotool 'room.r
 
 # The unit runs the program that is installed.
 $ grep ExecStart 'a stage/opt/retex tools/lib/systemd/system/retex-serve.service'
-> ExecStart="/opt/retex tools/bin/retex-serve" --memory 1200 --port ${PORT} --textures ${TEXTURES} ${ROOMS}
+> ExecStart="/opt/retex tools/bin/retex-serve" --memory 1200 --port ${PORT} --trusted-proxy 127.0.0.1 --textures ${TEXTURES} ${ROOMS}
 
 # Nothing is left.
 $ "$TESTS/../install/stage.sh" uninstall "$PWD/a stage" '/opt/retex tools' && find 'a stage'

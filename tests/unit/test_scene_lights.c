@@ -251,7 +251,7 @@ static void test_target_errors(void **state)
         {{"=Floor"}, 1, RETEX_EINVAL, "name"},
         {{"a="}, 1, RETEX_EINVAL, "identifier"},
         {{"a=Floor,,Wall"}, 1, RETEX_EINVAL, "identifier"},
-        {{"a.b=Floor"}, 1, RETEX_EINVAL, "letters"},
+        {{"a:b=Floor"}, 1, RETEX_EINVAL, "letters"},
         {{"xyzzy"}, 1, RETEX_ENOTFOUND, "there are: Floor"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
