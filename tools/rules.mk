@@ -80,19 +80,13 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
-# The player of --web is one script: its parts one after the other, without comments and most blanks and line ends, which
-# are a fifth of the bytes. A comment that begins with /*! stays. Lines with `throw`, `join(`, `fail(` or MESSAGE keep the
-# blanks after commas or semicolons, which people read.
+# The player of --web is one script: its parts one after the other, made small by esbuild, which keeps the names that the
+# parts share. A comment that begins with /*! stays.
 PLAYER_PARTS := $(patsubst %,tools/web/%.js,files shaders renderer look element)
 $(BUILD)/gen/retex-room.js: $(PLAYER_PARTS) tools/rules.mk
 	@mkdir -p $(@D)
-	$(SAY)cat $(PLAYER_PARTS) | sed -e 's/^ *//' -e '/^\/\/ /d' -e '/^\/\*[^!].*\*\/$$/d' -e '/^\/\*[^!]/,/\*\/$$/d' \
-	    -e '/^const STYLE/,/^}`;/{ s/;* }/}/g; s/\([:;,]\) /\1/g; s/} /}/g; s/ {/{/g; s/{ /{/g; b' -e '}' \
-	    -e 's/(\([A-Za-z]\+\)) => /\1=>/g' -e 's/\(if\|for\|switch\|catch\|return\) \([(\[{!]\)/\1\2/g' \
-	    -e 's/ - \([^-]\)/-\1/g' -e 's/) \([a-z]\)/)\1/g' -e 's/ \([=*/+!<>?:&|]\{1,3\}\) /\1/g' -e 's/ {/{/g' \
-	    -e 's/; [/][/] .*/;/' -e 's/{ \+/{/g' -e 's/ }/}/g' -e 's/} \(catch\|else\|finally\)/}\1/g' \
-	    -e 's/\([{,] *[a-z_]*\): /\1:/g' -e '/fail(/!s/; /;/g' -e '/throw\|join(\|MESSAGE/!s/, /,/g' | \
-	    sed -e ':more' -e '/[;{,(]$$/{ N; s/\n//; b more' -e '}' >$@
+	$(SAY)sed 's/^ *//' $(PLAYER_PARTS) | esbuild --loader=js --minify --charset=utf8 --legal-comments=inline \
+	    --log-level=warning --footer='export { RetexRoom };' >$@
 
 # The player's files are embedded in retex-pack as bytes.
 PLAYER := tools/web/index.html $(BUILD)/gen/retex-room.js $(patsubst %,tools/web/%,retex-room.d.ts package.json README.md)

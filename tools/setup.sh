@@ -13,7 +13,7 @@ set -eu
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
 # reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
 # fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libmicrohttpd-dev
-# HTTP and nettle-dev the names of uploads for retex-serve.
+# HTTP and nettle-dev the names of uploads for retex-serve. esbuild makes the player for web pages small.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -38,6 +38,7 @@ header gif_lib.h libgif-dev
 pkg assimp libassimp-dev
 pkg libmicrohttpd libmicrohttpd-dev
 pkg nettle nettle-dev
+command esbuild esbuild
 file /usr/share/fonts/truetype/povray/timrom.ttf fonts-povray
 file /usr/share/povray-3.7/include/colors.inc povray-includes
 '

@@ -632,4 +632,3 @@ function smaller(image, most) {
 }
 
 if (globalThis.customElements && !customElements.get("retex-room")) customElements.define("retex-room", RetexRoom);
-export { RetexRoom };
