@@ -33,7 +33,7 @@ typedef struct RetexPrecisionRule {
  * is seen in pictures without noise. */
 static const RetexPrecisionRule retex_precision_rules[RETEX_PRECISION_KINDS] = {
     [RETEX_PRECISION_LIGHT] = {0.15, 1.0 / 8192, INFINITY},
-    [RETEX_PRECISION_CORRECTION] = {0.1, 1.0 / 8192, 1.0 / 256},
+    [RETEX_PRECISION_CORRECTION] = {0.05, 1.0 / 8192, 1.0 / 512},
     [RETEX_PRECISION_PICTURE] = {0, 1.0 / 1024, 1.0 / 1024},
     [RETEX_PRECISION_MEAN] = {0.5, 1.0 / 1024, 1.0 / 2},
     [RETEX_PRECISION_BROAD_MEAN] = {1, 1.0 / 1024, 1},
