@@ -1,4 +1,4 @@
-"""Two hundred uploads that are made to hurt, while others ask for pictures: all of them are answered in time, and
+"""More than two hundred uploads that are made to hurt, while others ask for pictures: all of them are answered in time, and
 pictures come as ever."""
 import http.client
 import os
@@ -18,6 +18,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import decoder  # noqa: E402, the pictures of cli/decoder
 
 DEADLINE, PICTURES = 20, 200
+ENDINGS = ("jpg", "tif", "exr", "bmp", "gif", "hdr", "tga", "webp", "avif", "heic", "jp2", "dpx", "fits", "ico", "iff", "ppm",
+           "rla", "sgi", "tif several", "exr several", "gif several")
 
 
 def chunk(kind, body):
@@ -68,12 +70,15 @@ def made_to_hurt(work):
 
 
 def damaged(rng, work, reference, count):
-    """Good pictures of all formats with some bytes changed, most of them near the beginning."""
+    """Good pictures of all formats that OpenImageIO writes, and of several subimages, with some bytes changed, most of
+    them near the beginning."""
     good, pictures = [reference], []
-    for ending in "jpg", "tif", "exr", "bmp", "gif", "hdr":
-        name = os.path.join(work, "good." + ending)
-        subprocess.run(["oiiotool", "--pattern", "fill:topleft=1,0,0:bottomright=0,1,1", "96x64", "3", "-d",
-                        "half" if ending == "exr" else "uint8", "-o", name], check=True)
+    for ending in ENDINGS:
+        name, picture = os.path.join(work, "good." + ending.split()[0]), ["--pattern", "fill:topleft=1,0,0:bottomright=0,1,1",
+                                                                          "96x64", "3"]
+        several = picture + ["--siappend"] if ending.endswith("several") else []
+        subprocess.run(["oiiotool", *picture, *several, "-d", "half" if ending[:3] == "exr" else "uint8", "-o", name],
+                       check=True)
         with open(name, "rb") as file:
             good.append(file.read())
     for number in range(count):
@@ -132,14 +137,14 @@ def check(server, quiet, folder, work, reference):
     """The quiet server is one that nobody sends anything: for the right pictures, and their times."""
     rng = random.Random(5)
     crafted = made_to_hurt(work)
-    crafted += damaged(rng, work, reference, 200 - len(crafted))
+    crafted += damaged(rng, work, reference, 230 - len(crafted))
     for each in server, quiet:
         fetch(each.port, "/v1/small/Floor=brick/full.png")
-    threads, before = run_all(pictures_of(quiet), 20)
+    threads, before = run_all(pictures_of(quiet), PICTURES)
     for thread in threads:
         thread.join()
     senders, sent = run_all([lambda n, body=body: ask(server, n, "/v1/uploads", body) for body in crafted], 12)
-    threads, meanwhile = run_all(pictures_of(server), 20)
+    threads, meanwhile = run_all(pictures_of(server), PICTURES)
     for thread in threads + senders:
         thread.join()
     Tap.result(server.is_alive(), "the server lives")
