@@ -79,9 +79,9 @@ BAD = {
     "a chunk with a prefix": _post(_HOST, _CHUNKED, rest=b"0x3\r\nabc\r\n0\r\n\r\n" + INNER),
     "a chunk longer than it says": _post(_HOST, _CHUNKED, rest=b"3\r\nabcd\r\n0\r\n\r\n" + INNER),
 }
-# nginx 1.22 understands these without doubt, and sends them on in another form or answers them itself
+# nginx 1.22 has no doubt where these end: it sends them on, some in another form, or answers them itself
 REFUSALS = {400, 403, 404, 405, 413, 414, 501, 505}
-ONLY_DIRECT = {"bare CR at the end", "no colon"}
+ONLY_DIRECT = {"bare CR at the end", "no colon", "control character in a value", "DEL in a value"}
 
 # what to send, and the statuses that come back
 GOOD = {
