@@ -127,9 +127,8 @@ static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double b
     }
     if (failed)
         return go_on;
-    if (!a->cli->json_progress)
-        cli_info(a->cli, "%d picture%s, %d samples: %.2f s", v->count, v->count == 1 ? "" : "s", a->render.spp,
-                 stats.render_seconds);
+    cli_info(a->cli, "%d picture%s, %d samples: %.2f s", v->count, v->count == 1 ? "" : "s", a->render.spp,
+             stats.render_seconds);
     warn_numbers(a->cli, &stats);
     return go_on;
 }

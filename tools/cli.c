@@ -312,12 +312,12 @@ void cli_limit(Cli *cli, const CliOption *option)
         cli_die(cli, "--%s", err.message);
 }
 
-long cli_megabytes(const Cli *cli, const CliOption *option)
+uint64_t cli_size(const Cli *cli, const CliOption *option)
 {
     uint64_t bytes;
-    if (retex_size_parse(cli->value, &bytes, NULL) || bytes > (uint64_t)1 << 40)
+    if (retex_size_parse(cli->value, &bytes, NULL))
         cli_die(cli, "--%s: expected a size such as 512M, 2G or a number of MB, not '%s'", option->name, cli->value);
-    return (long)(bytes >> 20);
+    return bytes;
 }
 
 /* --- messages --- */
@@ -396,7 +396,7 @@ void cli_message(const Cli *cli, const char *text)
 
 void cli_info(const Cli *cli, const char *fmt, ...)
 {
-    if (cli->quiet)
+    if (cli->quiet || cli->json_progress)
         return;
     va_list args;
     va_start(args, fmt);
@@ -502,9 +502,9 @@ int cli_ends_with(const char *path, const char *ending)
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-uint64_t cli_memory(const Cli *cli, long megabytes)
+uint64_t cli_memory(const Cli *cli, uint64_t bytes)
 {
-    const uint64_t bytes = (uint64_t)megabytes << 20, half = retex_budget_memory(cli->budget) / 2;
+    const uint64_t half = retex_budget_memory(cli->budget) / 2;
     return half && half < bytes ? half : bytes;
 }
 
@@ -515,12 +515,12 @@ void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path)
                 strcmp(path, "-") == 0 ? "standard input" : path, set->width, set->height, cli->limits.pixels);
 }
 
-int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err)
+int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memory, RetexError *err)
 {
     int code = retex_set_open(path, set, NULL, cli->threads, err);
     if (!code)
         cli_check_pixels(cli, *set, path);
-    if (!code && retex_set_bytes(*set) <= cli_memory(cli, megabytes))
+    if (!code && retex_set_bytes(*set) <= cli_memory(cli, memory))
         code = retex_set_load(*set, cli->threads, err);
     return code;
 }

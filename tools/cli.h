@@ -136,17 +136,18 @@ int cli_ends_with(const char *path, const char *ending);
 /* Bytes of a file on disk, or 0 if unknown. */
 double cli_file_size(const char *path);
 
-/* --memory, in megabytes, of tools that can process a set by rows: the part of --max-memory that a set kept in memory
- * may take. */
-enum { CLI_MEMORY_DEFAULT = 2048 };
-long cli_megabytes(const Cli *cli, const CliOption *option);
-/* The same in bytes, at most half of --max-memory, because results computed from the set also need memory. */
-uint64_t cli_memory(const Cli *cli, long megabytes);
+/* The option's value, a SIZE, in bytes. */
+uint64_t cli_size(const Cli *cli, const CliOption *option);
+/* --memory, in bytes, of tools that can process a set by rows: the part of --max-memory that a set kept in memory may
+ * take. */
+#define CLI_MEMORY_DEFAULT ((uint64_t)2048 << 20)
+/* The same, at most half of --max-memory, because results computed from the set also need memory. */
+uint64_t cli_memory(const Cli *cli, uint64_t bytes);
 /* Print an error and exit if a set's picture has more than --max-pixels. */
 void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path);
 
-/* Open a set, and load it if it takes at most this many megabytes in memory. */
-int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err);
+/* Open a set, and load it if it takes at most `memory` bytes of it. */
+int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memory, RetexError *err);
 
 /* --progress, for the tools that have it: a row of their option table, and its handler. */
 #define CLI_PROGRESS_OPTION {"progress", 0, "json", "print progress as lines of JSON on standard error", 0}

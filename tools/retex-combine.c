@@ -54,7 +54,7 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "error") == 0) {
             job->error = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_megabytes(cli, option);
+            job->memory = cli_size(cli, option);
         } else if (strcmp(option->name, "batch") == 0) {
             job->table = cli->value;
         } else if (strcmp(option->name, "frames") == 0) {

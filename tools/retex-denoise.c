@@ -19,7 +19,7 @@ static const CliOption options[] = {
     {0},
 };
 
-static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
+static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory)
 {
     const char *input = NULL;
     for (const CliOption *option; (option = cli_next(cli));) {
@@ -32,7 +32,7 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
         } else if (strcmp(option->name, "radius") == 0) {
             params->radius = (int)cli_integer(cli, option, 1, 10);
         } else if (strcmp(option->name, "memory") == 0) {
-            *memory = cli_megabytes(cli, option);
+            *memory = cli_size(cli, option);
         } else if (strcmp(option->name, "full-precision") == 0) {
             params->full_precision = 1;
         } else {
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
-    long memory = CLI_MEMORY_DEFAULT;
+    uint64_t memory = CLI_MEMORY_DEFAULT;
 
     const char *input = parse(&cli, &params, &memory), *output = cli_output(&cli);
     cli_input(&cli, input, "a set, as from retex-render");

@@ -131,7 +131,8 @@ static void warn_folded(const Cli *cli, const RetexSet *set)
                                                         : "it has more hits than a set can keep apart";
 
     if (worst > 0.005)
-        cli_warn(cli, "%.2f%% of the light keeps the original textures: %s", 100 * worst, advice);
+        cli_warn(cli, "%.2f%% of the light%s keeps the original textures: %s", 100 * worst,
+                 set->folded < worst ? ", were the targets white," : "", advice);
 }
 
 static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)

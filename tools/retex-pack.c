@@ -26,7 +26,7 @@ static const CliOption options[] = {
 typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given;
-    long memory; /* megabytes */
+    uint64_t memory; /* bytes */
     int threads;
     const char *input, *stats, *web;
 } Job;
@@ -52,7 +52,7 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "web") == 0) {
             job->web = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_megabytes(cli, option);
+            job->memory = cli_size(cli, option);
         } else {
             job->unpack = 1;
         }

@@ -42,9 +42,9 @@ static const CliOption options[] = {
 
 typedef struct Job {
     const char *folder, *textures;
-    long memory, texture_memory, picture_memory; /* megabytes */
+    uint64_t memory, texture_memory, picture_memory; /* bytes */
     const char *uploads;
-    long upload_size, upload_total; /* megabytes */
+    uint64_t upload_size, upload_total; /* bytes */
     long upload_pixels;
     int upload_count;
     double upload_age, upload_time;
@@ -120,20 +120,20 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "uploads") == 0) {
             job->uploads = cli->value;
         } else if (strcmp(option->name, "upload-size") == 0) {
-            job->upload_size = cli_megabytes(cli, option);
+            job->upload_size = cli_size(cli, option);
         } else if (strcmp(option->name, "upload-total") == 0) {
-            job->upload_total = cli_megabytes(cli, option);
+            job->upload_total = cli_size(cli, option);
         } else if (strcmp(option->name, "trusted-proxy") == 0) {
             add_proxy(cli, &job->http.proxies);
         } else if (strcmp(option->name, "base-url") == 0) {
             check_base(cli);
             job->http.base = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_megabytes(cli, option);
+            job->memory = cli_size(cli, option);
         } else if (strcmp(option->name, "texture-memory") == 0) {
-            job->texture_memory = cli_megabytes(cli, option);
+            job->texture_memory = cli_size(cli, option);
         } else if (strcmp(option->name, "picture-memory") == 0) {
-            job->picture_memory = cli_megabytes(cli, option);
+            job->picture_memory = cli_size(cli, option);
         } else {
             parse_number(cli, option, job);
         }
@@ -183,18 +183,18 @@ static RetexBudget *new_budget(const Cli *cli, long pixels)
     return budget;
 }
 
-/* So many megabytes, but at most a share of --max-memory, so that what is kept leaves enough for the work. */
-static uint64_t bytes_of(const Cli *cli, long megabytes, unsigned share)
+/* So many bytes, but at most a share of --max-memory, so that what is kept leaves enough for the work. */
+static uint64_t share_of(const Cli *cli, uint64_t bytes, unsigned share)
 {
-    const uint64_t bytes = (uint64_t)megabytes << 20, most = retex_budget_memory(cli->budget) / share;
+    const uint64_t most = retex_budget_memory(cli->budget) / share;
     return most && most < bytes ? most : bytes;
 }
 
 static void open_uploads(const Cli *cli, const Job *job, Site *site, const Folders *folders, RetexBudget *budget)
 {
     const UploadsParams params = {.folder = folders->uploads,
-                                  .most_bytes = (size_t)job->upload_size << 20,
-                                  .total_bytes = (uint64_t)job->upload_total << 20,
+                                  .most_bytes = (size_t)job->upload_size,
+                                  .total_bytes = job->upload_total,
                                   .most = job->upload_count,
                                   .seconds = job->upload_age,
                                   .budget = budget,
@@ -207,13 +207,13 @@ static void open_uploads(const Cli *cli, const Job *job, Site *site, const Folde
 static void open_site(const Cli *cli, const Job *job, Site *site, const Folders *folders, RetexBudget *budget)
 {
     RetexError err = {0};
-    const RoomsParams rooms = {job->folder, bytes_of(cli, job->memory, 2), cli->limits.pixels, cli->threads};
-    const ImagesParams images = {folders->textures, folders->uploads, bytes_of(cli, job->texture_memory, 8),
+    const RoomsParams rooms = {job->folder, share_of(cli, job->memory, 2), cli->limits.pixels, cli->threads};
+    const ImagesParams images = {folders->textures, folders->uploads, share_of(cli, job->texture_memory, 8),
                                  &folders->access,  budget,           cli->threads,
                                  job->upload_time};
     if (rooms_open(&site->rooms, &rooms, &err) || images_open(&site->images, &images, &err))
         cli_fail(cli, &err);
-    if (!(site->pictures = cache_open((size_t)bytes_of(cli, job->picture_memory, 16))))
+    if (!(site->pictures = cache_open((size_t)share_of(cli, job->picture_memory, 16))))
         cli_die(cli, "not enough memory");
     site->quality = job->quality;
 }
@@ -276,12 +276,12 @@ int main(int argc, char **argv)
 {
     static Job job = {
         .memory = CLI_MEMORY_DEFAULT,
-        .texture_memory = 512,
-        .picture_memory = 128,
+        .texture_memory = 512 << 20,
+        .picture_memory = 128 << 20,
         .queue = 512,
         .quality = 95,
-        .upload_size = 16,
-        .upload_total = 1024,
+        .upload_size = 16 << 20,
+        .upload_total = 1024 << 20,
         .upload_pixels = 25000000,
         .upload_count = 1000,
         .upload_age = 86400,

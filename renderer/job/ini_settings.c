@@ -308,19 +308,28 @@ int ini_set(IniOptions *options, const IniPlace *place, const char *keyword, con
     return unknown_keyword(&setting);
 }
 
+static int is_flag(const Row *row)
+{
+    return row->set == set_flag || row->set == refuse_fields;
+}
+
 int ini_set_switch(IniOptions *options, const IniPlace *place, const char *word, RetexError *err)
 {
     char name[32];
     snprintf(name, sizeof name, "%s", word);
     Setting setting = {options, place, name, "", err, NULL, NULL};
+    const Row *row = NULL; /* with the most letters */
+    size_t most = 0;
     for (int k = 0; k < NROWS; k++) {
         const size_t length = rows[k].letters ? strlen(rows[k].letters) : 0;
-        const int is_flag = rows[k].set == set_flag || rows[k].set == refuse_fields;
-        if (!length || strncasecmp(word + 1, rows[k].letters, length) || (is_flag && word[1 + length]))
-            continue;
-        name[1 + length] = '\0';
-        setting.value = !is_flag ? word + 1 + length : word[0] == '+' ? "on" : "off";
-        return set_row(setting, &rows[k]);
+        if (length > most && !strncasecmp(word + 1, rows[k].letters, length) &&
+            (!is_flag(&rows[k]) || !word[1 + length]))
+            row = &rows[k], most = length;
+    }
+    if (row) {
+        name[1 + most] = '\0';
+        setting.value = !is_flag(row) ? word + 1 + most : word[0] == '+' ? "on" : "off";
+        return set_row(setting, row);
     }
     for (size_t k = 0; k < sizeof ignored_switches / sizeof *ignored_switches; k++)
         if (!strncasecmp(word + 1, ignored_switches[k], strlen(ignored_switches[k])))

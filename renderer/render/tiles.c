@@ -146,7 +146,7 @@ static void render_tile(void *context, int tile, int thread)
         down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
     atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
     int done = atomic_fetch_add(&r->done, 1) + 1;
-    if (thread == 0 && r->params.progress)
+    if (thread == 0 && done < r->wanted && r->params.progress) /* render_paths tells of the end */
         r->params.progress(r->params.progress_context, (double)done / r->wanted);
 }
 

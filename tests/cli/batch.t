@@ -415,8 +415,8 @@ $ { echo output,floor,wall; for k in $(seq 5000); do echo "$k.png,:rotate=$k bri
 $ for o in --dry-run --keep-going --mkdir '--batch-root .' '--report r.json'; do retex-combine -q s.exr -o x.png $o; retex-render scenes/cornell-box/cornell-box.pov -o x.exr $o; done; sh ../new
 ! retex-combine: error: --dry-run needs a table of pictures: --batch
 ! retex-render: error: --dry-run needs a table of pictures: --variants
-! retex-combine: error: --keep-going needs a table of pictures: --batch
-! retex-render: error: --keep-going needs a table of pictures: --variants
+! retex-combine: error: --keep-going needs a table of pictures: --batch, or --frames
+! retex-render: error: --keep-going needs a table of pictures: --variants, or --frames
 ! retex-combine: error: --mkdir needs a table of pictures: --batch
 ! retex-render: error: --mkdir needs a table of pictures: --variants
 ! retex-combine: error: --batch-root needs a table of pictures: --batch

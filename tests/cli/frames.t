@@ -202,7 +202,7 @@ $ cd c; retex-combine -q set-%02d.exr --frames 1-3 -o a.png; retex-combine -q se
 ! retex-combine: error: --error needs the textures: name them with --texture
 ! retex-combine: error: frame 1: t-1.png: the output would replace the texture
 ! retex-combine: error: --frames and --batch exclude each other
-! retex-combine: error: --keep-going needs a table of pictures: --batch
+! retex-combine: error: --keep-going needs a table of pictures: --batch, or --frames
 ! retex-combine: error: --dry-run needs a table of pictures: --batch
 ! retex-combine: error: frame 1: no target is called 'z'; the set has x
 = 2
@@ -243,7 +243,7 @@ $ retex-sample -q k-1.exr --texture 'x=rgb(1,.5,.2)' --keep-going -o y.exr
 ! retex-sample: error: --keep-going needs --frames
 = 2
 $ retex-render -q --size 8x6 --spp 2 s.pov --keep-going -o y.exr
-! retex-render: error: --keep-going needs a table of pictures: --variants
+! retex-render: error: --keep-going needs a table of pictures: --variants, or --frames
 = 2
 $ retex-render -q --size 8x6 --spp 2 s.pov -t x=#1 --replace x=t-%d.png --frames 1-3 --keep-going -o r-%d.exr; retex-render -q --size 8x6 --spp 2 --max-memory 64M s.pov +KFF2 --keep-going -o e-%d.exr && ls e-*
 > e-1.exr

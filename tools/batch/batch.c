@@ -37,7 +37,7 @@ void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
                         : batch->report       ? "report"
                                               : NULL;
     if (given)
-        cli_die(cli, "--%s needs a table of pictures: --%s", given, option);
+        cli_die(cli, "--%s needs a table of pictures: --%s%s", given, option, batch->keep_going ? ", or --frames" : "");
 }
 
 /* ---- start and end ---- */
@@ -244,7 +244,7 @@ int batch_finish(Batch *batch, const RetexError *err)
     } else if (batch->failed && batch->keep_going) {
         retex_fail(&told, RETEX_EIO, "%d of %d picture%s failed", batch->failed, total, total == 1 ? "" : "s");
         cli_error(batch->cli, &told);
-    } else if (batch->made + batch->kept == total && !batch->dry_run && !batch->plan && !batch->cli->json_progress) {
+    } else if (batch->made + batch->kept == total && !batch->dry_run && !batch->plan) {
         const double seconds = retex_clock_seconds() - batch->began;
         if (batch->resume)
             cli_info(batch->cli, "%d picture%s, %d kept, %.2f s", batch->made, batch->made == 1 ? "" : "s", batch->kept,

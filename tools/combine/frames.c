@@ -97,7 +97,7 @@ int job_run_frames(Cli *cli, Job *job)
     job_close(job);
     if (failed && job->batch.keep_going)
         frames_tell_failed(cli, failed, total);
-    if (!failed && !cli->json_progress)
+    if (!failed)
         cli_info(cli, "%d frame%s, %.2f s", total, total == 1 ? "" : "s", retex_clock_seconds() - began);
     return failed ? CLI_FAIL : CLI_OK;
 }

@@ -15,7 +15,7 @@ typedef struct Job {
     FrameRange frames;
     Batch batch;
     TextureArgs textures;
-    long memory; /* megabytes of the set that --batch may keep in memory */
+    uint64_t memory; /* bytes of the set that --batch may keep in memory */
     RetexWriteParams write;
     RetexCombineParams combine;
     RetexSet *set;         /* rows are read when they are needed */

@@ -106,10 +106,9 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     watchdog_remove(NULL);
     if (code)
         return code;
-    if (!cli->json_progress)
-        cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-                 describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
-                 retex_clock_seconds() - began);
+    cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
+             describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
+             retex_clock_seconds() - began);
     return RETEX_OK;
 }
 

@@ -545,6 +545,25 @@ int images_normals(Import *import, const char *source, float scale, char file[NA
     return use_numbers(import, source, &(Remake){"normals", -1, scale}, file, err);
 }
 
+/* Refuse what the renderer would refuse. */
+static int check_picture(Import *import, const char *path, RetexError *err)
+{
+    RetexReadParams params = RETEX_READ_INIT;
+    RetexImage image = {0};
+    RetexError why = {0};
+    import->access.accept_damaged = import->options->accept_damaged;
+    params.access = &import->access;
+    params.budget = import->options->budget;
+    params.max_pixels = import->options->max_pixels;
+    if (import->options->accept_damaged) {
+        params.warn = warn_of_image;
+        params.warn_context = import;
+    }
+    const int code = retex_image_read(&image, path, &params, 1, &why);
+    retex_image_free(&image);
+    return code ? retex_fail(err, code, "%s: %s", path, why.message) : RETEX_OK;
+}
+
 int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err)
 {
     Bytes bytes = {0};
@@ -557,11 +576,13 @@ int images_add_sky(Import *import, char file[NAME_SIZE + 32], RetexError *err)
     import->access = access; /* the user named it */
     import->access.safe = import->options->safe;
     int code = read_bytes(import, &bytes, err);
-    import->access = ours;
     const Format *format = code ? NULL : format_of(&bytes);
     if (!code && !format)
         code = retex_fail(err, RETEX_EFORMAT, "%s: --sky takes a picture as HDR, EXR, PNG, JPEG or TIFF",
                           import->options->sky);
+    if (!code)
+        code = check_picture(import, bytes.path, err);
+    import->access = ours;
     if (!code) {
         snprintf(file, NAME_SIZE + 32, "textures/sky.%s", format->ending);
         snprintf(path, sizeof path, "%s/%s", import->options->folder, file);

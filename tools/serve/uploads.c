@@ -174,12 +174,19 @@ UploadsCount uploads_count(Uploads *uploads)
 /* ---- an upload ---- */
 
 /* Whether an image has a place, which is then reserved. */
+static int has_place(const Uploads *uploads, size_t bytes)
+{
+    return uploads->count + uploads->nreserved < uploads->params.most &&
+           uploads->bytes + uploads->reserved + bytes <= uploads->params.total_bytes;
+}
+
+/* Those that are too old make place. */
 static int reserve(Uploads *uploads, size_t bytes)
 {
-    const UploadsParams *params = &uploads->params;
     pthread_mutex_lock(&uploads->lock);
-    const int has = uploads->count + uploads->nreserved < params->most &&
-                    uploads->bytes + uploads->reserved + bytes <= params->total_bytes;
+    if (!has_place(uploads, bytes) && retex_clock_seconds() - uploads->looked > 1)
+        (void)look(uploads, 0);
+    const int has = has_place(uploads, bytes);
     if (has) {
         uploads->nreserved++;
         uploads->reserved += bytes;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/budget.h>
 #include <retex/pack.h>
 #include <retex/set_file.h>
 
@@ -15,11 +16,20 @@
 
 struct RetexLayers {
     int nthreads;
+    long max_pixels; /* 0: no limit */
     RetexInput *input;
     RetexExr *exr; /* the file is one of exr, set and picture */
     RetexSet *set;
     RetexImage picture;
 };
+
+static int check_pixels(const RetexLayers *layers, const char *name, int width, int height, RetexError *err)
+{
+    if (layers->max_pixels > 0 && (int64_t)width * height > layers->max_pixels)
+        return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels",
+                          name, width, height, layers->max_pixels);
+    return RETEX_OK;
+}
 
 /* Read a file that is not an EXR: a pack by libretex, any other by OpenImageIO. */
 static int open_other(RetexLayers *layers, const char *path, const RetexReadParams *params, RetexError *err)
@@ -32,6 +42,8 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
         return retex_image_read(&layers->picture, path, params, layers->nthreads, err);
     code = retex_pack_open(&layers->set, &layers->input, err);
+    if (!code)
+        code = check_pixels(layers, path, layers->set->width, layers->set->height, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 
@@ -44,6 +56,7 @@ int retex_layers_open(RetexLayers **result, const char *path, const RetexReadPar
     if (!layers)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     layers->nthreads = nthreads;
+    layers->max_pixels = retex_budget_pixels(params->budget);
     int code = retex_input_open_allowed(&layers->input, path, params->access, err);
     if (!code && retex_exr_probe(layers->input))
         code = retex_exr_open(&layers->exr, layers->input, err);
@@ -154,7 +167,9 @@ static int read_exr_layer(RetexLayer *layer, RetexLayers *layers, int part, Rete
         return retex_fail(err, RETEX_EUNSUPPORTED, "%s: part '%s' cannot be read: %s", retex_input_name(layers->input),
                           name, reason);
     retex_exr_part_size(layers->exr, part, &width, &height);
-    int code = alloc_layer(layer, width, height, channels, err);
+    int code = check_pixels(layers, retex_input_name(layers->input), width, height, err);
+    if (!code)
+        code = alloc_layer(layer, width, height, channels, err);
     for (int c = 0; !code && c < channels; c++) {
         const char *channel = retex_exr_channel_name(layers->exr, part, c);
         if (strlen(channel) >= sizeof *layer->channels)

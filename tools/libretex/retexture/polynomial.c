@@ -30,6 +30,14 @@ static void find_edited(RetexPolynomial *p)
 
 /* ---- opening ---- */
 
+static int has_cross_terms(const RetexSet *set)
+{
+    for (int t = 0; t < set->nterms; t++)
+        if (set->terms[t].kind == RETEX_TERM_CROSS2 || set->terms[t].kind == RETEX_TERM_CROSS3)
+            return 1;
+    return 0;
+}
+
 /* Allocates the image of a factor that is reduced, to be filled in later. */
 static int open_factor(RetexPolynomial *p, int factor, RetexError *err)
 {
@@ -101,6 +109,8 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
     p->cross = params ? params->cross : defaults.cross;
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
+    if (!has_cross_terms(set))
+        p->cross = ALL_CROSS_TERMS;
     int code = samples ? retex_samples_check(samples, set, err) : RETEX_OK;
     if (code)
         return code;
