@@ -2,6 +2,8 @@
 # where their format lets anybody know. shares.txt has how many of each, and why. No library prints anything itself.
 $ /usr/bin/python3 "$TESTS/pictures.py" whole | grep -v '^# '
 > read
+$ /usr/bin/python3 "$TESTS/pictures.py" pixels
+> refused
 $ /usr/bin/python3 "$TESTS/pictures.py" damaged 2 1; wc -l <shares.txt
 > jpeg True True
 > 23
