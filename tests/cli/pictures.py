@@ -140,6 +140,7 @@ def blocks_of(data):
 def damage_pixels(folder):
     """Files that are whole but for their coded pixels: the sums of deflate streams, which OpenImageIO and libtiff do not
     look at, and codes of which libtiff only warns."""
+    sys.path.insert(0, os.path.join(HERE, "..", "lib"))
     import make_pictures  # pylint: disable=import-outside-toplevel
     with open(f"{folder}/png-sum.png", "wb") as file:  # the sum is in chunks of its own
         file.write(make_pictures.png(6, 16, pieces=2000, damage=True))

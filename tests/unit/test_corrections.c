@@ -304,7 +304,7 @@ static double add_noise(RetexSet *set, double share)
 }
 
 /* Light, albedos and shares are rounded by noise, which here is as large as the light. What this moves where one target
- * is edited is added to its corrections, which are rounded to a 256th, and those of several hits to eight times as
+ * is edited is added to its corrections, which are rounded to a 512th, and those of several hits to eight times as
  * much. */
 static void rounding_keeps_what_one_edit_shows(void **state)
 {
@@ -324,7 +324,7 @@ static void rounding_keeps_what_one_edit_shows(void **state)
         for (int t = 0; t < ntargets; t++)
             without = fmax(without, largest_error(&f, &truth, 1 << t));
         printf("# seed %u: error %g of white, without corrections %g\n", seed, error / white, without / white);
-        assert_true(error < 2.5 / 256 * white + most);
+        assert_true(error < 2.5 / 512 * white + most);
         end_film(&f);
     }
 }
