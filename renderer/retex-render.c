@@ -99,14 +99,13 @@ static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats 
 }
 
 /* 1 if the render has the data for retex-denoise, which rounding reads too, and goes through a file. Sets in OpenEXR
- * keep the data; so do shards, of which the output is not known, and packs that are made of them. Other packs omit it,
- * and pictures without targets are only filtered here. */
+ * keep the data; so do shards, of which the output is not known, and what is made of them. Other packs omit it, and
+ * pictures without targets are only filtered here. */
 static int keeps_data(const Arguments *a, const char *output)
 {
     if (!output || !a->ntargets || a->render.plain)
         return 0;
-    const OutputKind kind = output_kind(a, output);
-    return a->render.nshards || kind == OUTPUT_SET || (a->nmerged && kind == OUTPUT_PACK);
+    return a->render.nshards || a->nmerged || output_kind(a, output) == OUTPUT_SET;
 }
 
 /* Before the render: check that the output can be written and holds all that is asked for. */

@@ -81,6 +81,10 @@ $ retex-combine s1 -o x.png
 ! retex-combine: error: s1 is not a set yet, but rows of one: retex-render goes on from them with --resume or --merge
 = 2
 $ for k in 1 2; do ./render --plain --shard $k/2 -o t$k; ./render --denoise --shard $k/2 -o u$k; done; ./render --plain -o ref.png; ./render --plain --merge t1 --merge t2 -o t.png; cmp t.png ref.png; ./render --denoise -o v.exr; ./render --denoise --merge u1 --merge u2 -o u.exr; cmp u.exr v.exr
+# Of a set, shards make a picture alone too.
+$ for k in 1 2; do ./render --shard $k/2 -o u$k.png; done; ./render --merge u1.png --merge u2.png -o u.png; ./render -o ref.png; cmp u.png ref.png; rm u*
+! retex-render: warning: u.png holds the picture only: a set needs .exr or .retex
+! retex-render: warning: ref.png holds the picture only: a set needs .exr or .retex
 
 # A shard goes on from what it has, and is refused at once where its output is of another render or another shard.
 $ cp s1 again; ./render --shard 1/3 -o again; head -c 9000 s1 >again; ./render --shard 1/3 -o again; ./render --merge again --merge s2 --merge s3 -o m.exr; cmp m.exr ref.exr; cp s1 again; ./render --shard 2/3 -o again; ./render --shard 1/3 --spp 17 -o again; cmp again s1; cp s1 left.partial; ./render --shard 2/3 -o left; cp ref.exr text; ./render --shard 1/3 -o text; cmp text ref.exr; ls again* left* text*; rm again left* text m.exr
