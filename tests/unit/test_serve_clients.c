@@ -247,6 +247,8 @@ static void test_heads(void **state)
         assert_int_equal(STATUS(FIRST "Host\0x\0\0A\0y\rB: z\0\0\0\0", kept, "Host", "A"), 400);
         assert_int_equal(STATUS(FIRST "Host\0x\0\0Content-Length\0 7\0\0\0\0", kept, "Host", "Content-Length"), 0);
         assert_int_equal(STATUS(FIRST "Host\0x\0\0Content-Length\0+7\0\0\0\0", kept, "Host", "Content-Length"), 400);
+        assert_int_equal(STATUS(FIRST "Host\0x\0\0Content-Length\0" "7\0\0content-length\0" "7\0\0\0\0", kept, "Host",
+                                "Content-Length", "content-length"), 400);
         assert_int_equal(STATUS(FIRST "Host\0x\0\0Transfer-Encoding\0 Chunked\0\0\0\0", kept, "Host",
                                 "Transfer-Encoding"), 0);
         assert_int_equal(STATUS(FIRST "Host\0x\0\0Transfer-Encoding\0chunked \0\0\0\0", kept, "Host",
