@@ -139,11 +139,16 @@ def blocks_of(data):
 
 def damage_pixels(folder):
     """Files that are whole but for their coded pixels: the sums of deflate streams, which OpenImageIO and libtiff do not
-    look at, and codes of which libtiff only warns."""
+    look at, and codes of which libtiff only warns. And an IFF beside 0,0, for which OpenImageIO's reader has no memory."""
     sys.path.insert(0, os.path.join(HERE, "..", "lib"))
     import make_pictures  # pylint: disable=import-outside-toplevel
     with open(f"{folder}/png-sum.png", "wb") as file:  # the sum is in chunks of its own
         file.write(make_pictures.png(6, 16, pieces=2000, damage=True))
+    with open("whole/iff-rle.iff", "rb") as file:
+        data = bytearray(file.read())
+    data[0x2e] = 1  # x is 256
+    with open(f"{folder}/iff-beside.iff", "wb") as file:
+        file.write(data)
     for name in sorted(os.listdir("whole")):
         kind = re.fullmatch(r"tiff-(zip|fax|jpeg\.).*", name)
         if not kind:

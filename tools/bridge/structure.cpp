@@ -115,6 +115,9 @@ std::string check_iff(const Bytes &data)
         if (type == HEAD) {
             width = number(data, content, 4, true), height = number(data, content + 4, 4, true);
             flags = number(data, content + 12, 4, true), depth = number(data, content + 16, 2, true);
+            // where the picture lies: OpenImageIO writes beside its memory if that is not 0,0
+            if (size >= 32 && (number(data, content + 24, 4, true) | number(data, content + 28, 4, true)))
+                return "the picture does not lie at 0,0, which is not supported";
         } else if (type == FORM && number(data, content, 4, true) == PIXELS) {
             at = content + 4; // the tiles
         } else if (type == TILE) {
