@@ -308,6 +308,8 @@ def proxied(server):
     """A proxy that is trusted tells where the server is, and who asks: its clients have limits, and itself none."""
     expect('ids', iiif_answers(server, **TOLD), addresses('https://pictures.example'))
     expect('of another', iiif_answers(server, '127.0.0.2', **TOLD), addresses(f'http://127.0.0.1:{server.port}'))
+    own = [begin_upload(server), begin_upload(server)]  # each expects to go on
+    [connection.close() for connection in own]
     idle = [socket.create_connection(('127.0.0.1', server.port), 10) for _ in range(20)]
     image = open('outside.jpg', 'rb').read()
     expect('an upload', send(server, image).status in (200, 201), True)
