@@ -124,7 +124,7 @@ static int write_strange(const char *folder, const unsigned char *file, size_t s
                  "\x01\0"
                  "\x12\x01\x03\0\x01\0\0\0\x06\0\0\0"
                  "\0\0\0",
-        preview[] = "\xff\xe2\x00\x10MPF\0II*\0\x08\0\0\0"; /* 14 bytes, and two of the length */
+        preview[] = "\xff\xe2\x00\x10MPF\0II*\0\x08\0\0\0\0"; /* 14 bytes with the last zero, and two of the length */
     static unsigned char changed[FILE_MOST];
     int failed = write_with(folder, "trailing-zeros", file, size, size, padding, sizeof padding);
     failed |= write_with(folder, "second-picture", file, size, size, file, size);
