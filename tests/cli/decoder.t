@@ -21,7 +21,7 @@ $ retex-combine -q --safe --max-memory 100M s.exr --texture floor=wide.tif -o x.
 $ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; DECODER_MARK=a$$ retex-combine -q --safe --max-time 1 s.exr --texture floor=long.png -o x.exr; left a$$
 > 0
 ! retex-combine: error: not done within the 1 s of --max-time
-$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; for signal in 15 2 9; do DECODER_MARK=b$$ python3 -c 'import subprocess, sys, time; p = subprocess.Popen(["retex-combine", "-q", "--safe", "s.exr", "--texture", "floor=long.png", "-o", "x.exr"], stderr=subprocess.DEVNULL); time.sleep(.5); p.send_signal(int(sys.argv[1])); print(p.wait())' $signal; left b$$; done
+$ left() { sleep .3; grep -ls "DECODER_MARK=$1" /proc/[0-9]*/environ | wc -l; }; for signal in 15 2 9; do DECODER_MARK=b$$ python3 -c 'import signal, subprocess, sys, time; signal.signal(2, signal.SIG_DFL); p = subprocess.Popen(["retex-combine", "-q", "--safe", "s.exr", "--texture", "floor=long.png", "-o", "x.exr"], stderr=subprocess.DEVNULL); time.sleep(.5); p.send_signal(int(sys.argv[1])); print(p.wait())' $signal; left b$$; done
 > -15
 > 0
 > -2
