@@ -159,3 +159,9 @@ $ ln -s x link; mkdir folder; for o in folder ''; do retex-diff a.exr a.exr -o "
 > 1
 ! retex-diff: error: cannot write folder: Is a directory
 ! retex-diff: error: --output: the name is empty
+
+# The limit of pixels counts for parts of OpenEXR files and packs.
+$ make_set fp.exr 48 32 footprints; retex-pack -q --lossless fp.exr -o fp.retex; for f in fp.exr fp.retex; do retex-diff $f $f --max-pixels 1000; done
+! retex-diff: error: fp.exr is too large: 48 x 32 pixels, more than the 1000 of --max-pixels
+! retex-diff: error: fp.retex is too large: 48 x 32 pixels, more than the 1000 of --max-pixels
+= 2

@@ -173,14 +173,13 @@ UploadsCount uploads_count(Uploads *uploads)
 
 /* ---- an upload ---- */
 
-/* Whether an image has a place, which is then reserved. */
 static int has_place(const Uploads *uploads, size_t bytes)
 {
     return uploads->count + uploads->nreserved < uploads->params.most &&
            uploads->bytes + uploads->reserved + bytes <= uploads->params.total_bytes;
 }
 
-/* Those that are too old make place. */
+/* Whether an image has a place, which is then reserved. Images that are too old make place. */
 static int reserve(Uploads *uploads, size_t bytes)
 {
     pthread_mutex_lock(&uploads->lock);
