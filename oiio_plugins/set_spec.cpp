@@ -32,26 +32,18 @@ Role footprint_role(const RetexSet &set, int part)
     return {"", -1};
 }
 
-int first_target(const RetexSet &set, const RetexTerm &term)
-{
-    if (!term.nfactors)
-        return -1;
-    int factor = term.factors[0];
-    if (factor < 0)
-        factor = set.mixtures[RETEX_MIXTURE(factor)].shares[0].footprint;
-    return set.footprints[factor].target;
-}
-
 Role role_of(const RetexSet &set, int part)
 {
     if (part == 0)
         return {"picture", -1};
-    for (int i = 0; i < set.nterms; i++)
-        if (set.terms[i].radiance == part) {
-            return {"radiance", first_target(set, set.terms[i])};
-        } else if (set.terms[i].gain && set.terms[i].gain == part) {
-            return {"gain", first_target(set, set.terms[i])};
-        }
+    for (int i = 0; i < set.nterms; i++) {
+        const RetexTerm &term = set.terms[i];
+        const int target = retex_term_is_light(&term) || retex_term_hits(&term) ? term.target : -1;
+        if (term.radiance == part)
+            return {"radiance", target};
+        if (retex_term_image(&term) == part)
+            return {"gain", target};
+    }
     Role footprint = footprint_role(set, part);
     if (*footprint.name)
         return footprint;

@@ -14,17 +14,18 @@
 #define SOFT_SIZE 64
 #define SOFT_SIGMA 0.0625
 
-/* Terms whose radiance is black everywhere have no layer. */
+/* Terms whose radiance is black everywhere have no layer. The target is edited, so that corrections count in full, and
+ * the picture as rendered does not. */
 static int is_used(const RetexSet *set, const RetexTerm *term)
 {
-    return retex_set_is_layer(set, term->radiance);
+    return term->role != RETEX_ROLE_PICTURE && retex_set_is_layer(set, term->radiance);
 }
 
 static int hit_is_used(const RetexSet *set, int footprint)
 {
     for (int i = 0; i < set->nterms; i++)
         for (int k = 0; k < set->terms[i].nfactors && is_used(set, &set->terms[i]); k++)
-            if (set->terms[i].factors[k] == footprint)
+            if (set->terms[i].factors[k].kind == RETEX_FACTOR_FOOTPRINT && set->terms[i].factors[k].index == footprint)
                 return 1;
     return 0;
 }
@@ -58,11 +59,14 @@ int compositor_check(const RetexSet *set, const char *path, RetexError *err)
                           "%s has %d target%s in layout %s: scripts rebuild sets of one target in layout paper", path,
                           set->ntargets, set->ntargets == 1 ? "" : "s", set->layout);
     for (int i = 0; i < set->nterms; i++) {
-        int sound = !set->terms[i].gain;
-        for (int k = 0; k < set->terms[i].nfactors; k++) {
-            const int footprint = set->terms[i].factors[k];
-            sound &= footprint >= 0 && set->footprints[footprint].uv >= 0 &&
-                     retex_set_scale(set, &set->parts[set->footprints[footprint].uv].image) == 1;
+        int sound = 1;
+        for (int k = 0; k < set->terms[i].nfactors && sound; k++) {
+            const RetexFactor factor = set->terms[i].factors[k];
+            if (factor.kind == RETEX_FACTOR_PARAMETER)
+                sound = set->parameters[factor.index].kind == RETEX_PARAMETER_CORRECTION;
+            else
+                sound = factor.kind == RETEX_FACTOR_FOOTPRINT && set->footprints[factor.index].uv >= 0 &&
+                        retex_set_scale(set, &set->parts[set->footprints[factor.index].uv].image) == 1;
         }
         if (!sound)
             return retex_fail(err, RETEX_EUNSUPPORTED, "%s has terms that no script rebuilds: take the set as rendered",
@@ -229,8 +233,8 @@ static void print_blender(FILE *out, const RetexSet *set, const char *layers)
         if (!is_used(set, term))
             continue;
         fprintf(out, "    (\"%s\", [", name_of(set, term->radiance));
-        for (int k = 0; k < term->nfactors; k++)
-            fprintf(out, "%s%d", k ? ", " : "", set->footprints[term->factors[k]].hit);
+        for (int k = 0; k < retex_term_hits(term); k++) /* which come before the weight of a correction */
+            fprintf(out, "%s%d", k ? ", " : "", set->footprints[term->factors[k].index].hit);
         fprintf(out, "]),\n");
     }
     fprintf(out, "]\n%s", blender_code);
@@ -352,8 +356,8 @@ static void print_nuke(FILE *out, const RetexSet *set, const char *layers)
         if (!is_used(set, term))
             continue;
         print_nuke_layer(out, name_of(set, term->radiance), 2 * terms, 6);
-        for (int k = 0; k < term->nfactors; k++) {
-            fprintf(out, "push $Nhit%d\n", set->footprints[term->factors[k]].hit);
+        for (int k = 0; k < retex_term_hits(term); k++) {
+            fprintf(out, "push $Nhit%d\n", set->footprints[term->factors[k].index].hit);
             print_nuke_merge(out, "multiply", "Times", ++products, 2 * terms, 7 + k);
         }
         if (terms) {

@@ -68,6 +68,8 @@ static void parse(Cli *cli, Job *job)
     if (job->web && (job->unpack || job->params.lossless || job->stats || cli->output))
         cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless nor --stats");
     job->threads = cli->threads;
+    job->params.warn = cli_warn_text;
+    job->params.warn_context = cli;
 }
 
 static void report(const Cli *cli, const char *set_path, double set_bytes, const char *pack_path, double pack_bytes)

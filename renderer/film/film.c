@@ -483,13 +483,15 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     if (film->params.split) {
         set->orders = film->params.orders;
         set->strict_paper = film->params.strict_paper;
-        set->exact_picture = !set->strict_paper;
         name_targets(film, set);
         int code = finish_stats_of_all(film, set, err);
         if (code)
             return code;
     }
     int code = finish_images(film, set, err);
+    const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
+    if (!code && film->params.split && !set->strict_paper)
+        code = retex_set_add_term(set, &picture, NULL, err);
     if (!code && film->layout && film->layout->prunes) {
         find_empty(film, set, empty);
         retex_set_prune(set, empty);

@@ -53,7 +53,7 @@ int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexEr
         wanted[k] = images->prunes;
     for (int t = 0; t < set->nterms && !images->prunes; t++) {
         const RetexTerm *term = &set->terms[t];
-        wanted[term->nfactors ? 1 + set->footprints[term->factors[0]].target : 0] = 1;
+        wanted[retex_term_hits(term) ? 1 + term->target : 0] = 1;
     }
     for (int k = 0; k < images->count && !code; k++)
         if (wanted[k])

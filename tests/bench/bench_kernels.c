@@ -89,7 +89,7 @@ static void picture_reference(void *context)
             const RetexTerm *term = &set->terms[t];
             float product = set->parts[term->radiance].image.pixels[i];
             for (int k = 0; k < term->nfactors; k++)
-                product *= set->parts[set->footprints[term->factors[k]].albedo].image.pixels[i];
+                product *= set->parts[set->footprints[term->factors[k].index].albedo].image.pixels[i];
             image.pixels[i] += product;
         }
     bench_sink = image.pixels[0];

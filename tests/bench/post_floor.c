@@ -51,15 +51,17 @@ static void choose(const Floor *work)
 {
     for (int t = 0; t < work->set->nterms; t++) {
         const RetexTerm *term = &work->set->terms[t];
-        if (term->edited && !(retex_correction_weight(work->set->ntargets, work->set->ntargets) > 0))
+        if (term->role == RETEX_ROLE_PICTURE ||
+            (term->role == RETEX_ROLE_CORRECTION &&
+             !(retex_correction_weight(work->set->ntargets, work->set->ntargets) > 0)))
             continue;
         want(work, term->radiance);
-        want(work, term->gain ? term->gain : -1);
+        want(work, retex_term_image(term));
         for (int k = 0; k < term->nfactors; k++) {
-            if (term->factors[k] >= 0)
-                want_footprint(work, term->factors[k]);
-            else
-                want_mixture(work, RETEX_MIXTURE(term->factors[k]));
+            if (term->factors[k].kind == RETEX_FACTOR_FOOTPRINT)
+                want_footprint(work, term->factors[k].index);
+            else if (term->factors[k].kind == RETEX_FACTOR_MIXTURE)
+                want_mixture(work, term->factors[k].index);
         }
     }
 }

@@ -58,7 +58,7 @@ RetexSet *whole_set(int ntargets, int count)
             add_footprint(set, t, RETEX_FOOTPRINT_INTERREFLECTION, 1 + 2 * count + k, "RGB");
         later[t] = add_mixture(set, start, 2, "R");
         for (int k = 0; k < 2; k++)
-            any.shares[any.nshares++] = set->mixtures[RETEX_MIXTURE(later[t])].shares[k];
+            any.shares[any.nshares++] = set->mixtures[MIXTURE(later[t])].shares[k];
     }
     int all;
     test_must(retex_set_add_mixture(set, &any, &all, &err), &err);
@@ -66,7 +66,7 @@ RetexSet *whole_set(int ntargets, int count)
         for (int kind = 0; kind < 2; kind++) {
             for (int b = 0; b < ntargets; b++)
                 add_term(set, 2, first[t][kind], later[b]);
-            add_term(set, 3, first[t][kind], RETEX_MIXTURE(all));
+            add_term(set, 3, first[t][kind], MIXTURE(all));
         }
     for (int i = 0; i < set->nfootprints; i++)
         fill_footprint(set, i, &seed);

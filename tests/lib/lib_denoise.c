@@ -152,13 +152,11 @@ static void fill_paper_layout(RetexSet *set)
         for (int k = 0; k < 3; k++)
             fill_footprint(set, add_footprint(set, t, RETEX_FOOTPRINT_HIT, 1 + k, "RG"), 1);
         for (int k = 0; k < 10; k++) {
-            RetexTerm term = {.kind = k < 3   ? RETEX_TERM_DEP
-                                      : k < 6 ? RETEX_TERM_INDEP
-                                              : RETEX_TERM_CROSS2,
-                              .nfactors = nfactors[k],
-                              .radiance = add_part(set, "RGB", "term", set->nterms)};
+            int numbers[3];
             for (int n = 0; n < nfactors[k]; n++)
-                term.factors[n] = 3 * t + (k < 6 ? n : (k + n) % 3);
+                numbers[n] = 3 * t + (k < 6 ? n : (k + n) % 3);
+            RetexTerm term = test_term(set, add_part(set, "RGB", "term", set->nterms), nfactors[k], numbers);
+            term.role = k < 6 ? term.role : RETEX_ROLE_CROSS2;
             test_must(retex_set_add_term(set, &term, NULL, &err), &err);
             fill_light(set, term.radiance, (t ? 0.05 : 0.4) / (1 + k), 0.1 / (1 + k));
         }
@@ -246,11 +244,8 @@ double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel)
 
 /* ---- calls ---- */
 
-const RetexDenoiseParams denoise_exactly = {.size = sizeof denoise_exactly,
-                                            .strength = 1,
-                                            .radius = 5,
-                                            .footprints = 1,
-                                            .full_precision = 1};
+const RetexDenoiseParams denoise_exactly = {
+    .size = sizeof denoise_exactly, .strength = 1, .radius = 5, .footprints = 1, .full_precision = 1};
 
 void denoise_all(RetexSet *set, const RetexDenoiseParams *params, int nthreads)
 {

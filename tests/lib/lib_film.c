@@ -129,7 +129,7 @@ static double factor(const RetexSet *set, int number, size_t pixel, size_t chann
     double sum = 0, weights = 0;
     if (number >= 0)
         return (double)set->parts[set->footprints[number].albedo].image.pixels[3 * pixel + channel];
-    const RetexMixture *mixture = &set->mixtures[RETEX_MIXTURE(number)];
+    const RetexMixture *mixture = &set->mixtures[MIXTURE(number)];
     for (int k = 0; k < mixture->nshares; k++) {
         double weight = (double)set->parts[mixture->shares[k].weight].image.pixels[pixel];
         weights += weight;
@@ -143,12 +143,12 @@ double expect_beauty(const Fixture *f, size_t pixel)
     const RetexSet *set = f->set;
     double sum[3] = {0, 0, 0}, white[3] = {0, 0, 0}, largest = 0;
     for (int t = 0; t < set->nterms; t++)
-        for (size_t c = 0; c < 3 && !set->terms[t].edited; c++) {
+        for (size_t c = 0; c < 3 && retex_term_is_light(&set->terms[t]); c++) {
             double value = set->parts[set->terms[t].radiance].image.pixels[3 * pixel + c];
             assert_true(value >= 0);
             white[c] += value;
             for (int k = 0; k < set->terms[t].nfactors; k++)
-                value *= factor(set, set->terms[t].factors[k], pixel, c);
+                value *= factor(set, test_factor_number(set->terms[t].factors[k]), pixel, c);
             sum[c] += value;
         }
     for (size_t c = 0; c < 3; c++)

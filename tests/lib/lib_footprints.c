@@ -33,11 +33,11 @@ int add_footprint(RetexSet *set, int target, RetexFootprintKind kind, int hit, c
 
 int add_term(RetexSet *set, int nfactors, int first, int others)
 {
-    RetexTerm term = {.kind = nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP, .nfactors = nfactors, .factors = {first}};
+    int numbers[RETEX_MAX_HITS] = {first};
     RetexError err = {0};
     for (int k = 1; k < nfactors; k++)
-        term.factors[k] = others;
-    term.radiance = add_part(set, "RGB", "term", set->nterms);
+        numbers[k] = others;
+    const RetexTerm term = test_term(set, add_part(set, "RGB", "term", set->nterms), nfactors, numbers);
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
     return term.radiance;
 }
@@ -50,7 +50,7 @@ int add_mixture(RetexSet *set, int first, int count, const char *letters)
     for (int k = 0; k < count; k++)
         mixture.shares[k] = (struct RetexShare){first + k, add_part(set, letters, "share", first + k)};
     test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
-    return RETEX_MIXTURE(index);
+    return MIXTURE(index);
 }
 
 RetexSet *start_set(int width, int height, int ntargets)

@@ -71,12 +71,48 @@ static int add_footprint(RetexSet *set, int target, int hit, uint32_t *seed)
     return index;
 }
 
-static void add_term(RetexSet *set, RetexTermKind kind, int radiance, const int *factors, int nfactors)
+RetexFactor test_factor(int number)
 {
-    RetexTerm term = {.kind = kind, .radiance = radiance, .nfactors = nfactors};
+    return number < 0 ? retex_factor(RETEX_FACTOR_MIXTURE, MIXTURE(number))
+                      : retex_factor(RETEX_FACTOR_FOOTPRINT, number);
+}
+
+int test_factor_number(RetexFactor factor)
+{
+    return factor.kind == RETEX_FACTOR_MIXTURE ? MIXTURE(factor.index) : factor.index;
+}
+
+RetexTerm test_term(const RetexSet *set, int radiance, int nhits, const int *numbers)
+{
+    static const RetexRole roles[] = {RETEX_ROLE_DEP, RETEX_ROLE_SHARP, RETEX_ROLE_BROAD, RETEX_ROLE_INTERREFLECTION};
+    RetexTerm term = {.role = RETEX_ROLE_INDEP, .target = -1, .radiance = radiance, .nfactors = nhits};
+    for (int k = nhits - 1; k >= 0; k--) {
+        const int number = numbers[k];
+        const RetexFootprint *f =
+            &set->footprints[number < 0 ? set->mixtures[MIXTURE(number)].shares[0].footprint : number];
+        term.factors[k] = test_factor(number);
+        term.role = roles[f->kind], term.target = f->target;
+    }
+    return term;
+}
+
+void test_renew_roles(RetexSet *set)
+{
+    for (int t = 0; t < set->nterms; t++) {
+        RetexTerm *term = &set->terms[t];
+        int numbers[RETEX_MAX_HITS];
+        for (int k = 0; k < term->nfactors; k++)
+            numbers[k] = test_factor_number(term->factors[k]);
+        if (term->nfactors)
+            *term = test_term(set, term->radiance, term->nfactors, numbers);
+    }
+}
+
+static void add_term(RetexSet *set, RetexRole role, int radiance, const int *factors, int nfactors)
+{
+    RetexTerm term = test_term(set, radiance, nfactors, factors);
     RetexError err = {0};
-    for (int i = 0; i < nfactors; i++)
-        term.factors[i] = factors[i];
+    term.role = role;
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 
@@ -133,7 +169,7 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     if (beauty < 0)
         beauty = add_part(set, "beauty", "RGB", RETEX_HALF);
     fill_radiance(&set->parts[beauty].image, 1, &seed);
-    add_term(set, RETEX_TERM_FULL, add_radiance(set, "full0", 0.3, &seed), NULL, 0);
+    add_term(set, RETEX_ROLE_FULL, add_radiance(set, "full0", 0.3, &seed), NULL, 0);
     for (int t = 0; t < 2; t++) {
         int factors[HITS], reversed[HITS];
         char name[64];
@@ -142,15 +178,15 @@ RetexSet *test_set(int width, int height, uint32_t seed)
             factors[h - 1] = add_footprint(set, t, h, &seed);
         for (int h = 1; h <= HITS; h++) {
             snprintf(name, sizeof name, "t%d_dep%d", t, h);
-            add_term(set, RETEX_TERM_DEP, add_radiance(set, name, pow(0.3, h), &seed), factors, h);
+            add_term(set, RETEX_ROLE_DEP, add_radiance(set, name, pow(0.3, h), &seed), factors, h);
             snprintf(name, sizeof name, "t%d_indep%d", t, h);
-            add_term(set, RETEX_TERM_INDEP, add_radiance(set, name, 0.1 * pow(0.3, h), &seed), NULL, 0);
+            add_term(set, RETEX_ROLE_INDEP, add_radiance(set, name, 0.1 * pow(0.3, h), &seed), NULL, 0);
         }
         snprintf(name, sizeof name, "t%d_cross2", t);
-        add_term(set, RETEX_TERM_CROSS2, add_radiance(set, name, 0.02, &seed), &factors[1], 1);
+        add_term(set, RETEX_ROLE_CROSS2, add_radiance(set, name, 0.02, &seed), &factors[1], 1);
         reversed[0] = factors[2], reversed[1] = factors[0];
         snprintf(name, sizeof name, "t%d_cross3", t);
-        add_term(set, RETEX_TERM_CROSS3, add_radiance(set, name, 0.01, &seed), reversed, 2);
+        add_term(set, RETEX_ROLE_CROSS3, add_radiance(set, name, 0.01, &seed), reversed, 2);
     }
     int depth = add_part(set, "depth", "R", RETEX_FLOAT);
     for (int i = 0; i < width * height; i++)
@@ -185,9 +221,9 @@ static void add_mixtures(RetexSet *set, uint32_t *seed)
     of_three.shares[2] = add_share(set, 5, "share-4", "RGB", seed);
     test_must(retex_set_add_mixture(set, &of_two, NULL, &err), &err);
     test_must(retex_set_add_mixture(set, &of_three, NULL, &err), &err);
-    once->factors[once->nfactors++] = RETEX_MIXTURE(0);
-    while (often->nfactors < RETEX_MAX_FACTORS)
-        often->factors[often->nfactors] = RETEX_MIXTURE(often->nfactors % 2), often->nfactors++;
+    once->factors[once->nfactors++] = test_factor(MIXTURE(0));
+    while (often->nfactors < RETEX_MAX_HITS)
+        often->factors[often->nfactors] = test_factor(MIXTURE(often->nfactors % 2)), often->nfactors++;
 }
 
 void test_make_footprints(RetexSet *set)
@@ -213,20 +249,20 @@ void test_make_footprints(RetexSet *set)
         }
     }
     add_mixtures(set, &seed);
+    test_renew_roles(set);
     round_to_stored(set);
 }
 
 /* The name of a term's signal: see <retex/denoise_data.h>. */
 static void name_signal(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
-    if (term->nfactors == 0) {
+    static const char *const kinds[RETEX_ROLES] = {
+        [RETEX_ROLE_DEP] = "hit",     [RETEX_ROLE_CROSS2] = "hit",  [RETEX_ROLE_CROSS3] = "hit",
+        [RETEX_ROLE_SHARP] = "sharp", [RETEX_ROLE_BROAD] = "broad", [RETEX_ROLE_INTERREFLECTION] = "interreflection"};
+    if (kinds[term->role])
+        retex_noise_part_name(name, set->targets[term->target].name, kinds[term->role]);
+    else
         retex_noise_part_name(name, NULL, RETEX_SIGNAL_INDEP);
-        return;
-    }
-    const int factor = term->factors[0];
-    const RetexFootprint *first =
-        &set->footprints[factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor];
-    retex_noise_part_name(name, set->targets[first->target].name, retex_footprint_kind_name(first->kind));
 }
 
 static void add_random_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,

@@ -18,6 +18,15 @@ void test_random_image(RetexImage *im, int width, int height, int channels, uint
 /* Covariance {uu, uv, vv} of a footprint with these standard deviations, rotated by angle (radians). */
 void test_turned_covariance(double covariance[3], double longer, double shorter, double angle);
 
+/* Tests name factors by numbers: a footprint by its index, a mixture by MIXTURE(index). */
+#define MIXTURE(m) (-1 - (m)) /* and back */
+RetexFactor test_factor(int number);
+int test_factor_number(RetexFactor factor);
+/* A term of that many hits. Its role and target are those of its first hit; INDEP without hits. */
+RetexTerm test_term(const RetexSet *set, int radiance, int nhits, const int *numbers);
+/* Give terms with hits the roles that follow from their footprints' kinds. */
+void test_renew_roles(RetexSet *set);
+
 /* A small set of layout paper, like that of a render. It has everything: two targets ('Floor', and a periodic 'Wall'),
  * three hits each, all kinds of terms, and an AOV. Radiance covers five decades and is black in places. UVs are
  * gradients. One side has no coverage. The same seed gives the same set. */

@@ -16,7 +16,9 @@ int main(int argc, char **argv)
     RetexImage *beauty = &set->parts[0].image;
     memset(beauty->pixels, 0,
            (size_t)beauty->width * (size_t)beauty->height * (size_t)beauty->channels * sizeof(float));
-    set->exact_picture = 0;
+    for (int t = set->nterms - 1; t >= 0; t--)
+        if (set->terms[t].role == RETEX_ROLE_PICTURE)
+            memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(--set->nterms - t));
     if (retex_set_write(set, NULL, argv[2], NULL, 0, &err))
         goto failed;
     retex_set_close(&set);

@@ -50,12 +50,12 @@ static double reference_value(const RetexSet *set, const RetexSamples *samples, 
     double sum = 0;
     for (int t = 0; t < set->nterms; t++) {
         const RetexTerm *term = &set->terms[t];
-        if ((term->kind == RETEX_TERM_CROSS2 && cross < 2) || (term->kind == RETEX_TERM_CROSS3 && cross < 3))
+        if ((term->role == RETEX_ROLE_CROSS2 && cross < 2) || (term->role == RETEX_ROLE_CROSS3 && cross < 3))
             continue;
         double product = (double)set->parts[term->radiance].image.pixels[i];
         for (int k = 0; k < term->nfactors; k++) {
-            int f = term->factors[k];
-            product *= f < 0 ? mixture_value(set, samples, &set->mixtures[RETEX_MIXTURE(f)], i)
+            int f = test_factor_number(term->factors[k]);
+            product *= f < 0 ? mixture_value(set, samples, &set->mixtures[MIXTURE(f)], i)
                              : footprint_value(set, samples, f, i);
         }
         sum += product;

@@ -172,7 +172,7 @@ static void pruning_keeps_what_is_shared(void **state)
 
     /* A gain that is empty takes its term away, but not the radiance of the others. */
     memset(empty, 0, sizeof empty);
-    const int terms = compact->nterms, gain = compact->terms[compact->nterms - 1].gain;
+    const int terms = compact->nterms, gain = retex_term_image(&compact->terms[compact->nterms - 1]);
     const int radiance = compact->terms[compact->nterms - 1].radiance;
     char name[RETEX_NAME_MAX], kept[RETEX_NAME_MAX];
     strcpy(name, compact->parts[gain].name);

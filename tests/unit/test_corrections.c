@@ -136,11 +136,17 @@ static double largest_error(const Fixture *f, const Truth *truth, int edited)
     return error;
 }
 
+/* -1: the term is no correction. */
+static int corrected_target(const RetexTerm *term)
+{
+    return term->role == RETEX_ROLE_CORRECTION ? term->target : -1;
+}
+
 static void remove_corrections(RetexSet *set)
 {
     int count = 0;
     for (int t = 0; t < set->nterms; t++)
-        if (!set->terms[t].edited)
+        if (retex_term_is_light(&set->terms[t]))
             set->terms[count++] = set->terms[t];
     set->nterms = count;
 }
@@ -153,7 +159,9 @@ static double bound(const Fixture *f)
     for (size_t c = 0; c < 3; c++) {
         double white = 0;
         for (int t = 0; t < f->set->nterms; t++)
-            white += f->set->terms[t].edited ? 0 : (double)f->set->parts[f->set->terms[t].radiance].image.pixels[c];
+            white += !retex_term_is_light(&f->set->terms[t])
+                         ? 0
+                         : (double)f->set->parts[f->set->terms[t].radiance].image.pixels[c];
         most = fmax(most, white);
     }
     return most * sqrt(f->set->nterms) / 3 / 8192;
@@ -225,10 +233,13 @@ static void paper_is_exact(void **state)
 static void weigh_corrections(RetexSet *set, float weight)
 {
     for (int t = 0; t < set->nterms; t++) {
-        RetexImage *radiance = &set->parts[set->terms[t].radiance].image;
-        for (size_t i = 0; i < 3 && set->terms[t].edited; i++)
-            radiance->pixels[i] *= weight;
-        set->terms[t].edited = 0;
+        RetexTerm *term = &set->terms[t];
+        if (term->role != RETEX_ROLE_CORRECTION)
+            continue;
+        for (size_t i = 0; i < 3; i++)
+            set->parts[term->radiance].image.pixels[i] *= weight;
+        term->role = RETEX_ROLE_INDEP;
+        term->nfactors--; /* their weight */
     }
 }
 
@@ -246,7 +257,7 @@ static void several_edited_targets_interpolate(void **state)
     combine(&picture, f.set, 5);
     int count = 0; /* those of the target that is kept do not count */
     for (int t = 0; t < f.set->nterms; t++)
-        if (f.set->terms[t].edited != 2)
+        if (corrected_target(&f.set->terms[t]) != 1)
             f.set->terms[count++] = f.set->terms[t];
     f.set->nterms = count;
     weigh_corrections(f.set, 0.25f);
@@ -274,9 +285,10 @@ static void only_those_asked_for_are_loaded(void **state)
         test_must(retex_set_open(test_in_folder("corrections.exr"), &set, NULL, 1, &err), &err);
         test_must(retex_set_preload(set, NULL, all ? NULL : second, UINT64_MAX, 1, &err), &err);
         for (int t = 0; t < set->nterms; t++) {
-            const int loaded = set->parts[set->terms[t].radiance].image.pixels != NULL, edited = set->terms[t].edited;
-            assert_int_equal(loaded, all || edited != 1);
-            corrections[0] += edited == 1, corrections[1] += edited == 2;
+            const int loaded = set->parts[set->terms[t].radiance].image.pixels != NULL,
+                      of = corrected_target(&set->terms[t]);
+            assert_int_equal(loaded, set->terms[t].role == RETEX_ROLE_PICTURE ? 0 : all || of != 0);
+            corrections[0] += of == 0, corrections[1] += of == 1;
         }
         assert_true(corrections[0] > 0 && corrections[1] > 0);
         retex_set_close(&set);
@@ -291,7 +303,8 @@ static double add_noise(RetexSet *set, double share)
     for (size_t c = 0; c < 3; c++) {
         double sum = 0;
         for (int t = 0; t < set->nterms; t++)
-            sum += set->terms[t].edited ? 0 : (double)set->parts[set->terms[t].radiance].image.pixels[c];
+            sum +=
+                !retex_term_is_light(&set->terms[t]) ? 0 : (double)set->parts[set->terms[t].radiance].image.pixels[c];
         white = fmax(white, sum);
     }
     test_add_denoise_data(set);

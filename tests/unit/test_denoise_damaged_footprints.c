@@ -41,8 +41,8 @@ static void denoise_all(Work *w, const float light[3])
 static int is_cluster(const RetexSet *set, const RetexSignalMember *m)
 {
     const RetexTerm *term = &set->terms[m->term];
-    return term->nfactors == 1 && term->factors[0] >= 0 &&
-           set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT;
+    return term->nfactors == 1 && term->factors[0].kind == RETEX_FACTOR_FOOTPRINT &&
+           set->footprints[term->factors[0].index].kind != RETEX_FOOTPRINT_HIT;
 }
 
 /* Clusters hold the light, and whatever is written is a number. */

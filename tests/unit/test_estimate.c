@@ -92,13 +92,13 @@ static void add_term(RetexSet *set, float radiance, int a, int b, int powers)
 {
     char name[64];
     RetexError err = {0};
-    RetexTerm term = {.kind = a == NONE ? RETEX_TERM_INDEP : RETEX_TERM_DEP};
+    int numbers[RETEX_MAX_HITS], count = 0;
     snprintf(name, sizeof name, "term%d", set->nterms);
-    term.radiance = add_part(set, name, "RGB", radiance, 2 * radiance, 0);
     if (a != NONE)
-        term.factors[term.nfactors++] = a;
+        numbers[count++] = a;
     for (int k = 0; k < powers; k++)
-        term.factors[term.nfactors++] = b;
+        numbers[count++] = b;
+    const RetexTerm term = test_term(set, add_part(set, name, "RGB", radiance, 2 * radiance, 0), count, numbers);
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 
@@ -237,7 +237,7 @@ static int add_mixture(RetexSet *set, struct RetexShare first, struct RetexShare
     RetexMixture mixture = {.nshares = 2, .shares = {first, second}};
     int index;
     test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
-    return RETEX_MIXTURE(index);
+    return MIXTURE(index);
 }
 
 /* What scatters with a mixture are its footprints, by their shares, on top of what each does by itself. */

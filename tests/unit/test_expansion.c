@@ -19,9 +19,9 @@ static void multiplies_out(void **state)
     for (int round = 0; round < 2000; round++) {
         Expansion e;
         expansion_reset(&e);
-        int n = round % (RETEX_MAX_FACTORS + 1), targets[RETEX_MAX_FACTORS], index[RETEX_MAX_FACTORS];
+        int n = round % (RETEX_MAX_HITS + 1), targets[RETEX_MAX_HITS], index[RETEX_MAX_HITS];
         int seen[RETEX_MAX_TARGETS] = {0};
-        double product = 1, a[RETEX_MAX_FACTORS];
+        double product = 1, a[RETEX_MAX_HITS];
         for (int j = 0; j < n; j++) {
             float d = at_random(&seed), i = at_random(&seed);
             if (at_random(&seed) < 0.4f)
@@ -31,7 +31,7 @@ static void multiplies_out(void **state)
             targets[j] = (int)(at_random(&seed) * 3);
             for (int k = 3; k < RETEX_MAX_TARGETS && seen[targets[j]] == RETEX_MAX_ORDERS; k++)
                 targets[j] = k;
-            if (!hit_counts_allow(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS)) {
+            if (!hit_counts_allow(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_HITS)) {
                 assert_true(2 * e.size.nmonomials > MONOMIALS_MAX); /* eight with both parts, at least */
                 n = j;
                 break;
@@ -63,12 +63,12 @@ static HitMask mask(int a, int b, int c)
 static void monomials_find_their_terms(void **state)
 {
     (void)state;
-    assert_int_equal(term_key(0, 0, 0) >> 56, RETEX_TERM_FULL);
-    assert_int_equal(term_key(3, 0, 0) >> 56, RETEX_TERM_INDEP);
+    assert_int_equal(term_key(0, 0, 0) >> 56, RETEX_ROLE_FULL);
+    assert_int_equal(term_key(3, 0, 0) >> 56, RETEX_ROLE_INDEP);
     assert_true(term_key(2, 0, 0) != term_key(3, 0, 0));
-    assert_int_equal(term_key(2, mask(1, 2, 0), 0) >> 56, RETEX_TERM_DEP);
-    assert_int_equal(term_key(2, mask(2, 0, 0), 0) >> 56, RETEX_TERM_CROSS2);
-    assert_int_equal(term_key(3, mask(1, 3, 0), 0) >> 56, RETEX_TERM_CROSS3);
+    assert_int_equal(term_key(2, mask(1, 2, 0), 0) >> 56, RETEX_ROLE_DEP);
+    assert_int_equal(term_key(2, mask(2, 0, 0), 0) >> 56, RETEX_ROLE_CROSS2);
+    assert_int_equal(term_key(3, mask(1, 3, 0), 0) >> 56, RETEX_ROLE_CROSS3);
     /* four hits, mixed: as many factors of each target, from the first on */
     assert_true(term_key(4, mask(2, 3, 2), 0) == term_key(3, mask(1, 2, 1), 0));
     assert_true(term_key(4, mask(2, 3, 2), 1) == TERM_DROPPED);
@@ -82,7 +82,7 @@ static void any_number_of_targets_has_its_terms(void **state)
         int n = expansion_most_hits(targets), cross = 8 * targets + 3 * targets * targets;
         for (int k = 1; k <= n; k++)
             prefixes = prefixes * (targets + k) / k;
-        assert_true(n >= 4 && n <= RETEX_MAX_FACTORS);
+        assert_true(n >= 4 && n <= RETEX_MAX_HITS);
         assert_true(prefixes + cross + n <= TERMS_MAX);
     }
 }

@@ -71,7 +71,7 @@ static void the_set_says_what_is_what(void **state)
     assert_int_equal(f.set->ntargets, 1);
     assert_int_equal(f.set->orders, 3);
     assert_int_equal(f.set->nfootprints, 2);
-    assert_int_equal(f.set->nterms, 1 + 2);
+    assert_int_equal(f.set->nterms, 1 + 2 + 1);
     static const char *const uvs[] = {"uv_Floor_sharp1", "uv_Floor_broad1"};
     static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD};
     static const int hits[] = {1, 3}; /* numbers of those that are not there stay free */
@@ -84,10 +84,15 @@ static void the_set_says_what_is_what(void **state)
         assert_int_equal(f.set->parts[f.set->footprints[i].uv].type, RETEX_FLOAT);
     }
     assert_int_equal(f.set->terms[0].nfactors, 0);
-    for (int t = 1; t < f.set->nterms; t++) {
+    const int last = f.set->nterms - 1;
+    for (int t = 1; t < last; t++) {
         assert_int_equal(f.set->terms[t].nfactors, 1);
-        assert_int_equal(f.set->terms[t].factors[0], t - 1);
+        assert_int_equal(test_factor_number(f.set->terms[t].factors[0]), t - 1);
+        assert_int_equal(f.set->terms[t].role,
+                         kinds[t - 1] == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP : RETEX_ROLE_BROAD);
+        assert_int_equal(f.set->terms[t].target, 0);
     }
+    assert_int_equal(f.set->terms[last].role, RETEX_ROLE_PICTURE);
     const RetexTarget *target = &f.set->targets[0];
     assert_true(target->uv_min[0] == 2.5 && target->uv_max[0] == 3.5);
     assert_true(target->uv_min[1] == -2 && target->uv_max[1] == -1);

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 enum { PIXELS = 3, FLOOR_FIRST = 0, FLOOR_LATER, WALL_FIRST, WALL_LATER };
-enum { LATER = RETEX_MIXTURE(0), FIRST = RETEX_MIXTURE(1) };
+enum { LATER = MIXTURE(0), FIRST = MIXTURE(1) };
 
 static const char *const path = test_own_file;
 
@@ -68,14 +68,13 @@ static void add_mixture(RetexSet *set, const char *letters, int floor, const flo
 /* Of every pixel's light green has twice what red has, blue nothing. The last factor may occur several times. */
 static void add_term(RetexSet *set, float light, int nfactors, int first, int second, int others)
 {
-    RetexTerm term = {.nfactors = nfactors, .factors = {first, second}};
+    int numbers[RETEX_MAX_HITS] = {first, second};
     RetexError err = {0};
     char name[32];
     for (int k = 2; k < nfactors; k++)
-        term.factors[k] = others;
-    term.kind = nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP;
+        numbers[k] = others;
     snprintf(name, sizeof name, "term_%d", set->nterms);
-    term.radiance = add_part(set, name, "RGB", RETEX_HALF);
+    const RetexTerm term = test_term(set, add_part(set, name, "RGB", RETEX_HALF), nfactors, numbers);
     for (size_t i = 0; i < PIXELS; i++) {
         set->parts[term.radiance].image.pixels[3 * i] = light;
         set->parts[term.radiance].image.pixels[3 * i + 1] = 2 * light;
@@ -194,7 +193,7 @@ static void test_most_factors(void **state)
     RetexSet *set = make_set();
     RetexImage picture = {0};
     RetexError err = {0};
-    add_term(set, 4096, RETEX_MAX_FACTORS, FLOOR_FIRST, FLOOR_LATER, LATER);
+    add_term(set, 4096, RETEX_MAX_HITS, FLOOR_FIRST, FLOOR_LATER, LATER);
     test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
     assert_true(picture.pixels[3] == 3.75f);
     assert_true(picture.pixels[6] == 6); /* 5 + 4096 / 2^12 */
@@ -220,7 +219,7 @@ static void test_most_shares(void **state)
     assert_int_equal(index, RETEX_MIXTURES_MAX - 1);
     assert_int_equal(retex_set_add_mixture(set, &mixture, NULL, &err), RETEX_ELIMIT);
     assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
-    add_term(set, 16, 1, RETEX_MIXTURE(index), 0, 0);
+    add_term(set, 16, 1, MIXTURE(index), 0, 0);
     test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     retex_set_close(&set);
     test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
@@ -366,9 +365,9 @@ static void test_not_whole(void **state)
     RetexImage picture = {0};
     test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err); /* needs no mixture */
     retex_image_free(&picture);
-    const int factors[] = {RETEX_MIXTURE(0), INT_MIN, set->nfootprints, INT_MAX};
+    const int factors[] = {MIXTURE(0), -INT_MAX, set->nfootprints, INT_MAX};
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
-        set->terms[1].factors[0] = factors[k];
+        set->terms[1].factors[0] = test_factor(factors[k]);
         expect_failure(set, "term 1 of the set lacks");
     }
     set->terms[1].nfactors = -1;
@@ -397,9 +396,9 @@ static void test_additions(void **state)
         assert_int_equal(retex_set_add_mixture(set, &wrong[k], NULL, &err), RETEX_EINVAL);
     assert_int_equal(set->nmixtures, 2);
     RetexTerm term = set->terms[1];
-    const int factors[] = {RETEX_MIXTURE(2), INT_MIN, set->nfootprints};
+    const int factors[] = {MIXTURE(2), -INT_MAX, set->nfootprints};
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
-        term.factors[0] = factors[k];
+        term.factors[0] = test_factor(factors[k]);
         assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
     }
     retex_set_close(&set);

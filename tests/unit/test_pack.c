@@ -260,15 +260,17 @@ static double gain_step_with(double noise, int denoised)
     RetexTerm *term = &set->terms[1];
     RetexError err = {0};
     uint32_t seed = 3;
+    int number;
     set->denoised = denoised;
-    test_must(retex_set_add_part(set, "gain", "RGB", RETEX_FLOAT, 0, 0, &term->gain, &err), &err);
-    RetexImage *light = &set->parts[term->radiance].image, *gain = &set->parts[term->gain].image;
+    test_must(retex_set_add_part(set, "gain", "RGB", RETEX_FLOAT, 0, 0, &number, &err), &err);
+    test_must(retex_term_add_factor(term, retex_factor(RETEX_FACTOR_IMAGE, number), &err), &err);
+    RetexImage *light = &set->parts[term->radiance].image, *gain = &set->parts[number].image;
     for (int i = 0; i < 32 * 24 * 3; i++) {
         light->pixels[i] = (float)(0.5 + noise * (test_random(&seed) - 0.5));
         gain->pixels[i] = 0.5f;
     }
     RetexPackPart *packed = plan_of(set);
-    const RetexPackPart *of_light = &packed[term->radiance], *of_gain = &packed[term->gain];
+    const RetexPackPart *of_light = &packed[term->radiance], *of_gain = &packed[number];
     const double ratio = of_gain->jpeg_step / of_gain->curve.levels * of_light->curve.levels / of_light->jpeg_step;
     free(packed);
     retex_set_close(&set);

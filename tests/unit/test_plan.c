@@ -18,7 +18,7 @@ static void one_target_has_all_powers(void **state)
     (void)state;
     for (int orders = 1; orders <= RETEX_MAX_ORDERS; orders++) {
         Plan plan;
-        plan_make(&plan, 1, orders, RETEX_MAX_FACTORS);
+        plan_make(&plan, 1, orders, RETEX_MAX_HITS);
         assert_int_equal(plan.count, orders);
         for (int k = 0; k < orders; k++) {
             assert_int_equal(plan.coefficients[k].powers[0], k);
@@ -35,7 +35,7 @@ static void steps_count_hits(void **state)
     uint32_t seed = 5;
     for (int round = 0; round < 2000; round++) {
         int ntargets = 2 + (int)(test_random(&seed) * (RETEX_MAX_TARGETS - 1)), at = 0;
-        int factors = 2 + (int)(test_random(&seed) * (RETEX_MAX_FACTORS - 1));
+        int factors = 2 + (int)(test_random(&seed) * (RETEX_MAX_HITS - 1));
         unsigned char met[RETEX_MAX_TARGETS] = {0};
         Plan plan;
         plan_make(&plan, ntargets, RETEX_MAX_ORDERS, factors);
@@ -62,7 +62,7 @@ static void few_hits_are_combined(void **state)
     for (int ntargets = 2; ntargets <= RETEX_MAX_TARGETS; ntargets++) {
         Plan plan;
         int combined = 0, most_combined = 0, least_mixed = 99;
-        plan_make(&plan, ntargets, RETEX_MAX_ORDERS, RETEX_MAX_FACTORS);
+        plan_make(&plan, ntargets, RETEX_MAX_ORDERS, RETEX_MAX_HITS);
         for (int k = 0; k < plan.count; k++) {
             const PlanCoefficient *c = &plan.coefficients[k];
             if (c->mixed && c->mixed < least_mixed)

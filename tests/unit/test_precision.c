@@ -169,10 +169,10 @@ static double light_of(const RetexSet *set, int footprint, int x, int y)
         const float *v = at(set, term->radiance, x, y);
         const double value = (double)(v[0] + v[1] + v[2]) / 3 * pow(0.5, term->nfactors - 1);
         for (int k = 0; k < term->nfactors; k++) {
-            const int factor = term->factors[k];
+            const int factor = test_factor_number(term->factors[k]);
             light += factor == footprint ? value : 0;
             for (int n = 0; factor < 0 && n < 2; n++)
-                light += set->mixtures[RETEX_MIXTURE(factor)].shares[n].footprint == footprint ? value / 2 : 0;
+                light += set->mixtures[MIXTURE(factor)].shares[n].footprint == footprint ? value / 2 : 0;
         }
     }
     return light;
@@ -259,7 +259,7 @@ static double light_of_mixture(const RetexSet *set, int mixture, int x, int y)
         const RetexTerm *term = &set->terms[t];
         const float *v = at(set, term->radiance, x, y);
         for (int k = 0; k < term->nfactors; k++)
-            if (term->factors[k] < 0 && RETEX_MIXTURE(term->factors[k]) == mixture)
+            if (test_factor_number(term->factors[k]) == MIXTURE(mixture))
                 light += (double)(v[0] + v[1] + v[2]) / 3 * pow(0.5, term->nfactors - 1);
     }
     return light;

@@ -34,9 +34,8 @@ static void add_footprint(Fixture *f, const char *name, RetexFootprintKind kind,
     footprint.albedo = add_part(f, part, "RGB");
     test_must(retex_set_add_footprint(f->set, &footprint, &index, &err), &err);
     if (kind != RETEX_FOOTPRINT_INTERREFLECTION) {
-        RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {index}};
         snprintf(part, sizeof part, "dep_%s", name);
-        term.radiance = add_part(f, part, "RGB");
+        const RetexTerm term = test_term(f->set, add_part(f, part, "RGB"), 1, &index);
         test_must(retex_set_add_term(f->set, &term, NULL, &err), &err);
     }
     snprintf(part, sizeof part, "share_%s", name);
@@ -46,14 +45,13 @@ static void add_footprint(Fixture *f, const char *name, RetexFootprintKind kind,
 static void begin(Fixture *f)
 {
     RetexMixture sharp = {0}, broad = {0}, later = {0};
-    RetexTerm term = {.kind = RETEX_TERM_INDEP};
     RetexError err;
     *f = (Fixture){.set = NULL};
     test_must(retex_set_create(&f->set, 2, 1, &err), &err);
     add_part(f, "beauty", "RGB");
     f->set->ntargets = 1;
     strcpy(f->set->targets[0].name, "T");
-    term.radiance = add_part(f, "indep", "RGB");
+    RetexTerm term = test_term(f->set, add_part(f, "indep", "RGB"), 0, NULL);
     test_must(retex_set_add_term(f->set, &term, NULL, &err), &err);
     add_footprint(f, "sharp1", RETEX_FOOTPRINT_SHARP, 1, &sharp);
     add_footprint(f, "sharp2", RETEX_FOOTPRINT_SHARP, 2, &sharp);
@@ -63,9 +61,8 @@ static void begin(Fixture *f)
     add_footprint(f, "interreflection1", RETEX_FOOTPRINT_INTERREFLECTION, 4, &later);
     add_footprint(f, "interreflection2", RETEX_FOOTPRINT_INTERREFLECTION, 5, &later);
     test_must(retex_set_add_mixture(f->set, &later, NULL, &err), &err);
-    term = (RetexTerm){
-        .kind = RETEX_TERM_DEP, .nfactors = 3, .factors = {RETEX_MIXTURE(0), RETEX_MIXTURE(2), RETEX_MIXTURE(2)}};
-    term.radiance = add_part(f, "dep_sharp_a2", "RGB");
+    const int numbers[] = {MIXTURE(0), MIXTURE(2), MIXTURE(2)};
+    term = test_term(f->set, add_part(f, "dep_sharp_a2", "RGB"), 3, numbers);
     test_must(retex_set_add_term(f->set, &term, NULL, &err), &err);
     add_part(f, "noise_indep", "RGB");
     add_part(f, "noise_T_sharp", "RGB");
@@ -105,7 +102,7 @@ static void expect_names(const Fixture *f)
     for (int t = 1; t < f->set->nterms; t++)
         if (f->set->terms[t].nfactors == 1)
             assert_string_equal(strchr(f->set->parts[f->set->terms[t].radiance].name, '_') + 1,
-                                names[f->set->footprints[f->set->terms[t].factors[0]].hit]);
+                                names[f->set->footprints[test_factor_number(f->set->terms[t].factors[0])].hit]);
 }
 
 static void a_full_set_stays(void **state)
@@ -140,9 +137,9 @@ static void footprints_take_along_what_hangs_on_them(void **state)
     assert_int_equal(f.set->nmixtures, 0);
     assert_int_equal(f.set->nterms, 3);
     const RetexTerm *again = &f.set->terms[2];
-    assert_int_equal(again->factors[0], 0); /* mixtures of one are that one */
-    assert_int_equal(again->factors[1], 1);
-    assert_int_equal(again->factors[2], 1);
+    assert_int_equal(test_factor_number(again->factors[0]), 0); /* mixtures of one are that one */
+    assert_int_equal(test_factor_number(again->factors[1]), 1);
+    assert_int_equal(test_factor_number(again->factors[2]), 1);
     assert_string_equal(f.set->parts[again->radiance].name, "dep_sharp_a2");
     assert_true(has(&f, "indep") && has(&f, "spread_sharp1") && has(&f, "depth"));
     assert_true(has(&f, "noise_indep") && has(&f, "noise_T_sharp") && !has(&f, "noise_T_broad"));
@@ -175,8 +172,9 @@ static void terms_go_without_their_gain(void **state)
         RetexError err;
         begin(&f);
         const int light = retex_set_find_part(f.set, "dep_sharp1"), parts = f.set->nparts;
-        RetexTerm term = {.kind = RETEX_TERM_DEP, .radiance = light, .nfactors = 1, .factors = {1}};
-        term.gain = add_part(&f, "gain", "R");
+        RetexTerm term = test_term(f.set, light, 1, (int[]){1});
+        test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_IMAGE, add_part(&f, "gain", "R")), &err),
+                  &err);
         test_must(retex_set_add_term(f.set, &term, NULL, &err), &err);
         if (empty)
             make_empty(&f, "gain");

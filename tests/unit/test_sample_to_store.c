@@ -31,8 +31,7 @@ static RetexSet *make_set(void)
     }
     f.hit++;
     test_must(retex_set_add_footprint(set, &f, NULL, &err), &err);
-    RetexTerm term = {
-        .kind = RETEX_TERM_DEP, .radiance = set->terms[0].radiance, .nfactors = 1, .factors = {set->nfootprints - 1}};
+    const RetexTerm term = test_term(set, set->terms[0].radiance, 1, (int[]){set->nfootprints - 1});
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
     return set;
 }

@@ -53,11 +53,9 @@ static void add_footprint(RetexSet *set, const char *name, RetexFootprintKind ki
 static void add_term(RetexSet *set, int radiance, int gain, int nfactors, int first, int second)
 {
     RetexError err = {0};
-    RetexTerm term = {.kind = nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP,
-                      .radiance = radiance,
-                      .gain = gain,
-                      .nfactors = nfactors,
-                      .factors = {first, second}};
+    RetexTerm term = test_term(set, radiance, nfactors, (int[]){first, second});
+    if (gain)
+        test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_IMAGE, gain), &err), &err);
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 
@@ -88,9 +86,9 @@ static RetexSet *make_set(void)
     add_term(set, add_part(set, "indep", "RGB", 1, &seed), 0, 0, 0, 0);
     add_term(set, light, 0, 1, SHARP, 0);
     add_term(set, light, g, 2, SHARP, LATER);
-    add_term(set, light, h, 1, RETEX_MIXTURE(0), 0);
-    add_term(set, light, h, 2, RETEX_MIXTURE(0), LATER);
-    add_term(set, light, j, 1, RETEX_MIXTURE(0), 0);
+    add_term(set, light, h, 1, MIXTURE(0), 0);
+    add_term(set, light, h, 2, MIXTURE(0), LATER);
+    add_term(set, light, j, 1, MIXTURE(0), 0);
     return set;
 }
 
@@ -334,7 +332,7 @@ static void test_doors(void **state)
         retex_image_free(&other);
         test_must(retex_combine(&other, back, stream ? again : samples, NULL, NULL, 0, &err), &err);
         assert_memory_equal(other.pixels, picture.pixels, bytes);
-        assert_true(back->terms[2].gain > 0 && back->terms[0].gain == 0);
+        assert_true(retex_term_image(&back->terms[2]) > 0 && retex_term_image(&back->terms[0]) < 0);
         retex_set_close(&back);
         retex_samples_close(&again);
     }
@@ -380,15 +378,17 @@ static void test_what_cannot_be(void **state)
     assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
     assert_non_null(strstr(err.message, "mixture"));
     weight->width++;
-    RetexImage *gain = &set->parts[set->terms[2].gain].image;
+    RetexImage *gain = &set->parts[retex_term_image(&set->terms[2])].image;
     gain->height--;
     assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
     gain->height++;
     RetexTerm term = set->terms[2];
-    term.gain = set->nparts;
+    term.factors[2].index = set->nparts;
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.gain = set->footprints[0].uv;
-    strcpy(set->parts[term.gain].letters, "RG");
+    term.factors[2].index = 0; /* the picture */
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    term.factors[2].index = set->footprints[0].uv;
+    strcpy(set->parts[set->footprints[0].uv].letters, "RG");
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
     retex_set_close(&set);
 }

@@ -140,6 +140,65 @@ static void test_stream_through_a_pipe(void **state)
     retex_samples_close(&samples_back);
 }
 
+/* Each with one mistake; the first has none. */
+static void expect_wrong_terms(RetexSet *set)
+{
+    RetexError err = {0};
+    const int radiance = set->terms[0].radiance, terms = set->nterms;
+    RetexParameter lamp = {.name = "lamp", .kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 1, 1}};
+    int correction;
+    test_must(retex_set_add_parameter(set, &lamp, NULL, &err), &err);
+    const RetexTerm corrects = {.target = 1, .radiance = radiance};
+    test_must(retex_set_add_correction(set, &corrects, &correction, &err), &err);
+    assert_int_equal(set->terms[correction].role, RETEX_ROLE_CORRECTION);
+    const RetexFactor weight = set->terms[correction].factors[0];
+    assert_int_equal(weight.kind, RETEX_FACTOR_PARAMETER);
+    assert_int_equal(set->parameters[weight.index].target, 1);
+    const RetexFactor one = retex_factor(RETEX_FACTOR_FOOTPRINT, 0), no_kind = {(RetexFactorKind)4, 0, 0},
+                      no_quantity = {RETEX_FACTOR_FOOTPRINT, (RetexQuantity)1, 0};
+    const RetexTerm wrong[] = {
+        {RETEX_ROLE_DEP, 0, radiance, 2, {one, retex_factor(RETEX_FACTOR_PARAMETER, 0)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_FOOTPRINT, set->nfootprints)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_FOOTPRINT, -1)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_MIXTURE, 0)}}, /* it has none */
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_PARAMETER, 2)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_IMAGE, 0)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_IMAGE, set->nparts)}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {no_kind}},
+        {RETEX_ROLE_DEP, 0, radiance, 1, {no_quantity}},
+        {RETEX_ROLE_DEP, 2, radiance, 1, {one}},
+        {RETEX_ROLE_DEP, -2, radiance, 1, {one}},
+        {RETEX_ROLE_DEP, 0, -1, 1, {one}},
+        {RETEX_ROLE_DEP, 0, radiance, RETEX_MAX_FACTORS + 1, {one}},
+        {RETEX_ROLE_DEP, 0, radiance, RETEX_MAX_HITS + 1, {one}}, /* the others are footprint 0 as well */
+        {RETEX_ROLE_DEP, 0, radiance, -1, {one}},
+        {(RetexRole)RETEX_ROLES, 0, radiance, 1, {one}},
+        {RETEX_ROLE_DEP, 1, radiance, 1, {weight}},
+        {RETEX_ROLE_CORRECTION, 1, radiance, 1, {one}},
+        {RETEX_ROLE_CORRECTION, 0, radiance, 1, {weight}},
+        {RETEX_ROLE_CORRECTION, -1, radiance, 1, {weight}},
+        {RETEX_ROLE_PICTURE, -1, radiance, 0, {one}},
+        {RETEX_ROLE_PICTURE, -1, 0, 1, {one}},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        if (retex_set_add_term(set, &wrong[i], NULL, &err) != (i ? RETEX_EINVAL : RETEX_OK))
+            fail_msg("term %zu: %s", i, err.message);
+    assert_int_equal(set->nterms, terms + 2);
+    const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
+    test_must(retex_set_add_term(set, &picture, NULL, &err), &err);
+    assert_int_equal(retex_set_add_term(set, &picture, NULL, &err), RETEX_EINVAL); /* there is one */
+    const RetexParameter wrong_parameters[] = {
+        {"", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}},         {"lamp", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}},
+        {"x", (RetexParameterKind)2, -1, {1, 1, 1}},        {"x", RETEX_PARAMETER_COLOR, 0, {1, 1, 1}},
+        {"x", RETEX_PARAMETER_COLOR, -1, {1, -1, 1}},       {"x", RETEX_PARAMETER_COLOR, -1, {1, NAN, 1}},
+        {"x", RETEX_PARAMETER_COLOR, -1, {1, 1, INFINITY}}, {"x", RETEX_PARAMETER_CORRECTION, -1, {0, 0, 0}},
+        {"x", RETEX_PARAMETER_CORRECTION, 0, {1, 1, 1}},
+    };
+    for (size_t i = 0; i < sizeof wrong_parameters / sizeof *wrong_parameters; i++)
+        if (retex_set_add_parameter(set, &wrong_parameters[i], NULL, &err) != RETEX_EINVAL)
+            fail_msg("parameter %zu is taken", i);
+}
+
 static void test_names_are_checked(void **state)
 {
     (void)state;
@@ -154,14 +213,7 @@ static void test_names_are_checked(void **state)
     assert_int_equal(retex_set_add_part(set, "x", "R", RETEX_HALF, 70000, 1, NULL, &err), RETEX_EINVAL);
     RetexFootprint footprint = {.target = set->ntargets, .hit = 1, .uv = -1, .spread = -1, .albedo = -1};
     assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
-    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {set->nfootprints}};
-    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.factors[0] = RETEX_MIXTURE(0); /* it has none */
-    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.factors[0] = 0, term.nfactors = RETEX_MAX_FACTORS + 1;
-    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.nfactors = -1;
-    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    expect_wrong_terms(set);
 
     strcpy(set->targets[0].name, "Floor");
     strcpy(set->targets[1].name, "floor");

@@ -102,8 +102,10 @@ static RetexSet *footprints_set(void)
         set->footprints[i].kind = kinds[i % 3];
     }
     /* one more term, whose only hit is of a mixture: that counts as its first share's footprint, here 2 and 0 */
-    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 2, .factors = {RETEX_MIXTURE(1), RETEX_MIXTURE(0)}};
-    test_must(retex_set_add_part(set, "mixed", "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+    int radiance;
+    test_must(retex_set_add_part(set, "mixed", "RGB", RETEX_HALF, 0, 0, &radiance, &err), &err);
+    test_renew_roles(set);
+    const RetexTerm term = test_term(set, radiance, 2, (int[]){MIXTURE(1), MIXTURE(0)});
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
     return set;
 }
@@ -250,8 +252,9 @@ static void test_too_many_signals(void **state)
         for (int kind = 0; kind < 4; kind++) {
             RetexFootprint footprint = {
                 .target = t, .hit = 1 + kind, .kind = (RetexFootprintKind)kind, .uv = -1, .spread = -1, .albedo = -1};
-            RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
-            test_must(retex_set_add_footprint(set, &footprint, &term.factors[0], &err), &err);
+            int index;
+            test_must(retex_set_add_footprint(set, &footprint, &index, &err), &err);
+            const RetexTerm term = test_term(set, 0, 1, &index);
             test_must(retex_set_add_term(set, &term, NULL, &err), &err);
         }
     }

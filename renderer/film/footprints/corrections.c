@@ -83,7 +83,7 @@ static void find_means(MeanAlbedos *means, const FootprintPixel *p, const Place 
 }
 
 /* A polynomial in the texture of the target that is edited: of all its hits. */
-typedef Float4 Polynomial[RETEX_MAX_FACTORS + 1];
+typedef Float4 Polynomial[RETEX_MAX_HITS + 1];
 
 /* Multiply by one more hit: on the target with this share, else of this albedo. */
 static void multiply(Polynomial polynomial, int *degree, float share, Float4 other)

@@ -23,21 +23,32 @@ static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int 
 
 /* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
 typedef struct Places {
-    int kinds[RETEX_MAX_TARGETS][2];         /* all clusters of a kind */
-    int interreflections[RETEX_MAX_TARGETS]; /* further hits of a target */
-    int any;                                 /* further hits of all targets */
+    RetexFactor kinds[RETEX_MAX_TARGETS][2];         /* all clusters of a kind */
+    RetexFactor interreflections[RETEX_MAX_TARGETS]; /* further hits of a target */
+    RetexFactor any;                                 /* further hits of all targets */
 } Places;
 
-static int finish_mixture(RetexSet *set, const RetexMixture *mixture, int *place, RetexError *err)
+static int finish_mixture(RetexSet *set, const RetexMixture *mixture, RetexFactor *place, RetexError *err)
 {
     int index = 0, code = retex_set_add_mixture(set, mixture, &index, err);
-    *place = RETEX_MIXTURE(index);
+    *place = retex_factor(RETEX_FACTOR_MIXTURE, index);
     return code;
 }
 
 static void add_share(RetexMixture *mixture, int footprint, int weight)
 {
     mixture->shares[mixture->nshares++] = (struct RetexShare){footprint, weight};
+}
+
+static void add_factors(RetexTerm *term, RetexFactor factor, int count)
+{
+    for (int n = 0; n < count; n++)
+        term->factors[term->nfactors++] = factor;
+}
+
+static RetexRole role_of(int kind)
+{
+    return kind ? RETEX_ROLE_BROAD : RETEX_ROLE_SHARP;
 }
 
 /* The clusters of one kind, each with the light that meets no other target. */
@@ -53,7 +64,8 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
         code = finish_footprint(film, set, images, &f, &index, err);
         if (code)
             break;
-        RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {index}};
+        RetexTerm term = {.role = role_of(kind), .target = t};
+        add_factors(&term, retex_factor(RETEX_FACTOR_FOOTPRINT, index), 1);
         code = finish_term(film, set, &term, images->light, err);
         if (code || film->plan.count == 1)
             continue;
@@ -84,12 +96,6 @@ static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, Re
     return code || !own.nshares ? code : finish_mixture(set, &own, &places->interreflections[t], err);
 }
 
-static void add_factors(RetexTerm *term, int place, int count)
-{
-    for (int n = 0; n < count; n++)
-        term->factors[term->nfactors++] = place;
-}
-
 /* The interreflected light of one kind. */
 static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places,
                                  RetexError *err)
@@ -97,7 +103,7 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
     int code = RETEX_OK;
     for (int i = 1; i < film->plan.count && !code; i++) {
         const PlanCoefficient *c = &film->plan.coefficients[i];
-        RetexTerm term = {.kind = RETEX_TERM_DEP};
+        RetexTerm term = {.role = role_of(kind), .target = t};
         add_factors(&term, places->kinds[t][kind], 1);
         add_factors(&term, places->any, c->mixed);
         for (int b = 0; b < set->ntargets; b++)
@@ -111,12 +117,13 @@ static int finish_correction(FootprintFilm *film, RetexSet *set, int t, int kind
                              RetexError *err)
 {
     const CorrectionImages *images = &film->targets[t].corrections;
-    RetexTerm term = {.kind = RETEX_TERM_DEP, .edited = 1 + t};
+    RetexTerm term = {.role = RETEX_ROLE_CORRECTION, .target = t};
     if (n) {
         add_factors(&term, kind < 2 ? places->kinds[t][kind] : places->interreflections[t], 1);
         add_factors(&term, places->interreflections[t], n - 1);
     }
-    return finish_term(film, set, &term, n ? images->with[kind][n - 1] : images->without, err);
+    int code = bands_move_part(film->bands, n ? images->with[kind][n - 1] : images->without, set, &term.radiance, err);
+    return code ? code : retex_set_add_correction(set, &term, NULL, err);
 }
 
 /* Corrections come after all other terms. */
@@ -135,9 +142,9 @@ static int finish_corrections(FootprintFilm *film, RetexSet *set, const Places *
 int footprints_finish(void *layout, RetexSet *set, RetexError *err)
 {
     FootprintFilm *film = layout;
-    Places places = {.any = 0};
+    Places places = {0};
     RetexMixture any = {0};
-    RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
+    RetexTerm free_term = {.role = RETEX_ROLE_INDEP, .target = -1};
     int code = finish_term(film, set, &free_term, film->free, err);
     for (int t = 0; t < set->ntargets && !code; t++) {
         for (int kind = 0; kind < 2 && !code; kind++)

@@ -251,7 +251,7 @@ static void sum_signals(const void *pixel, SignalTotals *totals)
 static int most_hits(int ntargets)
 {
     (void)ntargets;
-    return RETEX_MAX_FACTORS;
+    return RETEX_MAX_HITS;
 }
 
 const FilmLayout footprints_layout = {.name = "footprints",

@@ -114,7 +114,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->scene = scene;
     film->params = *params;
     film->bands = bands;
-    plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_FACTORS);
+    plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
     int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count +
                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS);
     if (parts > PARTS_MAX)
@@ -139,7 +139,7 @@ void footprints_close(void **out)
 long footprints_floats(const FilmParams *params, int ntargets)
 {
     Plan plan;
-    plan_make(&plan, ntargets, params->orders, RETEX_MAX_FACTORS);
+    plan_make(&plan, ntargets, params->orders, RETEX_MAX_HITS);
     /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
     return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1));
 }

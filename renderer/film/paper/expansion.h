@@ -24,7 +24,7 @@ typedef struct Monomial {
 
 typedef struct Expansion {
     HitCounts size;
-    TargetHit hits[RETEX_MAX_FACTORS];
+    TargetHit hits[RETEX_MAX_HITS];
     Monomial monomials[MONOMIALS_MAX];
 } Expansion;
 

@@ -446,12 +446,12 @@ static int finish_corrections(PaperFilm *film, RetexSet *set, RetexError *err)
     int code = RETEX_OK;
     for (int t = 0; t < corrected(film); t++)
         for (int n = 0; n <= last_correction(film) && !code; n++) {
-            RetexTerm term = {.kind = RETEX_TERM_DEP, .edited = 1 + t, .nfactors = n};
+            RetexTerm term = {.role = RETEX_ROLE_CORRECTION, .target = t, .nfactors = n};
             for (int k = 0; k < n; k++)
-                term.factors[k] = t * film->params.orders + k;
+                term.factors[k] = retex_factor(RETEX_FACTOR_FOOTPRINT, t * film->params.orders + k);
             code = bands_move_part(film->bands, film->corrections[t].of[n], set, &term.radiance, err);
             if (!code)
-                code = retex_set_add_term(set, &term, NULL, err);
+                code = retex_set_add_correction(set, &term, NULL, err);
         }
     return code;
 }

@@ -34,16 +34,16 @@ TermKey term_key(int nhits, HitMask hits, int strict)
 {
     int n = count_bits(hits);
     if (nhits == 0)
-        return KEY(RETEX_TERM_FULL, 0);
+        return KEY(RETEX_ROLE_FULL, 0);
     if (n == 0)
-        return KEY(RETEX_TERM_INDEP, (TermKey)nhits);
+        return KEY(RETEX_ROLE_INDEP, (TermKey)nhits);
     if (n == nhits)
-        return KEY(RETEX_TERM_DEP, hits);
+        return KEY(RETEX_ROLE_DEP, hits);
     if (nhits == 2)
-        return KEY(RETEX_TERM_CROSS2, hits);
+        return KEY(RETEX_ROLE_CROSS2, hits);
     if (nhits == 3)
-        return KEY(RETEX_TERM_CROSS3, hits);
-    return strict ? TERM_DROPPED : KEY(RETEX_TERM_DEP, as_prefix(hits));
+        return KEY(RETEX_ROLE_CROSS3, hits);
+    return strict ? TERM_DROPPED : KEY(RETEX_ROLE_DEP, as_prefix(hits));
 }
 
 /* Number of the cross term of one target in the supplement's order (4.3): sorted by its first factor, longer ones
@@ -74,21 +74,21 @@ static void letters_name(char *out, size_t size, HitMask hits, int ntargets, int
 
 static void term_name(char *out, size_t size, TermKey key, int ntargets)
 {
-    RetexTermKind kind = (RetexTermKind)(key >> 56);
+    RetexRole kind = (RetexRole)(key >> 56);
     HitMask hits = REST(key);
     char letters[64];
-    letters_name(letters, sizeof letters, hits, ntargets, kind == RETEX_TERM_DEP);
+    letters_name(letters, sizeof letters, hits, ntargets, kind == RETEX_ROLE_DEP);
     int one = ntargets == 1;
-    if (kind == RETEX_TERM_FULL)
+    if (kind == RETEX_ROLE_FULL)
         snprintf(out, size, "full_0");
-    else if (kind == RETEX_TERM_INDEP)
+    else if (kind == RETEX_ROLE_INDEP)
         snprintf(out, size, "indep_%d", (int)hits);
-    else if (kind == RETEX_TERM_DEP && one)
+    else if (kind == RETEX_ROLE_DEP && one)
         snprintf(out, size, "dep_%d", count_bits(hits));
-    else if (kind == RETEX_TERM_DEP)
+    else if (kind == RETEX_ROLE_DEP)
         snprintf(out, size, "dep_%s", letters);
     else {
-        int n = kind == RETEX_TERM_CROSS2 ? 2 : 3;
+        int n = kind == RETEX_ROLE_CROSS2 ? 2 : 3;
         if (one)
             snprintf(out, size, "cross%d_%d", n, supplement_number(n, hits));
         else
@@ -101,14 +101,14 @@ static TermKey key_of_name(const char *name, int ntargets, int orders)
 {
     static const struct {
         const char *start;
-        RetexTermKind kind;
-    } kinds[] = {{"indep_", RETEX_TERM_INDEP},
-                 {"dep_", RETEX_TERM_DEP},
-                 {"cross2_", RETEX_TERM_CROSS2},
-                 {"cross3_", RETEX_TERM_CROSS3}};
+        RetexRole kind;
+    } kinds[] = {{"indep_", RETEX_ROLE_INDEP},
+                 {"dep_", RETEX_ROLE_DEP},
+                 {"cross2_", RETEX_ROLE_CROSS2},
+                 {"cross3_", RETEX_ROLE_CROSS3}};
     char back[RETEX_NAME_MAX];
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        const RetexTermKind kind = kinds[k].kind;
+        const RetexRole kind = kinds[k].kind;
         const size_t length = strlen(kinds[k].start);
         HitMask hits = 0;
         int target = 0;
@@ -118,11 +118,11 @@ static TermKey key_of_name(const char *name, int ntargets, int orders)
             const int digit = *at - '0';
             if (*at >= 'a' && *at < 'a' + ntargets)
                 target = *at - 'a';
-            else if (kind == RETEX_TERM_INDEP && digit >= 0 && digit <= 9)
+            else if (kind == RETEX_ROLE_INDEP && digit >= 0 && digit <= 9)
                 hits = (10 * hits + (HitMask)digit) % 1000;
             else if (digit >= 1 && digit <= orders)
                 hits |=
-                    kind == RETEX_TERM_DEP ? hit_bit(target, digit) - hit_bit(target, 0) : hit_bit(target, digit - 1);
+                    kind == RETEX_ROLE_DEP ? hit_bit(target, digit) - hit_bit(target, 0) : hit_bit(target, digit - 1);
         }
         term_name(back, sizeof back, KEY(kind, hits), ntargets);
         if (hits && strcmp(back, name) == 0)
@@ -146,11 +146,11 @@ static int add_term(TermTable *table, TermKey key, RetexError *err)
 /* The paper's 21 radiance images of one target. */
 static int add_paper_terms(TermTable *table, int orders, RetexError *err)
 {
-    int code = add_term(table, KEY(RETEX_TERM_FULL, 0), err);
+    int code = add_term(table, KEY(RETEX_ROLE_FULL, 0), err);
     for (int h = 1; h <= orders && !code; h++) {
-        code = add_term(table, KEY(RETEX_TERM_INDEP, (TermKey)h), err);
+        code = add_term(table, KEY(RETEX_ROLE_INDEP, (TermKey)h), err);
         if (!code)
-            code = add_term(table, KEY(RETEX_TERM_DEP, ((HitMask)1 << h) - 1), err);
+            code = add_term(table, KEY(RETEX_ROLE_DEP, ((HitMask)1 << h) - 1), err);
     }
     for (int h = 2; h <= 3 && h <= orders; h++)
         for (HitMask m = 1; m < ((HitMask)1 << h) - 1 && !code; m++)
@@ -163,7 +163,7 @@ int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, Retex
     table->bands = bands, table->ntargets = ntargets, table->orders = orders;
     pthread_mutex_init(&table->lock, NULL);
     table->ready = 1;
-    return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_TERM_FULL, 0), err);
+    return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_ROLE_FULL, 0), err);
 }
 
 void terms_close(TermTable *table)
@@ -205,8 +205,8 @@ int terms_resume(TermTable *table, const char *name, RetexError *err)
 
 HitMask terms_hits(const TermTable *table, int term)
 {
-    const RetexTermKind kind = (RetexTermKind)(table->keys[term] >> 56);
-    return kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP ? 0 : REST(table->keys[term]);
+    const RetexRole kind = (RetexRole)(table->keys[term] >> 56);
+    return kind == RETEX_ROLE_FULL || kind == RETEX_ROLE_INDEP ? 0 : REST(table->keys[term]);
 }
 
 int hits_on_target(HitMask hits, int target)
@@ -217,10 +217,10 @@ int hits_on_target(HitMask hits, int target)
 int terms_place(const TermTable *table, int term, int *nfactors)
 {
     TermKey key = table->keys[term];
-    RetexTermKind kind = (RetexTermKind)(key >> 56);
+    RetexRole kind = (RetexRole)(key >> 56);
     int target = 0;
     *nfactors = 0;
-    if (kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP)
+    if (kind == RETEX_ROLE_FULL || kind == RETEX_ROLE_INDEP)
         return -1;
     *nfactors = count_bits(REST(key));
     while (!target_bits(key, target))
@@ -230,12 +230,14 @@ int terms_place(const TermTable *table, int term, int *nfactors)
 
 static void term_factors(RetexTerm *term, TermKey key, int ntargets, int orders)
 {
-    if (term->kind == RETEX_TERM_FULL || term->kind == RETEX_TERM_INDEP)
+    if (term->role == RETEX_ROLE_FULL || term->role == RETEX_ROLE_INDEP)
         return;
+    for (int t = ntargets - 1; t >= 0; t--)
+        term->target = target_bits(key, t) ? t : term->target;
     for (int t = 0; t < ntargets; t++)
         for (int k = 0; k < RETEX_MAX_ORDERS; k++)
             if (target_bits(key, t) >> k & 1)
-                term->factors[term->nfactors++] = t * orders + k;
+                term->factors[term->nfactors++] = retex_factor(RETEX_FACTOR_FOOTPRINT, t * orders + k);
 }
 
 static int compare_keys(const void *a, const void *b)
@@ -254,7 +256,7 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
     qsort(order, (size_t)table->count, sizeof *order, compare_keys);
     int code = RETEX_OK;
     for (int k = 0; k < table->count && !code; k++) {
-        RetexTerm term = {.kind = (RetexTermKind)(order[k][0] >> 56)};
+        RetexTerm term = {.role = (RetexRole)(order[k][0] >> 56), .target = -1};
         term_factors(&term, order[k][0], table->ntargets, set->orders);
         code = bands_move_part(table->bands, table->images[order[k][1]], set, &term.radiance, err);
         if (!code)

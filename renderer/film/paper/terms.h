@@ -8,7 +8,7 @@
 
 #define TERMS_MAX 1280 /* with footprints, originals and AOVs below what a set may have of parts */
 
-/* Kind of term and its factors in one number: kind << 56 | hit mask (or, for RETEX_TERM_INDEP, the hit count). */
+/* Kind of term and its factors in one number: kind << 56 | hit mask (or, for RETEX_ROLE_INDEP, the hit count). */
 typedef uint64_t TermKey;
 #define TERM_DROPPED (~(TermKey)0)
 

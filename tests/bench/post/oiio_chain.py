@@ -54,18 +54,19 @@ class Chain:
                 yield from ["--add"] if k else []
             yield from ["--div", *self.enlarged(first), "--label", f"MIXTURE{number}", "--pop"]
 
-    def factor(self, number):
-        return self.sample(number) if number >= 0 else [f"MIXTURE{-1 - number}"]
+    def factor(self, factor):
+        kind, number = factor
+        return self.sample(number) if kind == "footprint" else [f"MIXTURE{number}"]
 
     def weight(self, term):
-        """Of a correction, by how many targets have samples."""
-        if "edited" not in term:
-            return 1
+        """Of a correction, by how many targets have samples. The picture is no term of a sum."""
+        if term["role"] != "correction":
+            return term["role"] != "picture"
         targets, edited = len(self.set["targets"]), len(self.edited)
-        return (targets - edited) / (edited * (targets - 1)) if term["edited"] in self.edited else 0
+        return (targets - edited) / (edited * (targets - 1)) if term["target"] in self.edited else 0
 
     def radiance(self, term):
-        gain = [*self.part(term["gain"]), "--mul"] if term.get("gain") else []
+        gain = [word for f in term["factors"] if "image" in f for word in [*self.part(f["image"]), "--mul"]]
         weight = [] if self.weight(term) == 1 else ["--mulc", f"{self.weight(term)}"]
         return [*self.part(term["radiance"]), *gain, *weight]
 
@@ -80,7 +81,8 @@ class Chain:
 
 def main(path, samples, out):
     chain = Chain(manifest(path), manifest(samples))
-    terms = [(term, tuple(term["factors"])) for term in chain.set["terms"] if chain.weight(term)]
+    terms = [(term, tuple((kind, f[kind]) for f in term["factors"] for kind in ("footprint", "mixture") if kind in f))
+             for term in chain.set["terms"] if chain.weight(term)]
     call = ["oiiotool", path, "--label", "SET", "--pop", samples, "--label", "SAMPLES", "--pop",
             *chain.mixtures(), *chain.sum(terms), "--chnames", "R,G,B", "-d", "half", "-o", out]
     print("\n".join(call))

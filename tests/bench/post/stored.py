@@ -22,8 +22,9 @@ def groups(manifest):
         if name:
             found.setdefault(name, group)
     for term in manifest["terms"]:
-        put(term["radiance"], "radiance")
-        put(term.get("gain"), "radiance")
+        put(term["radiance"] if term["role"] != "picture" else None, "radiance")
+        for factor in term["factors"]:
+            put(factor.get("image"), "radiance")
     for footprint in manifest["footprints"]:
         put(footprint["uv"], "UV")
         put(footprint["spread"], "spread")

@@ -23,9 +23,9 @@ typedef struct Compaction {
     RetexCompactCache *cache; /* clusters, sums and gains that are made already */
     int trial;                /* 1: copy from the cache, for other trials; 0: the cache is complete, move from it */
     RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* trial textures by footprint, if trial is 1 */
-    int factors[RETEX_COMPACT_KINDS],
-        interreflected[RETEX_COMPACT_KINDS]; /* by kind: factors of single-hit and of interreflected light */
-    int mixtures[RETEX_MIXTURES_MAX];        /* by mixture of interreflections in the old set: the new factor */
+    RetexFactor factors[RETEX_COMPACT_KINDS],
+        interreflected[RETEX_COMPACT_KINDS];  /* by kind: factors of single-hit and of interreflected light */
+    RetexFactor mixtures[RETEX_MIXTURES_MAX]; /* by mixture of interreflections in the old set: the new factor */
     int footprints[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX];
     int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX],
         shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts of weights */
@@ -50,13 +50,18 @@ int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *er
     RetexSet empty = *set;
     empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
     empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.store = NULL, empty.source = NULL;
-    empty.exact_picture = 0;
     **copy = empty;
     return code;
 }
 
-/* Whether a part is copied: the picture, originals, radiance of terms without factors, and parts that nothing refers
- * to. Denoising data is not copied. */
+/* Whether a term is copied as it is: light without hits. */
+static int is_copied(const RetexTerm *term)
+{
+    return retex_term_is_light(term) && !retex_term_hits(term);
+}
+
+/* Whether a part is copied: the picture, originals, radiance of terms without hits, and parts that nothing refers to.
+ * Denoising data is not copied. */
 static int is_kept(const RetexSet *set, int part)
 {
     if (retex_part_is_denoise_data(set, part))
@@ -64,7 +69,7 @@ static int is_kept(const RetexSet *set, int part)
     if (!retex_part_is_used(set, part))
         return 1;
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].radiance == part && !set->terms[i].nfactors && !set->terms[i].edited)
+        if (set->terms[i].radiance == part && is_copied(&set->terms[i]))
             return 1;
     for (int t = 0; t < set->ntargets; t++)
         if (set->targets[t].original == part)
@@ -87,7 +92,7 @@ static int copy_kept(const Compaction *work, RetexError *err)
                 set->targets[t].original = index;
         for (int k = 0; k < old->nterms && !code; k++) {
             RetexTerm term = old->terms[k];
-            if (term.nfactors || term.edited || term.radiance != i)
+            if (!is_copied(&term) || term.radiance != i)
                 continue;
             term.radiance = index;
             code = retex_set_add_term(set, &term, NULL, err);
@@ -262,17 +267,17 @@ static int add_cluster(Compaction *work, int number, RetexCompactClusters *clust
 
 /* Add a mixture of a kind's footprints with these parts of weights. *place: its factor, or the footprint if only
  * one. */
-static int add_mixture(Compaction *work, int number, const int *weights, int *place, RetexError *err)
+static int add_mixture(Compaction *work, int number, const int *weights, RetexFactor *place, RetexError *err)
 {
     RetexMixture mixture = {.nshares = work->counts[number]};
     int index = 0;
-    *place = work->footprints[number][0];
+    *place = retex_factor(RETEX_FACTOR_FOOTPRINT, work->footprints[number][0]);
     if (mixture.nshares == 1)
         return RETEX_OK;
     for (int k = 0; k < mixture.nshares; k++)
         mixture.shares[k] = (struct RetexShare){work->footprints[number][k], weights[k]};
     int code = retex_set_add_mixture(work->set, &mixture, &index, err);
-    *place = RETEX_MIXTURE(index);
+    *place = retex_factor(RETEX_FACTOR_MIXTURE, index);
     return code;
 }
 
@@ -334,19 +339,26 @@ static int add_interreflection_mixtures(Compaction *work, RetexError *err)
         if (count == 1)
             continue;
         code = retex_set_add_mixture(work->set, &mixture, &index, err);
-        work->mixtures[m] = RETEX_MIXTURE(index);
+        work->mixtures[m] = retex_factor(RETEX_FACTOR_MIXTURE, index);
     }
     return code;
 }
 
-static int interreflection_factor(const Compaction *work, int factor)
+/* The new factor of an old one: of its kind's clusters, which share interreflected light if that is wanted. */
+static RetexFactor new_factor(const Compaction *work, RetexFactor factor, int place)
 {
-    const RetexSet *old = work->light->set;
-    return factor < 0
-               ? work->mixtures[RETEX_MIXTURE(factor)]
-               : work->factors[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_INTERREFLECTION)];
+    int target;
+    RetexFootprintKind kind;
+    if (!retex_factor_is_texture(factor))
+        return factor;
+    retex_factor_target(work->light->set, factor, &target, &kind);
+    const int number = find_kind(work->light, target, kind);
+    if (kind != RETEX_FOOTPRINT_INTERREFLECTION)
+        return (place ? work->interreflected : work->factors)[number];
+    return factor.kind == RETEX_FACTOR_MIXTURE ? work->mixtures[factor.index] : work->factors[number];
 }
 
+/* Make a gain, and the term's first factor of it. */
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
@@ -354,24 +366,26 @@ static int add_gain(Compaction *work, int number, int radiance, int place, Retex
     char target[RETEX_NAME_MAX];
     retex_target_word(target, work->set->targets[kind->target].name);
     RetexImage gain = {0};
-    int code = make_gain(&gain, work, number, radiance, place, err);
+    int part, code = make_gain(&gain, work, number, radiance, place, err);
     if (!code)
-        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s%s%s", target, name,
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &part, err, "gain_%s_%s%s%s", target, name,
                           place ? "_" : "", place ? kind->gains[work->scales->mixed[number]][place - 1].name : "");
     retex_image_free(&gain);
-    return code;
+    return code ? code : retex_term_add_factor(term, retex_factor(RETEX_FACTOR_IMAGE, part), err);
 }
 
 static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
 {
-    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
-    if (place)
-        term = work->light->kinds[number].gains[work->scales->mixed[number]][place - 1].term;
-    term.radiance = radiance;
-    term.factors[0] = place ? work->interreflected[number] : work->factors[number];
-    for (int k = 1; k < term.nfactors; k++)
-        term.factors[k] = interreflection_factor(work, term.factors[k]);
+    const RetexCompactKind *kind = &work->light->kinds[number];
+    RetexTerm term = {.role = kind->kind == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP : RETEX_ROLE_BROAD,
+                      .target = kind->target,
+                      .radiance = radiance};
     int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
+    const RetexTerm *old = place ? &kind->gains[work->scales->mixed[number]][place - 1].term : NULL;
+    if (!code && !old)
+        code = retex_term_add_factor(&term, work->factors[number], err);
+    for (int k = 0; old && k < old->nfactors && !code; k++)
+        code = retex_term_add_factor(&term, new_factor(work, old->factors[k], place), err);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
@@ -409,15 +423,9 @@ static int add_terms(Compaction *work, int number, RetexError *err)
 static int copy_correction(Compaction *work, const RetexTerm *old, RetexError *err)
 {
     RetexTerm term = *old;
-    int target;
-    RetexFootprintKind kind;
     int code = retex_compact_copy_part(work->set, work->light->set, old->radiance, &term.radiance, err);
-    for (int k = 0; k < old->nfactors && !code; k++) {
-        retex_factor_target(work->light->set, old->factors[k], &target, &kind);
-        term.factors[k] = kind == RETEX_FOOTPRINT_INTERREFLECTION
-                              ? interreflection_factor(work, old->factors[k])
-                              : work->interreflected[find_kind(work->light, target, kind)];
-    }
+    for (int k = 0; k < old->nfactors; k++)
+        term.factors[k] = new_factor(work, old->factors[k], 1);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
@@ -426,7 +434,7 @@ static int copy_corrections(Compaction *work, RetexError *err)
     const RetexSet *old = work->light->set;
     int code = RETEX_OK;
     for (int t = 0; t < old->nterms && !code; t++)
-        if (old->terms[t].edited)
+        if (old->terms[t].role == RETEX_ROLE_CORRECTION)
             code = copy_correction(work, &old->terms[t], err);
     return code;
 }

@@ -4,6 +4,7 @@
 #include <retex/compact.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,7 +72,8 @@ static void round_corrections(RetexSet *set, double psnr)
     const double step = CORRECTION_STEP * picture_mean(&set->parts[0].image) * pow(10, -psnr / 20);
     for (int t = set->nterms - 1; t >= 0; t--) {
         const int part = set->terms[t].radiance;
-        if (!set->terms[t].edited || (psnr >= CORRECTION_PSNR && !round_correction(&set->parts[part].image, step)))
+        if (set->terms[t].role != RETEX_ROLE_CORRECTION ||
+            (psnr >= CORRECTION_PSNR && !round_correction(&set->parts[part].image, step)))
             continue;
         memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(set->nterms - t - 1));
         set->nterms--;
@@ -101,6 +103,21 @@ static int check_params(const RetexCompactParams *params, RetexError *err)
     return code;
 }
 
+static int is_compact(const RetexSet *set)
+{
+    int images = 0;
+    for (int t = 0; t < set->nterms; t++)
+        images |= retex_term_image(&set->terms[t]) >= 0;
+    return images;
+}
+
+static void tell_unknown(const RetexCompactParams *params, const char *unknown)
+{
+    char text[256];
+    snprintf(text, sizeof text, "the set cannot be made compact and takes more room: %s", unknown);
+    params->warn(params->warn_context, text);
+}
+
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params, int nthreads,
                       RetexError *err)
 {
@@ -108,12 +125,15 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
     RetexCompactParams chosen = params ? *params : defaults;
     RetexCompactScales scales;
     RetexCompactLight light = {0};
-    int understood = 0;
+    const int sortable = strcmp(set->layout, "footprints") == 0 && !is_compact(set);
+    const char *unknown = NULL;
     *compact = NULL;
     int code = check_params(&chosen, err);
-    if (!code && strcmp(set->layout, "footprints") == 0)
-        code = retex_compact_light_open(&light, set, chosen.noise, &understood, err);
-    if (!code && understood) {
+    if (!code && sortable)
+        code = retex_compact_light_open(&light, set, chosen.noise, &unknown, err);
+    if (!code && unknown && chosen.warn)
+        tell_unknown(&chosen, unknown);
+    if (!code && sortable && !unknown) {
         code = retex_compact_search(&scales, &light, &chosen, nthreads, err);
         if (!code)
             code = retex_compact_build(compact, &light, &scales, nthreads, err);

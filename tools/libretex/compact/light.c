@@ -71,55 +71,80 @@ static int sort_shares(RetexCompactLight *light)
     return 1;
 }
 
+/* Sorts a term. Its first hit is the factor that is no interreflection. */
 static int sort_term(RetexCompactLight *light, int number)
 {
     const RetexTerm *term = &light->set->terms[number];
-    int target;
-    RetexFootprintKind what;
-    if (term->gain)
-        return 0;
-    if (!term->nfactors || term->edited)
+    if (!retex_term_is_light(term) || !retex_term_hits(term))
         return 1;
-    for (int k = 1; k < term->nfactors; k++) {
+    RetexCompactKind *kind = NULL;
+    RetexFactor first = {0};
+    int firsts = 0;
+    for (int k = 0; k < term->nfactors; k++) {
+        int target;
+        RetexFootprintKind what;
         retex_factor_target(light->set, term->factors[k], &target, &what);
-        if (what != RETEX_FOOTPRINT_INTERREFLECTION)
-            return 0;
+        if (what == RETEX_FOOTPRINT_INTERREFLECTION)
+            continue;
+        kind = find_kind(light, target, what);
+        first = term->factors[k];
+        firsts++;
     }
-    retex_factor_target(light->set, term->factors[0], &target, &what);
-    RetexCompactKind *kind = find_kind(light, target, what);
-    if (!kind || what == RETEX_FOOTPRINT_INTERREFLECTION)
+    if (firsts != 1 || !kind)
         return 0;
     if (term->nfactors > 1) {
-        if (kind->ninterreflections && term->factors[0] != kind->first)
+        if (kind->ninterreflections && memcmp(&first, &kind->first, sizeof first) != 0)
             return 0;
-        kind->first = term->factors[0];
+        kind->first = first;
         kind->interreflections[kind->ninterreflections++].term = number;
         return 1;
     }
     for (int i = 0; i < kind->count; i++)
-        if (kind->footprints[i] == term->factors[0] && kind->single[i] < 0) {
+        if (first.kind == RETEX_FACTOR_FOOTPRINT && kind->footprints[i] == first.index && kind->single[i] < 0) {
             kind->single[i] = number;
             return 1;
         }
     return 0;
 }
 
-int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, int *understood,
+/* What a term has that is not made compact; NULL: nothing. */
+static const char *unknown_factor(const RetexTerm *term)
+{
+    for (int k = 0; k < term->nfactors && retex_term_is_light(term); k++)
+        if (!retex_factor_is_texture(term->factors[k]))
+            return term->factors[k].kind == RETEX_FACTOR_PARAMETER ? "it has lamps that can be changed"
+                                                                   : "its terms have images as factors";
+    return NULL;
+}
+
+static const char *sort_all(RetexCompactLight *light)
+{
+    if (!sort_footprints(light))
+        return "its footprints are of another form than those of layout footprints";
+    if (!sort_shares(light))
+        return "its mixtures are of another form than those of layout footprints";
+    return light->nkinds ? NULL : "no target is in the picture";
+}
+
+int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, const char **unknown,
                              RetexError *err)
 {
     *light = (RetexCompactLight){.set = set, .noise = noise};
-    *understood = sort_footprints(light) && light->nkinds > 0 && sort_shares(light);
-    if (!*understood)
+    *unknown = sort_all(light);
+    for (int i = 0; i < set->nterms && !*unknown; i++)
+        *unknown = unknown_factor(&set->terms[i]);
+    if (*unknown)
         return RETEX_OK;
     light->interreflections = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->interreflections);
     if (!light->interreflections)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < light->nkinds; i++)
         light->kinds[i].interreflections = light->interreflections + (size_t)i * (size_t)set->nterms;
-    for (int i = 0; i < set->nterms && *understood; i++)
-        *understood = sort_term(light, i);
+    for (int i = 0; i < set->nterms && !*unknown; i++)
+        if (!sort_term(light, i))
+            *unknown = "its terms are of another form than those of layout footprints";
     int code = RETEX_OK;
-    for (int i = 0; i < RETEX_COMPACT_CHOICES * light->nkinds && *understood && !code; i++)
+    for (int i = 0; i < RETEX_COMPACT_CHOICES * light->nkinds && !*unknown && !code; i++)
         code = retex_compact_orders_make(&light->kinds[i / RETEX_COMPACT_CHOICES], set, i % RETEX_COMPACT_CHOICES, err);
     return code;
 }
@@ -139,7 +164,7 @@ void retex_compact_light_close(RetexCompactLight *light)
 float retex_compact_grey(const RetexTerm *term)
 {
     float grey = 1;
-    for (int k = 1; k < term->nfactors; k++)
+    for (int k = retex_term_hits(term); k > 1; k--)
         grey *= RETEX_COMPACT_GREY;
     return grey;
 }
@@ -155,8 +180,8 @@ static double share_of(const RetexCompactLight *light, const RetexCompactKind *k
     const int footprint = kind->footprints[k];
     if (!kind->ninterreflections || !is_covered(light->set, footprint, pixel))
         return 0;
-    if (kind->first >= 0)
-        return kind->first == footprint;
+    if (kind->first.kind == RETEX_FACTOR_FOOTPRINT)
+        return kind->first.index == footprint;
     return kind->share[k] >= 0 ? (double)light->set->parts[kind->share[k]].image.pixels[pixel] : 0;
 }
 

@@ -35,7 +35,7 @@ typedef struct RetexCompactKind {
     int footprints[RETEX_SHARES_MAX];
     int single[RETEX_SHARES_MAX]; /* the term with this footprint as only factor, or -1 */
     int share[RETEX_SHARES_MAX];  /* the part of its weight in a mixture, or -1 */
-    int first;                    /* the factor of terms with interreflections */
+    RetexFactor first;            /* the first hit of terms with interreflections */
     int ninterreflections;        /* terms whose first hit is of this kind, with more hits */
     RetexCompactInterreflection *interreflections;
     int ngains[RETEX_COMPACT_CHOICES];
@@ -50,8 +50,9 @@ typedef struct RetexCompactLight {
     RetexCompactInterreflection *interreflections; /* of all kinds */
 } RetexCompactLight;
 
-/* Sort a set's footprints and terms. *understood = 0 if the set has a structure that the renderer does not make. */
-int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, int *understood,
+/* Sort a set's footprints and terms. *unknown: what of the set's structure cannot be made compact, or NULL; the light is
+ * then not to be used. */
+int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, const char **unknown,
                              RetexError *err);
 void retex_compact_light_close(RetexCompactLight *light);
 

@@ -9,16 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "set/signals.h"
+
 static const int kept_orders[] = {1, 2, 3, 5, 8}; /* the highest order is kept too */
 
 enum { KEPT_ORDERS = sizeof kept_orders / sizeof *kept_orders, FIRST_MIXED = 3 };
 
 /* Whether a factor is a mixture of interreflection footprints of several targets. */
-static int is_any_target(const RetexSet *set, int factor)
+static int is_any_target(const RetexSet *set, RetexFactor factor)
 {
-    if (factor >= 0)
+    if (factor.kind != RETEX_FACTOR_MIXTURE)
         return 0;
-    const RetexMixture *mixture = &set->mixtures[RETEX_MIXTURE(factor)];
+    const RetexMixture *mixture = &set->mixtures[factor.index];
     const int first = set->footprints[mixture->shares[0].footprint].target;
     for (int k = 1; k < mixture->nshares; k++)
         if (set->footprints[mixture->shares[k].footprint].target != first)
@@ -26,13 +28,32 @@ static int is_any_target(const RetexSet *set, int factor)
     return 0;
 }
 
-/* The factor that mixes several targets' interreflection footprints, or 0 if no term has one. */
-static int find_any_target(const RetexCompactKind *kind, const RetexSet *set)
+static int is_interreflection(const RetexSet *set, RetexFactor factor)
 {
-    for (int i = 0; i < kind->ninterreflections; i++)
-        if (is_any_target(set, set->terms[kind->interreflections[i].term].factors[1]))
-            return set->terms[kind->interreflections[i].term].factors[1];
-    return 0;
+    int target;
+    RetexFootprintKind kind;
+    retex_factor_target(set, factor, &target, &kind);
+    return kind == RETEX_FOOTPRINT_INTERREFLECTION;
+}
+
+/* A term's first factor of interreflections. */
+static const RetexFactor *first_interreflection(const RetexSet *set, const RetexTerm *term)
+{
+    int k = 0;
+    while (!is_interreflection(set, term->factors[k]))
+        k++;
+    return &term->factors[k];
+}
+
+/* The factor that mixes several targets' interreflection footprints, or NULL if no term has one. */
+static const RetexFactor *find_any_target(const RetexCompactKind *kind, const RetexSet *set)
+{
+    for (int i = 0; i < kind->ninterreflections; i++) {
+        const RetexFactor *factor = first_interreflection(set, &set->terms[kind->interreflections[i].term]);
+        if (is_any_target(set, *factor))
+            return factor;
+    }
+    return NULL;
 }
 
 static int same_factors(const RetexTerm *a, const RetexTerm *b)
@@ -41,15 +62,20 @@ static int same_factors(const RetexTerm *a, const RetexTerm *b)
 }
 
 /* Find or add the gain for `order` interreflections, with the factors of term `number`, or with factor `any` if not
- * 0. */
+ * NULL. */
 static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, int number, int order,
-                     int any)
+                     const RetexFactor *any)
 {
     const RetexTerm *old = &set->terms[number];
+    const int old_order = retex_term_hits(old) - 1;
     RetexTerm term = *old;
-    term.nfactors = 1 + order;
-    for (int k = 1; k < term.nfactors; k++)
-        term.factors[k] = any ? any : order == old->nfactors - 1 ? old->factors[k] : old->factors[1];
+    term.nfactors = 0;
+    term.factors[term.nfactors++] = kind->first;
+    for (int k = 0; k < old->nfactors && !any && order == old_order; k++)
+        if (is_interreflection(set, old->factors[k]))
+            term.factors[term.nfactors++] = old->factors[k];
+    while (term.nfactors < 1 + order)
+        term.factors[term.nfactors++] = any ? *any : *first_interreflection(set, old);
     int g = 0;
     while (g < kind->ngains[mixed] && !same_factors(&kind->gains[mixed][g].term, &term))
         g++;
@@ -59,7 +85,7 @@ static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMi
     gain->term = term;
     /* the gain is named after the radiance it replaces, or after its order */
     const char *name = set->parts[old->radiance].name, *tail = strrchr(name, '_');
-    if (any || order != old->nfactors - 1)
+    if (any || order != old_order)
         snprintf(gain->name, sizeof gain->name, "%c%d", any ? 'm' : 'a', order);
     else
         snprintf(gain->name, sizeof gain->name, "%s", tail ? tail + 1 : name);
@@ -88,9 +114,10 @@ static void share_term(RetexCompactKind *kind, const RetexSet *set, RetexCompact
                        RetexCompactInterreflection *part, int highest)
 {
     const RetexTerm *term = &set->terms[part->term];
-    const int order = term->nfactors - 1;
+    const int order = retex_term_hits(term) - 1;
     const int mixes = mixed == RETEX_COMPACT_MIXED && order >= FIRST_MIXED;
-    const int any = mixes ? find_any_target(kind, set) : is_any_target(set, term->factors[1]) ? term->factors[1] : 0;
+    const RetexFactor *own = first_interreflection(set, term);
+    const RetexFactor *any = mixes ? find_any_target(kind, set) : is_any_target(set, *own) ? own : NULL;
     int orders[2] = {order, order};
     const double share = any || set->ntargets == 1 ? between(order, highest, orders) : 1;
     for (int k = 0; k < 2; k++) {
@@ -107,8 +134,8 @@ int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, Retex
     if (!kind->gains[mixed])
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
     for (int i = 0; i < kind->ninterreflections; i++)
-        if (set->terms[kind->interreflections[i].term].nfactors - 1 > highest)
-            highest = set->terms[kind->interreflections[i].term].nfactors - 1;
+        if (retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1 > highest)
+            highest = retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1;
     for (int i = 0; i < kind->ninterreflections; i++)
         share_term(kind, set, mixed, &kind->interreflections[i], highest);
     return RETEX_OK;

@@ -357,14 +357,14 @@ int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *li
 {
     Search work = {.light = light, .nthreads = nthreads};
     RetexCompactLight small = {0};
-    int understood;
+    const char *unknown = NULL;
     *scales = (RetexCompactScales){0};
     list_choices(&work, scales, params);
     if (!work.count)
         return RETEX_OK;
     int code = retex_compact_reference_open(&work.reference, light, nthreads, err);
     if (!code)
-        code = retex_compact_light_open(&small, work.reference.set, params->noise, &understood, err);
+        code = retex_compact_light_open(&small, work.reference.set, params->noise, &unknown, err);
     work.light = &small;
     work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_ALLOWED * work.reference.noise);
     work.cache = calloc(1, sizeof *work.cache);

@@ -86,13 +86,12 @@ int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *resul
 {
     Finish finish = {d, result};
     RetexSet *set = d->set;
-    const int exact = set->exact_picture;
+    RetexCombineParams sum = RETEX_COMBINE_INIT;
+    sum.terms_only = 1; /* the picture is that of the terms before they were filtered */
     retex_parallel(retex_threads(nthreads), set->height, restore_row, &finish);
     int code = set->nterms && !d->params.full_precision ? round_all(d, nthreads, err) : RETEX_OK;
-    set->exact_picture = 0; /* until it is made of the filtered terms */
     if (!code && set->nterms)
-        code = retex_combine(&set->parts[0].image, set, NULL, NULL, &d->roi, nthreads, err);
-    set->exact_picture = exact;
+        code = retex_combine(&set->parts[0].image, set, NULL, &sum, &d->roi, nthreads, err);
     for (int y = 0; y < set->height && !code; y++)
         round_halves(&set->parts[0], y);
     return code;

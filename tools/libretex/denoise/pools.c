@@ -149,7 +149,7 @@ static int find_interreflected_light(float **interreflected, const RetexSet *set
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
         RetexFootprintImage light = find_image(set, m->part, 3, 3);
-        if (signal->target < 0 || m->term < 0 || set->terms[m->term].nfactors < 2 || !light.pixels)
+        if (signal->target < 0 || m->term < 0 || retex_term_hits(&set->terms[m->term]) < 2 || !light.pixels)
             continue;
         if (!*interreflected && !(*interreflected = calloc(pixels, sizeof **interreflected)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");

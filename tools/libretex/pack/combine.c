@@ -11,29 +11,33 @@
 #include "retexture/combine_rows.h"
 #include "base/half.h"
 #include "set/manifest.h"
+#include "set/references.h"
 
 /* --- what is needed --- */
 
-/* Mark the parts that recombination with the originals reads; 0 where one is not there. */
-static int mark_needed(char *needed, const RetexSet *set)
+typedef struct Needed {
+    const RetexSet *set;
+    char *parts;
+} Needed;
+
+static void mark_part(void *context, RetexPartUse use, int user, int *part)
 {
+    const Needed *needed = context;
+    if (use == RETEX_PART_RADIANCE || use == RETEX_PART_IMAGE)
+        needed->parts[*part] |= retex_term_is_light(&needed->set->terms[user]);
+    else
+        needed->parts[*part] |= use == RETEX_PART_WEIGHT || use == RETEX_PART_ALBEDO;
+}
+
+/* Mark the parts that recombination with the originals reads; 0 where one is not there. */
+static int mark_needed(char *parts, const RetexSet *set)
+{
+    Needed needed = {set, parts};
     int ok = 1;
-    memset(needed, 0, (size_t)set->nparts);
-    for (int i = 0; i < set->nterms; i++) {
-        if (set->terms[i].edited)
-            continue;
-        needed[set->terms[i].radiance] = 1;
-        if (set->terms[i].gain)
-            needed[set->terms[i].gain] = 1;
-    }
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            needed[set->mixtures[i].shares[k].weight] = 1;
+    memset(parts, 0, (size_t)set->nparts);
+    retex_set_visit_const_parts(set, mark_part, &needed);
     for (int i = 0; i < set->nfootprints; i++)
-        if (set->footprints[i].albedo >= 0)
-            needed[set->footprints[i].albedo] = 1;
-        else
-            ok = 0;
+        ok = ok && set->footprints[i].albedo >= 0;
     return ok;
 }
 

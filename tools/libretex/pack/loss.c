@@ -13,36 +13,26 @@
 #include "pack/bands.h"
 #include "picture/srgb_codes.h"
 #include "set/noise.h"
+#include "set/references.h"
 
 /* --- bytes --- */
 
 const char *const retex_pack_group_names[RETEX_PACK_GROUPS] = {"picture", "radiance", "gains",     "uv",   "spread",
                                                                "weights", "albedo",   "originals", "other"};
 
-static void assign(RetexPackGroup *groups, int part, RetexPackGroup group)
+static void assign(void *context, RetexPartUse use, int user, int *part)
 {
-    if (part > 0)
-        groups[part] = group;
-}
-
-static void assign_all(RetexPackGroup *groups, const RetexSet *set)
-{
-    for (int i = 0; i < set->nparts; i++)
-        groups[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
-    for (int i = 0; i < set->nterms; i++) {
-        assign(groups, set->terms[i].radiance, RETEX_PACK_RADIANCE);
-        assign(groups, set->terms[i].gain, RETEX_PACK_GAINS);
-    }
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            assign(groups, set->mixtures[i].shares[k].weight, RETEX_PACK_WEIGHTS);
-    for (int i = 0; i < set->nfootprints; i++) {
-        assign(groups, set->footprints[i].uv, RETEX_PACK_UV);
-        assign(groups, set->footprints[i].spread, RETEX_PACK_SPREAD);
-        assign(groups, set->footprints[i].albedo, RETEX_PACK_ALBEDO);
-    }
-    for (int i = 0; i < set->ntargets; i++)
-        assign(groups, set->targets[i].original, RETEX_PACK_ORIGINALS);
+    static const RetexPackGroup of_use[] = {[RETEX_PART_RADIANCE] = RETEX_PACK_RADIANCE,
+                                            [RETEX_PART_IMAGE] = RETEX_PACK_GAINS,
+                                            [RETEX_PART_UV] = RETEX_PACK_UV,
+                                            [RETEX_PART_SPREAD] = RETEX_PACK_SPREAD,
+                                            [RETEX_PART_ALBEDO] = RETEX_PACK_ALBEDO,
+                                            [RETEX_PART_WEIGHT] = RETEX_PACK_WEIGHTS,
+                                            [RETEX_PART_ORIGINAL] = RETEX_PACK_ORIGINALS};
+    RetexPackGroup *groups = context;
+    (void)user;
+    if (*part > 0)
+        groups[*part] = of_use[use];
 }
 
 int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, RetexError *err)
@@ -52,7 +42,9 @@ int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, Ret
     memset(bytes, 0, RETEX_PACK_GROUPS * sizeof *bytes);
     if (!pack)
         return retex_fail(err, RETEX_ENOTFOUND, "the set is not that of an open pack");
-    assign_all(groups, set);
+    for (int i = 0; i < set->nparts; i++)
+        groups[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
+    retex_set_visit_const_parts(set, assign, groups);
     for (int i = 0; i < set->nparts; i++)
         bytes[groups[i]] += retex_pack_part_bytes(pack, i);
     return 0;
@@ -131,7 +123,7 @@ static int measure_picture(const PictureWork *work, int picture, int nthreads, R
 {
     RetexTexture *texture = NULL, *textures[RETEX_MAX_TARGETS] = {NULL};
     RetexImage texels = {0};
-    RetexSet terms = *work->set;
+    RetexCombineParams params = RETEX_COMBINE_INIT;
     PictureWork own = *work;
     int code = RETEX_OK;
     if (picture != RETEX_PACK_LOSS_ORIGINAL) {
@@ -142,11 +134,11 @@ static int measure_picture(const PictureWork *work, int picture, int nthreads, R
             code = retex_texture_create(&texture, &texels, NULL, nthreads, err);
         }
     }
-    terms.exact_picture = 0;
+    params.terms_only = 1;
     for (int i = 0; i < work->set->ntargets; i++)
         textures[i] = texture;
     if (!code)
-        code = retex_retexture(&terms, NULL, textures, NULL, process_rows, &own, nthreads, err);
+        code = retex_retexture(work->set, NULL, textures, &params, process_rows, &own, nthreads, err);
     retex_texture_close(&texture);
     retex_image_free(&texels);
     return code;

@@ -9,6 +9,7 @@
 
 #include "compact/light.h"
 #include "compact/image_noise.h"
+#include "set/references.h"
 
 #define FINE_NOISE 3     /* the step of radiance is at most this many times its noise, */
 #define FINER_MOST 4     /* but at least the quality's step divided by this; */
@@ -96,19 +97,21 @@ static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
     plan->means[f->spread] = f->uv;
 }
 
+static void give_part_role(void *context, RetexPartUse use, int user, int *part)
+{
+    static const Role of_use[] = {[RETEX_PART_RADIANCE] = ROLE_LIGHT,
+                                  [RETEX_PART_IMAGE] = ROLE_GAIN,
+                                  [RETEX_PART_ORIGINAL] = ROLE_ORIGINAL,
+                                  [RETEX_PART_WEIGHT] = ROLE_WEIGHT};
+    (void)user;
+    if (use != RETEX_PART_UV && use != RETEX_PART_SPREAD && use != RETEX_PART_ALBEDO)
+        give_role(context, *part, of_use[use]);
+}
+
 static void give_roles(Planning *plan)
 {
     const RetexSet *set = plan->set;
-    for (int i = 0; i < set->nterms; i++) {
-        give_role(plan, set->terms[i].radiance, ROLE_LIGHT);
-        if (set->terms[i].gain)
-            give_role(plan, set->terms[i].gain, ROLE_GAIN);
-    }
-    for (int i = 0; i < set->ntargets; i++)
-        give_role(plan, set->targets[i].original, ROLE_ORIGINAL);
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            give_role(plan, set->mixtures[i].shares[k].weight, ROLE_WEIGHT);
+    retex_set_visit_const_parts(set, give_part_role, plan);
     for (int i = 0; i < set->nfootprints; i++)
         give_footprint_roles(plan, &set->footprints[i]);
     give_role(plan, 0, ROLE_LIGHT);
@@ -144,7 +147,7 @@ static double white_of(const Planning *plan, int part)
     double count = 0, sum = 0, squares = 0;
     int darkened = part > 0;
     for (int i = 0; i < set->nterms; i++)
-        darkened = darkened && (set->terms[i].radiance != part || set->terms[i].nfactors > 0);
+        darkened = darkened && (set->terms[i].radiance != part || retex_term_hits(&set->terms[i]) > 0);
     for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
         const double v = (double)im->pixels[i];
         if (!(v > 0) || !isfinite(v))
@@ -262,8 +265,8 @@ static void plan_gain(Planning *plan, int part)
     const RetexSet *set = plan->set;
     int most = 1, radiance = 0;
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].gain == part && set->terms[i].nfactors >= most)
-            most = set->terms[i].nfactors, radiance = set->terms[i].radiance;
+        if (retex_term_image(&set->terms[i]) == part && retex_term_hits(&set->terms[i]) >= most)
+            most = retex_term_hits(&set->terms[i]), radiance = set->terms[i].radiance;
     plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 

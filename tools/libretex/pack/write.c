@@ -163,13 +163,17 @@ static double compacting_margin(double aim)
     return COMPACTING_MARGIN * (1 + (COMPACTING_MARGIN_GROWS - 1) * finest);
 }
 
-static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, int nthreads, RetexError *err)
+/* params: NULL, or who is told what cannot be made compact. */
+static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, const RetexPackParams *params, int nthreads,
+                        RetexError *err)
 {
     const int exact = isinf(aim);
     const RetexPackQuantizer quantizer = retex_pack_quantizer(exact ? 0 : retex_pack_quality_psnr(aim));
     RetexCompactParams compacting = RETEX_COMPACT_INIT;
     compacting.psnr = exact ? 0 : retex_pack_quality_psnr(aim) + compacting_margin(aim);
     compacting.noise = pow(fmax(fmin((100 - aim) / 10, 1), 0), 2);
+    if (params)
+        compacting.warn = params->warn, compacting.warn_context = params->warn_context;
     int code = exact ? retex_compact_copy_set(&attempt->compact, set, err)
                      : retex_set_compact(&attempt->compact, set, &compacting, nthreads, err);
     return code ? code
@@ -216,11 +220,13 @@ static double next_aim(double least)
 
 /* Attempts, each finer than the last, until what is promised holds; without loss it does. */
 static int keep_promise(Attempt *attempt, RetexPackPromise *promise, const RetexSet *set,
-                        const RetexPackReference *reference, int nthreads, RetexError *err)
+                        const RetexPackReference *reference, const RetexPackParams *params, int nthreads,
+                        RetexError *err)
 {
     double aim = promise->quality;
     for (;;) {
-        int code = attempt_make(attempt, set, aim, nthreads, err);
+        int code = attempt_make(attempt, set, aim, params, nthreads, err);
+        params = NULL; /* once is enough */
         if (!code)
             code = attempt_measure(&promise->measured, attempt, reference, nthreads, err);
         if (code || promise->measured >= promise->promised || isinf(aim))
@@ -262,9 +268,9 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     if (!code && params->lossless)
         code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
     else if (!code && comparable)
-        code = keep_promise(&attempt, &promise, set, &reference, nthreads, err);
+        code = keep_promise(&attempt, &promise, set, &reference, params, nthreads, err);
     else if (!code)
-        code = attempt_make(&attempt, set, params->quality, nthreads, err);
+        code = attempt_make(&attempt, set, params->quality, params, nthreads, err);
     if (!code)
         code = write_file(&attempt.encoded, comparable ? &promise : NULL, path, bytes, err);
     attempt_free(&attempt);

@@ -29,13 +29,13 @@ static void combine_row(const RetexPolynomialRow *row, int width, float *restric
         for (int t = 0; t < row->count; t++) {
             const RetexMonomial *m = &row->monomials[t];
             const RetexRowSpan span = retex_span_intersection(m->span, (RetexRowSpan){x, end});
-            const float *factors[RETEX_MAX_FACTORS + 3];
+            const float *factors[RETEX_MAX_FACTORS + 1];
             if (retex_span_is_empty(span))
                 continue;
             const size_t begin = 3 * (size_t)span.begin;
-            for (int k = 0; k < m->nimages; k++)
+            for (int k = 0; k < m->nfactors; k++)
                 factors[k] = m->factors[k] + begin;
-            retex_combine_term_kernel(out + begin, m->radiance + begin, factors, m->nimages,
+            retex_combine_term_kernel(out + begin, m->radiance + begin, factors, m->nfactors,
                                       3 * (size_t)(span.end - span.begin));
         }
     }
@@ -53,7 +53,7 @@ static void limit_row(const RetexPolynomialRow *row, size_t count, float *restri
             const RetexMonomial *m = &row->monomials[t];
             const int pixel = (int)(i / 3), inside = pixel >= m->span.begin && pixel < m->span.end;
             double product = inside ? m->radiance[i] : 0;
-            for (int k = 0; inside && k < m->nimages && product != 0; k++) {
+            for (int k = 0; inside && k < m->nfactors && product != 0; k++) {
                 const float factor = m->factors[k][i]; /* NaN comes from 0 times infinity when a small image is
                                                           enlarged */
                 product = isnan(factor) ? 0 : fmin(fmax(product * factor, -1e200), 1e200);
@@ -121,25 +121,17 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
 
 /* ---- with the originals, some rows ---- */
 
-/* The set's terms, though its picture may be exact. */
-static RetexSet without_picture(const RetexSet *set)
-{
-    RetexSet terms = *set;
-    terms.exact_picture = 0;
-    return terms;
-}
-
 static int open_original(RetexPolynomial *polynomial, const RetexSet *set, RetexError *err)
 {
-    const RetexCombineParams all = RETEX_COMBINE_INIT;
+    RetexCombineParams all = RETEX_COMBINE_INIT;
+    all.terms_only = 1;
     return retex_polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
 }
 
 int retex_combine_check(const RetexSet *set, RetexError *err)
 {
     RetexPolynomial polynomial;
-    const RetexSet terms = without_picture(set);
-    int code = open_original(&polynomial, &terms, err);
+    int code = open_original(&polynomial, set, err);
     retex_polynomial_close(&polynomial);
     return code == RETEX_ENOMEM ? code : code == RETEX_OK;
 }
@@ -148,8 +140,7 @@ int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1,
 {
     RetexPolynomial polynomial;
     RetexPolynomialRow row = {0};
-    const RetexSet terms = without_picture(set);
-    int code = open_original(&polynomial, &terms, err);
+    int code = open_original(&polynomial, set, err);
     if (!code)
         code = retex_polynomial_row_open(&row, &polynomial, err);
     if (!code)

@@ -45,3 +45,10 @@ void retex_combine_term_kernel(float *restrict sum, const float *restrict radian
         sum[i] += product;
     }
 }
+
+void retex_combine_add_weighted(float *restrict sum, const float *restrict radiance, const float weight[3], size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < 3; c++)
+            sum[3 * i + c] += weight[c] * radiance[3 * i + c];
+}

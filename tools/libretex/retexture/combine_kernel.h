@@ -8,4 +8,7 @@
 void retex_combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors,
                                int nfactors, size_t n);
 
+/* sum[i] += weight[i % 3] * radiance[i], for n pixels of three values. */
+void retex_combine_add_weighted(float *restrict sum, const float *restrict radiance, const float weight[3], size_t n);
+
 #endif

@@ -19,31 +19,31 @@ size_t retex_estimate_scratch(const RetexSet *set)
     return row_numbers(set) * (1 + (size_t)set->nfootprints + (size_t)set->nmixtures); /* the sum first */
 }
 
-/* The row of derivatives of a factor: footprints come first, then mixtures. */
-static size_t derivative_row(const RetexSet *set, int factor)
-{
-    return (size_t)(factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor));
-}
-
-/* Adds the derivatives of one term to those of the row, and the term itself to its sum. */
+/* Adds the derivatives of one term to those of the row, which are by slot, and the term itself to its sum. Slots of
+ * footprints and mixtures come first. */
 static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
                      float *restrict derivatives)
 {
+    const int textures = set->nfootprints + set->nmixtures;
     for (size_t i = 0; i < n; i++) {
         float radiance = m->radiance[i];
-        for (int k = m->nfactors; k < m->nimages; k++)
-            radiance *= m->factors[k][i];
+        for (int k = 0; k < m->nfactors; k++)
+            if (m->slots[k] >= textures)
+                radiance *= m->factors[k][i];
         if (radiance == 0)
             continue;
         for (int k = 0; k < m->nfactors; k++) {
             float others = radiance;
+            if (m->slots[k] >= textures)
+                continue;
             for (int j = 0; j < m->nfactors; j++)
-                if (j != k)
+                if (j != k && m->slots[j] < textures)
                     others *= m->factors[j][i];
-            derivatives[derivative_row(set, m->footprints[k]) * n + i] += others;
+            derivatives[(size_t)m->slots[k] * n + i] += others;
         }
         for (int k = 0; k < m->nfactors; k++)
-            radiance *= m->factors[k][i];
+            if (m->slots[k] < textures)
+                radiance *= m->factors[k][i];
         sum[i] += radiance;
     }
 }
@@ -136,7 +136,7 @@ int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const 
     for (int t = 0; t < row->count; t++)
         add_term(set, &row->monomials[t], n, sum, derivatives);
     for (int m = 0; m < set->nmixtures && !code; m++)
-        code = share_derivatives(row, &set->mixtures[m], y, n, derivatives + derivative_row(set, RETEX_MIXTURE(m)) * n,
+        code = share_derivatives(row, &set->mixtures[m], y, n, derivatives + (size_t)(set->nfootprints + m) * n,
                                  derivatives, err);
     for (size_t i = 0; i < n; i++)
         sum[i] = folded * sum[i] * folded * sum[i];

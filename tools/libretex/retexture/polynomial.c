@@ -1,9 +1,11 @@
 /* See polynomial.h. */
 #include "retexture/polynomial.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "retexture/combine_kernel.h"
 #include "retexture/enlarge.h"
 #include "retexture/polynomial_factors.h"
 #include "retexture/polynomial_groups.h"
@@ -14,18 +16,29 @@
 #define ALL_CROSS_TERMS 3
 
 /* Finds what is edited. Corrections, and the picture of part 0, are those of all cross terms. */
-static void find_edited(RetexPolynomial *p)
+static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
 {
     const RetexSet *set = p->set;
-    int count = 0;
+    int count = 0, changed = 0;
     for (int f = 0; f < set->nfootprints; f++) {
         const int t = set->footprints[f].target;
         p->edited[t] |= (p->textures && p->textures[t]) || (p->samples && retex_samples_have(p->samples, f));
     }
     for (int t = 0; t < set->ntargets; t++)
         count += p->edited[t];
-    p->picture = set->exact_picture && !count && !p->apart && p->cross == ALL_CROSS_TERMS;
-    p->correction = p->apart || p->cross < ALL_CROSS_TERMS ? 0 : (float)retex_correction_weight(set->ntargets, count);
+    const int corrected = !p->apart && p->cross == ALL_CROSS_TERMS;
+    for (int i = 0; i < set->nparameters; i++) {
+        const RetexParameter *parameter = &set->parameters[i];
+        const int corrects = parameter->kind == RETEX_PARAMETER_CORRECTION;
+        const double weight =
+            corrects && corrected && p->edited[parameter->target] ? retex_correction_weight(set->ntargets, count) : 0;
+        for (int c = 0; c < 3; c++) {
+            const float value = params->parameters ? params->parameters[3 * i + c] : parameter->value[c];
+            p->parameters[i][c] = corrects ? (float)weight : value;
+            changed |= !corrects && value != parameter->value[c];
+        }
+    }
+    p->picture = !params->terms_only && corrected && !count && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE);
 }
 
 /* ---- opening ---- */
@@ -33,68 +46,52 @@ static void find_edited(RetexPolynomial *p)
 static int has_cross_terms(const RetexSet *set)
 {
     for (int t = 0; t < set->nterms; t++)
-        if (set->terms[t].kind == RETEX_TERM_CROSS2 || set->terms[t].kind == RETEX_TERM_CROSS3)
+        if (set->terms[t].role == RETEX_ROLE_CROSS2 || set->terms[t].role == RETEX_ROLE_CROSS3)
             return 1;
     return 0;
 }
 
-/* Allocates the image of a factor that is reduced, to be filled in later. */
-static int open_factor(RetexPolynomial *p, int factor, RetexError *err)
+/* Allocates the image of a factor that is reduced, to be filled in later. An image of that scale is read row by row,
+ * when it is needed. */
+static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexError *err)
 {
+    if (factor.kind == RETEX_FACTOR_PARAMETER)
+        return RETEX_OK;
     const RetexImage *shape = retex_polynomial_factor_image(p, factor);
-    RetexImage *image = factor >= 0 ? p->footprints + factor : p->mixtures + RETEX_MIXTURE(factor);
-    if (factor < 0 && RETEX_MIXTURE(factor) < p->set->nmixtures && (!shape || !retex_set_scale(p->set, shape)))
+    const int own = shape ? retex_set_scale(p->set, shape) : 0;
+    if (!own && factor.kind == RETEX_FACTOR_MIXTURE && factor.index < p->set->nmixtures)
         return retex_fail(err, RETEX_EFORMAT, "a mixture of the set lacks a footprint or its weight");
-    if (!shape || !retex_set_scale(p->set, shape))
+    if (!own)
         return MISSING;
-    if (image->pixels || retex_set_scale(p->set, shape) == 1)
+    RetexImage *image = &p->reduced[retex_polynomial_slot(p->set, factor)];
+    if (image->pixels || own == 1 || (factor.kind == RETEX_FACTOR_IMAGE && own == scale))
         return RETEX_OK;
-    return retex_image_alloc(image, shape->width, shape->height, 3, err);
-}
-
-/* A gain of that scale is read row by row, when it is needed. */
-static int open_gain(RetexPolynomial *p, int part, int scale, RetexError *err)
-{
-    const RetexImage *shape = retex_polynomial_part_image(p->set, part, 1, 3);
-    if (!shape || shape->channels == 2 || !retex_set_scale(p->set, shape))
-        return MISSING;
-    if (p->gains[part].pixels || retex_set_scale(p->set, shape) == scale || retex_set_scale(p->set, shape) == 1)
-        return RETEX_OK;
-    return retex_image_alloc(&p->gains[part], shape->width, shape->height, shape->channels, err);
+    return retex_image_alloc(image, shape->width, shape->height,
+                             factor.kind == RETEX_FACTOR_IMAGE ? shape->channels : 3, err);
 }
 
 static int open_term(RetexPolynomial *p, int number, RetexError *err)
 {
     const RetexTerm *term = &p->set->terms[number];
     const RetexImage *radiance = retex_polynomial_part_image(p->set, term->radiance, 3, 3);
-    int code =
-        radiance && retex_set_scale(p->set, radiance) == 1 && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS
-            ? RETEX_OK
-            : MISSING;
+    const int sound = radiance && retex_set_scale(p->set, radiance) == 1 && term->nfactors >= 0 &&
+                      term->nfactors <= RETEX_MAX_FACTORS;
+    int code = sound ? RETEX_OK : MISSING;
+    const int scale = sound && !p->apart ? retex_polynomial_group_scale(p, term) : 1;
     for (int k = 0; k < term->nfactors && !code; k++)
-        code = open_factor(p, term->factors[k], err);
-    if (!code && term->gain)
-        code = open_gain(p, term->gain, p->apart ? 1 : retex_polynomial_group_scale(p, term), err);
+        code = open_factor(p, term->factors[k], scale, err);
     if (code == MISSING)
         code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
     return code;
-}
-
-static void free_images(RetexImage **images, int count)
-{
-    for (int i = 0; *images && i < count; i++)
-        retex_image_free(&(*images)[i]);
-    free(*images);
-    *images = NULL;
 }
 
 void retex_polynomial_close(RetexPolynomial *p)
 {
     if (!p->set)
         return;
-    free_images(&p->footprints, p->set->nfootprints);
-    free_images(&p->mixtures, p->set->nmixtures);
-    free_images(&p->gains, p->set->nparts);
+    for (int i = 0; p->reduced && i < retex_polynomial_slot_count(p->set); i++)
+        retex_image_free(&p->reduced[i]);
+    free(p->reduced);
     retex_polynomial_groups_close(p);
     *p = (RetexPolynomial){0};
 }
@@ -103,29 +100,31 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
                           RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
                           RetexError *err)
 {
-    static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
-    *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
+    RetexCombineParams given = RETEX_COMBINE_INIT;
+    if (params)
+        memcpy(&given, params, params->size < sizeof given ? params->size : sizeof given);
+    *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart, .cross = given.cross};
     p->columns = (RetexRowSpan){0, set->width};
-    p->cross = params ? params->cross : defaults.cross;
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
+    for (int i = 0; given.parameters && i < 3 * set->nparameters; i++)
+        if (!(given.parameters[i] >= 0 && given.parameters[i] <= FLT_MAX))
+            return retex_fail(err, RETEX_EINVAL, "parameter %s is %g", set->parameters[i / 3].name,
+                              (double)given.parameters[i]);
     if (!has_cross_terms(set))
         p->cross = ALL_CROSS_TERMS;
     int code = samples ? retex_samples_check(samples, set, err) : RETEX_OK;
     if (code)
         return code;
-    find_edited(p);
-    p->footprints = calloc((size_t)set->nfootprints + 1, sizeof *p->footprints);
-    p->mixtures = calloc((size_t)set->nmixtures + 1, sizeof *p->mixtures);
-    p->gains = calloc((size_t)set->nparts + 1, sizeof *p->gains);
-    if (!p->footprints || !p->mixtures || !p->gains)
+    find_edited(p, &given);
+    if (!(p->reduced = calloc((size_t)retex_polynomial_slot_count(set) + 1, sizeof *p->reduced)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < set->nterms && !code; i++)
         if (retex_polynomial_has_term(p, &set->terms[i]))
             code = open_term(p, i, err);
     if (!code)
         code = retex_polynomial_reduced_make(p, nthreads, err);
-    if (!code && !apart)
+    if (!code)
         code = retex_polynomial_groups_open(p, nthreads, err);
     if (code)
         retex_polynomial_close(p);
@@ -144,13 +143,27 @@ static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
     return buffer->values;
 }
 
-static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err);
+static int footprint_row(void *context, int footprint, int y, const float **made, RetexError *err);
 
-static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err)
+/* A copy of an image's row, with three channels; or NULL. */
+static int image_row(RetexPolynomialRow *row, int part, int y, float *values, const float **made, RetexError *err)
+{
+    const int channels = row->polynomial->set->parts[part].image.channels;
+    const size_t width = (size_t)row->polynomial->set->width;
+    int code = retex_row_reader_get(row->reader, part, y, made, err);
+    if (code || !*made || channels == 3)
+        return code;
+    memcpy(values, *made, sizeof *values * width);
+    retex_row_gray_to_rgb(values, width);
+    *made = values;
+    return RETEX_OK;
+}
+
+static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
-    const int slot = retex_polynomial_slot_of_factor(p->set, factor), width = p->set->width;
-    const RetexImage *small = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
+    const RetexImage *small = &p->reduced[slot];
+    const int width = p->set->width;
     float *values = buffer_values(row, slot, err);
     int code = RETEX_OK;
     if (!values)
@@ -159,12 +172,16 @@ static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err
     row->spans[slot] = (RetexRowSpan){0, width};
     if (small->pixels) {
         retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, values);
-    } else if (factor < 0) {
-        code = retex_polynomial_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row,
-                                            row->weights, &row->buffers[slot], err);
+        if (small->channels == 1)
+            retex_row_gray_to_rgb(values, (size_t)width);
+    } else if (factor.kind == RETEX_FACTOR_IMAGE) {
+        code = image_row(row, factor.index, y, values, &row->made[slot], err);
+    } else if (factor.kind == RETEX_FACTOR_MIXTURE) {
+        code = retex_polynomial_mixture_row(p, row->reader, factor.index, y, footprint_row, row, row->weights,
+                                            &row->buffers[slot], err);
         row->spans[slot] = row->buffers[slot].filled;
     } else {
-        code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->buffers[slot], &row->made[slot],
+        code = retex_polynomial_footprint_row(p, row->reader, factor.index, y, &row->buffers[slot], &row->made[slot],
                                               &row->spans[slot], err);
     }
     if (!code && (!row->made[slot] || retex_span_is_empty(row->spans[slot])))
@@ -172,109 +189,76 @@ static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err
     return code;
 }
 
-static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err)
+static int factor_row(RetexPolynomialRow *row, RetexFactor factor, int y, const float **made, RetexError *err)
 {
-    RetexPolynomialRow *row = context;
-    const int slot = retex_polynomial_slot_of_factor(row->polynomial->set, factor);
-    int code = row->made[slot] ? RETEX_OK : make_slot(row, factor, y, err);
+    const int slot = retex_polynomial_slot(row->polynomial->set, factor);
+    int code = row->made[slot] ? RETEX_OK : make_slot(row, factor, slot, y, err);
     *made = row->made[slot] == black_row ? NULL : row->made[slot];
     return code;
 }
 
-static int gain_row(RetexPolynomialRow *row, int part, int y, const float **made, RetexError *err)
+static int footprint_row(void *context, int footprint, int y, const float **made, RetexError *err)
 {
-    const RetexPolynomial *p = row->polynomial;
-    const RetexImage *image = &p->set->parts[part].image;
-    const int slot = retex_polynomial_slot_of_gain(p->set, part), width = p->set->width;
-    if (!row->made[slot]) {
-        float *values = buffer_values(row, slot, err);
-        if (!values)
-            return RETEX_ENOMEM;
-        row->made[slot] = values;
-        if (p->gains[part].pixels) {
-            retex_enlarge_rows(&p->gains[part], retex_set_scale(p->set, image), width, y, y + 1, values);
-        } else {
-            const float *own;
-            int code = retex_row_reader_get(row->reader, part, y, &own, err);
-            if (code)
-                return code;
-            if (own)
-                memcpy(values, own, sizeof *own * (size_t)width * (size_t)image->channels);
-            else
-                row->made[slot] = black_row;
-        }
-        if (image->channels == 1 && row->made[slot] == values)
-            retex_row_gray_to_rgb(values, (size_t)width);
-    }
-    *made = row->made[slot] == black_row ? NULL : row->made[slot];
-    return RETEX_OK;
+    return factor_row(context, retex_factor(RETEX_FACTOR_FOOTPRINT, footprint), y, made, err);
 }
 
 /* Makes the rows of all factors of the picture's size; *black: one of them is 0 everywhere in the row. */
-static int factor_rows(RetexPolynomialRow *row, RetexMonomial *m, const int *factors, int count, int y, int *black,
-                       RetexError *err)
+static int factor_rows(RetexPolynomialRow *row, RetexMonomial *m, const struct RetexPolynomialGroup *group, int y,
+                       int *black, RetexError *err)
 {
     int code = RETEX_OK;
-    m->nfactors = m->nimages = count;
+    m->nfactors = group->nfactors;
     m->span = (RetexRowSpan){0, row->polynomial->set->width};
-    for (int k = 0; k < count && !code && !*black; k++) {
-        code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
-        m->span = retex_span_intersection(
-            m->span, row->spans[retex_polynomial_slot_of_factor(row->polynomial->set, factors[k])]);
+    for (int k = 0; k < group->nfactors && !code && !*black; k++) {
+        const int slot = m->slots[k] = retex_polynomial_slot(row->polynomial->set, group->factors[k]);
+        code = factor_row(row, group->factors[k], y, &m->factors[k], err);
+        m->span = retex_span_intersection(m->span, row->spans[slot]);
         *black = !m->factors[k] || retex_span_is_empty(m->span);
     }
     return code;
 }
 
-static int make_term(RetexPolynomialRow *row, const RetexTerm *term, int y, RetexError *err)
+/* The group's radiance: one part, or the sum of several with their weights. NULL: black. */
+static int radiance_row(RetexPolynomialRow *row, const struct RetexPolynomialGroup *group, int slot, int y,
+                        const float **made, RetexError *err)
 {
-    RetexMonomial *m = &row->monomials[row->count];
-    int code = retex_row_reader_get(row->reader, term->radiance, y, &m->radiance, err), black = !m->radiance;
-    if (!code)
-        code = factor_rows(row, m, term->factors, term->nfactors, y, &black, err);
-    if (term->gain && !code && !black) {
-        code = gain_row(row, term->gain, y, &m->factors[m->nimages], err);
-        black = !m->factors[m->nimages++];
-    }
-    row->count += !code && !black;
-    return code;
-}
-
-/* A row of the weight of corrections. */
-static int weight_row(RetexPolynomialRow *row, const float **made, RetexError *err)
-{
-    const RetexPolynomial *p = row->polynomial;
-    const int slot = retex_polynomial_slot_count(p->set) + p->ngroups;
-    float *values = buffer_values(row, slot, err);
-    if (!values)
+    const size_t width = (size_t)row->polynomial->set->width;
+    const float *from;
+    if (!group->weighted)
+        return retex_row_reader_get(row->reader, group->radiances[0].part, y, made, err);
+    float *sum = buffer_values(row, slot, err);
+    if (!sum)
         return RETEX_ENOMEM;
-    if (values[0] != p->correction)
-        for (size_t i = 0; i < 3 * (size_t)p->set->width; i++)
-            values[i] = p->correction;
-    *made = values;
+    memset(sum, 0, sizeof *sum * 3 * width);
+    *made = NULL;
+    for (int i = 0; i < group->nradiances; i++) {
+        int code = retex_row_reader_get(row->reader, group->radiances[i].part, y, &from, err);
+        if (code)
+            return code;
+        if (!from)
+            continue;
+        retex_combine_add_weighted(sum, from, group->radiances[i].weight, width);
+        *made = sum;
+    }
     return RETEX_OK;
 }
 
 static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup *group, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
+    const int slot = retex_polynomial_slot_count(p->set) + (int)(group - p->groups);
     RetexMonomial *m = &row->monomials[row->count];
-    int code = retex_row_reader_get(row->reader, group->radiance, y, &m->radiance, err), black = !m->radiance;
+    int code = radiance_row(row, group, slot, y, &m->radiance, err), black = !m->radiance;
     if (!code)
-        code = factor_rows(row, m, group->factors, group->nfactors, y, &black, err);
-    if (group->gain && !code && !black) {
-        code = gain_row(row, group->gain, y, &m->factors[m->nimages], err);
-        black = !m->factors[m->nimages++];
-    }
+        code = factor_rows(row, m, group, y, &black, err);
     if (group->scale && !code && !black) {
-        float *values = buffer_values(row, retex_polynomial_slot_count(p->set) + (int)(group - p->groups), err);
+        float *values = buffer_values(row, slot, err);
         code = values ? RETEX_OK : RETEX_ENOMEM;
         if (values)
             retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);
-        m->factors[m->nimages++] = values;
+        m->factors[m->nfactors] = values;
+        m->slots[m->nfactors++] = -1;
     }
-    if (group->corrects && p->correction != 1 && !code && !black)
-        code = weight_row(row, &m->factors[m->nimages++], err);
     row->count += !code && !black;
     return code;
 }
@@ -287,9 +271,6 @@ int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err)
     row->count = 0;
     for (int g = 0; g < p->ngroups && !code; g++)
         code = make_group(row, &p->groups[g], y, err);
-    for (int t = 0; t < p->set->nterms && !code && p->apart; t++)
-        if (retex_polynomial_has_term(p, &p->set->terms[t]))
-            code = make_term(row, &p->set->terms[t], y, err);
     return code;
 }
 
@@ -297,8 +278,8 @@ void retex_polynomial_row_close(RetexPolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->buffers && i <= retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups;
-         i++)
+    const int slots = retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups;
+    for (int i = 0; row->buffers && i < slots; i++)
         free(row->buffers[i].values);
     free(row->buffers);
     free(row->spans);

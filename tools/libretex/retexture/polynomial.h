@@ -1,5 +1,5 @@
-/* A set and its textures as a polynomial, row by row: every term with the pixels of its factors. Factors and gains that
- * are smaller than the picture (reduced) are made once, at their own size. All others exist for one row at a time, so
+/* A set and its textures as a polynomial, row by row: every term with the pixels of its factors. Factors that are
+ * smaller than the picture (reduced) are made once, at their own size. All others exist for one row at a time, so
  * that no image of the picture's size is ever complete in memory. Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_H
 #define RETEX_RETEXTURE_POLYNOMIAL_H
@@ -15,13 +15,13 @@ typedef struct RetexPolynomial {
     RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
     int cross;
     int apart;                                 /* 1: one monomial for each term, with all its factors, and no
-                                                  corrections; 0: terms are grouped */
+                                                 corrections; 0: terms are grouped */
     char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
     int picture;                               /* 1: part 0 is the result, and there are no terms */
     RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
-    float correction;                          /* weight of the corrections of edited targets */
-    RetexImage *footprints, *mixtures, *gains; /* reduced images, by number; gains by number of their part */
-    struct RetexPolynomialGroup *groups;       /* unless apart; see polynomial_groups.h */
+    float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
+    RetexImage *reduced;                       /* factors that are smaller than the picture, by slot */
+    struct RetexPolynomialGroup *groups;       /* see polynomial_groups.h */
     int ngroups;
 } RetexPolynomial;
 
@@ -32,6 +32,8 @@ int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, cons
 void retex_polynomial_close(RetexPolynomial *polynomial);
 /* Whether a term of the set counts in this polynomial. */
 int retex_polynomial_has_term(const RetexPolynomial *polynomial, const RetexTerm *term);
+/* The product of the parameters that are a term's factors. Returns 0 where the term has none. */
+int retex_polynomial_weight(const RetexPolynomial *polynomial, const RetexTerm *term, float weight[3]);
 
 /* A row of colours that is 0 outside of the span that was filled last. */
 typedef struct RetexRowBuffer {
@@ -39,15 +41,14 @@ typedef struct RetexRowBuffer {
     RetexRowSpan filled;
 } RetexRowBuffer;
 
-/* One term over one row, or several terms that differ only in reduced factors. */
+/* Terms over one row that differ only in radiance, or in reduced factors: radiance times the product of factors. */
 typedef struct RetexMonomial {
-    RetexRowSpan span;                           /* outside of it one of the factors is 0 */
-    const float *radiance;                       /* RGB, 3 * width numbers */
-    int nfactors;                                /* number of footprints and mixtures */
-    int nimages;                                 /* the same with the gain, the product of reduced factors and the
-                                                    weight of a correction, which come last */
-    const float *factors[RETEX_MAX_FACTORS + 3]; /* RGB rows: samples, or the original albedo */
-    int footprints[RETEX_MAX_FACTORS];           /* their footprints or mixtures, as in RetexTerm */
+    RetexRowSpan span;     /* outside of it one of the factors is 0 */
+    const float *radiance; /* RGB, 3 * width numbers; times its parameters */
+    int nfactors;
+    const float *factors[RETEX_MAX_FACTORS + 1]; /* RGB rows: samples, the original albedo, images; reduced factors'
+                                                    product */
+    int slots[RETEX_MAX_FACTORS + 1];            /* of factors, see polynomial_factors.h; -1: that product */
 } RetexMonomial;
 
 typedef struct RetexPolynomialRow {
@@ -55,7 +56,7 @@ typedef struct RetexPolynomialRow {
     RetexRowReader *reader;
     RetexMonomial *monomials; /* those that are not black in all of the row */
     int count;
-    const float **made;      /* rows of footprints, mixtures and gains that are made already; see polynomial.c */
+    const float **made;      /* rows that are made already, by slot; see polynomial.c */
     RetexRowSpan *spans;     /* outside of which these rows are 0 */
     RetexRowBuffer *buffers; /* memory for the rows that must be made */
     float *weights;

@@ -8,28 +8,48 @@
 
 /* ---- what a factor is made of ---- */
 
+int retex_polynomial_weight(const RetexPolynomial *p, const RetexTerm *term, float weight[3])
+{
+    int weighted = 0;
+    for (int c = 0; c < 3; c++)
+        weight[c] = 1;
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER) {
+            for (int c = 0; c < 3; c++)
+                weight[c] *= p->parameters[term->factors[k].index][c];
+            weighted = 1;
+        }
+    return weighted;
+}
+
 int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
 {
-    if (p->picture)
+    float weight[3];
+    if (p->picture || term->role == RETEX_ROLE_PICTURE || (term->role == RETEX_ROLE_CROSS2 && p->cross < 2) ||
+        (term->role == RETEX_ROLE_CROSS3 && p->cross < 3))
         return 0;
-    if (term->edited)
-        return p->correction > 0 && p->edited[term->edited - 1];
-    return !(term->kind == RETEX_TERM_CROSS2 && p->cross < 2) && !(term->kind == RETEX_TERM_CROSS3 && p->cross < 3);
+    retex_polynomial_weight(p, term, weight);
+    return weight[0] != 0 || weight[1] != 0 || weight[2] != 0;
 }
 
-int retex_polynomial_slot_of_factor(const RetexSet *set, int factor)
+int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
 {
-    return factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor);
+    return factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
+           : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
+                                                 : set->nfootprints + set->nmixtures + factor.index;
 }
 
-int retex_polynomial_slot_of_gain(const RetexSet *set, int part)
+RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
 {
-    return set->nfootprints + set->nmixtures + part;
+    const int mixture = slot - set->nfootprints, part = mixture - set->nmixtures;
+    return mixture < 0 ? retex_factor(RETEX_FACTOR_FOOTPRINT, slot)
+           : part < 0  ? retex_factor(RETEX_FACTOR_MIXTURE, mixture)
+                       : retex_factor(RETEX_FACTOR_IMAGE, part);
 }
 
 int retex_polynomial_slot_count(const RetexSet *set)
 {
-    return retex_polynomial_slot_of_gain(set, set->nparts);
+    return set->nfootprints + set->nmixtures + set->nparts;
 }
 
 const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most)
@@ -73,9 +93,14 @@ static const RetexImage *mixture_shape(const RetexPolynomial *p, int mixture)
     return shape;
 }
 
-const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, int factor)
+const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, RetexFactor factor)
 {
-    return factor >= 0 ? footprint_shape(p, factor) : mixture_shape(p, RETEX_MIXTURE(factor));
+    if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+        return footprint_shape(p, factor.index);
+    if (factor.kind == RETEX_FACTOR_MIXTURE)
+        return mixture_shape(p, factor.index);
+    const RetexImage *image = retex_polynomial_part_image(p->set, factor.index, 1, 3);
+    return image && image->channels != 2 ? image : NULL;
 }
 
 /* ---- rows at a footprint's own size ---- */

@@ -1,19 +1,19 @@
-/* The factors and gains of a polynomial: their slots in one list, their sizes, and their rows at their own size.
+/* The factors of a polynomial: their slots in one list, their sizes, and their rows at their own size.
  * Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 
 #include "retexture/polynomial.h"
 
-/* Slots number footprints, mixtures and the parts of gains in one list. */
-int retex_polynomial_slot_of_factor(const RetexSet *set, int factor);
-int retex_polynomial_slot_of_gain(const RetexSet *set, int part);
+/* Slots number footprints, mixtures and parts, which images are, in one list. Parameters have none. */
+int retex_polynomial_slot(const RetexSet *set, RetexFactor factor);
+RetexFactor retex_polynomial_factor(const RetexSet *set, int slot); /* and back */
 int retex_polynomial_slot_count(const RetexSet *set);
 
 /* The image of a part if it has `least` to `most` channels, else NULL. */
 const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most);
 /* An image that has the size of the factor; NULL where the factor is absent. */
-const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *polynomial, int factor);
+const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *polynomial, RetexFactor factor);
 
 /* Make or find the row of a footprint's samples or original albedo, and the span outside of which it is 0; *row is NULL
  * where all is black. buffer is used where the row must be made. */

@@ -13,58 +13,60 @@
 
 #define ROWS_A_JOB 64 /* rows of a pack's band */
 
-static int factor_scale(const RetexPolynomial *p, int factor)
+/* 1 of parameters, which have no size. */
+static int factor_scale(const RetexPolynomial *p, RetexFactor factor)
 {
-    const RetexImage *shape = retex_polynomial_factor_image(p, factor);
-    return shape ? retex_set_scale(p->set, shape) : 0;
-}
-
-static int gain_scale(const RetexPolynomial *p, int part)
-{
-    return part ? retex_set_scale(p->set, &p->set->parts[part].image) : 0;
-}
-
-static int finer(int scale, int other)
-{
-    return other > 1 && (!scale || other < scale) ? other : scale;
+    const RetexImage *shape = factor.kind == RETEX_FACTOR_PARAMETER ? NULL : retex_polynomial_factor_image(p, factor);
+    return factor.kind == RETEX_FACTOR_PARAMETER ? 1 : shape ? retex_set_scale(p->set, shape) : 0;
 }
 
 int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexTerm *term)
 {
-    int scale = finer(0, gain_scale(p, term->gain));
-    for (int k = 0; k < term->nfactors; k++)
-        scale = finer(scale, factor_scale(p, term->factors[k]));
+    int scale = 0;
+    for (int k = 0; k < term->nfactors; k++) {
+        const int other = factor_scale(p, term->factors[k]);
+        scale = other > 1 && (!scale || other < scale) ? other : scale;
+    }
     return scale;
 }
 
 /* ---- which terms go together ---- */
 
-static int is_same(const struct RetexPolynomialGroup *a, const struct RetexPolynomialGroup *b)
+static int are_together(const struct RetexPolynomialGroup *a, const struct RetexPolynomialGroup *b, int radiance)
 {
-    return a->scale && a->radiance == b->radiance && a->gain == b->gain && a->scale == b->scale &&
-           a->corrects == b->corrects && a->nfactors == b->nfactors &&
+    const int same = a->scale ? a->radiances[0].part == radiance : a->weighted;
+    return same && a->scale == b->scale && a->weighted == b->weighted && a->nfactors == b->nfactors &&
            memcmp(a->factors, b->factors, sizeof *a->factors * (size_t)a->nfactors) == 0;
+}
+
+/* The group of a term, which is added if it is new; NULL: no memory. */
+static struct RetexPolynomialGroup *group_of(RetexPolynomial *p, const RetexTerm *term, int weighted)
+{
+    struct RetexPolynomialGroup wanted = {.scale = p->apart ? 0 : retex_polynomial_group_scale(p, term)};
+    wanted.weighted = weighted && !wanted.scale; /* else the product is weighted */
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind != RETEX_FACTOR_PARAMETER && (p->apart || factor_scale(p, term->factors[k]) == 1))
+            wanted.factors[wanted.nfactors++] = term->factors[k];
+    for (int g = 0; g < p->ngroups && !p->apart; g++)
+        if (are_together(&p->groups[g], &wanted, term->radiance))
+            return &p->groups[g];
+    wanted.terms = calloc((size_t)p->set->nterms, sizeof *wanted.terms);
+    wanted.radiances = calloc((size_t)p->set->nterms, sizeof *wanted.radiances);
+    p->groups[p->ngroups] = wanted; /* closed with the others */
+    return wanted.terms && wanted.radiances ? &p->groups[p->ngroups++] : (p->ngroups++, NULL);
 }
 
 static int add_term(RetexPolynomial *p, int number, RetexError *err)
 {
     const RetexTerm *term = &p->set->terms[number];
-    struct RetexPolynomialGroup wanted = {
-        .radiance = term->radiance, .scale = retex_polynomial_group_scale(p, term), .corrects = term->edited > 0};
-    for (int k = 0; k < term->nfactors; k++)
-        if (factor_scale(p, term->factors[k]) == 1)
-            wanted.factors[wanted.nfactors++] = term->factors[k];
-    if (gain_scale(p, term->gain) == 1)
-        wanted.gain = term->gain;
-    int g = 0;
-    while (g < p->ngroups && !is_same(&p->groups[g], &wanted))
-        g++;
-    if (g == p->ngroups) {
-        if (!(wanted.terms = calloc((size_t)p->set->nterms, sizeof *wanted.terms)))
-            return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
-        p->groups[p->ngroups++] = wanted;
-    }
-    p->groups[g].terms[p->groups[g].nterms++] = number;
+    RetexWeightedRadiance radiance = {.part = term->radiance};
+    const int weighted = retex_polynomial_weight(p, term, radiance.weight);
+    struct RetexPolynomialGroup *group = group_of(p, term, weighted);
+    if (!group)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
+    if (!group->scale || !group->nradiances)
+        group->radiances[group->nradiances++] = radiance;
+    group->terms[group->nterms++] = number;
     return RETEX_OK;
 }
 
@@ -81,14 +83,16 @@ typedef struct ProductWork {
     ProductThread *threads;
 } ProductWork;
 
-/* The row of a reduced image at the size of the group, with three channels; NULL: black. made[slot]: 1 if it is made
+/* The row of a reduced factor at the size of the group, with three channels; NULL: black. made[slot]: 1 if it is made
  * already. */
-static int reduced_row(const ProductWork *work, ProductThread *own, int slot, const RetexImage *image, int part, int y,
-                       char *made, const float **row, RetexError *err)
+static int reduced_row(const ProductWork *work, ProductThread *own, RetexFactor factor, int y, char *made,
+                       const float **row, RetexError *err)
 {
     const RetexPolynomial *p = work->polynomial;
     const RetexImage *product = &work->group->product;
-    const int channels = part ? p->set->parts[part].image.channels : image->channels;
+    const int slot = retex_polynomial_slot(p->set, factor);
+    const RetexImage *image = &p->reduced[slot];
+    int channels = image->channels;
     *row = own->rows[slot];
     if (made[slot])
         return RETEX_OK;
@@ -97,12 +101,13 @@ static int reduced_row(const ProductWork *work, ProductThread *own, int slot, co
     if (image->pixels) {
         const int ratio = retex_set_scale(p->set, image) / work->group->scale;
         retex_enlarge_rows(image, ratio, product->width, y, y + 1, own->rows[slot]);
-    } else { /* a gain that has the group's size */
+    } else { /* an image that has the group's size */
         const float *from;
-        int code = retex_row_reader_get(own->reader, part, y, &from, err);
+        int code = retex_row_reader_get(own->reader, factor.index, y, &from, err);
         *row = NULL;
         if (code || !from)
             return code;
+        channels = p->set->parts[factor.index].image.channels;
         memcpy(own->rows[slot], from, sizeof *from * (size_t)product->width * (size_t)channels);
     }
     if (channels == 1)
@@ -112,29 +117,33 @@ static int reduced_row(const ProductWork *work, ProductThread *own, int slot, co
     return RETEX_OK;
 }
 
-/* Adds the product of one term's reduced factors and gain to a row. */
+/* Gives all pixels of a row one colour; it has been filled so before, or is 0. */
+static void fill_row(float *row, const float color[3], size_t count)
+{
+    for (size_t i = 0; i < count && (i || memcmp(row, color, 3 * sizeof *color) != 0); i += 3)
+        memcpy(row + i, color, 3 * sizeof *color);
+}
+
+/* Adds the product of one term's reduced factors, and of its parameters, to a row. */
 static int add_product(const ProductWork *work, ProductThread *own, const RetexTerm *term, int y, char *made,
-                       const float *ones, float *sum, RetexError *err)
+                       float *weights, float *sum, RetexError *err)
 {
     const RetexPolynomial *p = work->polynomial;
-    const float *rows[RETEX_MAX_FACTORS + 1];
-    int count = 0, code = RETEX_OK;
-    if (gain_scale(p, term->gain) > 1) {
-        code = reduced_row(work, own, retex_polynomial_slot_of_gain(p->set, term->gain), &p->gains[term->gain],
-                           term->gain, y, made, &rows[count], err);
-        if (code || !rows[count++])
-            return code;
-    }
+    const size_t count = 3 * (size_t)work->group->product.width;
+    const float *rows[RETEX_MAX_FACTORS];
+    float weight[3];
+    int used = 0, code = RETEX_OK;
     for (int k = 0; k < term->nfactors && !code; k++) {
-        const int factor = term->factors[k];
-        if (factor_scale(p, factor) <= 1)
+        if (factor_scale(p, term->factors[k]) <= 1)
             continue;
-        const RetexImage *image = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
-        code = reduced_row(work, own, retex_polynomial_slot_of_factor(p->set, factor), image, 0, y, made,
-                           &rows[count++], err);
+        code = reduced_row(work, own, term->factors[k], y, made, &rows[used], err);
+        if (!code && !rows[used++])
+            return RETEX_OK;
     }
+    retex_polynomial_weight(p, term, weight);
+    fill_row(weights, weight, count);
     if (!code)
-        retex_combine_term_kernel(sum, ones, rows, count, 3 * (size_t)work->group->product.width);
+        retex_combine_term_kernel(sum, weights, rows, used, count);
     return code;
 }
 
@@ -155,12 +164,10 @@ static int product_job(void *context, int index, int thread, RetexError *err)
     RetexImage *product = &work->group->product;
     const RetexSet *set = work->polynomial->set;
     int code = open_thread(work, own, err);
-    float *ones = malloc(sizeof *ones * 3 * (size_t)product->width);
+    float *weights = calloc(3 * (size_t)product->width, sizeof *weights); /* of the last term that was added */
     char *made = malloc((size_t)retex_polynomial_slot_count(set) + 1);
-    if (!code && (!ones || !made))
+    if (!code && (!weights || !made))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    for (size_t i = 0; !code && i < 3 * (size_t)product->width; i++)
-        ones[i] = 1;
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < product->height; y++) {
         float *sum = product->pixels + retex_image_index(product, 0, y);
         memset(made, 0, (size_t)retex_polynomial_slot_count(set) + 1);
@@ -168,9 +175,9 @@ static int product_job(void *context, int index, int thread, RetexError *err)
          * threads */
         memset(sum, 0, sizeof *sum * 3 * (size_t)product->width);
         for (int k = 0; k < work->group->nterms && !code; k++)
-            code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, ones, sum, err);
+            code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, weights, sum, err);
     }
-    free(ones);
+    free(weights);
     free(made);
     return code;
 }
@@ -218,6 +225,7 @@ void retex_polynomial_groups_close(RetexPolynomial *p)
     for (int g = 0; g < p->ngroups; g++) {
         retex_image_free(&p->groups[g].product);
         free(p->groups[g].terms);
+        free(p->groups[g].radiances);
     }
     free(p->groups);
     p->groups = NULL;

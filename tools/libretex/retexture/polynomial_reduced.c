@@ -24,19 +24,10 @@ typedef struct ReducedThread {
     const ReducedWork *work;
     RetexRowReader *reader;
     RetexRowBuffer *buffers; /* by footprint, allocated when needed */
-    const float **rows; /* by footprint; NULL: black */
-    char *made;         /* by footprint: 1 if rows has it */
+    const float **rows;      /* by footprint; NULL: black */
+    char *made;              /* by footprint: 1 if rows has it */
     float *weights;
 } ReducedThread;
-
-static RetexImage *image_of_slot(const RetexPolynomial *p, int slot)
-{
-    const RetexSet *set = p->set;
-    if (slot < set->nfootprints)
-        return &p->footprints[slot];
-    return slot < retex_polynomial_slot_of_gain(set, 0) ? &p->mixtures[slot - set->nfootprints]
-                                                        : &p->gains[slot - retex_polynomial_slot_of_gain(set, 0)];
-}
 
 static int footprint_row(void *context, int footprint, int y, const float **row, RetexError *err)
 {
@@ -59,17 +50,16 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
 static int make_row(ReducedThread *own, int slot, int y, RetexError *err)
 {
     const RetexPolynomial *p = own->work->polynomial;
-    const RetexSet *set = p->set;
-    RetexImage *image = image_of_slot(p, slot);
+    const RetexFactor factor = retex_polynomial_factor(p->set, slot);
+    RetexImage *image = &p->reduced[slot];
     float *out = image->pixels + retex_image_index(image, 0, y);
     RetexRowBuffer sum = {.values = out}; /* which is 0 before */
-    if (slot >= set->nfootprints && slot < retex_polynomial_slot_of_gain(set, 0))
-        return retex_polynomial_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own,
-                                            own->weights, &sum, err);
+    if (factor.kind == RETEX_FACTOR_MIXTURE)
+        return retex_polynomial_mixture_row(p, own->reader, factor.index, y, footprint_row, own, own->weights, &sum,
+                                            err);
     const float *row;
-    int code = slot < set->nfootprints
-                   ? footprint_row(own, slot, y, &row, err)
-                   : retex_row_reader_get(own->reader, slot - retex_polynomial_slot_of_gain(set, 0), y, &row, err);
+    int code = factor.kind == RETEX_FACTOR_FOOTPRINT ? footprint_row(own, factor.index, y, &row, err)
+                                                     : retex_row_reader_get(own->reader, factor.index, y, &row, err);
     if (!code && row)
         memcpy(out, row, sizeof *out * (size_t)image->width * (size_t)image->channels);
     return code;
@@ -136,7 +126,7 @@ int retex_polynomial_reduced_make(RetexPolynomial *p, int nthreads, RetexError *
     for (int scale = RETEX_SCALE_MAX; scale > 1 && !code; scale /= 2) {
         ReducedWork work = {.polynomial = p, .slots = slots};
         for (int slot = 0; slot < retex_polynomial_slot_count(p->set); slot++) {
-            const RetexImage *image = image_of_slot(p, slot);
+            const RetexImage *image = &p->reduced[slot];
             if (!image->pixels || retex_set_scale(p->set, image) != scale)
                 continue;
             slots[work.nslots++] = slot;

@@ -25,11 +25,24 @@ static int is_whole(const RetexSet *set, int part, int channels)
     return im && im->channels == channels && im->width == set->width && im->height == set->height;
 }
 
+/* Whether a term has factors beside textures, and the weight of a correction. */
+static int has_values(const RetexSet *set, const RetexTerm *term)
+{
+    int values = 0;
+    for (int k = 0; k < term->nfactors; k++) {
+        const RetexFactor factor = term->factors[k];
+        values |=
+            factor.kind == RETEX_FACTOR_IMAGE ||
+            (factor.kind == RETEX_FACTOR_PARAMETER && set->parameters[factor.index].kind != RETEX_PARAMETER_CORRECTION);
+    }
+    return values;
+}
+
 static int is_plain(const RetexSet *set)
 {
     int plain = 1;
     for (int t = 0; t < set->nterms; t++)
-        plain = plain && !set->terms[t].gain && is_whole(set, set->terms[t].radiance, 3);
+        plain = plain && !has_values(set, &set->terms[t]) && is_whole(set, set->terms[t].radiance, 3);
     for (int f = 0; f < set->nfootprints; f++)
         plain = plain && is_whole(set, set->footprints[f].uv, 3) && is_whole(set, set->footprints[f].albedo, 3);
     for (int m = 0; m < set->nmixtures; m++)
@@ -46,7 +59,8 @@ static int list_terms(Corrections *list, const RetexSet *set, int target)
     for (int n = 0; n < RETEX_EDITED_POWERS && list->terms; n++) {
         list->first[n] = count;
         for (int t = 0; t < set->nterms; t++)
-            if (set->terms[t].edited == 1 + target && set->terms[t].nfactors == n)
+            if (set->terms[t].role == RETEX_ROLE_CORRECTION && set->terms[t].target == target &&
+                retex_term_hits(&set->terms[t]) == n)
                 list->terms[count++] = t, list->powers = n;
         list->first[n + 1] = count;
     }
@@ -156,14 +170,15 @@ void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int tar
         const float *radiance = retex_pixel_at(rows, term->radiance, at);
         RetexEditedLight product = {{(double)radiance[0], (double)radiance[1], (double)radiance[2]}};
         int powers = 0;
-        if (term->edited || (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0))
+        if (!retex_term_is_light(term) || (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0))
             continue;
         for (int k = 0; k < term->nfactors; k++) {
+            const RetexFactor factor = term->factors[k];
             Factor own = {0, {0, 0, 0}};
-            if (term->factors[k] >= 0)
-                add_footprint(&own, rows, term->factors[k], 1, target, at);
-            powers = multiply(product, powers, term->factors[k] < 0 ? &mixtures[RETEX_MIXTURE(term->factors[k])] : &own,
-                              most);
+            if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+                add_footprint(&own, rows, factor.index, 1, target, at);
+            powers =
+                multiply(product, powers, factor.kind == RETEX_FACTOR_MIXTURE ? &mixtures[factor.index] : &own, most);
         }
         for (int n = 0; n <= powers; n++)
             for (int c = 0; c < 3; c++)
@@ -175,12 +190,12 @@ int retex_edited_is_seen(const RetexSet *rows, const RetexTerm *term, size_t at)
 {
     int seen = 1;
     for (int k = 0; k < term->nfactors && seen; k++) {
-        const int factor = term->factors[k];
-        if (factor >= 0) {
-            seen = retex_pixel_at(rows, rows->footprints[factor].uv, at)[2] > 0;
+        const RetexFactor factor = term->factors[k];
+        if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+            seen = retex_pixel_at(rows, rows->footprints[factor.index].uv, at)[2] > 0;
+        if (factor.kind != RETEX_FACTOR_MIXTURE)
             continue;
-        }
-        const RetexMixture *mixture = &rows->mixtures[RETEX_MIXTURE(factor)];
+        const RetexMixture *mixture = &rows->mixtures[factor.index];
         seen = 0;
         for (int j = 0; j < mixture->nshares; j++)
             seen = seen || *retex_pixel_at(rows, mixture->shares[j].weight, at) > 0;

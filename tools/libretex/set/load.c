@@ -6,6 +6,7 @@
 
 #include "set/transfer.h"
 #include "set/manifest.h"
+#include "set/references.h"
 #include "set/source.h"
 
 /* Loads those of the wanted images that have no pixels; on failure none is loaded. */
@@ -105,32 +106,28 @@ uint64_t retex_set_bytes(const RetexSet *set)
     return bytes;
 }
 
-static void mark_wanted(char *wanted, int part)
+typedef struct Reading {
+    const RetexSet *set;
+    const int *corrected; /* by target, or NULL: all */
+    char *wanted;
+} Reading;
+
+static void mark_read(void *context, RetexPartUse use, int user, int *part)
 {
-    if (part >= 0)
-        wanted[part] = 1;
+    const Reading *r = context;
+    const RetexTerm *term = use == RETEX_PART_RADIANCE || use == RETEX_PART_IMAGE ? &r->set->terms[user] : NULL;
+    const int skipped = term && term->role == RETEX_ROLE_CORRECTION && r->corrected && !r->corrected[term->target];
+    r->wanted[*part] |= use != RETEX_PART_ORIGINAL && !skipped;
 }
 
 /* Marks in `wanted` the parts that recombination reads; returns their bytes. */
 static uint64_t list_read_parts(const RetexSet *set, const int *corrected, char wanted[RETEX_SET_PARTS_MAX])
 {
+    Reading reading = {set, corrected, wanted};
     uint64_t bytes = 0;
 
     memset(wanted, 0, RETEX_SET_PARTS_MAX);
-    for (int i = 0; i < set->nterms; i++) {
-        if (corrected && set->terms[i].edited && !corrected[set->terms[i].edited - 1])
-            continue;
-        mark_wanted(wanted, set->terms[i].radiance);
-        mark_wanted(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
-    }
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            mark_wanted(wanted, set->mixtures[i].shares[k].weight);
-    for (int i = 0; i < set->nfootprints; i++) {
-        mark_wanted(wanted, set->footprints[i].uv);
-        mark_wanted(wanted, set->footprints[i].spread);
-        mark_wanted(wanted, set->footprints[i].albedo);
-    }
+    retex_set_visit_const_parts(set, mark_read, &reading);
     for (int i = 0; i < set->nparts; i++)
         if (wanted[i])
             bytes += image_bytes(&set->parts[i].image);

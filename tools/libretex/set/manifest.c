@@ -94,19 +94,42 @@ static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footpr
                      part_name(set, footprint->spread), "albedo", part_name(set, footprint->albedo));
 }
 
+static json_t *write_factor(const RetexSet *set, RetexFactor factor)
+{
+    const char *kind = retex_factor_kind_name(factor.kind);
+
+    if (factor.kind == RETEX_FACTOR_IMAGE)
+        return json_pack("{s:o}", kind, part_name(set, factor.index));
+    if (factor.kind == RETEX_FACTOR_PARAMETER)
+        return json_pack("{s:s}", kind, set->parameters[factor.index].name);
+    json_t *json = json_pack("{s:i}", kind, factor.index);
+    if (factor.quantity != RETEX_QUANTITY_COLOR)
+        retex_json_put(&json, "quantity", json_string(retex_quantity_name(factor.quantity)));
+    return json;
+}
+
+static json_t *target_number(int target)
+{
+    return target < 0 ? json_null() : json_integer(target);
+}
+
 static json_t *write_term(const RetexSet *set, const RetexTerm *term)
 {
     json_t *factors = json_array();
 
     for (int i = 0; i < term->nfactors; i++)
-        retex_json_add(&factors, json_integer(term->factors[i]));
-    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kind_name(term->kind), "radiance",
-                             part_name(set, term->radiance), "factors", factors);
-    if (term->gain)
-        retex_json_put(&json, "gain", part_name(set, term->gain));
-    if (term->edited)
-        retex_json_put(&json, "edited", json_integer(term->edited - 1));
-    return json;
+        retex_json_add(&factors, write_factor(set, term->factors[i]));
+    return json_pack("{s:s, s:o, s:o, s:o}", "role", retex_role_name(term->role), "target", target_number(term->target),
+                     "radiance", part_name(set, term->radiance), "factors", factors);
+}
+
+static json_t *write_parameter(const RetexParameter *parameter, int *finite)
+{
+    const float *value = parameter->value;
+
+    return json_pack("{s:o, s:s, s:o, s:[o, o, o]}", "name", text(parameter->name), "kind",
+                     retex_parameter_kind_name(parameter->kind), "target", target_number(parameter->target), "value",
+                     real((double)value[0], finite), real((double)value[1], finite), real((double)value[2], finite));
 }
 
 static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
@@ -163,6 +186,7 @@ static json_t *identity(uint32_t id)
 static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *sums, int *finite)
 {
     json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
+    json_t *mixtures = json_array(), *parameters = json_array();
 
     for (int i = 0; i < set->ntargets; i++)
         retex_json_add(&targets, write_target(set, &set->targets[i], finite));
@@ -175,9 +199,10 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
         retex_json_add(&parts,
                        write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
     }
-    json_t *mixtures = json_array();
     for (int i = 0; i < set->nmixtures; i++)
         retex_json_add(&mixtures, write_mixture(set, &set->mixtures[i]));
+    for (int i = 0; i < set->nparameters; i++)
+        retex_json_add(&parameters, write_parameter(&set->parameters[i], finite));
     retex_json_put(root, "layout", text(set->layout));
     retex_json_put(root, "filter", text(set->filter));
     retex_json_put(root, "scene", text(set->scene));
@@ -191,10 +216,10 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "folded_white", real(set->folded_white, finite));
     retex_json_put(root, "denoised", json_boolean(set->denoised));
     retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
-    retex_json_put(root, "exact_picture", json_boolean(set->exact_picture));
     retex_json_put(root, "targets", targets);
     retex_json_put(root, "footprints", footprints);
     retex_json_put(root, "mixtures", mixtures);
+    retex_json_put(root, "parameters", parameters);
     retex_json_put(root, "terms", terms);
     retex_json_put(root, "parts", parts);
 }

@@ -6,102 +6,14 @@
 #include <string.h>
 #include <jansson.h>
 
-#include "set/manifest.h"
-
-/* State of the parser. Only the first failure is kept, so readers may go on to the end of a group of fields. */
-typedef struct Reading {
-    const char *name; /* name of the file, for messages */
-    RetexError *err;
-    int status;
-    RetexBandSums *sums; /* or NULL */
-} Reading;
-
-static void fail_reading(Reading *reading, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
-static void fail_reading(Reading *reading, int code, const char *fmt, ...)
-{
-    char message[512];
-    va_list arguments;
-
-    if (reading->status)
-        return;
-    va_start(arguments, fmt);
-    vsnprintf(message, sizeof message, fmt, arguments);
-    va_end(arguments);
-    reading->status = retex_fail(reading->err, code, "%s: the manifest %s", reading->name, message);
-}
-
-static void get_text(Reading *reading, const json_t *object, const char *key, char *out, size_t size)
-{
-    const json_t *value = json_object_get(object, key);
-    const char *bytes = json_string_value(value);
-
-    if (!bytes || strlen(bytes) >= size || strlen(bytes) != json_string_length(value))
-        fail_reading(reading, RETEX_EFORMAT, "has no proper text \"%s\"", key);
-    else
-        strcpy(out, bytes);
-}
-
-static int get_integer(Reading *reading, const json_t *object, const char *key, int low, int high)
-{
-    const json_t *value = json_object_get(object, key);
-    const json_int_t number = json_integer_value(value);
-
-    if (!json_is_integer(value) || number < low || number > high) {
-        fail_reading(reading, RETEX_EFORMAT, "has no integer \"%s\" from %d to %d", key, low, high);
-        return low;
-    }
-    return (int)number;
-}
-
-static double get_real(Reading *reading, const json_t *value, const char *key)
-{
-    if (!json_is_number(value))
-        fail_reading(reading, RETEX_EFORMAT, "has no number \"%s\"", key);
-    return json_number_value(value);
-}
-
-static int get_boolean(Reading *reading, const json_t *value, const char *key)
-{
-    if (!json_is_boolean(value))
-        fail_reading(reading, RETEX_EFORMAT, "has no true or false \"%s\"", key);
-    return json_is_true(value);
-}
-
-static const json_t *get_array(Reading *reading, const json_t *object, const char *key, size_t most)
-{
-    const json_t *value = json_object_get(object, key);
-
-    if (!json_is_array(value) || json_array_size(value) > most) {
-        fail_reading(reading, RETEX_EFORMAT, "has no list \"%s\" of at most %zu", key, most);
-        return NULL;
-    }
-    return value;
-}
+#include "set/manifest_fields.h"
 
 static void get_pair(Reading *reading, const json_t *object, const char *key, double out[2])
 {
-    const json_t *array = get_array(reading, object, key, 2);
+    const json_t *array = retex_reading_array(reading, object, key, 2);
 
     for (size_t i = 0; i < 2; i++)
-        out[i] = get_real(reading, json_array_get(array, i), key);
-}
-
-/* The index of a part that is referred to by name; -1 where the value is null and may be. */
-static int get_part(Reading *reading, const RetexSet *set, const json_t *object, const char *key, size_t channels,
-                    int optional)
-{
-    const json_t *value = json_object_get(object, key);
-    const char *name = json_string_value(value);
-
-    if (json_is_null(value) && optional)
-        return -1;
-    const int part = name ? retex_set_find_part(set, name) : -1;
-    if (part < 0)
-        fail_reading(reading, RETEX_EFORMAT, "refers to a part that is not there in \"%s\"", key);
-    else if (strlen(set->parts[part].letters) != channels)
-        fail_reading(reading, RETEX_EFORMAT, "has in \"%s\" a part of %zu channels instead of %zu", key,
-                     strlen(set->parts[part].letters), channels);
-    return part;
+        out[i] = retex_reading_real(reading, json_array_get(array, i), key);
 }
 
 /* The part of the standard deviations of u and v, with or without their correlation. */
@@ -109,29 +21,8 @@ static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
 {
     const char *name = json_string_value(json_object_get(json, "spread"));
     const int part = name ? retex_set_find_part(set, name) : -1;
-    return get_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2, 1);
-}
-
-/* A part with one channel for all colours, or with three. */
-static int get_part_of_one_or_three(Reading *reading, const RetexSet *set, const json_t *json, const char *key)
-{
-    const char *name = json_string_value(json_object_get(json, key));
-    const int part = name ? retex_set_find_part(set, name) : -1;
-    return get_part(reading, set, json, key, part >= 0 && set->parts[part].image.channels == 3 ? 3 : 1, 0);
-}
-
-static void check_size(Reading *reading, const RetexSet *set, int part, const char *key)
-{
-    if (part >= 0 && (set->parts[part].image.width != set->width || set->parts[part].image.height != set->height))
-        fail_reading(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
-}
-
-/* Checks the size of a part that may be reduced. */
-static void check_scale(Reading *reading, const RetexSet *set, int part, const char *key)
-{
-    if (part >= 0 && !retex_set_scale(set, &set->parts[part].image))
-        fail_reading(reading, RETEX_EFORMAT,
-                     "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
+    return retex_reading_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2,
+                              1);
 }
 
 /* Parses the checksums of bands: eight hexadecimal digits each. */
@@ -142,9 +33,9 @@ static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
     uint32_t *bands = NULL;
 
     if (!digits || strlen(digits) != 8 * count || strspn(digits, "0123456789abcdef") != 8 * count)
-        fail_reading(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
     else if (!(bands = calloc(count, sizeof *bands)))
-        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
+        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
     for (size_t i = 0; bands && i < count; i++) {
         char hex[9] = "";
         memcpy(hex, digits + 8 * i, 8);
@@ -174,33 +65,33 @@ static void read_part(Reading *reading, const json_t *json, RetexPart *part, cha
 {
     char type[8] = "", hex[16] = "", *end = hex;
 
-    get_text(reading, json, "name", name, name_size);
-    get_text(reading, json, "letters", part->letters, sizeof part->letters);
-    get_text(reading, json, "type", type, sizeof type);
-    get_text(reading, json, "crc32", hex, sizeof hex);
-    part->image.width = get_integer(reading, json, "width", 1, RETEX_MAX_SIZE);
-    part->image.height = get_integer(reading, json, "height", 1, RETEX_MAX_SIZE);
+    retex_reading_text(reading, json, "name", name, name_size);
+    retex_reading_text(reading, json, "letters", part->letters, sizeof part->letters);
+    retex_reading_text(reading, json, "type", type, sizeof type);
+    retex_reading_text(reading, json, "crc32", hex, sizeof hex);
+    part->image.width = retex_reading_integer(reading, json, "width", 1, RETEX_MAX_SIZE);
+    part->image.height = retex_reading_integer(reading, json, "height", 1, RETEX_MAX_SIZE);
     if (!reading->status && !retex_letters_are_valid(part->letters))
-        fail_reading(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
     part->image.channels = (int)strlen(part->letters);
     part->crc = (uint32_t)strtoul(hex, &end, 16);
     if (strlen(hex) != 8 || *end || hex[0] == '+' || hex[0] == '-')
-        fail_reading(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
     part->type = strcmp(type, "float") == 0 ? RETEX_FLOAT : RETEX_HALF;
     if (part->type == RETEX_HALF && strcmp(type, "half") != 0)
-        fail_reading(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
 }
 
 static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
 {
-    const json_t *array = get_array(reading, root, "parts", RETEX_SET_PARTS_MAX);
+    const json_t *array = retex_reading_array(reading, root, "parts", RETEX_SET_PARTS_MAX);
     const size_t count = json_array_size(array);
 
     if (count == 0)
-        fail_reading(reading, RETEX_EFORMAT, "lists no parts");
+        retex_reading_fail(reading, RETEX_EFORMAT, "lists no parts");
     set->parts = calloc(count ? count : 1, sizeof *set->parts);
     if (!set->parts)
-        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
+        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
     for (size_t i = 0; i < count && !reading->status; i++) {
         RetexPart *part = &set->parts[i];
         read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
@@ -208,51 +99,51 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
         if (reading->status)
             return;
         if (!retex_name_is_valid(part->name))
-            fail_reading(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
         else if (retex_set_find_part(set, part->name) >= 0)
-            fail_reading(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
+            retex_reading_fail(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
         set->nparts = (int)i + 1;
     }
     if (!reading->status) {
-        check_size(reading, set, 0, "parts");
+        retex_reading_check_size(reading, set, 0, "parts");
         if (strcmp(set->parts[0].letters, "RGB") != 0)
-            fail_reading(reading, RETEX_EFORMAT, "has a first part that is no picture");
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a first part that is no picture");
     }
 }
 
 static void read_target(Reading *reading, const json_t *json, RetexSet *set, RetexTarget *target)
 {
-    const json_t *periodic = get_array(reading, json, "periodic", 2);
-    const json_t *albedo = get_array(reading, json, "mean_albedo", 3);
+    const json_t *periodic = retex_reading_array(reading, json, "periodic", 2);
+    const json_t *albedo = retex_reading_array(reading, json, "mean_albedo", 3);
 
-    get_text(reading, json, "name", target->name, sizeof target->name);
-    get_text(reading, json, "idents", target->idents, sizeof target->idents);
+    retex_reading_text(reading, json, "name", target->name, sizeof target->name);
+    retex_reading_text(reading, json, "idents", target->idents, sizeof target->idents);
     if (!reading->status && !target->name[0])
-        fail_reading(reading, RETEX_EFORMAT, "has a target without a name");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a target without a name");
     for (int i = 0; i < set->ntargets; i++)
         if (strcmp(set->targets[i].name, target->name) == 0)
-            fail_reading(reading, RETEX_EFORMAT, "has two targets named \"%s\"", target->name);
+            retex_reading_fail(reading, RETEX_EFORMAT, "has two targets named \"%s\"", target->name);
     for (size_t i = 0; i < 2; i++)
-        target->periodic[i] = get_boolean(reading, json_array_get(periodic, i), "periodic");
+        target->periodic[i] = retex_reading_boolean(reading, json_array_get(periodic, i), "periodic");
     for (size_t i = 0; i < 3; i++)
-        target->mean_albedo[i] = (float)get_real(reading, json_array_get(albedo, i), "mean_albedo");
+        target->mean_albedo[i] = (float)retex_reading_real(reading, json_array_get(albedo, i), "mean_albedo");
     get_pair(reading, json, "uv_min", target->uv_min);
     get_pair(reading, json, "uv_max", target->uv_max);
     get_pair(reading, json, "original_min", target->original_min);
     get_pair(reading, json, "original_max", target->original_max);
     if (json_object_get(json, "uv_scale"))
         get_pair(reading, json, "uv_scale", target->uv_scale);
-    target->share = get_real(reading, json_object_get(json, "share"), "share");
+    target->share = retex_reading_real(reading, json_object_get(json, "share"), "share");
     const json_t *original = json_object_get(json, "original");
     const char *name = json_string_value(original);
     target->original = name ? retex_set_find_part(set, name) : -1;
     if (target->original < 0 && !json_is_null(original))
-        fail_reading(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
+        retex_reading_fail(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
 }
 
 static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
 {
-    const json_t *array = get_array(reading, root, "targets", RETEX_MAX_TARGETS);
+    const json_t *array = retex_reading_array(reading, root, "targets", RETEX_MAX_TARGETS);
 
     for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
         read_target(reading, json_array_get(array, i), set, &set->targets[i]);
@@ -260,81 +151,31 @@ static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
-/* The number of the object's "kind" among names; the first where it has no kind. */
-static int get_kind(Reading *reading, const json_t *json, const char *(*name_of)(int kind), int count)
-{
-    char kind[32] = "";
-    int number = 0;
-
-    if (!json_object_get(json, "kind"))
-        return 0;
-    get_text(reading, json, "kind", kind, sizeof kind);
-    while (number < count && strcmp(kind, name_of(number)) != 0)
-        number++;
-    if (number == count)
-        fail_reading(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
-    return number < count ? number : 0;
-}
-
 static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
 {
-    const json_t *array = get_array(reading, root, "footprints", RETEX_SET_FOOTPRINTS_MAX);
+    const json_t *array = retex_reading_array(reading, root, "footprints", RETEX_SET_FOOTPRINTS_MAX);
 
     for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
         const json_t *json = json_array_get(array, i);
         RetexFootprint footprint = {
-            .target = get_integer(reading, json, "target", 0, set->ntargets - 1),
-            .hit = get_integer(reading, json, "hit", 1, 1 << 20),
-            .uv = get_part(reading, set, json, "uv", 3, 1),
+            .target = retex_reading_integer(reading, json, "target", 0, set->ntargets - 1),
+            .hit = retex_reading_integer(reading, json, "hit", 1, 1 << 20),
+            .uv = retex_reading_part(reading, set, json, "uv", 3, 1),
             .spread = get_spread(reading, set, json),
-            .albedo = get_part(reading, set, json, "albedo", 3, 1),
+            .albedo = retex_reading_part(reading, set, json, "albedo", 3, 1),
         };
         if (reading->status)
             return;
-        footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kind_name, RETEX_FOOTPRINT_KINDS);
-        check_scale(reading, set, footprint.uv, "uv");
-        check_scale(reading, set, footprint.spread, "spread");
-        check_scale(reading, set, footprint.albedo, "albedo");
+        if (json_object_get(json, "kind"))
+            footprint.kind = (RetexFootprintKind)retex_reading_named(reading, json, "kind", "kind",
+                                                                     retex_footprint_kind_name, RETEX_FOOTPRINT_KINDS);
+        retex_reading_check_scale(reading, set, footprint.uv, "uv");
+        retex_reading_check_scale(reading, set, footprint.spread, "spread");
+        retex_reading_check_scale(reading, set, footprint.albedo, "albedo");
         if (!reading->status)
             reading->status = retex_set_add_footprint(set, &footprint, NULL, reading->err);
         if (!reading->status && !retex_set_footprint_scale(set, set->nfootprints - 1))
-            fail_reading(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
-    }
-}
-
-static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
-{
-    const json_t *array = get_array(reading, root, "terms", RETEX_SET_TERMS_MAX);
-
-    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
-        const json_t *json = json_array_get(array, i);
-        const json_t *factors = get_array(reading, json, "factors", RETEX_MAX_FACTORS);
-        RetexTerm term = {.radiance = get_part(reading, set, json, "radiance", 3, 0),
-                          .nfactors = (int)json_array_size(factors)};
-        if (json_object_get(json, "gain")) {
-            term.gain = get_part_of_one_or_three(reading, set, json, "gain");
-            if (term.gain == 0)
-                fail_reading(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
-        }
-        if (json_object_get(json, "edited"))
-            term.edited = 1 + get_integer(reading, json, "edited", 0, set->ntargets - 1);
-        if (!json_object_get(json, "kind"))
-            fail_reading(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
-        term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kind_name, RETEX_TERM_KINDS);
-        for (int f = 0; f < term.nfactors; f++) {
-            const json_t *value = json_array_get(factors, (size_t)f);
-            const json_int_t factor = json_integer_value(value);
-            if (!json_is_integer(value) || factor < RETEX_MIXTURE(set->nmixtures - 1) || factor >= set->nfootprints)
-                fail_reading(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
-            else
-                term.factors[f] = (int)factor;
-        }
-        if (reading->status)
-            return;
-        check_size(reading, set, term.radiance, "radiance");
-        check_scale(reading, set, term.gain ? term.gain : -1, "gain");
-        if (!reading->status)
-            reading->status = retex_set_add_term(set, &term, NULL, reading->err);
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
     }
 }
 
@@ -343,14 +184,14 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
     RetexMixture mixture = {.nshares = (int)json_array_size(array)};
 
     if (!json_is_array(array) || json_array_size(array) > RETEX_SHARES_MAX) {
-        fail_reading(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
         return;
     }
     for (int i = 0; i < mixture.nshares && !reading->status; i++) {
         const json_t *json = json_array_get(array, (size_t)i);
-        mixture.shares[i].footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
-        mixture.shares[i].weight = get_part_of_one_or_three(reading, set, json, "weight");
-        check_scale(reading, set, mixture.shares[i].weight, "weight");
+        mixture.shares[i].footprint = retex_reading_integer(reading, json, "footprint", 0, set->nfootprints - 1);
+        mixture.shares[i].weight = retex_reading_weight(reading, set, json, "weight");
+        retex_reading_check_scale(reading, set, mixture.shares[i].weight, "weight");
         if (reading->status)
             return;
         const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
@@ -358,7 +199,7 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
         const int sampled = f->uv < 0 && f->spread < 0 && f->albedo < 0; /* in a stream */
         if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
-            fail_reading(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }
     if (!reading->status)
         reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
@@ -368,7 +209,7 @@ static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
 {
     if (!json_object_get(root, "mixtures"))
         return;
-    const json_t *array = get_array(reading, root, "mixtures", RETEX_MIXTURES_MAX);
+    const json_t *array = retex_reading_array(reading, root, "mixtures", RETEX_MIXTURES_MAX);
     for (size_t i = 0; i < json_array_size(array) && !reading->status; i++)
         read_mixture(reading, json_array_get(array, i), set);
 }
@@ -378,10 +219,10 @@ static uint32_t get_identity(Reading *reading, const json_t *json, const char *k
 {
     char hex[16], *end;
 
-    get_text(reading, json, key, hex, sizeof hex);
+    retex_reading_text(reading, json, key, hex, sizeof hex);
     unsigned long id = strtoul(hex, &end, 16);
     if (!reading->status && (end != hex + 8 || *end))
-        fail_reading(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
     return (uint32_t)id;
 }
 
@@ -392,30 +233,28 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
 
     *result = set;
     if (!set) {
-        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
+        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
     set->width = width;
     set->height = height;
-    get_text(reading, root, "layout", set->layout, sizeof set->layout);
-    get_text(reading, root, "filter", set->filter, sizeof set->filter);
-    get_text(reading, root, "scene", set->scene, sizeof set->scene);
-    get_text(reading, root, "generator", set->generator, sizeof set->generator);
-    set->orders = get_integer(reading, root, "orders", 0, RETEX_MAX_ORDERS);
-    set->spp = get_integer(reading, root, "spp", 0, 1 << 30);
-    set->max_depth = get_integer(reading, root, "max_depth", 0, 1 << 30);
+    retex_reading_text(reading, root, "layout", set->layout, sizeof set->layout);
+    retex_reading_text(reading, root, "filter", set->filter, sizeof set->filter);
+    retex_reading_text(reading, root, "scene", set->scene, sizeof set->scene);
+    retex_reading_text(reading, root, "generator", set->generator, sizeof set->generator);
+    set->orders = retex_reading_integer(reading, root, "orders", 0, RETEX_MAX_ORDERS);
+    set->spp = retex_reading_integer(reading, root, "spp", 0, 1 << 30);
+    set->max_depth = retex_reading_integer(reading, root, "max_depth", 0, 1 << 30);
     if (!json_is_integer(seed) || json_integer_value(seed) < 0 || json_integer_value(seed) > UINT32_MAX)
-        fail_reading(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
     set->seed = (uint32_t)json_integer_value(seed);
     set->id = get_identity(reading, root, "id");
-    set->folded = get_real(reading, json_object_get(root, "folded"), "folded");
+    set->folded = retex_reading_real(reading, json_object_get(root, "folded"), "folded");
     if (json_object_get(root, "folded_white"))
-        set->folded_white = get_real(reading, json_object_get(root, "folded_white"), "folded_white");
+        set->folded_white = retex_reading_real(reading, json_object_get(root, "folded_white"), "folded_white");
     if (json_object_get(root, "denoised"))
-        set->denoised = get_boolean(reading, json_object_get(root, "denoised"), "denoised");
-    set->strict_paper = get_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
-    if (json_object_get(root, "exact_picture"))
-        set->exact_picture = get_boolean(reading, json_object_get(root, "exact_picture"), "exact_picture");
+        set->denoised = retex_reading_boolean(reading, json_object_get(root, "denoised"), "denoised");
+    set->strict_paper = retex_reading_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
     if (!reading->status)
         read_parts(reading, root, set);
     if (!reading->status)
@@ -425,7 +264,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (!reading->status)
         read_mixtures(reading, root, set);
     if (!reading->status)
-        read_terms(reading, root, set);
+        (json_integer_value(json_object_get(root, "retex")) == 1 ? retex_reading_terms_1
+                                                                 : retex_reading_terms)(reading, root, set);
 }
 
 static void read_sample_image(Reading *reading, const json_t *json, RetexSamples *samples, int index,
@@ -434,8 +274,8 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     const json_t *json_part = json_object_get(json, "part");
     RetexPart part = {.crc = 0};
 
-    samples->footprints[index].target = get_integer(reading, json, "target", 0, samples->ntargets - 1);
-    samples->footprints[index].hit = get_integer(reading, json, "hit", 1, 1 << 20);
+    samples->footprints[index].target = retex_reading_integer(reading, json, "target", 0, samples->ntargets - 1);
+    samples->footprints[index].hit = retex_reading_integer(reading, json, "hit", 1, 1 << 20);
     if (json_is_null(json_part))
         read_bands(reading, json_part, 0);
     if (json_is_null(json_part) || reading->status)
@@ -444,12 +284,12 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     read_bands(reading, json_part, part.image.height);
     if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
                              part.image.width > samples->width || part.image.height > samples->height))
-        fail_reading(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
     if (!reading->status && !parts[index].name[0])
-        fail_reading(reading, RETEX_EFORMAT, "has a sample image without a name");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image without a name");
     for (int i = 0; i < index; i++)
         if (parts[index].name[0] && strcmp(parts[i].name, parts[index].name) == 0)
-            fail_reading(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
+            retex_reading_fail(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
     parts[index].crc = part.crc;
     samples->images[index] = part.image;
 }
@@ -457,13 +297,13 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
 static void read_samples(Reading *reading, const json_t *json, int width, int height, RetexSamples **result,
                          RetexSamplePart **parts)
 {
-    const json_t *targets = get_array(reading, json, "targets", RETEX_MAX_TARGETS);
-    const json_t *images = get_array(reading, json, "images", RETEX_SET_FOOTPRINTS_MAX);
+    const json_t *targets = retex_reading_array(reading, json, "targets", RETEX_MAX_TARGETS);
+    const json_t *images = retex_reading_array(reading, json, "images", RETEX_SET_FOOTPRINTS_MAX);
     const size_t count = json_array_size(images);
 
     *parts = calloc(count + 1, sizeof **parts);
     if (!*parts || retex_samples_alloc(result, (int)count, NULL)) {
-        fail_reading(reading, RETEX_ENOMEM, "does not fit in memory");
+        retex_reading_fail(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
     RetexSamples *samples = *result;
@@ -473,8 +313,8 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
     samples->ntargets = (int)json_array_size(targets);
     for (int i = 0; i < samples->ntargets; i++) {
         const json_t *target = json_array_get(targets, (size_t)i);
-        get_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
-        get_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
+        retex_reading_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
+        retex_reading_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
     }
     for (int i = 0; i < samples->nimages && !reading->status; i++)
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
@@ -487,12 +327,12 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
     const json_int_t number = json_integer_value(version);
 
     if (!json_is_integer(version) || number < 1)
-        fail_reading(reading, RETEX_EFORMAT, "has no version");
+        retex_reading_fail(reading, RETEX_EFORMAT, "has no version");
     else if (number > RETEX_SET_VERSION)
-        fail_reading(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d",
-                     (long long)number, RETEX_SET_VERSION);
+        retex_reading_fail(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows version %d",
+                           (long long)number, RETEX_SET_VERSION);
     else if (sum == RETEX_MANIFEST_UNSEALED)
-        fail_reading(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
+        retex_reading_fail(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }
 
 static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
@@ -503,14 +343,14 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
     check_version(reading, root, sum);
     if (reading->status)
         return;
-    get_text(reading, root, "kind", kind, sizeof kind);
+    retex_reading_text(reading, root, "kind", kind, sizeof kind);
     const int stream = strcmp(kind, "stream") == 0;
     const int has_set = stream || strcmp(kind, "set") == 0;
     const int has_samples = stream || strcmp(kind, "samples") == 0;
-    const int width = get_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
-    const int height = get_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
+    const int width = retex_reading_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
+    const int height = retex_reading_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
     if (!has_set && !has_samples)
-        fail_reading(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
+        retex_reading_fail(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
     if (!reading->status && has_set)
         read_set(reading, root, width, height, set);
     if (!reading->status && has_samples)
@@ -541,7 +381,7 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (its `retex` attribute is no JSON: %s)", name,
                           where.text);
     if (!json_is_object(root))
-        fail_reading(&reading, RETEX_EFORMAT, "is no JSON object");
+        retex_reading_fail(&reading, RETEX_EFORMAT, "is no JSON object");
     else
         read_root(&reading, root, sum, set, samples, sample_parts);
     json_decref(root);

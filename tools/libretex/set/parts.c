@@ -6,24 +6,20 @@
 
 #include <retex/denoise_data.h>
 
+#include "set/references.h"
+
+static void find_part(void *context, RetexPartUse use, int user, int *part)
+{
+    int *wanted = context; /* the part, and whether it is used */
+    (void)use, (void)user;
+    wanted[1] |= *part == wanted[0];
+}
+
 int retex_part_is_used(const RetexSet *set, int part)
 {
-    for (int i = 0; i < set->ntargets; i++)
-        if (set->targets[i].original == part)
-            return 1;
-    for (int i = 0; i < set->nfootprints; i++) {
-        const RetexFootprint *footprint = &set->footprints[i];
-        if (footprint->uv == part || footprint->spread == part || footprint->albedo == part)
-            return 1;
-    }
-    for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].radiance == part || (part && set->terms[i].gain == part))
-            return 1;
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            if (set->mixtures[i].shares[k].weight == part)
-                return 1;
-    return 0;
+    int wanted[2] = {part, 0};
+    retex_set_visit_const_parts(set, find_part, wanted);
+    return wanted[1];
 }
 
 int retex_part_is_denoise_data(const RetexSet *set, int part)
@@ -41,32 +37,11 @@ void retex_set_view_free(RetexSetView *view)
     memset(view, 0, sizeof *view);
 }
 
-static int renumber(const int *place, int part)
+static void renumber(void *context, RetexPartUse use, int user, int *part)
 {
-    return part < 0 ? -1 : place[part];
-}
-
-/* Copies all that refers to parts; place[i]: number of part i in the view, or -1. */
-static void copy_references(RetexSetView *view, const RetexSet *set, const int *place)
-{
-    for (int i = 0; i < set->ntargets; i++)
-        view->set.targets[i].original = renumber(place, set->targets[i].original);
-    for (int i = 0; i < set->nfootprints; i++) {
-        RetexFootprint *footprint = &view->set.footprints[i];
-        *footprint = set->footprints[i];
-        footprint->uv = renumber(place, footprint->uv);
-        footprint->spread = renumber(place, footprint->spread);
-        footprint->albedo = renumber(place, footprint->albedo);
-    }
-    for (int i = 0; i < set->nterms; i++) {
-        view->set.terms[i] = set->terms[i];
-        view->set.terms[i].radiance = place[set->terms[i].radiance];
-        if (set->terms[i].gain)
-            view->set.terms[i].gain = place[set->terms[i].gain];
-    }
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            view->set.mixtures[i].shares[k].weight = place[set->mixtures[i].shares[k].weight];
+    const int *place = context; /* the number of each part in the view, or -1 */
+    (void)use, (void)user;
+    *part = place[*part];
 }
 
 int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err)
@@ -92,7 +67,11 @@ int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kep
             view->set.parts[view->set.nparts++] = set->parts[i];
         }
     }
-    copy_references(view, set, place);
+    for (int i = 0; i < set->nfootprints; i++)
+        view->set.footprints[i] = set->footprints[i];
+    for (int i = 0; i < set->nterms; i++)
+        view->set.terms[i] = set->terms[i];
+    retex_set_visit_parts(&view->set, renumber, place);
     free(place);
     return 0;
 }

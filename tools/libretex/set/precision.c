@@ -229,8 +229,9 @@ static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *ro
             const RetexTerm *term = &rows->terms[member->term];
             const double light = retex_mean_size(retex_pixel_at(rows, member->part, at)) * (double)member->weight;
             for (int f = 0; f < term->nfactors && light > 0; f++)
-                *(term->factors[f] < 0 ? &s->mixed[RETEX_MIXTURE(term->factors[f])] : &s->light[term->factors[f]]) +=
-                    light;
+                if (retex_factor_is_texture(term->factors[f]))
+                    (term->factors[f].kind == RETEX_FACTOR_MIXTURE ? s->mixed : s->light)[term->factors[f].index] +=
+                        light;
         }
     for (int m = 0; m < p->nmixtures; m++) {
         const RetexMixture *mixture = &rows->mixtures[m];

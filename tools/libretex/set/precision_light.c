@@ -31,7 +31,7 @@ static double white_pixel(const RetexPixelLight *p)
 {
     double sum[3] = {0, 0, 0};
     for (int t = 0; t < p->rows->nterms; t++)
-        for (int c = 0; c < 3 && !p->rows->terms[t].edited; c++)
+        for (int c = 0; c < 3 && retex_term_is_light(&p->rows->terms[t]); c++)
             sum[c] += (double)radiance_of(p, t)[c];
     return (double)(float)fmax(sum[0], fmax(sum[1], sum[2]));
 }
@@ -75,7 +75,7 @@ static void round_member(const RetexPixelLight *p, const RetexSignalMember *memb
 {
     float *light = retex_pixel_at(p->rows, member->part, p->at);
     double weight = 1;
-    for (int n = 1; n < p->rows->terms[member->term].nfactors; n++)
+    for (int n = retex_term_hits(&p->rows->terms[member->term]); n > 1; n--)
         weight *= CARRIED;
     for (int c = 0; c < 3; c++) {
         if (light[c] == 0)

@@ -9,14 +9,14 @@
 #include "set/parts.h"
 #include "set/signals.h"
 
-#define GONE INT_MIN /* marks a factor that is removed */
+#define GONE INT_MIN /* marks a footprint or mixture that is removed */
 
 typedef struct Pruning {
     RetexSet *set;
     const char *empty;
     char kept[RETEX_SET_PARTS_MAX];
     int footprints[RETEX_SET_FOOTPRINTS_MAX]; /* the new number of each, or GONE */
-    int mixtures[RETEX_MIXTURES_MAX];         /* the factor that each becomes, or GONE */
+    RetexFactor mixtures[RETEX_MIXTURES_MAX]; /* what each becomes; index GONE: nothing */
 } Pruning;
 
 static void drop(Pruning *p, int part)
@@ -73,9 +73,8 @@ static void prune_mixtures(Pruning *p)
             p->kept[mixture->shares[k].weight] |=
                 mixture->nshares > 1 ||
                 set->footprints[mixture->shares[k].footprint].kind == RETEX_FOOTPRINT_INTERREFLECTION;
-        p->mixtures[m] = mixture->nshares == 0   ? GONE
-                         : mixture->nshares == 1 ? mixture->shares[0].footprint
-                                                 : RETEX_MIXTURE(count);
+        p->mixtures[m] = mixture->nshares == 1 ? retex_factor(RETEX_FACTOR_FOOTPRINT, mixture->shares[0].footprint)
+                                               : retex_factor(RETEX_FACTOR_MIXTURE, mixture->nshares ? count : GONE);
         if (mixture->nshares > 1)
             set->mixtures[count++] = *mixture;
     }
@@ -86,12 +85,24 @@ static void prune_mixtures(Pruning *p)
 static int prune_factors(const Pruning *p, RetexTerm *term)
 {
     for (int k = 0; k < term->nfactors; k++) {
-        const int factor = term->factors[k];
-        term->factors[k] = factor < 0 ? p->mixtures[RETEX_MIXTURE(factor)] : p->footprints[factor];
-        if (term->factors[k] == GONE)
+        RetexFactor *factor = &term->factors[k];
+        const RetexFactorKind kind = factor->kind;
+        if (kind == RETEX_FACTOR_FOOTPRINT)
+            factor->index = p->footprints[factor->index];
+        else if (kind == RETEX_FACTOR_MIXTURE)
+            *factor = p->mixtures[factor->index];
+        if (retex_factor_is_texture(*factor) && factor->index == GONE)
             return 0;
     }
     return 1;
+}
+
+/* Whether a term is 0: of its radiance or an image. Terms without textures stay, as the set needs one. */
+static int is_empty(const Pruning *p, const RetexTerm *term)
+{
+    const int image = retex_term_image(term);
+    return (retex_term_hits(term) || term->role == RETEX_ROLE_CORRECTION) &&
+           (p->empty[term->radiance] || (image >= 0 && p->empty[image]));
 }
 
 static void prune_terms(Pruning *p)
@@ -101,10 +112,9 @@ static void prune_terms(Pruning *p)
 
     for (int t = 0; t < set->nterms; t++) {
         RetexTerm *term = &set->terms[t];
-        if (((term->nfactors || term->edited) && (p->empty[term->radiance] || (term->gain && p->empty[term->gain]))) ||
-            !prune_factors(p, term)) {
+        if (is_empty(p, term) || !prune_factors(p, term)) {
             drop(p, term->radiance);
-            drop(p, term->gain ? term->gain : -1);
+            drop(p, retex_term_image(term));
         } else {
             set->terms[count++] = *term;
         }
@@ -122,6 +132,8 @@ static void prune_noise(Pruning *p)
         if (retex_name_is_noise(set->parts[i].name))
             p->kept[i] = 0;
     for (int t = 0; t < set->nterms || (t == 0 && !set->nterms); t++) {
+        if (set->nterms && set->terms[t].role == RETEX_ROLE_PICTURE)
+            continue;
         retex_signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);
         const int part = retex_set_find_part(set, name);
         if (part > 0)

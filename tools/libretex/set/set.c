@@ -1,4 +1,6 @@
 /* Sets in memory: creation, adding, searching. */
+#include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -9,6 +11,7 @@
 #include "base/part_name.h"
 #include "io/checksum.h"
 #include "set/manifest.h"
+#include "set/references.h"
 #include "set/source.h"
 
 int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
@@ -124,30 +127,17 @@ int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, R
     return 0;
 }
 
-static void move_up(int *reference, int part)
+static void move_up(void *context, RetexPartUse use, int user, int *part)
 {
-    if (*reference > part)
-        --*reference;
+    (void)use, (void)user;
+    *part -= *part > *(const int *)context;
 }
 
 void retex_set_remove_part(RetexSet *set, int part)
 {
     retex_image_free(&set->parts[part].image);
     memmove(&set->parts[part], &set->parts[part + 1], sizeof *set->parts * (size_t)(--set->nparts - part));
-    for (int t = 0; t < set->ntargets; t++)
-        move_up(&set->targets[t].original, part);
-    for (int f = 0; f < set->nfootprints; f++) {
-        move_up(&set->footprints[f].uv, part);
-        move_up(&set->footprints[f].spread, part);
-        move_up(&set->footprints[f].albedo, part);
-    }
-    for (int t = 0; t < set->nterms; t++) {
-        move_up(&set->terms[t].radiance, part);
-        move_up(&set->terms[t].gain, part);
-    }
-    for (int m = 0; m < set->nmixtures; m++)
-        for (int k = 0; k < set->mixtures[m].nshares; k++)
-            move_up(&set->mixtures[m].shares[k].weight, part);
+    retex_set_visit_parts(set, move_up, &part);
 }
 
 /* Checks a part that a footprint or term refers to: it must exist, or be absent (-1) where that is allowed. */
@@ -163,18 +153,11 @@ static int check_part(const RetexSet *set, int part, size_t channels, int option
     return 0;
 }
 
-const char *retex_footprint_kind_name(int kind)
+/* Checks a part that has one channel for all colours, or three. */
+static int check_weight(const RetexSet *set, int part, const char *what, RetexError *err)
 {
-    static const char *const names[RETEX_FOOTPRINT_KINDS] = {"hit", "sharp", "broad", "interreflection"};
-
-    return names[kind];
-}
-
-const char *retex_term_kind_name(int kind)
-{
-    static const char *const names[RETEX_TERM_KINDS] = {"full", "indep", "dep", "cross2", "cross3"};
-
-    return names[kind];
+    const int colored = part >= 0 && part < set->nparts && strlen(set->parts[part].letters) == 3;
+    return check_part(set, part, colored ? 3 : 1, 0, what, err);
 }
 
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)
@@ -205,24 +188,54 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
     return 0;
 }
 
+static int check_factor(const RetexSet *set, RetexFactor factor, RetexError *err)
+{
+    const int counts[RETEX_FACTOR_KINDS] = {set->nfootprints, set->nmixtures, set->nparts, set->nparameters};
+    if ((unsigned)factor.kind >= RETEX_FACTOR_KINDS || (unsigned)factor.quantity >= RETEX_QUANTITIES)
+        return retex_fail(err, RETEX_EINVAL, "a factor is of no known kind (%d) or quantity (%d)", (int)factor.kind,
+                          (int)factor.quantity);
+    if (factor.index < 0 || factor.index >= counts[factor.kind])
+        return retex_fail(err, RETEX_EINVAL, "a factor refers to %s %d of %d", retex_factor_kind_name(factor.kind),
+                          factor.index, counts[factor.kind]);
+    if (factor.kind == RETEX_FACTOR_IMAGE && factor.index == 0)
+        return retex_fail(err, RETEX_EINVAL, "a factor is the set's picture");
+    return factor.kind == RETEX_FACTOR_IMAGE ? check_weight(set, factor.index, "a term's factor", err) : RETEX_OK;
+}
+
+static int check_role(const RetexSet *set, const RetexTerm *term, RetexError *err)
+{
+    const int corrects = term->role == RETEX_ROLE_CORRECTION, least = corrects ? 0 : -1;
+    if ((unsigned)term->role >= RETEX_ROLES)
+        return retex_fail(err, RETEX_EINVAL, "the term is of no known role (%d)", (int)term->role);
+    if (term->target < least || term->target >= set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the term is of target %d of %d", term->target, set->ntargets);
+    if (term->role == RETEX_ROLE_PICTURE &&
+        (term->radiance || term->nfactors || retex_set_has_role(set, RETEX_ROLE_PICTURE)))
+        return retex_fail(err, RETEX_EINVAL, "one term may be the picture: part 0, without factors");
+    int weights = 0;
+    for (int k = 0; k < term->nfactors; k++) {
+        const RetexParameter *parameter =
+            term->factors[k].kind == RETEX_FACTOR_PARAMETER ? &set->parameters[term->factors[k].index] : NULL;
+        if (parameter && parameter->kind == RETEX_PARAMETER_CORRECTION)
+            weights += corrects && parameter->target == term->target ? 1 : 2;
+    }
+    return weights == corrects
+               ? RETEX_OK
+               : retex_fail(err, RETEX_EINVAL, "corrections, and only they, have their target's weight");
+}
+
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err)
 {
-    if (term->kind < RETEX_TERM_FULL || term->kind > RETEX_TERM_CROSS3)
-        return retex_fail(err, RETEX_EINVAL, "the term is of no known kind (%d)", (int)term->kind);
-    if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS)
-        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d", RETEX_MAX_FACTORS, term->nfactors);
-    for (int i = 0; i < term->nfactors; i++) {
-        const int factor = term->factors[i];
-        if (factor >= set->nfootprints)
-            return retex_fail(err, RETEX_EINVAL, "a factor refers to footprint %d of %d", factor, set->nfootprints);
-        if (factor < 0 && RETEX_MIXTURE(factor) >= set->nmixtures)
-            return retex_fail(err, RETEX_EINVAL, "a factor refers to mixture %d of %d", RETEX_MIXTURE(factor),
-                              set->nmixtures);
-    }
-    int status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
-    const int colored = term->gain > 0 && term->gain < set->nparts && strlen(set->parts[term->gain].letters) == 3;
-    if (!status && term->gain)
-        status = check_part(set, term->gain, colored ? 3 : 1, 0, "a term's gain", err);
+    int status = RETEX_OK;
+    if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS || retex_term_hits(term) > RETEX_MAX_HITS)
+        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, %d of them hits, not %d", RETEX_MAX_FACTORS,
+                          RETEX_MAX_HITS, term->nfactors);
+    for (int i = 0; i < term->nfactors && !status; i++)
+        status = check_factor(set, term->factors[i], err);
+    if (!status)
+        status = check_role(set, term, err);
+    if (!status)
+        status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
     if (!status)
         status = grow_array((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
     if (status)
@@ -230,6 +243,48 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
     if (index)
         *index = set->nterms;
     set->terms[set->nterms++] = *term;
+    return 0;
+}
+
+int retex_set_add_correction(RetexSet *set, const RetexTerm *term, int *index, RetexError *err)
+{
+    RetexTerm own = *term;
+    own.role = RETEX_ROLE_CORRECTION;
+    if (own.target < 0 || own.target >= set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the term corrects target %d of %d", own.target, set->ntargets);
+    RetexParameter parameter = {.kind = RETEX_PARAMETER_CORRECTION, .target = own.target};
+    int number = 0, code = RETEX_OK;
+    while (number < set->nparameters &&
+           (set->parameters[number].kind != RETEX_PARAMETER_CORRECTION || set->parameters[number].target != own.target))
+        number++;
+    snprintf(parameter.name, sizeof parameter.name, "correction_%d", 1 + own.target);
+    if (number == set->nparameters)
+        code = retex_set_add_parameter(set, &parameter, NULL, err);
+    if (!code)
+        code = retex_term_add_factor(&own, retex_factor(RETEX_FACTOR_PARAMETER, number), err);
+    return code ? code : retex_set_add_term(set, &own, index, err);
+}
+
+int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int *index, RetexError *err)
+{
+    const int corrects = parameter->kind == RETEX_PARAMETER_CORRECTION;
+    if (set->nparameters == RETEX_PARAMETERS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "a set has at most %d parameters", RETEX_PARAMETERS_MAX);
+    if ((unsigned)parameter->kind >= RETEX_PARAMETER_KINDS)
+        return retex_fail(err, RETEX_EINVAL, "the parameter is of no known kind (%d)", (int)parameter->kind);
+    if (!parameter->name[0] || retex_set_find_parameter(set, parameter->name) >= 0)
+        return retex_fail(err, RETEX_EINVAL, "the parameter has no name, or that of another one: \"%s\"",
+                          parameter->name);
+    if (corrects ? parameter->target < 0 || parameter->target >= set->ntargets : parameter->target != -1)
+        return retex_fail(err, RETEX_EINVAL, "the parameter %s is of target %d of %d", parameter->name,
+                          parameter->target, set->ntargets);
+    for (int c = 0; c < 3; c++)
+        if (!(parameter->value[c] >= 0 && parameter->value[c] <= (corrects ? 0 : FLT_MAX)))
+            return retex_fail(err, RETEX_EINVAL, "the parameter %s has the value %g", parameter->name,
+                              (double)parameter->value[c]);
+    if (index)
+        *index = set->nparameters;
+    set->parameters[set->nparameters++] = *parameter;
     return 0;
 }
 
@@ -241,11 +296,10 @@ int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index
         return retex_fail(err, RETEX_EINVAL, "a mixture has 1 to %d shares, not %d", RETEX_SHARES_MAX,
                           mixture->nshares);
     for (int i = 0; i < mixture->nshares; i++) {
-        const int footprint = mixture->shares[i].footprint, weight = mixture->shares[i].weight;
+        const int footprint = mixture->shares[i].footprint;
         if (footprint < 0 || footprint >= set->nfootprints)
             return retex_fail(err, RETEX_EINVAL, "a mixture refers to footprint %d of %d", footprint, set->nfootprints);
-        const int colored = weight >= 0 && weight < set->nparts && strlen(set->parts[weight].letters) == 3;
-        const int status = check_part(set, weight, colored ? 3 : 1, 0, "a mixture's weight", err);
+        const int status = check_weight(set, mixture->shares[i].weight, "a mixture's weight", err);
         if (status)
             return status;
     }
@@ -288,18 +342,20 @@ int retex_set_footprint_scale(const RetexSet *set, int footprint)
     return scale ? scale : 1;
 }
 
+static void find_color(void *context, RetexPartUse use, int user, int *part)
+{
+    int *wanted = context; /* the part, and whether it is one of colours */
+    (void)user;
+    if (*part == wanted[0])
+        wanted[1] |= use == RETEX_PART_RADIANCE || use == RETEX_PART_ALBEDO || use == RETEX_PART_ORIGINAL;
+}
+
 int retex_set_part_is_color(const RetexSet *set, int part)
 {
     const int aov = retex_aov_find(set->parts[part].name);
-    int found = part == 0 || (aov >= 0 && retex_aov_is_color((RetexAov)aov));
-
-    for (int i = 0; i < set->nterms && !found; i++)
-        found = set->terms[i].radiance == part;
-    for (int i = 0; i < set->nfootprints && !found; i++)
-        found = set->footprints[i].albedo == part;
-    for (int i = 0; i < set->ntargets && !found; i++)
-        found = set->targets[i].original == part;
-    return found;
+    int wanted[2] = {part, part == 0 || (aov >= 0 && retex_aov_is_color((RetexAov)aov))};
+    retex_set_visit_const_parts(set, find_color, wanted);
+    return wanted[1];
 }
 
 double retex_correction_weight(int ntargets, int edited)

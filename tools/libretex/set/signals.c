@@ -4,13 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/color.h>
 #include <retex/denoise_data.h>
 
 #define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
 
-void retex_factor_target(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind)
+void retex_factor_target(const RetexSet *set, RetexFactor factor, int *target, RetexFootprintKind *kind)
 {
-    int footprint = factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor;
+    int footprint =
+        factor.kind == RETEX_FACTOR_MIXTURE ? set->mixtures[factor.index].shares[0].footprint : factor.index;
     *target = set->footprints[footprint].target;
     *kind = set->footprints[footprint].kind;
 }
@@ -18,15 +20,19 @@ void retex_factor_target(const RetexSet *set, int factor, int *target, RetexFoot
 int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member)
 {
     const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
-    return term && term->nfactors == 1 && term->factors[0] >= 0 &&
-                   set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT && !term->edited
-               ? term->factors[0]
-               : -1;
+    const int clustered = term && (term->role == RETEX_ROLE_SHARP || term->role == RETEX_ROLE_BROAD ||
+                                   term->role == RETEX_ROLE_INTERREFLECTION);
+    if (!clustered || retex_term_hits(term) != 1)
+        return -1;
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_FOOTPRINT)
+            return term->factors[k].index;
+    return -1;
 }
 
 int retex_signal_corrects(const RetexSet *set, const RetexSignalMember *member)
 {
-    return member->term >= 0 && set->terms[member->term].edited;
+    return member->term >= 0 && set->terms[member->term].role == RETEX_ROLE_CORRECTION;
 }
 
 static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
@@ -38,18 +44,21 @@ static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind,
 }
 
 /* The target that the light of a term meets first; -1 where it meets none, and of corrections. */
-static void find_first_target(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
+static void find_first_target(const RetexTerm *term, int *target, RetexFootprintKind *kind)
 {
-    *target = -1, *kind = RETEX_FOOTPRINT_HIT;
-    if (term && term->nfactors && !term->edited)
-        retex_factor_target(set, term->factors[0], target, kind);
+    *target = term && retex_term_is_light(term) ? term->target : -1;
+    *kind = !term || *target < 0                       ? RETEX_FOOTPRINT_HIT
+            : term->role == RETEX_ROLE_SHARP           ? RETEX_FOOTPRINT_SHARP
+            : term->role == RETEX_ROLE_BROAD           ? RETEX_FOOTPRINT_BROAD
+            : term->role == RETEX_ROLE_INTERREFLECTION ? RETEX_FOOTPRINT_INTERREFLECTION
+                                                       : RETEX_FOOTPRINT_HIT;
 }
 
 void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
     int target;
     RetexFootprintKind kind;
-    find_first_target(set, term, &target, &kind);
+    find_first_target(term, &target, &kind);
     noise_name(set, target, kind, name);
 }
 
@@ -67,11 +76,11 @@ int retex_signals_find_part(const RetexSet *set, const char *name, int channels,
 }
 
 /* The signal of a term; created for its first term. */
-static RetexSignal *signal_of(RetexSignals *signals, const RetexSet *set, const RetexTerm *term)
+static RetexSignal *signal_of(RetexSignals *signals, const RetexTerm *term)
 {
     int target;
     RetexFootprintKind kind;
-    find_first_target(set, term, &target, &kind);
+    find_first_target(term, &target, &kind);
     for (int k = 0; k < signals->count; k++)
         if (signals->of[k].target == target && signals->of[k].kind == kind)
             return &signals->of[k];
@@ -100,28 +109,46 @@ static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *er
     return RETEX_OK;
 }
 
+/* The light of all terms is in signals, and their corrections. */
+static int is_member(const RetexTerm *term)
+{
+    return term->role != RETEX_ROLE_PICTURE;
+}
+
+/* Further hits are taken as grey, parameters as rendered; corrections, of either sign, do not count. */
+static float member_weight(const RetexSet *set, const RetexTerm *term)
+{
+    float weight = retex_term_is_light(term) ? 1 : 0;
+    for (int n = 1; n < retex_term_hits(term); n++)
+        weight *= 0.5f;
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER && weight > 0)
+            weight *= retex_luminance(set->parameters[term->factors[k].index].value[0],
+                                      set->parameters[term->factors[k].index].value[1],
+                                      set->parameters[term->factors[k].index].value[2]);
+    return weight;
+}
+
 /* Groups the terms by signal. */
 static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     int used = 0;
     for (int t = 0; t < set->nterms; t++)
-        if (!signal_of(signals, set, &set->terms[t]))
+        if (is_member(&set->terms[t]) && !signal_of(signals, &set->terms[t]))
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
     if (!set->nterms) {
         signals->members[0] = (RetexSignalMember){0, 1, -1};
-        *signal_of(signals, set, NULL) =
+        *signal_of(signals, NULL) =
             (RetexSignal){.target = -1, .noise = -1, .cover = -1, .nmembers = 1, .members = signals->members};
     }
     for (int k = 0; set->nterms && k < signals->count; k++) {
         RetexSignal *signal = &signals->of[k];
         signal->members = signals->members + used;
         for (int t = 0; t < set->nterms; t++) {
-            float weight = set->terms[t].edited ? 0 : 1;
-            if (signal_of(signals, set, &set->terms[t]) != signal)
+            if (!is_member(&set->terms[t]) || signal_of(signals, &set->terms[t]) != signal)
                 continue;
-            for (int n = 1; n < set->terms[t].nfactors; n++)
-                weight *= 0.5f;
-            signal->members[signal->nmembers++] = (RetexSignalMember){set->terms[t].radiance, weight, t};
+            signal->members[signal->nmembers++] =
+                (RetexSignalMember){set->terms[t].radiance, member_weight(set, &set->terms[t]), t};
             used++;
         }
     }

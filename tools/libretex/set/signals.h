@@ -13,7 +13,7 @@ typedef struct RetexSignalMember {
 
 typedef struct RetexSignal {
     int target;              /* -1: light that no target's texture multiplies */
-    RetexFootprintKind kind; /* of the first factor's footprint */
+    RetexFootprintKind kind; /* of its first hit's footprint */
     int noise;               /* part noise_… */
     int cover;               /* part guide_cover_… of the target, or -1 */
     int nmembers;
@@ -47,6 +47,6 @@ int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member);
 void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX]);
 
 /* The target and kind of the footprint or mixture that is a term's factor. */
-void retex_factor_target(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
+void retex_factor_target(const RetexSet *set, RetexFactor factor, int *target, RetexFootprintKind *kind);
 
 #endif

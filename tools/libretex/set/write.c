@@ -10,28 +10,30 @@
 #include "set/manifest.h"
 #include "io/output.h"
 #include "set/parts.h"
+#include "set/references.h"
 #include "set/staging.h"
+
+typedef struct Choice {
+    const RetexSamples *samples;
+    char *kept;
+} Choice;
+
+static void keep_part(void *context, RetexPartUse use, int user, int *part)
+{
+    const Choice *c = context;
+    const int of_footprint = use == RETEX_PART_UV || use == RETEX_PART_SPREAD || use == RETEX_PART_ALBEDO;
+    c->kept[*part] |= use != RETEX_PART_ORIGINAL && !(of_footprint && retex_samples_have(c->samples, user));
+}
 
 /* Decides which parts are written. With samples only those that recombination needs: the picture, the terms, and
  * footprints that have no sample, so that another target can be sampled further down the pipe. */
 static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
 {
+    Choice choice = {samples, kept};
     memset(kept, !samples, (size_t)set->nparts);
-    if (!samples)
-        return;
     kept[0] = 1;
-    for (int i = 0; i < set->nterms; i++)
-        kept[set->terms[i].radiance] = kept[set->terms[i].gain] = 1; /* gain 0 means none: then this is the picture,
-                                                                        which is kept anyway */
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            kept[set->mixtures[i].shares[k].weight] = 1;
-    for (int i = 0; i < set->nfootprints; i++) {
-        const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
-        for (int k = 0; k < 3 && !retex_samples_have(samples, i); k++)
-            if (parts[k] >= 0)
-                kept[parts[k]] = 1;
-    }
+    if (samples)
+        retex_set_visit_const_parts(set, keep_part, &choice);
 }
 
 static int part_in_range(const RetexSet *set, int part, int optional)
@@ -48,6 +50,19 @@ static int mixture_is_sound(const RetexSet *set, const RetexMixture *mixture)
     return sound;
 }
 
+static int term_is_sound(const RetexSet *set, const RetexTerm *term)
+{
+    const int counts[RETEX_FACTOR_KINDS] = {set->nfootprints, set->nmixtures, set->nparts, set->nparameters};
+    int sound = (unsigned)term->role < RETEX_ROLES && term->target >= -1 && term->target < set->ntargets &&
+                part_in_range(set, term->radiance, 0) && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS;
+    for (int k = 0; sound && k < term->nfactors; k++) {
+        const RetexFactor factor = term->factors[k];
+        sound = (unsigned)factor.kind < RETEX_FACTOR_KINDS && (unsigned)factor.quantity < RETEX_QUANTITIES &&
+                factor.index >= 0 && factor.index < counts[factor.kind];
+    }
+    return sound;
+}
+
 /* Checks everything about a set that a caller may have filled in by hand. */
 static int check_set(const RetexSet *set, RetexError *err)
 {
@@ -59,19 +74,18 @@ static int check_set(const RetexSet *set, RetexError *err)
         if (set->parts[i].store_image ? !set->store : !set->parts[i].image.pixels && !set->source)
             return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
     int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
-                set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 && set->nterms <= RETEX_SET_TERMS_MAX;
+                set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 &&
+                set->nterms <= RETEX_SET_TERMS_MAX && set->nmixtures >= 0 && set->nmixtures <= RETEX_MIXTURES_MAX &&
+                set->nparameters >= 0 && set->nparameters <= RETEX_PARAMETERS_MAX;
     for (int i = 0; i < set->ntargets && sound; i++)
         sound = part_in_range(set, set->targets[i].original, 1);
     for (int i = 0; i < set->nfootprints && sound; i++)
         sound = part_in_range(set, set->footprints[i].uv, 1) && part_in_range(set, set->footprints[i].spread, 1) &&
                 part_in_range(set, set->footprints[i].albedo, 1);
-    for (int i = 0; i < set->nterms && sound; i++)
-        sound = part_in_range(set, set->terms[i].radiance, 0) && set->terms[i].kind >= RETEX_TERM_FULL &&
-                set->terms[i].kind <= RETEX_TERM_CROSS3 && set->terms[i].nfactors >= 0 &&
-                set->terms[i].nfactors <= RETEX_MAX_FACTORS;
-    sound = sound && set->nmixtures >= 0 && set->nmixtures <= RETEX_MIXTURES_MAX;
     for (int i = 0; i < set->nmixtures && sound; i++)
         sound = mixture_is_sound(set, &set->mixtures[i]);
+    for (int i = 0; i < set->nterms && sound; i++)
+        sound = term_is_sound(set, &set->terms[i]);
     return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 

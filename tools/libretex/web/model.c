@@ -54,11 +54,11 @@ static int slot_of(RetexWebClass *c, const int weights[RETEX_SHARES_MAX])
 /* ---- mixtures ---- */
 
 /* The weight of a footprint in a factor of the set. */
-static int weight_in(const RetexSet *set, int factor, int footprint)
+static int weight_in(const RetexSet *set, RetexFactor factor, int footprint)
 {
-    if (factor >= 0)
-        return factor == footprint ? RETEX_WEB_WEIGHT_ONE : RETEX_WEB_WEIGHT_NONE;
-    const RetexMixture *mixture = &set->mixtures[RETEX_MIXTURE(factor)];
+    if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+        return factor.index == footprint ? RETEX_WEB_WEIGHT_ONE : RETEX_WEB_WEIGHT_NONE;
+    const RetexMixture *mixture = &set->mixtures[factor.index];
     for (int i = 0; i < mixture->nshares; i++)
         if (mixture->shares[i].footprint == footprint)
             return mixture->shares[i].weight;
@@ -66,10 +66,10 @@ static int weight_in(const RetexSet *set, int factor, int footprint)
 }
 
 /* The index of the mixture that is a factor of the set, which is added if it is new; or a negative code. */
-static int mixture_of(RetexWebModel *model, const RetexSet *set, int factor, RetexError *err)
+static int mixture_of(RetexWebModel *model, const RetexSet *set, RetexFactor factor, RetexError *err)
 {
     for (int i = 0; i < model->nmixtures; i++)
-        if (model->mixtures[i].factor == factor)
+        if (memcmp(&model->mixtures[i].factor, &factor, sizeof factor) == 0)
             return i;
     if (model->nmixtures == (int)(sizeof model->mixtures / sizeof *model->mixtures))
         return refuse(err, "it has too many mixtures");
@@ -120,16 +120,18 @@ static int group_of(RetexWebModel *model, int light, int mixture, int target, Re
 static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *term, RetexError *err)
 {
     RetexWebTerm *to = &model->terms[model->nterms];
-    int full = -1, target = -1;
-    *to = (RetexWebTerm){.gain = term->gain};
-    if (term->gain && retex_set_scale(set, &set->parts[term->gain].image) < model->finest)
-        model->finest = retex_set_scale(set, &set->parts[term->gain].image);
+    int full = -1;
+    *to = (RetexWebTerm){.gain = retex_term_image(term)};
+    if (to->gain >= 0 && retex_set_scale(set, &set->parts[to->gain].image) < model->finest)
+        model->finest = retex_set_scale(set, &set->parts[to->gain].image);
     for (int k = 0; k < term->nfactors; k++) {
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
+            return refuse(err, "it has lamps of their own");
+        if (!retex_factor_is_texture(term->factors[k]))
+            continue;
         const int mixture = mixture_of(model, set, term->factors[k], err);
         if (mixture < 0)
             return mixture;
-        if (k == 0)
-            target = model->classes[model->mixtures[mixture].classes[0].index].target;
         if (scale_of(model, mixture) > 1)
             to->factors[to->nfactors++] = mixture;
         else if (full < 0)
@@ -139,7 +141,7 @@ static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *
         if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < model->finest)
             model->finest = scale_of(model, mixture);
     }
-    to->group = group_of(model, term->radiance, full, target, err);
+    to->group = group_of(model, term->radiance, full, term->target, err);
     model->nterms += to->group >= 0;
     return to->group < 0 ? to->group : 0;
 }
@@ -160,7 +162,7 @@ int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *
     for (int i = 0; i < set->nfootprints && !code; i++)
         code = add_footprint(model, set, i, err);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (!set->terms[i].edited)
+        if (retex_term_is_light(&set->terms[i]))
             code = add_term(model, set, &set->terms[i], err);
     if (code)
         retex_web_model_close(model);

@@ -23,14 +23,15 @@ typedef struct RetexWebClass {
 
 /* A mixture of all footprints of one class or of several, by one of their weights each. */
 typedef struct RetexWebMixture {
-    int nclasses, factor; /* of the set */
+    int nclasses;
+    RetexFactor factor; /* of the set */
     struct {
         int index, slot;
     } classes[RETEX_WEB_CLASSES_MAX];
 } RetexWebMixture;
 
 typedef struct RetexWebTerm {
-    int group, gain;                          /* part, or 0 */
+    int group, gain;                          /* part, or -1 */
     int nfactors, factors[RETEX_MAX_FACTORS]; /* mixtures that are smaller than the picture */
 } RetexWebTerm;
 

@@ -101,7 +101,7 @@ static void list_images(Web *web)
         else
             web->tiles[web->ntiles++].part = m->classes[i].albedo;
     for (int i = 0; i < m->nterms; i++)
-        if (m->terms[i].gain && tile_of(web, m->terms[i].gain) < 0)
+        if (m->terms[i].gain >= 0 && tile_of(web, m->terms[i].gain) < 0)
             web->tiles[web->ntiles++].part = m->terms[i].gain;
 }
 
@@ -357,7 +357,7 @@ static void describe_terms(json_t **object, const Web *web)
         for (int k = 0; k < t->nfactors; k++)
             retex_json_add(&factors, json_integer(t->factors[k]));
         retex_json_add(&terms, json_pack("{s:i,s:i,s:o}", "group", t->group, "gain",
-                                         t->gain ? tile_of(web, t->gain) : -1, "factors", factors));
+                                         t->gain >= 0 ? tile_of(web, t->gain) : -1, "factors", factors));
     }
     retex_json_put(object, "mixtures", mixtures);
     retex_json_put(object, "groups", groups);

@@ -16,14 +16,17 @@ typedef struct RetexCombineParams {
     int cross;  /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
     int y0, y1; /* retex_retexture makes only rows y0 <= y < y1; default 0, 0 = all */
     int x0, x1; /* and of these only x0 <= x < x1, the rest is 0 or its value; default 0, 0 = all */
+    const float *parameters; /* the value of each parameter of the set, three numbers each, scene-linear, not negative;
+                                those of kind CORRECTION are not read. Default NULL: as rendered */
+    int terms_only; /* 1: the sum of terms, though part 0 may be the result, see RETEX_ROLE_PICTURE; default 0 */
 } RetexCombineParams;
 #define RETEX_COMBINE_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCombineParams), 3, 0, 0, 0, 0                                                                      \
+        sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0                                                             \
     }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
- * The beauty part is read only where no target has samples, and set->exact_picture says that it is the result. */
+ * The beauty part is read only where nothing is edited and a term of role PICTURE says that it is the result. */
 int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
                   const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
                   int nthreads /* 0 = all cores */, RetexError *err);

@@ -20,10 +20,12 @@ typedef struct RetexCompactParams {
     int gain;            /* and gains. 0, the default: as many times as psnr allows. */
     double noise; /* 0 to 1: how freely noise of the set is taken away, by which pictures of the compact set differ from
                      the set's more than by psnr, but not from the truth; default 1 */
+    RetexWarn *warn; /* told, in the calling thread, why a set of layout footprints stays as it is; NULL = nobody */
+    void *warn_context;
 } RetexCompactParams;
 #define RETEX_COMPACT_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCompactParams), 55, 0, 0, 0, 1                                                                     \
+        sizeof(RetexCompactParams), 55, 0, 0, 0, 1, NULL, NULL                                                                     \
     }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
@@ -32,7 +34,7 @@ typedef struct RetexCompactParams {
  * that no texture tells apart are merged, those of pixels that see a surface evenly are made without noise, footprints
  * are of the picture's size only where they are sharp, and one image of albedo serves all footprints of a kind. Sets of
  * other layouts, and those that are compact already, come out as they are. Corrections are rounded to coarser steps in
- * all of them, or left out where psnr is below 45, and part 0 is no exact picture. Output is the same to the bit for
+ * all of them, or left out where psnr is below 45, and no term is of role PICTURE. Output is the same to the bit for
  * every nthreads. */
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params /* NULL = defaults */,
                       int nthreads /* 0 = all cores */, RetexError *err);

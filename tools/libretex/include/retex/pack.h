@@ -15,8 +15,10 @@ typedef struct RetexPackParams {
     size_t size;
     int quality;   /* 1..100, default 90: what pictures made of the pack lose at most, see retex-pack(1) */
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
+    RetexWarn *warn; /* as of RetexCompactParams; default NULL */
+    void *warn_context;
 } RetexPackParams;
-#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0 }
+#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL }
 
 /* Write set as a pack; "-" is standard output. Unless lossless it is compacted (see compact.h), and is without what
  * only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ more than

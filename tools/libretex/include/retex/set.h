@@ -4,11 +4,12 @@
  *
  *     I = sum over terms t of  C_t * product over the factors f of t of  A_f
  *
- * C_t is a radiance image, A_f the (new) texture filtered at footprint f. A footprint holds, per pixel, where on its
- * target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. A
+ * C_t is a radiance image. A factor is a quantity of the (new) texture at a footprint, or at several of them (a
+ * mixture); an image; or a parameter, which has one value for the whole picture. A footprint holds, per pixel, where on
+ * its target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. A
  * target that keeps its original is a factor too, by that mean; corrections make up for what a product of means differs
- * from the mean of products. Both
- * layouts, 'paper' and 'footprints', are such polynomials and differ only in which terms and footprints they list.
+ * from the mean of products. Both layouts, 'paper' and 'footprints', are such polynomials and differ only in which terms
+ * and footprints they list.
  * Source: 'Efficient physically-based retexturing in image-space', supplement 4.2 Eq. 4 and 4.3.
  *
  * On disk: a multi-part OpenEXR file. Part 0 is the beauty picture (plain R,G,B), so that any viewer shows something;
@@ -25,16 +26,18 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 1   /* of the manifest, see retex-set(5) */
+#define RETEX_SET_VERSION 2   /* of the manifest, see retex-set(5) */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
-#define RETEX_MAX_FACTORS 12  /* hits of all targets together */
+#define RETEX_MAX_HITS 12     /* hits of all targets together that a path keeps apart */
+#define RETEX_MAX_FACTORS 16  /* of a term: its hits, images and parameters */
+#define RETEX_PARAMETERS_MAX 64
 #define RETEX_MIXTURES_MAX (5 * RETEX_MAX_TARGETS + 1)
 #define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
-/* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or a term's
- * gain refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
+/* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or an
+ * IMAGE factor refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
  * each stands for scale x scale of the picture's. What is made of them (samples, mixtures, gains) is enlarged
  * bilinearly, its pixels' values lying at their centres. Originals have a size of their own. letters names its channels
  * ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0 and `NAME.R` in all others. Values are float in memory;
@@ -80,26 +83,67 @@ typedef struct RetexFootprint {
     int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;
 
-typedef enum RetexTermKind {
-    RETEX_TERM_FULL,   /* paths that met no target */
-    RETEX_TERM_INDEP,  /* no factor: every hit took its albedo-independent part */
-    RETEX_TERM_DEP,    /* every hit (of up to three) took its albedo-dependent part; of more hits also mixed terms */
-    RETEX_TERM_CROSS2, /* cross terms of paths with two hits, supplement 4.3 */
-    RETEX_TERM_CROSS3  /* cross terms of paths with three hits */
-} RetexTermKind;
-enum { RETEX_TERM_KINDS = RETEX_TERM_CROSS3 + 1 };
+/* What a factor is. A later version may add kinds. */
+typedef enum RetexFactorKind {
+    RETEX_FACTOR_FOOTPRINT, /* a quantity of the texture at a footprint */
+    RETEX_FACTOR_MIXTURE,   /* the mean of a quantity over the footprints of a mixture */
+    RETEX_FACTOR_IMAGE,     /* a part "R" or "RGB", but not the picture. half */
+    RETEX_FACTOR_PARAMETER  /* a parameter of the set */
+} RetexFactorKind;
+enum { RETEX_FACTOR_KINDS = RETEX_FACTOR_PARAMETER + 1 };
+
+/* Which quantity of a texture FOOTPRINT and MIXTURE stand for. A later version may add quantities. */
+typedef enum RetexQuantity {
+    RETEX_QUANTITY_COLOR /* its colour, scene-linear */
+} RetexQuantity;
+enum { RETEX_QUANTITIES = RETEX_QUANTITY_COLOR + 1 };
+
+typedef struct RetexFactor {
+    RetexFactorKind kind;
+    RetexQuantity quantity; /* COLOR for kinds that have none */
+    int index;              /* of a footprint, mixture, part or parameter */
+} RetexFactor;
+
+/* Which light a term is. */
+typedef enum RetexRole {
+    RETEX_ROLE_FULL,   /* layout paper: paths that met no target */
+    RETEX_ROLE_INDEP,  /* no texture: every hit took its albedo-independent part. Layout footprints: full as well */
+    RETEX_ROLE_DEP,    /* layout paper: every hit (of up to three) took its albedo-dependent part; of more hits also
+                          mixed terms */
+    RETEX_ROLE_CROSS2, /* layout paper: cross terms of paths with two hits, supplement 4.3 */
+    RETEX_ROLE_CROSS3, /* layout paper: cross terms of paths with three hits */
+    RETEX_ROLE_SHARP,  /* layout footprints: light whose first hit is a footprint of kind SHARP */
+    RETEX_ROLE_BROAD,  /* layout footprints: light whose first hit is a footprint of kind BROAD */
+    RETEX_ROLE_INTERREFLECTION, /* light that has hits of kind INTERREFLECTION only */
+    RETEX_ROLE_CORRECTION,      /* of either sign; it has the parameter of kind CORRECTION of its target */
+    RETEX_ROLE_PICTURE          /* part 0, without factors: the picture with all originals and all parameters as
+                                   rendered. It is not added to the others: where nothing is edited it stands for their
+                                   sum, from which rounding has not taken anything. At most one term has it */
+} RetexRole;
+enum { RETEX_ROLES = RETEX_ROLE_PICTURE + 1 };
 
 typedef struct RetexTerm {
-    RetexTermKind kind;
-    int radiance;      /* part "RGB". half */
-    int gain;          /* part "R" or "RGB" that multiplies radiance, as a factor does, or 0: none. half */
-    int nfactors;      /* 0..RETEX_MAX_FACTORS */
-    int factors[RETEX_MAX_FACTORS]; /* of each the index of a footprint, or RETEX_MIXTURE(index of a mixture) */
-    int edited;        /* 0: always counts. 1 + t: a correction, of either sign, which counts in full where target t has
-                          a new texture and all others keep their originals; see retex_correction_weight */
+    RetexRole role;
+    int target;   /* which its first hit is on, of CORRECTION: which is edited; -1: none */
+    int radiance; /* part "RGB". half */
+    int nfactors; /* 0..RETEX_MAX_FACTORS; of these 0..RETEX_MAX_HITS footprints and mixtures */
+    RetexFactor factors[RETEX_MAX_FACTORS]; /* in the order of multiplication */
 } RetexTerm;
 
-#define RETEX_MIXTURE(m) (-1 - (m)) /* and back */
+typedef enum RetexParameterKind {
+    RETEX_PARAMETER_COLOR,     /* set by whoever edits: the colour of a lamp, scene-linear Rec.709 */
+    RETEX_PARAMETER_CORRECTION /* weight of a target's corrections, see retex_correction_weight: set by recombination */
+} RetexParameterKind;
+enum { RETEX_PARAMETER_KINDS = RETEX_PARAMETER_CORRECTION + 1 };
+
+/* A number by colour that is the same in all pixels. */
+typedef struct RetexParameter {
+    char name[RETEX_NAME_MAX]; /* not empty; no two parameters of a set share a name */
+    RetexParameterKind kind;
+    int target;     /* of CORRECTION: which is edited; else -1 */
+    float value[3]; /* as rendered; not negative. CORRECTION: 0 */
+} RetexParameter;
+
 #define RETEX_SCALE_MAX 8
 
 /* The mean of several footprints' textures, pixel by pixel: sum of weights times textures over the sum of weights. A
@@ -129,7 +173,6 @@ typedef struct RetexSet {
     double folded_white;   /* layout footprints: the same share, were every target painted white (albedo 0.8) */
     int denoised;          /* 1: the coefficients were filtered, see denoise.h */
     int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
-    int exact_picture;     /* 1: part 0 is the picture with all originals: recombination without textures gives it */
     int ntargets;
     RetexTarget targets[RETEX_MAX_TARGETS];
     int nfootprints, nterms, nparts;
@@ -138,6 +181,8 @@ typedef struct RetexSet {
     RetexPart *parts;      /* parts[0] is the beauty */
     int nmixtures;
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
+    int nparameters;
+    RetexParameter parameters[RETEX_PARAMETERS_MAX];
     RetexBandStore *store;     /* owned; where parts with a store_image are, or NULL */
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
 } RetexSet;
@@ -163,13 +208,52 @@ void retex_set_prune(RetexSet *set, const char *empty);
 int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *err);
 /* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
-/* The names of a RetexFootprintKind, "hit", "sharp", "broad" or "interreflection", and of a RetexTermKind, "full" and
- * so on, in the manifest; the former also in names of parts. */
+/* Names in the manifest: of a RetexFootprintKind "hit", "sharp", "broad" or "interreflection", also in names of parts;
+ * of a RetexRole "full" and so on; of a RetexFactorKind "footprint", "mixture", "image" or "parameter"; of a
+ * RetexQuantity "color"; of a RetexParameterKind "color" or "correction". */
 const char *retex_footprint_kind_name(int kind);
-const char *retex_term_kind_name(int kind);
+const char *retex_role_name(int role);
+const char *retex_factor_kind_name(int kind);
+const char *retex_quantity_name(int quantity);
+const char *retex_parameter_kind_name(int kind);
+
+/* A factor of that kind, of quantity COLOR. */
+static inline RetexFactor retex_factor(RetexFactorKind kind, int index)
+{
+    RetexFactor factor;
+    factor.kind = kind;
+    factor.quantity = RETEX_QUANTITY_COLOR;
+    factor.index = index;
+    return factor;
+}
+/* 1: it depends on a texture. */
+static inline int retex_factor_is_texture(RetexFactor factor)
+{
+    return factor.kind == RETEX_FACTOR_FOOTPRINT || factor.kind == RETEX_FACTOR_MIXTURE;
+}
+/* 1: the term is part of the sum that is the picture as rendered; 0: a correction, or the picture itself. */
+static inline int retex_term_is_light(const RetexTerm *term)
+{
+    return term->role != RETEX_ROLE_CORRECTION && term->role != RETEX_ROLE_PICTURE;
+}
+/* The number of hits of a term: of its footprints and mixtures. */
+int retex_term_hits(const RetexTerm *term);
+/* The part of a term's first IMAGE factor, or -1. */
+int retex_term_image(const RetexTerm *term);
+/* Append a factor; RETEX_ELIMIT where there are too many. The index is checked by retex_set_add_term. */
+int retex_term_add_factor(RetexTerm *term, RetexFactor factor, RetexError *err);
+
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
+int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* The same of a correction of term->target, which gets the parameter of that target as its last factor. The parameter
+ * is added with the target's first correction. */
+int retex_set_add_correction(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* The parameter of that name, or -1. */
+int retex_set_find_parameter(const RetexSet *set, const char *name);
+/* 1: the set has a term of that role. */
+int retex_set_has_role(const RetexSet *set, RetexRole role);
 /* Compute the set's id from its beauty's pixels: the renderer's last step. */
 void retex_set_identify(RetexSet *set);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */

@@ -1,0 +1,168 @@
+/* Reads the parameters and terms of the manifest. */
+#include <string.h>
+
+#include "set/manifest_fields.h"
+
+/* A target's number; -1 for null. */
+static int get_target(Reading *reading, const RetexSet *set, const json_t *json)
+{
+    return json_is_null(json_object_get(json, "target"))
+               ? -1
+               : retex_reading_integer(reading, json, "target", 0, set->ntargets - 1);
+}
+
+static RetexFactor read_factor(Reading *reading, const json_t *json, const RetexSet *set)
+{
+    RetexFactor factor = retex_factor(RETEX_FACTOR_FOOTPRINT, 0);
+    const char *const key = json_object_iter_key(json_object_iter((json_t *)json));
+    char name[RETEX_NAME_MAX] = "";
+
+    if (!key) {
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a factor that names no kind");
+        return factor;
+    }
+    factor.kind =
+        (RetexFactorKind)retex_reading_name(reading, key, "factor", retex_factor_kind_name, RETEX_FACTOR_KINDS);
+    if (factor.kind == RETEX_FACTOR_IMAGE) {
+        factor.index = retex_reading_weight(reading, set, json, key);
+        retex_reading_check_scale(reading, set, factor.index, key);
+    } else if (factor.kind == RETEX_FACTOR_PARAMETER) {
+        retex_reading_text(reading, json, key, name, sizeof name);
+        factor.index = retex_set_find_parameter(set, name);
+        if (factor.index < 0)
+            retex_reading_fail(reading, RETEX_EFORMAT, "refers to a parameter that is not there");
+    } else if (!reading->status) {
+        const int count = factor.kind == RETEX_FACTOR_MIXTURE ? set->nmixtures : set->nfootprints;
+        factor.index = retex_reading_integer(reading, json, key, 0, count - 1);
+        if (json_object_get(json, "quantity"))
+            factor.quantity = (RetexQuantity)retex_reading_named(reading, json, "quantity", "quantity",
+                                                                 retex_quantity_name, RETEX_QUANTITIES);
+    }
+    return factor;
+}
+
+static void read_term(Reading *reading, const json_t *json, RetexSet *set)
+{
+    const json_t *factors = retex_reading_array(reading, json, "factors", RETEX_MAX_FACTORS);
+    RetexTerm term = {.role =
+                          (RetexRole)retex_reading_named(reading, json, "role", "role", retex_role_name, RETEX_ROLES),
+                      .target = get_target(reading, set, json),
+                      .radiance = retex_reading_part(reading, set, json, "radiance", 3, 0),
+                      .nfactors = (int)json_array_size(factors)};
+
+    for (int f = 0; f < term.nfactors && !reading->status; f++)
+        term.factors[f] = read_factor(reading, json_array_get(factors, (size_t)f), set);
+    if (!reading->status)
+        retex_reading_check_size(reading, set, term.radiance, "radiance");
+    if (!reading->status)
+        reading->status = retex_set_add_term(set, &term, NULL, reading->err);
+}
+
+static void read_parameter(Reading *reading, const json_t *json, RetexSet *set)
+{
+    const json_t *value = retex_reading_array(reading, json, "value", 3);
+    RetexParameter parameter = {.kind = (RetexParameterKind)retex_reading_named(reading, json, "kind", "parameter",
+                                                                                retex_parameter_kind_name,
+                                                                                RETEX_PARAMETER_KINDS),
+                                .target = get_target(reading, set, json)};
+
+    retex_reading_text(reading, json, "name", parameter.name, sizeof parameter.name);
+    for (size_t c = 0; c < 3; c++)
+        parameter.value[c] = (float)retex_reading_real(reading, json_array_get(value, c), "value");
+    if (!reading->status)
+        reading->status = retex_set_add_parameter(set, &parameter, NULL, reading->err);
+}
+
+void retex_reading_terms(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *parameters = retex_reading_array(reading, root, "parameters", RETEX_PARAMETERS_MAX);
+    const json_t *terms = retex_reading_array(reading, root, "terms", RETEX_SET_TERMS_MAX);
+
+    for (size_t i = 0; i < json_array_size(parameters) && !reading->status; i++)
+        read_parameter(reading, json_array_get(parameters, i), set);
+    for (size_t i = 0; i < json_array_size(terms) && !reading->status; i++)
+        read_term(reading, json_array_get(terms, i), set);
+}
+
+/* ---- terms of version 1 ---- */
+
+/* Of version 1: the index of a footprint, or -1 - that of a mixture. */
+static RetexFactor read_factor_1(Reading *reading, const json_t *value, const RetexSet *set)
+{
+    const json_int_t number = json_integer_value(value);
+
+    if (!json_is_integer(value) || number < -set->nmixtures || number >= set->nfootprints)
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
+    return number < 0 ? retex_factor(RETEX_FACTOR_MIXTURE, (int)(-1 - number))
+                      : retex_factor(RETEX_FACTOR_FOOTPRINT, (int)number);
+}
+
+/* Version 1 has no roles and targets of terms: both follow from the kind, and from the first factor. */
+static void find_role_1(const RetexSet *set, RetexTerm *term)
+{
+    static const RetexRole roles[RETEX_FOOTPRINT_KINDS] = {RETEX_ROLE_DEP, RETEX_ROLE_SHARP, RETEX_ROLE_BROAD,
+                                                           RETEX_ROLE_INTERREFLECTION};
+
+    term->target = -1;
+    if (!term->nfactors) {
+        term->role = term->role == RETEX_ROLE_DEP ? RETEX_ROLE_INDEP : term->role;
+        return;
+    }
+    const RetexFactor first = term->factors[0];
+    const RetexFootprint *f =
+        &set->footprints[first.kind == RETEX_FACTOR_MIXTURE ? set->mixtures[first.index].shares[0].footprint
+                                                            : first.index];
+    term->target = f->target;
+    if (term->role != RETEX_ROLE_CROSS2 && term->role != RETEX_ROLE_CROSS3)
+        term->role = roles[f->kind];
+}
+
+/* A gain comes first where it is reduced, else last: in this order version 1 multiplied. */
+static void insert_gain_1(Reading *reading, const json_t *json, const RetexSet *set, RetexTerm *term)
+{
+    const int part = retex_reading_weight(reading, set, json, "gain");
+
+    retex_reading_check_scale(reading, set, part, "gain");
+    if (reading->status)
+        return;
+    const int place = retex_set_scale(set, &set->parts[part].image) > 1 ? 0 : term->nfactors;
+    memmove(&term->factors[place + 1], &term->factors[place], sizeof *term->factors * (size_t)(term->nfactors - place));
+    term->factors[place] = retex_factor(RETEX_FACTOR_IMAGE, part);
+    term->nfactors++;
+}
+
+static void read_term_1(Reading *reading, const json_t *json, RetexSet *set)
+{
+    const json_t *factors = retex_reading_array(reading, json, "factors", RETEX_MAX_HITS);
+    RetexTerm term = {
+        .radiance = retex_reading_part(reading, set, json, "radiance", 3, 0),
+        .role = (RetexRole)retex_reading_named(reading, json, "kind", "kind", retex_role_name, 1 + RETEX_ROLE_CROSS3),
+        .nfactors = (int)json_array_size(factors)};
+
+    for (int f = 0; f < term.nfactors && !reading->status; f++)
+        term.factors[f] = read_factor_1(reading, json_array_get(factors, (size_t)f), set);
+    retex_reading_check_size(reading, set, reading->status ? -1 : term.radiance, "radiance");
+    if (reading->status)
+        return;
+    find_role_1(set, &term);
+    if (json_object_get(json, "gain"))
+        insert_gain_1(reading, json, set, &term);
+    const int corrects = json_object_get(json, "edited") != NULL;
+    if (corrects)
+        term.target = retex_reading_integer(reading, json, "edited", 0, set->ntargets - 1);
+    if (!reading->status)
+        reading->status = corrects ? retex_set_add_correction(set, &term, NULL, reading->err)
+                                   : retex_set_add_term(set, &term, NULL, reading->err);
+}
+
+void retex_reading_terms_1(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = retex_reading_array(reading, root, "terms", RETEX_SET_TERMS_MAX);
+    const json_t *exact = json_object_get(root, "exact_picture");
+    const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
+
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++)
+        read_term_1(reading, json_array_get(array, i), set);
+    if (exact && retex_reading_boolean(reading, exact, "exact_picture") && !reading->status && set->nterms)
+        reading->status = retex_set_add_term(set, &picture, NULL, reading->err);
+}

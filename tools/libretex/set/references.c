@@ -1,0 +1,52 @@
+/* See references.h. */
+#include "set/references.h"
+
+#include <string.h>
+
+typedef struct Visiting {
+    RetexPartVisit *visit;
+    void *context;
+} Visiting;
+
+static void visit_part(const Visiting *v, RetexPartUse use, int user, int *part)
+{
+    if (*part >= 0)
+        v->visit(v->context, use, user, part);
+}
+
+void retex_set_visit_parts(RetexSet *set, RetexPartVisit *visit, void *context)
+{
+    const Visiting v = {visit, context};
+    for (int t = 0; t < set->nterms; t++) {
+        RetexTerm *term = &set->terms[t];
+        if (term->role == RETEX_ROLE_PICTURE)
+            continue;
+        visit_part(&v, RETEX_PART_RADIANCE, t, &term->radiance);
+        for (int k = 0; k < term->nfactors; k++)
+            if (term->factors[k].kind == RETEX_FACTOR_IMAGE)
+                visit_part(&v, RETEX_PART_IMAGE, t, &term->factors[k].index);
+    }
+    for (int f = 0; f < set->nfootprints; f++) {
+        visit_part(&v, RETEX_PART_UV, f, &set->footprints[f].uv);
+        visit_part(&v, RETEX_PART_SPREAD, f, &set->footprints[f].spread);
+        visit_part(&v, RETEX_PART_ALBEDO, f, &set->footprints[f].albedo);
+    }
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            visit_part(&v, RETEX_PART_WEIGHT, m, &set->mixtures[m].shares[k].weight);
+    for (int t = 0; t < set->ntargets; t++)
+        visit_part(&v, RETEX_PART_ORIGINAL, t, &set->targets[t].original);
+}
+
+static void add_use(void *context, RetexPartUse use, int user, int *part)
+{
+    unsigned *uses = context;
+    (void)user;
+    uses[*part] |= 1u << use;
+}
+
+void retex_set_part_uses(const RetexSet *set, unsigned *uses)
+{
+    memset(uses, 0, sizeof *uses * (size_t)set->nparts);
+    retex_set_visit_const_parts(set, add_use, uses);
+}

@@ -1,0 +1,81 @@
+/* Terms, factors and parameters: their names in the manifest, and small questions about them. */
+#include <string.h>
+
+#include <retex/set.h>
+
+const char *retex_footprint_kind_name(int kind)
+{
+    static const char *const names[RETEX_FOOTPRINT_KINDS] = {"hit", "sharp", "broad", "interreflection"};
+
+    return names[kind];
+}
+
+const char *retex_role_name(int role)
+{
+    static const char *const names[RETEX_ROLES] = {
+        "full", "indep", "dep", "cross2", "cross3", "sharp", "broad", "interreflection", "correction", "picture"};
+
+    return names[role];
+}
+
+const char *retex_factor_kind_name(int kind)
+{
+    static const char *const names[RETEX_FACTOR_KINDS] = {"footprint", "mixture", "image", "parameter"};
+
+    return names[kind];
+}
+
+const char *retex_quantity_name(int quantity)
+{
+    static const char *const names[RETEX_QUANTITIES] = {"color"};
+
+    return names[quantity];
+}
+
+const char *retex_parameter_kind_name(int kind)
+{
+    static const char *const names[RETEX_PARAMETER_KINDS] = {"color", "correction"};
+
+    return names[kind];
+}
+
+int retex_term_hits(const RetexTerm *term)
+{
+    int count = 0;
+
+    for (int k = 0; k < term->nfactors; k++)
+        count += retex_factor_is_texture(term->factors[k]);
+    return count;
+}
+
+int retex_term_image(const RetexTerm *term)
+{
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_IMAGE)
+            return term->factors[k].index;
+    return -1;
+}
+
+int retex_term_add_factor(RetexTerm *term, RetexFactor factor, RetexError *err)
+{
+    if (term->nfactors == RETEX_MAX_FACTORS)
+        return retex_fail(err, RETEX_ELIMIT, "a term has at most %d factors", RETEX_MAX_FACTORS);
+    term->factors[term->nfactors++] = factor;
+    return RETEX_OK;
+}
+
+int retex_set_find_parameter(const RetexSet *set, const char *name)
+{
+    for (int i = 0; i < set->nparameters; i++)
+        if (strcmp(set->parameters[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+int retex_set_has_role(const RetexSet *set, RetexRole role)
+{
+    for (int t = 0; t < set->nterms; t++)
+        if (set->terms[t].role == role)
+            return 1;
+    return 0;
+}
