@@ -90,7 +90,7 @@ def write_set(path, target, images, samples):
         specs.append(spec)
         arrays.append(np.ascontiguousarray(array))
     manifest = {
-        "retex": 1, "crc32": "00000000", "kind": "set", "width": width, "height": height,
+        "retex": 2, "crc32": "00000000", "kind": "set", "width": width, "height": height,
         "layout": "footprints", "filter": "box", "scene": "aovs", "generator": "aovs_to_set.py", "id": "00000000",
         "orders": 1, "spp": samples, "max_depth": 1, "seed": 0, "folded": 0, "strict_paper": False,
         "targets": [{"name": target, "idents": target, "periodic": [False, False],
@@ -100,8 +100,9 @@ def write_set(path, target, images, samples):
                      "share": float((uv[..., 2] > 0).mean())}],
         "footprints": [{"target": 0, "hit": 1, "kind": "sharp", "uv": names["uv"], "spread": names["spread"],
                         "albedo": names["albedo"]}],
-        "terms": [{"kind": "indep", "radiance": "indep", "factors": []},
-                  {"kind": "dep", "radiance": names["dep"], "factors": [0]}],
+        "parameters": [],
+        "terms": [{"role": "indep", "target": None, "radiance": "indep", "factors": []},
+                  {"role": "sharp", "target": 0, "radiance": names["dep"], "factors": [{"footprint": 0}]}],
         "parts": parts,
     }
     text = json.dumps(manifest, separators=(",", ":"))

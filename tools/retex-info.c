@@ -49,7 +49,8 @@ static int measure_set(const RetexSet *set, Sizes *sizes)
     if (!counted)
         return 0;
     for (int i = 0; i < set->nterms; i++)
-        count_part(set, set->terms[i].radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
+        if (set->terms[i].role != RETEX_ROLE_PICTURE)
+            count_part(set, set->terms[i].radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
     for (int i = 0; i < set->nfootprints; i++) {
         count_part(set, set->footprints[i].uv, counted, &sizes->uv, &sizes->uv_aovs);
         count_part(set, set->footprints[i].spread, counted, &sizes->spread, &sizes->spread_aovs);

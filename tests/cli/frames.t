@@ -186,8 +186,8 @@ $ cd c; rm -f a-* b-*; head -c 2000 set-02.exr >short; mv short set-02.exr; rete
 > 2
 > b-1.png
 > b-3.png
-! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5448
-! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5448
+! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5631
+! retex-combine: error: frame 2: set-02.exr is damaged or truncated: Attribute 'retex', type 'string': Invalid size 5631
 ! retex-combine: error: 1 of 3 frames failed
 ! retex-combine: error: frame 2: cannot read set-02.exr: No such file or directory
 ! retex-combine: error: 1 of 3 frames failed

@@ -108,6 +108,18 @@ void test_renew_roles(RetexSet *set)
     }
 }
 
+void test_add_lamp(RetexSet *set, const char *name)
+{
+    RetexParameter lamp = {.kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 0.5f, 2}};
+    RetexError err = {0};
+    int number, light = 0;
+    snprintf(lamp.name, sizeof lamp.name, "%s", name);
+    test_must(retex_set_add_parameter(set, &lamp, &number, &err), &err);
+    for (int t = 0; t < set->nterms; t++)
+        if (retex_term_is_light(&set->terms[t]) && light++ % 2)
+            test_must(retex_term_add_factor(&set->terms[t], retex_factor(RETEX_FACTOR_PARAMETER, number), &err), &err);
+}
+
 static void add_term(RetexSet *set, RetexRole role, int radiance, const int *factors, int nfactors)
 {
     RetexTerm term = test_term(set, radiance, nfactors, factors);

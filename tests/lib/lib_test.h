@@ -24,6 +24,8 @@ RetexFactor test_factor(int number);
 int test_factor_number(RetexFactor factor);
 /* A term of that many hits. Its role and target are those of its first hit; INDEP without hits. */
 RetexTerm test_term(const RetexSet *set, int radiance, int nhits, const int *numbers);
+/* A parameter of that name: every second term of light has it as a factor. Its value as rendered is 1, 0.5, 2. */
+void test_add_lamp(RetexSet *set, const char *name);
 /* Give terms with hits the roles that follow from their footprints' kinds. */
 void test_renew_roles(RetexSet *set);
 

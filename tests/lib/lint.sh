@@ -73,7 +73,7 @@ rooms() { # directory rank:room…
         !($1 in rank) { print "no room " $1; next }
         rank[$2] >= rank[$1] { $1 = $2 = ""; print }' | sort -u
 }
-back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retexture 8:denoise 8:metrics 8:compact 9:pack \
+back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:precision 7:retexture 8:denoise 8:metrics 8:compact 9:pack \
     10:web 10:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
@@ -129,7 +129,7 @@ done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
 $unprefixed"
 
 # Each room's files are named in its section of the README, x.h by x.c.
-for room in base io exr picture texture set retexture denoise metrics compact pack web files; do
+for room in base io exr picture texture set precision retexture denoise metrics compact pack web files; do
     section=$(awk -v head="### $room" '/^##/ { inside = $0 == head } inside' tools/libretex/README.md)
     for file in tools/libretex/$room/*.[ch]; do
         name=${file##*/}

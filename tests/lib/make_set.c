@@ -3,6 +3,7 @@
  *     footprints  layout footprints instead of paper
  *     plain       no terms, no targets: the beauty, and the other parts as AOVs
  *     denoise     with denoising data
+ *     lamp:NAME   with a parameter of that name, which half of the light has as a factor
  *     name:TEXT   the next target, from the first on, has this name
  *     PART=VALUE  that value, such as nan or -inf, in the last channel of a part at 5,3 */
 #include <ctype.h>
@@ -30,8 +31,8 @@ int main(int argc, char **argv)
     RetexError err = {0};
     int numbers[3] = {48, 32, 1}, next = 2, renamed = 0;
     if (argc < 2) {
-        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [plain] [denoise] [name:TEXT] "
-                        "[PART=VALUE]\n");
+        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [plain] [denoise] [lamp:NAME] "
+                        "[name:TEXT] [PART=VALUE]\n");
         return 2;
     }
     for (int n = 0; n < 3 && next < argc && isdigit((unsigned char)argv[next][0]); n++)
@@ -45,6 +46,8 @@ int main(int argc, char **argv)
             set->nterms = set->nmixtures = set->nfootprints = set->ntargets = 0;
         } else if (strcmp(argv[next], "denoise") == 0) {
             test_add_denoise_data(set);
+        } else if (strncmp(argv[next], "lamp:", 5) == 0) {
+            test_add_lamp(set, argv[next] + 5);
         } else if (strncmp(argv[next], "name:", 5) == 0 && renamed < set->ntargets) {
             snprintf(set->targets[renamed++].name, RETEX_NAME_MAX, "%s", argv[next] + 5);
         } else if (strchr(argv[next], '=')) {

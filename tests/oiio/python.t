@@ -1,6 +1,7 @@
 # The plugins in Python: ImageInput, ImageBuf, and several threads at once.
 $ skip-unless /usr/bin/python3 -c 'import OpenImageIO, numpy'
 $ make_set s.exr footprints; retex-pack -q s.exr -o room.retex; cp "$SCENES/textures/brick.jpg" .; cp -r "$SCENES/cornell-box/." .; mv cornell-box.pov box.pov; cp "$TESTS/pictures.py" .
+! retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
 $ /usr/bin/python3 pictures.py open room.retex; /usr/bin/python3 pictures.py open 'room.retex?Floor=brick.jpg'
 > 48x32, 48 subimages
 > 48x32, 1 subimages
@@ -46,5 +47,6 @@ $ cp brick.jpg t.jpg; /usr/bin/python3 pictures.py changes 'room.retex?Floor=t.j
 > no
 $ make_set s2.exr 48 32 2 footprints; retex-pack -q s2.exr -o other.retex; /usr/bin/python3 pictures.py changes room.retex other.retex room.retex
 > yes
+! retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
 $ printf 'camera { location -3*z }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n' >c.pov; cp c.pov d.pov; echo 'background { rgb 1 }' >>d.pov; /usr/bin/python3 pictures.py changes 'c.pov?spp=1&size=8x6' d.pov c.pov
 > yes

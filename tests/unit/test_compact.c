@@ -126,6 +126,30 @@ static void few_orders_tell_of_many(void **state)
     }
 }
 
+/* That part 0 is the picture of all originals is no light, and no longer true. */
+static void the_picture_is_no_term(void **state)
+{
+    (void)state;
+    const RetexTerm whole = {.role = RETEX_ROLE_PICTURE, .target = -1};
+    RetexSet *set = whole_set(1, 2), *compact[2];
+    RetexError err = {0};
+    for (int k = 0; k < 2; k++) {
+        test_must(retex_set_compact(&compact[k], set, NULL, 2, &err), &err);
+        if (!k)
+            test_must(retex_set_add_term(set, &whole, NULL, &err), &err);
+        assert_int_equal(retex_set_has_role(compact[k], RETEX_ROLE_PICTURE), 0);
+    }
+    assert_int_equal(compact[0]->nparts, compact[1]->nparts);
+    for (int i = 0; i < compact[0]->nparts; i++) {
+        const RetexImage *a = &compact[0]->parts[i].image, *b = &compact[1]->parts[i].image;
+        assert_int_equal(a->width, b->width);
+        assert_memory_equal(a->pixels, b->pixels, sizeof(float) * retex_image_index(a, 0, a->height));
+    }
+    retex_set_close(&compact[0]);
+    retex_set_close(&compact[1]);
+    retex_set_close(&set);
+}
+
 static void one_cluster_needs_no_mixture(void **state)
 {
     RetexSet *set = whole_set(1, 1), *compact = compacted(set, 4, 8, 2);

@@ -4,7 +4,7 @@
 #include "film/paper/paper.h"
 #include "lib_film.h"
 #include "lib_folder.h"
-#include "set/edited.h"
+#include "precision/edited.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 #include <retex/denoise.h>
 #include <retex/set_file.h>
 
-#include "set/precision.h"
+#include "precision/precision.h"
 
 enum { WIDTH = 70, HEIGHT = 52 };
 static const char *const layouts[] = {"paper", "footprints"};

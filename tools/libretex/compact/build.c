@@ -54,6 +54,19 @@ int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *er
     return code;
 }
 
+int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 0; i < set->nfootprints && !code; i++)
+        code = retex_set_add_footprint(copy, &set->footprints[i], NULL, err);
+    for (int i = 0; i < set->nmixtures && !code; i++)
+        code = retex_set_add_mixture(copy, &set->mixtures[i], NULL, err);
+    for (int i = 0; i < set->nterms && !code; i++)
+        if (set->terms[i].role != RETEX_ROLE_PICTURE)
+            code = retex_set_add_term(copy, &set->terms[i], NULL, err);
+    return code;
+}
+
 /* Whether a term is copied as it is: light without hits. */
 static int is_copied(const RetexTerm *term)
 {
@@ -358,7 +371,7 @@ static RetexFactor new_factor(const Compaction *work, RetexFactor factor, int pl
     return factor.kind == RETEX_FACTOR_MIXTURE ? work->mixtures[factor.index] : work->factors[number];
 }
 
-/* Make a gain, and the term's first factor of it. */
+/* Make a gain, and a factor of it, of a term that has all others. */
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
@@ -371,7 +384,7 @@ static int add_gain(Compaction *work, int number, int radiance, int place, Retex
         code = move_image(work->set, &gain, "RGB", RETEX_HALF, &part, err, "gain_%s_%s%s%s", target, name,
                           place ? "_" : "", place ? kind->gains[work->scales->mixed[number]][place - 1].name : "");
     retex_image_free(&gain);
-    return code ? code : retex_term_add_factor(term, retex_factor(RETEX_FACTOR_IMAGE, part), err);
+    return code ? code : retex_term_add_image(term, work->set, part, err);
 }
 
 static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
@@ -380,12 +393,12 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     RetexTerm term = {.role = kind->kind == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP : RETEX_ROLE_BROAD,
                       .target = kind->target,
                       .radiance = radiance};
-    int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
     const RetexTerm *old = place ? &kind->gains[work->scales->mixed[number]][place - 1].term : NULL;
-    if (!code && !old)
-        code = retex_term_add_factor(&term, work->factors[number], err);
+    int code = old ? RETEX_OK : retex_term_add_factor(&term, work->factors[number], err);
     for (int k = 0; old && k < old->nfactors && !code; k++)
         code = retex_term_add_factor(&term, new_factor(work, old->factors[k], place), err);
+    if (!code && with_gain)
+        code = add_gain(work, number, radiance, place, &term, err);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 

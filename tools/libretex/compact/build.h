@@ -34,6 +34,9 @@ int retex_compact_build_kind(RetexSet **result, RetexImage *of[][RETEX_COMPACT_W
                              int kind, const RetexCompactScales *scales, RetexCompactCache *cache, int nthreads,
                              RetexError *err);
 
+/* Copy footprints, mixtures and terms of a set whose parts have the same numbers; but not the term of role PICTURE, as
+ * what is stored with losses is no longer the sum that part 0 stands for. */
+int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *err);
 /* A copy of a set without the denoising data. */
 int retex_compact_copy_set(RetexSet **copy, const RetexSet *set, RetexError *err);
 /* A copy of a set's properties, without parts, footprints, mixtures and terms. */

@@ -34,12 +34,8 @@ int retex_compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *e
         int index;
         code = retex_compact_copy_part(*result, set, view.source[i], &index, err);
     }
-    for (int i = 0; i < view.set.nfootprints && !code; i++)
-        code = retex_set_add_footprint(*result, &view.set.footprints[i], NULL, err);
-    for (int i = 0; i < view.set.nmixtures && !code; i++)
-        code = retex_set_add_mixture(*result, &view.set.mixtures[i], NULL, err);
-    for (int i = 0; i < view.set.nterms && !code; i++)
-        code = retex_set_add_term(*result, &view.set.terms[i], NULL, err);
+    if (!code)
+        code = retex_compact_copy_terms(*result, &view.set, err);
     retex_set_view_free(&view);
     return code;
 }

@@ -155,13 +155,7 @@ static int make_mosaic(RetexSet **result, const RetexCompactLight *light, Mosaic
     }
     if (!code)
         code = retex_compact_bands(light, copy_tiles, mosaic, nthreads, err);
-    for (int i = 0; i < set->nfootprints && !code; i++)
-        code = retex_set_add_footprint(tiles, &set->footprints[i], NULL, err);
-    for (int i = 0; i < set->nmixtures && !code; i++)
-        code = retex_set_add_mixture(tiles, &set->mixtures[i], NULL, err);
-    for (int i = 0; i < set->nterms && !code; i++)
-        code = retex_set_add_term(tiles, &set->terms[i], NULL, err);
-    return code;
+    return code ? code : retex_compact_copy_terms(tiles, set, err);
 }
 
 static int copy_whole(RetexSet **result, const RetexSet *set, RetexError *err)
@@ -169,13 +163,7 @@ static int copy_whole(RetexSet **result, const RetexSet *set, RetexError *err)
     int code = retex_compact_copy_head(result, set, err), index;
     for (int i = 0; i < set->nparts && !code; i++)
         code = retex_compact_copy_part(*result, set, i, &index, err);
-    for (int i = 0; i < set->nfootprints && !code; i++)
-        code = retex_set_add_footprint(*result, &set->footprints[i], NULL, err);
-    for (int i = 0; i < set->nmixtures && !code; i++)
-        code = retex_set_add_mixture(*result, &set->mixtures[i], NULL, err);
-    for (int i = 0; i < set->nterms && !code; i++)
-        code = retex_set_add_term(*result, &set->terms[i], NULL, err);
-    return code;
+    return code ? code : retex_compact_copy_terms(*result, set, err);
 }
 
 /* ---- textures ---- */

@@ -50,8 +50,7 @@ typedef struct RetexCompactLight {
     RetexCompactInterreflection *interreflections; /* of all kinds */
 } RetexCompactLight;
 
-/* Sort a set's footprints and terms. *unknown: what of the set's structure cannot be made compact, or NULL; the light is
- * then not to be used. */
+/* Sort footprints and terms. *unknown: what of the set cannot be made compact, or NULL; light is then not to be used. */
 int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, const char **unknown,
                              RetexError *err);
 void retex_compact_light_close(RetexCompactLight *light);

@@ -5,7 +5,7 @@
 #include <retex/parallel.h>
 
 #include "base/half.h"
-#include "set/precision.h"
+#include "precision/precision.h"
 
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;

@@ -38,6 +38,8 @@ static int mark_needed(char *parts, const RetexSet *set)
     retex_set_visit_const_parts(set, mark_part, &needed);
     for (int i = 0; i < set->nfootprints; i++)
         ok = ok && set->footprints[i].albedo >= 0;
+    for (int i = 0; i < set->nparameters; i++) /* of which the order of additions depends */
+        ok = ok && set->parameters[i].kind == RETEX_PARAMETER_CORRECTION;
     return ok;
 }
 

@@ -206,6 +206,12 @@ static int make_product(const RetexPolynomial *p, struct RetexPolynomialGroup *g
 
 /* ---- all of them ---- */
 
+static int is_one_plain_part(const struct RetexPolynomialGroup *group)
+{
+    const float *weight = group->radiances[0].weight;
+    return group->nradiances == 1 && weight[0] == 1 && weight[1] == 1 && weight[2] == 1;
+}
+
 int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
@@ -214,6 +220,8 @@ int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *e
     for (int t = 0; t < p->set->nterms && !code; t++)
         if (retex_polynomial_has_term(p, &p->set->terms[t]))
             code = add_term(p, t, err);
+    for (int g = 0; g < p->ngroups; g++)
+        p->groups[g].weighted = p->groups[g].weighted && !is_one_plain_part(&p->groups[g]);
     for (int g = 0; g < p->ngroups && !code; g++)
         if (p->groups[g].scale)
             code = make_product(p, &p->groups[g], nthreads, err);

@@ -1,8 +1,8 @@
 /* Groups of terms that are multiplied together. Terms with the same radiance and the same factors of the picture's size
  * share one product: the reduced factors of each are multiplied at the finest of their sizes, to which coarser ones are
  * enlarged, and summed over the group, so that only one image a group is enlarged to the picture's size. Terms without
- * reduced factors share one sum of radiance where parameters weight it, so that a lamp costs one addition and no look-up
- * in a texture. Private to libretex. */
+ * reduced factors share one sum of radiance where parameters weight it, so that a lamp costs one addition. Private to
+ * libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_GROUPS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_GROUPS_H
 

@@ -1,5 +1,5 @@
-/* Reduced factors: footprints, mixtures and images that are smaller than the picture, made once before its rows. Private
- * to libretex. */
+/* Reduced factors: footprints, mixtures and images that are smaller than the picture, made once before its rows.
+ * Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_REDUCED_H
 #define RETEX_RETEXTURE_POLYNOMIAL_REDUCED_H
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "set/manifest_fields.h"
+#include "set/parts.h"
 
 /* A target's number; -1 for null. */
 static int get_target(Reading *reading, const RetexSet *set, const json_t *json)
@@ -117,18 +118,13 @@ static void find_role_1(const RetexSet *set, RetexTerm *term)
         term->role = roles[f->kind];
 }
 
-/* A gain comes first where it is reduced, else last: in this order version 1 multiplied. */
-static void insert_gain_1(Reading *reading, const json_t *json, const RetexSet *set, RetexTerm *term)
+static void read_gain_1(Reading *reading, const json_t *json, const RetexSet *set, RetexTerm *term)
 {
     const int part = retex_reading_weight(reading, set, json, "gain");
 
     retex_reading_check_scale(reading, set, part, "gain");
-    if (reading->status)
-        return;
-    const int place = retex_set_scale(set, &set->parts[part].image) > 1 ? 0 : term->nfactors;
-    memmove(&term->factors[place + 1], &term->factors[place], sizeof *term->factors * (size_t)(term->nfactors - place));
-    term->factors[place] = retex_factor(RETEX_FACTOR_IMAGE, part);
-    term->nfactors++;
+    if (!reading->status)
+        reading->status = retex_term_add_image(term, set, part, reading->err);
 }
 
 static void read_term_1(Reading *reading, const json_t *json, RetexSet *set)
@@ -146,7 +142,7 @@ static void read_term_1(Reading *reading, const json_t *json, RetexSet *set)
         return;
     find_role_1(set, &term);
     if (json_object_get(json, "gain"))
-        insert_gain_1(reading, json, set, &term);
+        read_gain_1(reading, json, set, &term);
     const int corrects = json_object_get(json, "edited") != NULL;
     if (corrects)
         term.target = retex_reading_integer(reading, json, "edited", 0, set->ntargets - 1);

@@ -28,6 +28,19 @@ int retex_part_is_denoise_data(const RetexSet *set, int part)
     return part > 0 && (retex_name_is_noise(name) || retex_name_is_feature(name)) && !retex_part_is_used(set, part);
 }
 
+int retex_term_add_image(RetexTerm *term, const RetexSet *set, int part, RetexError *err)
+{
+    const int place = retex_set_scale(set, &set->parts[part].image) > 1 ? 0 : term->nfactors;
+    const int code = retex_term_add_factor(term, retex_factor(RETEX_FACTOR_IMAGE, part), err);
+
+    for (int k = term->nfactors - 1; k > place && !code; k--) {
+        const RetexFactor image = term->factors[k];
+        term->factors[k] = term->factors[k - 1];
+        term->factors[k - 1] = image;
+    }
+    return code;
+}
+
 void retex_set_view_free(RetexSetView *view)
 {
     free(view->set.parts);

@@ -125,8 +125,6 @@ static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *
     if (to->gain >= 0 && retex_set_scale(set, &set->parts[to->gain].image) < model->finest)
         model->finest = retex_set_scale(set, &set->parts[to->gain].image);
     for (int k = 0; k < term->nfactors; k++) {
-        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
-            return refuse(err, "it has lamps of their own");
         if (!retex_factor_is_texture(term->factors[k]))
             continue;
         const int mixture = mixture_of(model, set, term->factors[k], err);
@@ -155,6 +153,11 @@ void retex_web_model_close(RetexWebModel *model)
 int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *err)
 {
     int code = set->nterms > 0 ? 0 : refuse(err, "it has no terms");
+    for (int i = 0; i < set->nparameters && !code; i++)
+        if (set->parameters[i].kind != RETEX_PARAMETER_CORRECTION)
+            code = refuse(err, "it has lamps that can be changed");
+    if (code)
+        return code;
     *model = (RetexWebModel){.finest = RETEX_SCALE_MAX};
     model->terms = calloc((size_t)set->nterms + 1, sizeof *model->terms);
     if (!model->terms)

@@ -88,7 +88,8 @@ class RetexWriteParams(ctypes.Structure):
 
 
 class RetexCombineParams(ctypes.Structure):
-    _fields_ = [("size", c_size_t)] + [(name, c_int) for name in ("cross", "y0", "y1", "x0", "x1")]
+    _fields_ = ([("size", c_size_t)] + [(name, c_int) for name in ("cross", "y0", "y1", "x0", "x1")] +
+                [("parameters", POINTER(c_float)), ("terms_only", c_int)])
 
 
 class RetexDenoiseParams(ctypes.Structure):
@@ -98,7 +99,7 @@ class RetexDenoiseParams(ctypes.Structure):
 
 
 class RetexPackParams(ctypes.Structure):
-    _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int)]
+    _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int), ("warn", WARN), ("warn_context", c_void_p)]
 
 
 STRUCTURES = (RetexError, RetexImage, RetexRoi, RetexTextureSpec, RetexReadParams, RetexWriteParams, RetexCombineParams,

@@ -6,15 +6,16 @@ import json
 import threading
 import weakref
 from collections import OrderedDict
-from ctypes import byref, c_void_p, sizeof
+from ctypes import byref, c_float, c_void_p, sizeof
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optional, Tuple, Type, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 
 from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexDenoiseParams, RetexImage, RetexPackParams
 from .library import RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes, text_bytes, threads_of
+from .library import warn
 from .pictures import Path, Picture, array_of, image_of
 from .texture import Source, Texture
 
@@ -296,18 +297,35 @@ class Set:
 
     # ---- pictures ----
 
-    def _params(self, crop: Optional[Crop], cross: int) -> Tuple[RetexCombineParams, Tuple[slice, slice]]:
+    def _parameters(self, given: Optional[Mapping[str, Sequence[float]]]) -> Any:
+        """All parameters' values as C takes them; None: as rendered."""
+        if not given:
+            return None
+        values = {parameter["name"]: parameter["value"] for parameter in self.manifest["parameters"]
+                  if parameter["kind"] != "correction"}
+        unknown = sorted(set(given) - set(values))
+        if unknown:
+            raise ValueError(f"parameters: the set has no {unknown[0]!r}; it has {sorted(values)}")
+        numbers = [float(x) for parameter in self.manifest["parameters"]
+                   for x in given.get(parameter["name"], parameter["value"])]
+        if len(numbers) != 3 * len(self.manifest["parameters"]):
+            raise ValueError("parameters: each takes three numbers")
+        return (c_float * len(numbers))(*numbers)
+
+    def _params(self, crop: Optional[Crop], cross: int,
+                parameters: Any) -> Tuple[RetexCombineParams, Tuple[slice, slice]]:
         x, y, width, height = crop or (0, 0, self.width, self.height)
         if x < 0 or y < 0 or width < 1 or height < 1 or x + width > self.width or y + height > self.height:
             raise ValueError(f"crop: {crop} is not within the picture's {self.width}x{self.height} pixels")
-        params = RetexCombineParams(sizeof(RetexCombineParams), cross, y, y + height, x, x + width)
+        params = RetexCombineParams(sizeof(RetexCombineParams), cross, y, y + height, x, x + width, parameters, 0)
         return params, (slice(y, y + height), slice(x, x + width))
 
     def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
-              cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None) -> Picture:
+              cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
+              parameters: Optional[Mapping[str, Sequence[float]]] = None) -> Picture:
         threads_of(threads)
         with self._shared() as pointer:
-            params, part = self._params(crop, cross)
+            params, part = self._params(crop, cross, self._parameters(parameters))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
             if out is None:
                 image = RetexImage()
@@ -323,17 +341,18 @@ class Set:
             return out[part]
 
     def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
-                crop: Optional[Crop] = None, cross: int = 3, out: Optional[Picture] = None,
-                threads: int = 0) -> Picture:
+                parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None, cross: int = 3,
+                out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
 
         textures  by target: a file's name, a colour, an array, or a Texture
         samples   of this set; `textures` override them
+        parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it
         cross     use cross terms of paths with at most this many hits, 0, 2 or 3
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
-        return self._make("retex_retexture", textures, samples, crop, cross, out, threads)
+        return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters)
 
     def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
               crop: Optional[Crop] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
@@ -374,11 +393,12 @@ class Set:
 
     def pack(self, path: Path, *, quality: int = 90, lossless: bool = False, threads: int = 0) -> int:
         """Write the set as a pack, a small file, as retex-pack(1). Return its bytes."""
-        params = RetexPackParams(sizeof(RetexPackParams), quality, lossless)
+        params = RetexPackParams(sizeof(RetexPackParams), quality, lossless, warn, None)
         size = ctypes.c_size_t()
         with self._exclusive() as pointer:
             call("retex_set_load", pointer, threads_of(threads))
             call("retex_pack_write", pointer, path_bytes(path), byref(params), byref(size), threads)
+        pass_warnings()
         return size.value
 
 

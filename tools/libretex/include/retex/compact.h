@@ -25,7 +25,7 @@ typedef struct RetexCompactParams {
 } RetexCompactParams;
 #define RETEX_COMPACT_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCompactParams), 55, 0, 0, 0, 1, NULL, NULL                                                                     \
+        sizeof(RetexCompactParams), 55, 0, 0, 0, 1, NULL, NULL                                                         \
     }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of

@@ -8,8 +8,8 @@
  * mixture); an image; or a parameter, which has one value for the whole picture. A footprint holds, per pixel, where on
  * its target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. A
  * target that keeps its original is a factor too, by that mean; corrections make up for what a product of means differs
- * from the mean of products. Both layouts, 'paper' and 'footprints', are such polynomials and differ only in which terms
- * and footprints they list.
+ * from the mean of products. Both layouts, 'paper' and 'footprints', are such polynomials and differ only in which
+ * terms and footprints they list.
  * Source: 'Efficient physically-based retexturing in image-space', supplement 4.2 Eq. 4 and 4.3.
  *
  * On disk: a multi-part OpenEXR file. Part 0 is the beauty picture (plain R,G,B), so that any viewer shows something;
@@ -36,9 +36,9 @@ extern "C" {
 #define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
-/* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or an
- * IMAGE factor refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
- * each stands for scale x scale of the picture's. What is made of them (samples, mixtures, gains) is enlarged
+/* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or an IMAGE
+ * factor refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
+ * each stands for scale x scale of the picture's. What is made of them (samples, mixtures, products) is enlarged
  * bilinearly, its pixels' values lying at their centres. Originals have a size of their own. letters names its channels
  * ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0 and `NAME.R` in all others. Values are float in memory;
  * type is how they are stored. */

@@ -6,7 +6,7 @@
 #ifndef RETEX_SET_PRECISION_LIGHT_H
 #define RETEX_SET_PRECISION_LIGHT_H
 
-#include "set/edited.h"
+#include "precision/edited.h"
 #include "set/signals.h"
 
 typedef struct RetexPixelLight {

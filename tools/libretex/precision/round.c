@@ -7,7 +7,7 @@
 
 #include "base/jobs.h"
 #include "set/band.h"
-#include "set/precision.h"
+#include "precision/precision.h"
 
 enum { ROWS = 4 * RETEX_PRECISION_LINES }; /* that are in memory at once */
 

@@ -1,7 +1,7 @@
 /* See precision.h. Footprints are rounded by the light that they multiply: an error of a footprint changes the picture
  * by at most so much. Errors of albedos are carried on from one number of a pixel to the next larger one, so that their
  * sum is rounded only once. precision_light.h has light. */
-#include "set/precision.h"
+#include "precision/precision.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +13,8 @@
 
 #include "base/jobs.h"
 #include "set/band.h"
-#include "set/edited.h"
-#include "set/precision_light.h"
+#include "precision/edited.h"
+#include "precision/precision_light.h"
 #include "set/samples.h"
 
 enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */

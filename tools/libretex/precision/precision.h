@@ -8,7 +8,7 @@
 
 #include <retex/set.h>
 
-#include "set/precision_rules.h"
+#include "precision/precision_rules.h"
 #include "set/signals.h"
 
 enum { RETEX_PRECISION_LINES = 16 }; /* rows of a band */

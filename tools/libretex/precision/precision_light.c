@@ -1,12 +1,12 @@
 /* See precision_light.h. */
-#include "set/precision_light.h"
+#include "precision/precision_light.h"
 
 #include <math.h>
 
 #include <retex/rounding.h>
 
 #include "set/band.h"
-#include "set/precision_rules.h"
+#include "precision/precision_rules.h"
 
 /* The step of a signal's sum, as a share of what it is a part of. */
 static const double SUM_STEP = 1.0 / 128;

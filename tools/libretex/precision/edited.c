@@ -1,5 +1,5 @@
 /* See edited.h. */
-#include "set/edited.h"
+#include "precision/edited.h"
 
 #include <stdlib.h>
 #include <string.h>
