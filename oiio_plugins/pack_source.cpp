@@ -149,7 +149,7 @@ std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const O
                 throw Failure(o->first + ": no colon can be in '" + o->second + "'");
             options += (options.empty() ? "" : ":") + o->first.substr(begin.size()) + "=" + o->second;
         }
-        RetexTextureSpec texture;
+        RetexTextureSpec texture = RETEX_TEXTURE_SPEC_INIT;
         RetexError err{};
         must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + argument.second).c_str(), &err), err);
         std::string image = texture.constant ? "" : own.find(texture.image);

@@ -141,6 +141,7 @@ static void parse_replace(Arguments *a)
     if (a->nreplacements == RETEX_MAX_TARGETS)
         cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
     RetexTextureSpec *spec = &a->replacements[a->nreplacements++];
+    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     if (retex_texture_spec_parse(spec, a->cli->modifiers, a->cli->value, &err))
         cli_die(a->cli, "--replace: %s", err.message);
     spec->access = &a->cli->access;

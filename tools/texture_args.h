@@ -22,6 +22,7 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     RetexError err = {0};
     if (args->count == RETEX_MAX_TARGETS)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
+    args->specs[args->count] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     if (retex_texture_spec_parse(&args->specs[args->count], cli->modifiers, cli->value, &err))
         cli_fail(cli, &err);
     args->specs[args->count].access = &cli->access;

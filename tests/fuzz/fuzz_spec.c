@@ -62,7 +62,7 @@ static void look_up(const RetexTextureSpec *spec)
 
 static int run(const unsigned char *bytes, size_t size)
 {
-    RetexTextureSpec spec;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     char *opts = strdup((const char *)bytes), *line = opts ? strchr(opts, '\n') : NULL;
     int code = -1;
     (void)size;

@@ -142,6 +142,7 @@ static int make_specs(RetexTextureSpec specs[2], const Retexture *r)
 {
     RetexError err = {0};
     int count = 0;
+    specs[0] = specs[1] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     if (r->white_floor)
         test_must(retex_texture_spec_parse(&specs[count++], "", "Floor=rgb(1,1,1)", &err), &err);
     if (r->white_wall)

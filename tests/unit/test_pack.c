@@ -407,7 +407,7 @@ static void test_recombination_from_a_pack_is_close(void **state)
     RetexSet *set = test_set(200, 150, 8);
     unsigned char *data = pack(set, NULL, &bytes, 0);
     RetexSet *back = unpack(data, bytes);
-    RetexTextureSpec spec;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexImage pictures[2] = {{0}};
     test_must(retex_texture_spec_parse(&spec, "scale=3", "Floor=rgb(0.8,0.4,0.1)", &err), &err);
     RetexSet *sets[2] = {set, back};

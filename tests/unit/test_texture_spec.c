@@ -8,7 +8,7 @@
 
 static RetexTextureSpec parse(const char *opts, const char *arg)
 {
-    RetexTextureSpec spec;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
     test_must(retex_texture_spec_parse(&spec, opts, arg, &err), &err);
     return spec;
@@ -133,7 +133,7 @@ static void test_mistakes(void **state)
         {"", longer, "at most 1023 bytes"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        RetexTextureSpec spec;
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         RetexError err = {0};
         assert_int_equal(retex_texture_spec_parse(&spec, cases[i].opts, cases[i].arg, &err), RETEX_EPARSE);
         assert_int_equal(err.code, RETEX_EPARSE);
@@ -144,7 +144,7 @@ static void test_mistakes(void **state)
     memset(longer + 2, 'y', sizeof longer - 3);
     longer[300] = '=';
     longer[1] = 'a';
-    RetexTextureSpec spec;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
     assert_int_equal(retex_texture_spec_parse(&spec, "", longer, &err), RETEX_EPARSE);
     assert_non_null(strstr(err.message, "at most 127 bytes"));

@@ -139,7 +139,7 @@ static void test_constants(void **state)
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char argument[64];
-        RetexTextureSpec spec;
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         RetexTexture *texture;
         RetexError err = {0};
         Heard heard = {""};

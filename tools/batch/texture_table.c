@@ -236,6 +236,7 @@ static int parse_cell(RetexTextureSpec *spec, const char *target, char *cell, Re
     }
     if (snprintf(argument, sizeof argument, "%s=%s", target, image) >= (int)sizeof argument)
         return retex_fail(err, RETEX_EPARSE, "the image's name is too long");
+    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     return retex_texture_spec_parse(spec, opts, argument, err);
 }
 

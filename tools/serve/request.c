@@ -201,6 +201,7 @@ static int take_edits(ServeRequest *request, Edits *edits)
                 append(request->edits, sizeof request->edits, ";%s.%s=%s", edit->target, option_names[o],
                        edit->options[o]);
             }
+        request->specs[i] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
         if (retex_texture_spec_parse(&request->specs[i], options, argument, &err))
             return serve_refuse(request, 400, "%s", err.message);
         request->nspecs++;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <retex/budget.h>
+#include "base/params.h"
 
 static const char *const names[] = {"max-memory", "max-time", "max-pixels", "max-steps"};
 enum { LIMIT_MEMORY, LIMIT_SECONDS, LIMIT_PIXELS, LIMIT_STEPS, LIMIT_COUNT };
@@ -64,31 +65,27 @@ static int parse_count(const char *text, long *count)
     return 1;
 }
 
-/* Programs that were built before `given` was added have no room for it. */
-static void note_given(RetexLimits *limits, int which)
+int retex_limits_set(RetexLimits *given, const char *name, const char *value, RetexError *err)
 {
-    if (limits->size >= sizeof *limits)
-        limits->given |= 1u << which;
-}
-
-int retex_limits_set(RetexLimits *limits, const char *name, const char *value, RetexError *err)
-{
+    RetexLimits limits = RETEX_LIMITS_INIT;
     int which = 0, right = 0;
     uint64_t bytes = 0;
 
     while (which < LIMIT_COUNT && strcmp(name, names[which]) != 0)
         which++;
+    if (RETEX_PARAMS_COPY(&limits, given, err))
+        return RETEX_EINVAL;
     if (which == LIMIT_COUNT)
         return retex_fail(err, RETEX_ENOTFOUND, "there is no limit '%s'", name);
     if (which == LIMIT_MEMORY && (right = !retex_size_parse(value, &bytes, NULL) && bytes > 0))
-        limits->memory = bytes;
+        limits.memory = bytes;
     else if (which == LIMIT_SECONDS)
-        right = parse_seconds(value, &limits->seconds);
+        right = parse_seconds(value, &limits.seconds);
     else if (which != LIMIT_MEMORY)
-        right = parse_count(value, which == LIMIT_PIXELS ? &limits->pixels : &limits->steps);
+        right = parse_count(value, which == LIMIT_PIXELS ? &limits.pixels : &limits.steps);
     if (right) {
-        note_given(limits, which);
-        return 0;
+        limits.given |= 1u << which;
+        return RETEX_PARAMS_RETURN(given, &limits, err);
     }
     return retex_fail(err, RETEX_EPARSE, "%s: expected %s, not '%s'", name,
                       which == LIMIT_MEMORY    ? "a size such as 512M, 4G or a number of MB"
@@ -119,21 +116,27 @@ static uint64_t default_memory(void)
     return retex_machine_memory() / 4 * 3; /* 0: not known */
 }
 
-void retex_limits_safe(RetexLimits *limits)
+void retex_limits_safe(RetexLimits *given)
 {
     const uint64_t most = default_memory();
+    RetexLimits limits = RETEX_LIMITS_INIT;
 
-    if (!(limits->given & 1u << LIMIT_MEMORY))
-        limits->memory = most && most < SAFE_MEMORY ? most : SAFE_MEMORY;
-    if (!(limits->given & 1u << LIMIT_SECONDS))
-        limits->seconds = SAFE_SECONDS;
-    if (!(limits->given & 1u << LIMIT_PIXELS))
-        limits->pixels = SAFE_PIXELS;
+    (void)RETEX_PARAMS_COPY(&limits, given, NULL);
+    if (!(limits.given & 1u << LIMIT_MEMORY))
+        limits.memory = most && most < SAFE_MEMORY ? most : SAFE_MEMORY;
+    if (!(limits.given & 1u << LIMIT_SECONDS))
+        limits.seconds = SAFE_SECONDS;
+    if (!(limits.given & 1u << LIMIT_PIXELS))
+        limits.pixels = SAFE_PIXELS;
+    (void)RETEX_PARAMS_RETURN(given, &limits, NULL);
 }
 
-void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *limits)
+void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *given)
 {
-    retex_budget_set_memory(budget, limits->memory ? limits->memory : default_memory());
-    retex_budget_set_pixels(budget, limits->pixels);
-    retex_budget_set_seconds(budget, limits->seconds);
+    RetexLimits limits = RETEX_LIMITS_INIT;
+
+    (void)RETEX_PARAMS_COPY(&limits, given, NULL);
+    retex_budget_set_memory(budget, limits.memory ? limits.memory : default_memory());
+    retex_budget_set_pixels(budget, limits.pixels);
+    retex_budget_set_seconds(budget, limits.seconds);
 }

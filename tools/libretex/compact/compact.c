@@ -10,6 +10,7 @@
 
 #include <retex/rounding.h>
 
+#include "base/params.h"
 #include "compact/build.h"
 #include "compact/search.h"
 #include "set/parts.h"
@@ -117,14 +118,15 @@ static void tell_unknown(const RetexCompactParams *params, const char *unknown)
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params, int nthreads,
                       RetexError *err)
 {
-    static const RetexCompactParams defaults = RETEX_COMPACT_INIT;
-    RetexCompactParams chosen = params ? *params : defaults;
+    RetexCompactParams chosen = RETEX_COMPACT_INIT;
     RetexCompactScales scales;
     RetexCompactLight light = {0};
     const int sortable = strcmp(set->layout, "footprints") == 0 && !is_compact(set);
     const char *unknown = NULL;
     *compact = NULL;
-    int code = check_params(&chosen, err);
+    int code = RETEX_PARAMS_COPY(&chosen, params, err);
+    if (!code)
+        code = check_params(&chosen, err);
     if (!code && sortable)
         code = retex_compact_light_open(&light, set, chosen.noise, &unknown, err);
     if (!code && unknown && chosen.warn)

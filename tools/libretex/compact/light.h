@@ -50,7 +50,7 @@ typedef struct RetexCompactLight {
     RetexCompactInterreflection *interreflections; /* of all kinds */
 } RetexCompactLight;
 
-/* Sort footprints and terms. *unknown: what of the set cannot be made compact, or NULL; light is then not to be used. */
+/* Sort footprints and terms. *unknown: what of the set cannot be made compact, or NULL. light is then of no use. */
 int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, const char **unknown,
                              RetexError *err);
 void retex_compact_light_close(RetexCompactLight *light);

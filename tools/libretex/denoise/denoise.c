@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/params.h"
 #include "denoise/filter.h"
 #include "denoise/strips.h"
 #include "set/parts.h"
@@ -65,9 +66,9 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRoi *roi, int nthreads, RetexError *err)
 {
     RetexDenoiser d = {.set = set, .params = RETEX_DENOISE_INIT};
-    if (params)
-        memcpy(&d.params, params, params->size < sizeof d.params ? params->size : sizeof d.params);
-    int code = check_params(&d.params, err);
+    int code = RETEX_PARAMS_COPY(&d.params, params, err);
+    if (!code)
+        code = check_params(&d.params, err);
     if (!code && set->spp < 2)
         code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
     if (!code)

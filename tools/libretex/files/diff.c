@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/params.h"
 #include "files/layers.h"
 
 /* Record why parts differ. Only the first reason is kept. */
@@ -248,9 +249,10 @@ int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiff
                RetexError *err)
 {
     RetexDiffParams params = RETEX_DIFF_INIT;
+    RetexAccess access = RETEX_ACCESS_INIT;
     *result = NULL;
-    if (given)
-        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
+    if (RETEX_PARAMS_COPY(&params, given, err) || RETEX_PARAMS_COPY(&access, params.access, err))
+        return RETEX_EINVAL;
     if (strcmp(a, "-") == 0 && strcmp(b, "-") == 0)
         return retex_fail(err, RETEX_EINVAL, "only one of the two files can be standard input");
     RetexDiff *diff = calloc(1, sizeof *diff);
@@ -258,7 +260,7 @@ int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiff
                                      .access = params.access,
                                      .budget = params.budget,
                                      .pixel_bytes = 16,
-                                     .warn = params.access && params.access->accept_damaged ? params.warn : NULL,
+                                     .warn = access.accept_damaged ? params.warn : NULL,
                                      .warn_context = params.warn_context};
     Comparison files = {.diff = diff, .params = &params, .nthreads = nthreads};
     int code =

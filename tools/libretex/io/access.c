@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <retex/access.h>
+#include "base/params.h"
 
 static int is_requested(const char *variable)
 {
@@ -30,7 +31,7 @@ int retex_access_damage_accepted(void)
 
 static int lies_inside(const RetexAccess *access, const char *resolved)
 {
-    if (!access || !access->roots)
+    if (!access->roots)
         return 1;
     for (int i = 0; i < access->nroots; i++) {
         const size_t length = strlen(access->roots[i]);
@@ -70,30 +71,33 @@ static RetexAccessResult check_folders(const RetexAccess *access, const char *pa
     return inside ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_OUTSIDE;
 }
 
-RetexAccessResult retex_access_check(const RetexAccess *access, const char *folder, const char *name)
+RetexAccessResult retex_access_check(const RetexAccess *given, const char *folder, const char *name)
 {
+    RetexAccess access = RETEX_ACCESS_INIT;
     char path[PATH_MAX], resolved[PATH_MAX];
     const size_t before = name[0] == '/' ? 0 : strlen(folder);
     const int slash = before && folder[before - 1] != '/';
     struct stat info;
 
+    if (RETEX_PARAMS_COPY(&access, given, NULL))
+        return RETEX_ACCESS_OUTSIDE;
     if (before + (size_t)slash + strlen(name) + 2 > sizeof path)
         return RETEX_ACCESS_ABSENT;
     memcpy(path, folder, before);
     memcpy(path + before, "/", (size_t)slash);
     strcpy(path + before + slash, name);
-    if (access && access->safe && access->roots) {
+    if (access.safe && access.roots) {
         char from_here[PATH_MAX + 2] = "./"; /* so that at least one byte is the folder's */
         const int here = !before && name[0] != '/';
         strcat(from_here, path);
         const RetexAccessResult answer =
-            check_folders(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
+            check_folders(&access, here ? from_here : path, here ? 2 : before + (size_t)slash);
         if (answer != RETEX_ACCESS_ALLOWED)
             return answer;
     }
     if (!realpath(path, resolved) || stat(resolved, &info) != 0)
         return RETEX_ACCESS_ABSENT;
-    if (!lies_inside(access, resolved))
+    if (!lies_inside(&access, resolved))
         return RETEX_ACCESS_OUTSIDE;
     return S_ISREG(info.st_mode) ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_IRREGULAR;
 }
@@ -164,10 +168,14 @@ static int open_safely(const RetexAccess *access, const char *path, RetexError *
     return refuse(path, err);
 }
 
-int retex_access_open(const RetexAccess *access, const char *path, int *descriptor, RetexError *err)
+int retex_access_open(const RetexAccess *given, const char *path, int *descriptor, RetexError *err)
 {
-    if (access && access->safe) {
-        *descriptor = open_safely(access, path, err);
+    RetexAccess access = RETEX_ACCESS_INIT;
+
+    if (RETEX_PARAMS_COPY(&access, given, err))
+        return *descriptor = RETEX_EINVAL;
+    if (access.safe) {
+        *descriptor = open_safely(&access, path, err);
         return *descriptor < 0 ? *descriptor : RETEX_OK;
     }
     *descriptor = open(path, O_RDONLY | O_CLOEXEC);

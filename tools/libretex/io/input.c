@@ -12,6 +12,7 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include "base/params.h"
 #include "io/input.h"
 #include "io/temporary.h"
 
@@ -142,24 +143,20 @@ static int store(RetexInput *input, RetexError *err)
     return status;
 }
 
-/* Whether somebody is told of files that are opened. Callers that were compiled with an older library have a shorter
- * struct. */
-static int tells(const RetexAccess *access)
+static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *given, RetexError *err)
 {
-    return access && access->size >= offsetof(RetexAccess, context) + sizeof access->context && access->opened;
-}
-
-static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *access, RetexError *err)
-{
+    RetexAccess access = RETEX_ACCESS_INIT;
     struct stat status;
 
     if (strcmp(path, "-") == 0) {
         input->descriptor = STDIN_FILENO;
         input->borrowed = 1;
     } else {
-        int code = retex_access_open(access, path, &input->descriptor, err);
-        if (!code && tells(access))
-            code = access->opened(access->context, input->descriptor, err);
+        int code = RETEX_PARAMS_COPY(&access, given, err);
+        if (!code)
+            code = retex_access_open(&access, path, &input->descriptor, err);
+        if (!code && access.opened)
+            code = access.opened(access.context, input->descriptor, err);
         if (code)
             return code;
     }

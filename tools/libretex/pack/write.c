@@ -10,6 +10,7 @@
 #include <retex/compact.h>
 #include <retex/set_file.h>
 
+#include "base/params.h"
 #include "retexture/combine_rows.h"
 #include "compact/build.h"
 #include "io/output.h"
@@ -249,28 +250,28 @@ static int is_comparable(const RetexSet *set, RetexError *err)
     return sound;
 }
 
-int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes, int nthreads,
+int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *given, size_t *bytes, int nthreads,
                      RetexError *err)
 {
-    static const RetexPackParams defaults = RETEX_PACK_INIT;
+    RetexPackParams params = RETEX_PACK_INIT;
     Attempt attempt = {0};
     RetexPackReference reference = {0};
-    if (!params)
-        params = &defaults;
-    if (params->quality < 1 || params->quality > 100)
-        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
-    RetexPackPromise promise = {.quality = params->quality};
-    const int comparable = params->lossless ? 0 : is_comparable(set, err);
+    if (RETEX_PARAMS_COPY(&params, given, err))
+        return RETEX_EINVAL;
+    if (params.quality < 1 || params.quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params.quality);
+    RetexPackPromise promise = {.quality = params.quality};
+    const int comparable = params.lossless ? 0 : is_comparable(set, err);
     if (comparable < 0)
         return comparable;
     int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    promise.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
-    if (!code && params->lossless)
+    promise.promised = retex_pack_promised_psnr(params.quality, set->spp, reference.noise);
+    if (!code && params.lossless)
         code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
     else if (!code && comparable)
-        code = keep_promise(&attempt, &promise, set, &reference, params, nthreads, err);
+        code = keep_promise(&attempt, &promise, set, &reference, &params, nthreads, err);
     else if (!code)
-        code = attempt_make(&attempt, set, params->quality, params, nthreads, err);
+        code = attempt_make(&attempt, set, params.quality, &params, nthreads, err);
     if (!code)
         code = write_file(&attempt.encoded, comparable ? &promise : NULL, path, bytes, err);
     attempt_free(&attempt);

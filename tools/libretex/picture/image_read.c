@@ -14,6 +14,7 @@
 #include <retex/image.h>
 #include <retex/image_file.h>
 
+#include "base/params.h"
 #include "exr/io.h"
 #include "io/input.h"
 #include "picture/bridge_load.h"
@@ -155,14 +156,21 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const Rete
     return 0;
 }
 
-static RetexReadParams complete_params(const RetexReadParams *given)
-{
-    RetexReadParams params = RETEX_READ_INIT;
+/* A caller's parameters with all that they point to. */
+typedef struct Reading {
+    RetexReadParams params;
+    RetexAccess access; /* what params.access points to, unless that is NULL */
+} Reading;
 
-    if (given)
-        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
-    params.size = sizeof params;
-    return params;
+static int copy_params(Reading *reading, const RetexReadParams *given, RetexError *err)
+{
+    *reading = (Reading){RETEX_READ_INIT, RETEX_ACCESS_INIT};
+    int status = RETEX_PARAMS_COPY(&reading->params, given, err);
+    if (!status && reading->params.access) {
+        status = RETEX_PARAMS_COPY(&reading->access, reading->params.access, err);
+        reading->params.access = &reading->access;
+    }
+    return status;
 }
 
 /* Chooses the bridge's decoder: any, or for safe access that of the content. */
@@ -431,13 +439,15 @@ static int read_input(RetexDecoded *decoded, RetexDecode decode, RetexInput *inp
 static int read_path(RetexDecoded *decoded, RetexDecode decode, const char *path, const RetexReadParams *given,
                      int nthreads, RetexError *err)
 {
-    const RetexReadParams params = complete_params(given);
     RetexInput *input = NULL;
+    Reading own;
 
     *decoded = (RetexDecoded){0};
-    int status = retex_input_open_allowed(&input, path, params.access, err);
+    int status = copy_params(&own, given, err);
     if (!status)
-        status = read_input(decoded, decode, input, path, &params, nthreads, err);
+        status = retex_input_open_allowed(&input, path, own.params.access, err);
+    if (!status)
+        status = read_input(decoded, decode, input, path, &own.params, nthreads, err);
     retex_input_close(&input);
     return status;
 }
@@ -462,13 +472,14 @@ int retex_image_read_any(RetexDecoded *decoded, const char *path, const RetexRea
 
 int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
 {
-    const int safe = given && given->access && given->access->safe;
     RetexDecoded none;
     struct stat info;
+    Reading own;
 
-    if (strcmp(path, "-") == 0)
-        return 0;
-    if (!safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
+    const int status = copy_params(&own, given, err);
+    if (status || strcmp(path, "-") == 0)
+        return status;
+    if (!own.access.safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
         return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
-    return read_path(&none, RETEX_DECODE_CHECK, path, given, 1, err);
+    return read_path(&none, RETEX_DECODE_CHECK, path, &own.params, 1, err);
 }

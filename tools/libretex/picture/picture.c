@@ -7,6 +7,7 @@
 
 #include <retex/parallel.h>
 
+#include "base/params.h"
 #include "picture/format.h"
 
 /* --- what is to be written --- */
@@ -72,20 +73,12 @@ static int check_params(const char *path, const RetexWriteParams *params, RetexE
     return 0;
 }
 
-/* The given parameters, with defaults for members that an older caller's struct does not have. */
-static RetexWriteParams complete(const RetexWriteParams *given)
-{
-    RetexWriteParams params = RETEX_WRITE_INIT;
-
-    if (given)
-        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
-    return params;
-}
-
 int retex_image_format_check(const char *path, const RetexWriteParams *given, RetexError *err)
 {
-    const RetexWriteParams params = complete(given);
-    const int status = check_params(path, &params, err);
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    int status = RETEX_PARAMS_COPY(&params, given, err);
+    if (!status)
+        status = check_params(path, &params, err);
     if (status || is_linear_exr(path, &params) || (own_format(path) && has_own_colors(&params)))
         return status;
     return retex_bridge_check(path, &params, err);
@@ -93,11 +86,13 @@ int retex_image_format_check(const char *path, const RetexWriteParams *given, Re
 
 int retex_image_write_check(const char *path, const RetexWriteParams *given, RetexError *err)
 {
-    const RetexWriteParams params = complete(given);
-    int status = check_params(path, &params, err);
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    int status = RETEX_PARAMS_COPY(&params, given, err);
+    if (!status)
+        status = check_params(path, &params, err);
     if (!status)
         status = retex_output_check(path, err);
-    return status ? status : retex_image_format_check(path, given, err);
+    return status ? status : retex_image_format_check(path, &params, err);
 }
 
 /* --- beginning --- */
@@ -203,22 +198,25 @@ static int open_picture(RetexPicture **result, const char *path, RetexOutput *ou
 int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
                        const RetexWriteParams *given, RetexError *err)
 {
-    const RetexWriteParams params = complete(given);
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    const int status = RETEX_PARAMS_COPY(&params, given, err);
 
     *result = NULL;
-    return open_picture(result, path, NULL, width, height, channels, &params, err);
+    return status ? status : open_picture(result, path, NULL, width, height, channels, &params, err);
 }
 
 int retex_picture_open_memory(RetexPicture **result, const char *format, int width, int height, int channels,
                               const RetexWriteParams *given, RetexError *err)
 {
-    const RetexWriteParams params = complete(given);
+    RetexWriteParams params = RETEX_WRITE_INIT;
     RetexOutput *output = NULL;
     char name[64];
 
     *result = NULL;
     snprintf(name, sizeof name, "picture.%s", format);
-    const int status = retex_output_open_memory(&output, err);
+    int status = RETEX_PARAMS_COPY(&params, given, err);
+    if (!status)
+        status = retex_output_open_memory(&output, err);
     return status ? status : open_picture(result, name, output, width, height, channels, &params, err);
 }
 

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/params.h"
 #include "retexture/combine_kernel.h"
 #include "retexture/combine_rows.h"
 #include "base/value_check.h"
@@ -102,18 +103,18 @@ static int combine(const RetexPolynomial *polynomial, int y0, int y1, RetexRowSi
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
+    RetexCombineParams own = RETEX_COMBINE_INIT;
     RetexPolynomial polynomial;
-    int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
+    int code = RETEX_PARAMS_COPY(&own, params, err);
+    if (!code)
+        code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 0, nthreads, err);
     if (code)
         return code;
     RetexRowSpan rows = {0, set->height};
-    RetexCombineParams given = RETEX_COMBINE_INIT;
-    if (params)
-        memcpy(&given, params, params->size < sizeof given ? params->size : sizeof given);
-    if (given.y1 > given.y0)
-        rows = retex_span_intersection(rows, (RetexRowSpan){given.y0, given.y1});
-    if (given.x1 > given.x0)
-        polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){given.x0, given.x1});
+    if (own.y1 > own.y0)
+        rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
+    if (own.x1 > own.x0)
+        polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){own.x0, own.x1});
     code = combine(&polynomial, rows.begin, rows.end, sink, context, nthreads, err);
     retex_polynomial_close(&polynomial);
     return code;
@@ -176,8 +177,11 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
                   const RetexRoi *roi, int nthreads, RetexError *err)
 {
     Region region = {.dst = dst};
+    RetexCombineParams own = RETEX_COMBINE_INIT;
     RetexPolynomial polynomial;
-    int code = retex_polynomial_open(&polynomial, set, samples, NULL, params, 0, nthreads, err);
+    int code = RETEX_PARAMS_COPY(&own, params, err);
+    if (!code)
+        code = retex_polynomial_open(&polynomial, set, samples, NULL, &own, 0, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);

@@ -17,6 +17,7 @@
 #include <retex/combine.h>
 #include <retex/samples.h>
 
+#include "base/params.h"
 #include "retexture/estimate_row.h"
 #include "retexture/polynomial_bands.h"
 #include "retexture/sample_row.h"
@@ -100,8 +101,11 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
                          RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
     Estimate estimate = {.textures = textures};
+    RetexCombineParams own = RETEX_COMBINE_INIT;
     RetexPolynomial polynomial;
-    int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 1, nthreads, err);
+    if (RETEX_PARAMS_COPY(&own, params, err))
+        return RETEX_EINVAL;
+    int code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 1, nthreads, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);

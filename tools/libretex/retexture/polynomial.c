@@ -100,9 +100,8 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
                           RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
                           RetexError *err)
 {
-    RetexCombineParams given = RETEX_COMBINE_INIT;
-    if (params)
-        memcpy(&given, params, params->size < sizeof given ? params->size : sizeof given);
+    static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
+    const RetexCombineParams given = params ? *params : defaults;
     *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart, .cross = given.cross};
     p->columns = (RetexRowSpan){0, set->width};
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)

@@ -1,7 +1,6 @@
 /* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian with the stored
  * mean and standard deviations of the surface UV, which the texture's transform maps exactly. Where the texture is
  * transparent the original albedo of the footprint shows. */
-#include <retex/combine.h>
 #include <retex/samples.h>
 
 #include <stdio.h>
@@ -10,10 +9,11 @@
 
 #include "set/transfer.h"
 #include "retexture/sample_row.h"
+#include "retexture/textures.h"
 
 typedef struct SampleWork {
     const RetexSet *set;
-    const RetexTextureSpec *specs;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
     int nspecs;
     RetexSamples *samples;
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
@@ -128,10 +128,10 @@ static int check_loaded(const SampleWork *work, RetexError *err)
     return RETEX_OK;
 }
 
-static int open_work(SampleWork *work, int nthreads, RetexError *err)
+static int open_work(SampleWork *work, const RetexTextureSpec *specs, int nthreads, RetexError *err)
 {
-    int code = RETEX_OK;
-    if (!work->borrowed)
+    int code = retex_texture_specs_copy(work->specs, specs, work->nspecs, err);
+    if (!code && !work->borrowed)
         code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
     if (!code)
         code = create_samples(work, err);
@@ -153,8 +153,8 @@ static int close_work(SampleWork *work, RetexSamples **samples, int code)
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err)
 {
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    int code = open_work(&work, nthreads, err);
+    SampleWork work = {.set = set, .nspecs = nspecs};
+    int code = open_work(&work, specs, nthreads, err);
     if (!code)
         code = check_loaded(&work, err);
     if (!code)
@@ -162,9 +162,10 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
     return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
-static int sample_to_store(SampleWork *work, RetexSamples **samples, const char *near, int nthreads, RetexError *err)
+static int sample_to_store(SampleWork *work, RetexSamples **samples, const RetexTextureSpec *specs, const char *near,
+                           int nthreads, RetexError *err)
 {
-    int code = open_work(work, nthreads, err);
+    int code = open_work(work, specs, nthreads, err);
     if (!code)
         code = store_images(work, near, err);
     return close_work(work, samples, code ? code : sample_all(work, nthreads, err));
@@ -173,16 +174,16 @@ static int sample_to_store(SampleWork *work, RetexSamples **samples, const char 
 int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
                           const char *near, int nthreads, RetexError *err)
 {
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    return sample_to_store(&work, samples, near, nthreads, err);
+    SampleWork work = {.set = set, .nspecs = nspecs};
+    return sample_to_store(&work, samples, specs, near, nthreads, err);
 }
 
 int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                           const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads, RetexError *err)
 {
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs, .borrowed = 1};
+    SampleWork work = {.set = set, .nspecs = nspecs, .borrowed = 1};
     memcpy(work.textures, textures, sizeof work.textures);
-    return sample_to_store(&work, samples, near, nthreads, err);
+    return sample_to_store(&work, samples, specs, near, nthreads, err);
 }
 
 /* ---- more of them ---- */

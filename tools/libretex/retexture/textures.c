@@ -3,23 +3,41 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <retex/combine.h>
 #include <retex/nearest.h>
 #include <retex/parallel.h>
 
+#include "base/params.h"
+#include "retexture/textures.h"
 #include "set/manifest.h"
 #include "texture/pyramid.h"
 
 typedef struct Loading {
     RetexTexture **textures; /* by target */
     const RetexSet *set;
-    const RetexTextureSpec *specs;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
     int target[RETEX_MAX_TARGETS]; /* by spec */
     int nspecs, threads;
     RetexError errors[RETEX_MAX_TARGETS];
 } Loading;
 
 /* ---- checks ---- */
+
+int retex_texture_specs_copy(RetexTextureSpec own[RETEX_MAX_TARGETS], const RetexTextureSpec *specs, int nspecs,
+                             RetexError *err)
+{
+    if (nspecs > RETEX_MAX_TARGETS)
+        return retex_fail(err, RETEX_EINVAL, "%d textures are more than a set has targets", nspecs);
+    for (int i = 0; i < nspecs; i++) {
+        const void *bytes = (const char *)specs + (size_t)i * specs->size;
+        const RetexTextureSpec *given = bytes;
+        own[i] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+        if (RETEX_PARAMS_COPY(&own[i], given, err))
+            return RETEX_EINVAL;
+        if (given->size != specs->size)
+            return retex_fail(err, RETEX_EINVAL, "textures whose parameters differ in size");
+    }
+    return RETEX_OK;
+}
 
 static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
 {
@@ -39,8 +57,6 @@ static int unknown_target(const RetexSet *set, const char *name, RetexError *err
 static int find_targets(Loading *loading, RetexError *err)
 {
     int taken[RETEX_MAX_TARGETS] = {0};
-    if (loading->nspecs > RETEX_MAX_TARGETS)
-        return retex_fail(err, RETEX_EINVAL, "%d textures are more than a set has targets", loading->nspecs);
     for (int i = 0; i < loading->nspecs; i++) {
         int target = retex_set_find_target(loading->set, loading->specs[i].target);
         if (target < 0)
@@ -135,11 +151,13 @@ int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, 
 int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, const RetexSet *set,
                          const RetexTextureSpec *spec, RetexError *err)
 {
-    const int target = retex_set_find_target(set, spec->target);
-    RetexTextureSpec own = *spec;
+    RetexTextureSpec own = RETEX_TEXTURE_SPEC_INIT;
     *placed = NULL;
+    if (RETEX_PARAMS_COPY(&own, spec, err))
+        return RETEX_EINVAL;
+    const int target = retex_set_find_target(set, own.target);
     if (target < 0)
-        return unknown_target(set, spec->target, err);
+        return unknown_target(set, own.target, err);
     describe_surface(&own, &set->targets[target]);
     return retex_texture_place(placed, texture, &own, err);
 }
@@ -153,9 +171,11 @@ void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
 int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
                         int nspecs, int nthreads, RetexError *err)
 {
-    Loading loading = {textures, set, specs, .nspecs = nspecs};
+    Loading loading = {textures, set, .nspecs = nspecs};
     memset(textures, 0, RETEX_MAX_TARGETS * sizeof *textures);
-    int code = find_targets(&loading, err);
+    int code = retex_texture_specs_copy(loading.specs, specs, nspecs, err);
+    if (!code)
+        code = find_targets(&loading, err);
     if (!code)
         code = check_footprints(&loading, err);
     return code ? code : load_textures(&loading, nthreads, err);

@@ -6,6 +6,7 @@
 #include <retex/samples.h>
 #include <retex/set_file.h>
 
+#include "base/params.h"
 #include "exr/io.h"
 #include "set/manifest.h"
 #include "io/output.h"
@@ -253,15 +254,15 @@ static void close_writing(Writing *w)
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,
                     int nthreads, RetexError *err)
 {
-    static const RetexStoreParams defaults = RETEX_STORE_INIT;
-    int status = check_written(set, samples, err);
+    RetexStoreParams own = RETEX_STORE_INIT;
+    int status = RETEX_PARAMS_COPY(&own, params, err);
 
+    if (!status)
+        status = check_written(set, samples, err);
     if (status)
         return status;
-    if (!params)
-        params = &defaults;
     Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = nthreads};
-    w.compress = params->compress && strcmp(path, "-") != 0;
+    w.compress = own.compress && strcmp(path, "-") != 0;
     w.width = set ? set->width : samples->width;
     w.height = set ? set->height : samples->height;
     status = open_writing(&w, err);

@@ -2,6 +2,7 @@
  * one message that names the option and says what would be right. */
 #include <retex/nearest.h>
 #include <retex/texture.h>
+#include "base/params.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -214,14 +215,14 @@ static int parse_color(RetexTextureSpec *spec, const char *text, RetexError *err
     return 0;
 }
 
-int retex_texture_spec_needs_scale(const RetexTextureSpec *spec)
+int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
 {
-    return !spec->constant && spec->width[0] > 0;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
 }
 
-int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)
+static int parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)
 {
-    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     int code = parse_options(spec, opts ? opts : "", err);
     if (code)
         return code;
@@ -247,4 +248,11 @@ int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const cha
                           (int)sizeof spec->image - 1);
     strcpy(spec->image, image);
     return RETEX_OK;
+}
+
+int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)
+{
+    RetexTextureSpec own = RETEX_TEXTURE_SPEC_INIT;
+    const int code = parse(&own, opts, arg, err);
+    return code ? code : RETEX_PARAMS_RETURN(spec, &own, err);
 }

@@ -1,6 +1,7 @@
 /* Textures: loading, placement, and the transform from surface UV to texels. A file becomes premultiplied RGBA: 16-bit
  * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
  * filter_kernel.c and disc_kernel.c, those of whole rows in batch.c. */
+#include "base/params.h"
 #include "picture/image_read.h"
 #include "texture/pyramid.h"
 
@@ -249,9 +250,7 @@ static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *er
 
 static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, RetexError *err)
 {
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT; /* defaults for members that an older caller's struct does not
-                                                        have */
-    memcpy(&spec, given, given->size < sizeof spec ? given->size : sizeof spec);
+    RetexTextureSpec spec = *given;
     if (check_spec(&spec, constant, err))
         return NULL;
     RetexTexture *texture = calloc(1, sizeof *texture);
@@ -341,13 +340,16 @@ static RetexReadParams read_params(RetexTexture *texture)
     return params;
 }
 
-int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nthreads, RetexError *err)
+int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
 {
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError why = {0};
     *out = NULL;
-    RetexTexture *texture = new_texture(spec, spec->constant, &why);
+    if (RETEX_PARAMS_COPY(&spec, given, err))
+        return RETEX_EINVAL;
+    RetexTexture *texture = new_texture(&spec, spec.constant, &why);
     int code = why.code;
-    if (texture && !spec->constant) {
+    if (texture && !spec.constant) {
         const RetexTextureSpec *own = &texture->spec;
         const RetexReadParams params = read_params(texture);
         RetexDecoded decoded;
@@ -366,7 +368,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
             *err = why;
         return code;
     }
-    return_texture(out, texture, spec->color);
+    return_texture(out, texture, spec.color);
     return RETEX_OK;
 }
 
@@ -394,12 +396,15 @@ static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *sp
            spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1];
 }
 
-int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
+int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *given, RetexError *err)
 {
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError why = {0};
     int width, height;
     *out = NULL;
-    RetexTexture *placed = new_texture(spec, spec->constant, &why);
+    if (RETEX_PARAMS_COPY(&spec, given, err))
+        return RETEX_EINVAL;
+    RetexTexture *placed = new_texture(&spec, spec.constant, &why);
     int code = why.code;
     if (!code && !has_texels_of(texture, &placed->spec))
         code = retex_fail(&why, RETEX_EINVAL, "%s is not loaded as this placement needs it", texture->spec.image);
@@ -423,15 +428,17 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     return RETEX_OK;
 }
 
-int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, int nthreads,
+int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *given, int nthreads,
                          RetexError *err)
 {
-    static const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError why = {0};
     *out = NULL;
+    if (RETEX_PARAMS_COPY(&spec, given, err))
+        return RETEX_EINVAL;
     if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
-    RetexTexture *texture = new_texture(spec ? spec : &plain, 0, &why);
+    RetexTexture *texture = new_texture(&spec, 0, &why);
     RetexImage copy = {0};
     int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
     if (!code) {

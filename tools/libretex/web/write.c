@@ -11,6 +11,7 @@
 #include <retex/compact.h>
 #include <retex/output_file.h>
 
+#include "base/params.h"
 #include "io/checksum.h"
 #include "pack/plan.h"
 #include "web/footprints.h"
@@ -486,9 +487,11 @@ static RetexWebBytes count_bytes(const Web *web, size_t manifest)
 int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParams *params, RetexWebBytes *bytes,
                     int nthreads, RetexError *err)
 {
-    static const RetexWebParams defaults = RETEX_WEB_INIT;
-    const int quality = params ? params->quality : defaults.quality;
+    RetexWebParams own = RETEX_WEB_INIT;
     Web web = {0};
+    if (RETEX_PARAMS_COPY(&own, params, err))
+        return RETEX_EINVAL;
+    const int quality = own.quality;
     if (quality < 1 || quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", quality);
     int code = RETEX_EUNSUPPORTED;

@@ -1,6 +1,6 @@
 """Textures: an image, a colour or an array, and how it is placed on its target."""
 import os
-from ctypes import byref, c_void_p
+from ctypes import byref, c_void_p, sizeof
 from typing import Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -81,7 +81,7 @@ class Texture:
 
     def spec(self, target: str) -> RetexTextureSpec:
         """Its description for the library, on a target."""
-        spec = RetexTextureSpec()
+        spec = RetexTextureSpec(sizeof(RetexTextureSpec))
         if "=" in target:
             raise Error(Code.ENOTFOUND, f"there is no target '{target}'")
         argument = b"%s=%s" % (text_bytes(target), os.fsencode(self.image))
