@@ -205,7 +205,7 @@ static void use_open(void)
     spec.constant = 1;
     if (set && set->ntargets)
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
-    if (set && retex_sample_to_store(&more, set, &spec, 1, "-", 1, NULL) == 0)
+    if (set && test_sample_to_store(&more, set, &spec, 1, "-", 1, NULL) == 0)
         if (!samples || retex_samples_merge(samples, more, 0, NULL) == 0)
             retex_set_write(set, samples ? samples : more, "/dev/null", NULL, 0, NULL);
     if (samples)

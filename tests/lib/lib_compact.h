@@ -2,6 +2,7 @@
 #ifndef LIB_COMPACT_H
 #define LIB_COMPACT_H
 
+#include "compact/compact.h"
 #include "lib_footprints.h"
 
 enum { WIDE = 50, HIGH = 37 }; /* no multiple of 8 */

@@ -202,7 +202,7 @@ static int go_sample(RetexSet *set, RetexSamples *there, int stream, uint32_t *s
     int code = set->ntargets ? 0 : retex_fail(err, RETEX_EINVAL, "no target");
     if (!code) {
         spec = make_spec(set, 0);
-        code = retex_sample_to_store(&samples, set, &spec, 1, output_path, 1, err);
+        code = test_sample_to_store(&samples, set, &spec, 1, output_path, 1, err);
     }
     if (!code && there)
         code = retex_samples_merge(there, samples, 1, err);

@@ -13,6 +13,18 @@ double test_random(uint32_t *state)
     return (double)((word >> 22) ^ word) / 4294967296.0;
 }
 
+int test_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                         const char *near, int nthreads, RetexError *err)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    *samples = NULL;
+    int code = retex_textures_load(textures, set, specs, nspecs, nthreads, err);
+    if (!code)
+        code = retex_sample_textures(samples, set, textures, specs, nspecs, near, nthreads, err);
+    retex_textures_close(textures);
+    return code;
+}
+
 void test_must(int code, const RetexError *err)
 {
     if (!code)

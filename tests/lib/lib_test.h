@@ -41,6 +41,10 @@ void test_make_footprints(RetexSet *set);
 /* Add denoising data, as <retex/denoise_data.h> lists it: noise, and guides of two surfaces side by side. */
 void test_add_denoise_data(RetexSet *set);
 
+/* Loads the textures of specs and samples them into a band store near a path: see retex_sample_textures. */
+int test_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                         const char *near, int nthreads, RetexError *err);
+
 /* Ends the process with a message. For functions that run outside of a test. */
 void test_must(int code, const RetexError *err);
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compact/compact.h"
 #include "lib_test.h"
 
 static int take(RetexCompactParams *params, const char *word)

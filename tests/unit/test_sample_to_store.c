@@ -101,7 +101,7 @@ static void files_are_those_from_memory(void **state)
     for (int round = 0; round < 4; round++) {
         const int compress = round & 1, plain = round >> 1;
         test_must(retex_set_open(test_in_folder("set.exr"), &open, NULL, 2, &err), &err);
-        test_must(retex_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
+        test_must(test_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
         assert_true(is_out_of_memory(open, stored));
         write_to(NULL, samples, test_in_folder("a.exr"), compress);
         write_to(NULL, stored, test_in_folder("b.exr"), compress);
@@ -158,14 +158,14 @@ static void streams_stay_in_their_files(void **state)
     test_must(retex_samples_merge(samples, more, 0, &err), &err);
     write_to(set, samples, test_in_folder("a.exr"), 0);
     retex_samples_close(&more);
-    test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
+    test_must(test_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
     test_must(retex_samples_merge(stored, more, 0, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);
     expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
 
     /* a second band store has no place beside the first: its images are loaded */
-    test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
+    test_must(test_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
     test_must(retex_samples_merge(stored, more, 0, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);

@@ -4,6 +4,8 @@
 #include "lib_scene_text.h"
 #include <cmocka.h>
 
+#include "compact/compact.h"
+
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -210,10 +212,10 @@ static int sample(Room *room, int nthreads, RetexError *err)
     return code;
 }
 
-static int sample_to_store(Room *room, int nthreads, RetexError *err)
+static int sample_textures(Room *room, int nthreads, RetexError *err)
 {
     RetexSamples *samples = NULL;
-    int code = retex_sample_to_store(&samples, room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
+    int code = test_sample_to_store(&samples, room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
     code = code ? code : retex_samples_load(samples, nthreads, err);
     retex_samples_close(&samples);
     return code;
@@ -225,7 +227,7 @@ static int merge_samples(Room *room, int nthreads, RetexError *err)
     RetexSamples *samples[2] = {NULL, NULL};
     int code = 0;
     for (int k = 0; !code && k < 2; k++)
-        code = retex_sample_to_store(&samples[k], room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
+        code = test_sample_to_store(&samples[k], room->set, &room->spec, 1, test_in_folder("out.exr"), nthreads, err);
     code = code ? code : retex_samples_merge(samples[0], samples[1], nthreads, err);
     for (int k = 0; k < 2; k++)
         retex_samples_close(&samples[k]);
@@ -316,7 +318,7 @@ static const struct {
     {"retex_pack_check", check_pack},
     {"retex_pack_loss", compare_pack},
     {"retex_sample", sample},
-    {"retex_sample_to_store", sample_to_store},
+    {"retex_sample_textures", sample_textures},
     {"retex_samples_merge", merge_samples},
     {"retex_combine", combine},
     {"retex_retexture", retexture},

@@ -1,8 +1,6 @@
-/* Makes compact sets: see retex/compact.h. light.h sorts terms and footprints by target and kind. search.h chooses the
+/* Makes compact sets: see compact.h. light.h sorts terms and footprints by target and kind. search.h chooses the
  * scales by measuring distortion. For each kind, clusters.h makes new footprints, and gains.h turns its terms into one
  * radiance with gains. build.h puts the new set together. */
-#include <retex/compact.h>
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +8,6 @@
 
 #include <retex/rounding.h>
 
-#include "base/params.h"
 #include "compact/build.h"
 #include "compact/search.h"
 #include "set/parts.h"
@@ -118,15 +115,14 @@ static void tell_unknown(const RetexCompactParams *params, const char *unknown)
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params, int nthreads,
                       RetexError *err)
 {
-    RetexCompactParams chosen = RETEX_COMPACT_INIT;
+    static const RetexCompactParams defaults = RETEX_COMPACT_INIT;
+    RetexCompactParams chosen = params ? *params : defaults;
     RetexCompactScales scales;
     RetexCompactLight light = {0};
     const int sortable = strcmp(set->layout, "footprints") == 0 && !is_compact(set);
     const char *unknown = NULL;
     *compact = NULL;
-    int code = RETEX_PARAMS_COPY(&chosen, params, err);
-    if (!code)
-        code = check_params(&chosen, err);
+    int code = check_params(&chosen, err);
     if (!code && sortable)
         code = retex_compact_light_open(&light, set, chosen.noise, &unknown, err);
     if (!code && unknown && chosen.warn)

@@ -2,9 +2,8 @@
 #ifndef RETEX_COMPACT_SEARCH_H
 #define RETEX_COMPACT_SEARCH_H
 
-#include <retex/compact.h>
-
 #include "compact/build.h"
+#include "compact/compact.h"
 
 /* The scales with the lowest rate at params->psnr; scales that params fix are kept. */
 int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *light, const RetexCompactParams *params,

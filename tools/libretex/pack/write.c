@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/compact.h>
 #include <retex/set_file.h>
 
 #include "base/params.h"
 #include "retexture/combine_rows.h"
 #include "compact/build.h"
+#include "compact/compact.h"
 #include "io/output.h"
 #include "pack/bands.h"
 #include "pack/encode.h"

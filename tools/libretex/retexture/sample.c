@@ -162,28 +162,15 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
     return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
-static int sample_to_store(SampleWork *work, RetexSamples **samples, const RetexTextureSpec *specs, const char *near,
-                           int nthreads, RetexError *err)
-{
-    int code = open_work(work, specs, nthreads, err);
-    if (!code)
-        code = store_images(work, near, err);
-    return close_work(work, samples, code ? code : sample_all(work, nthreads, err));
-}
-
-int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                          const char *near, int nthreads, RetexError *err)
-{
-    SampleWork work = {.set = set, .nspecs = nspecs};
-    return sample_to_store(&work, samples, specs, near, nthreads, err);
-}
-
 int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                           const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads, RetexError *err)
 {
     SampleWork work = {.set = set, .nspecs = nspecs, .borrowed = 1};
     memcpy(work.textures, textures, sizeof work.textures);
-    return sample_to_store(&work, samples, specs, near, nthreads, err);
+    int code = open_work(&work, specs, nthreads, err);
+    if (!code)
+        code = store_images(&work, near, err);
+    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
 /* ---- more of them ---- */

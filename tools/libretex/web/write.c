@@ -8,10 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <retex/compact.h>
 #include <retex/output_file.h>
 
 #include "base/params.h"
+#include "compact/compact.h"
 #include "io/checksum.h"
 #include "pack/plan.h"
 #include "web/footprints.h"

@@ -20,9 +20,9 @@ typedef struct RetexPackParams {
 } RetexPackParams;
 #define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL }
 
-/* Write set as a pack; "-" is standard output. Unless lossless it is compacted (see compact.h), and is without what
- * only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ more than
- * the quality promises it is packed anew, finer. *bytes (may be NULL) gets the pack's size. */
+/* Write set as a pack; "-" is standard output. Unless lossless it is compacted, as retex-pack(5) describes, and is
+ * without what only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ
+ * more than the quality promises it is packed anew, finer. *bytes (may be NULL) gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
                      size_t *bytes, int nthreads /* 0 = all cores */, RetexError *err);
 /* Read a pack from memory (the whole file). retex_set_read calls it when it finds a pack. */

@@ -10,7 +10,6 @@
 #include <retex/clock.h>
 #include <retex/color.h>
 #include <retex/combine.h>
-#include <retex/compact.h>
 #include <retex/cpu.h>
 #include <retex/denoise.h>
 #include <retex/denoise_data.h>

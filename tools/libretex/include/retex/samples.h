@@ -43,13 +43,9 @@ void retex_samples_close(RetexSamples **samples); /* NULL and pointers to NULL a
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err);
 
-/* As retex_sample, of a set that may be open, with little of set and samples in memory: images as large as the picture
- * go band by band into a band store in the folder of `near`, the file that the samples are for; "-" is standard output.
- */
-int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                          const char *near, int nthreads, RetexError *err);
-
-/* The same with textures that were loaded already, by target, of these specs: see retex_textures_load. */
+/* As retex_sample, with textures that were loaded already, by target, of these specs (see retex_textures_load); of a
+ * set that may be open, and with little of set and samples in memory: images as large as the picture go band by band
+ * into a band store in the folder of `near`, the file that the samples are for; "-" is standard output. */
 int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexTexture *const textures[RETEX_MAX_TARGETS],
                           const RetexTextureSpec *specs, int nspecs, const char *near, int nthreads, RetexError *err);
 

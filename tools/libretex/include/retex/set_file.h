@@ -23,7 +23,7 @@ typedef struct RetexStoreParams {
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* As retex_set_read, but the set's parts and the samples stay in the file until they are read from there row by row,
- * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_to_store or retex_set_write, or all at once by
+ * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_textures or retex_set_write, or all at once by
  * retex_set_load and retex_samples_load; every other function that looks at pixels needs them loaded. Checksums are
  * compared when rows are read, so that all of these functions may return RETEX_EFORMAT. The file must stay as it is
  * until both are closed, and so must parts that retex_set_preload brought into memory: a pack may make its picture from

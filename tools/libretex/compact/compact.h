@@ -1,17 +1,11 @@
-/* Compacting: the same set in far fewer numbers, for storage. */
-#ifndef RETEX_COMPACT_H
-#define RETEX_COMPACT_H
+/* Compacting: the same set in far fewer numbers, for storage. Private to libretex. */
+#ifndef RETEX_COMPACT_COMPACT_H
+#define RETEX_COMPACT_COMPACT_H
 
 #include <retex/set.h>
 
-#pragma GCC visibility push(default)
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Begin with RETEX_COMPACT_INIT. */
 typedef struct RetexCompactParams {
-    size_t size;
     double psnr; /* dB, 20 to 120: what pictures of the compact set should have at least against the set's own, measured
                     as retex_metrics does it, but in part of the set and with waves for textures, and not counting noise
                     that averages away; default 55 */
@@ -23,10 +17,7 @@ typedef struct RetexCompactParams {
     RetexWarn *warn; /* told, in the calling thread, why a set of layout footprints stays as it is; NULL = nobody */
     void *warn_context;
 } RetexCompactParams;
-#define RETEX_COMPACT_INIT                                                                                             \
-    {                                                                                                                  \
-        sizeof(RetexCompactParams), 55, 0, 0, 0, 1, NULL, NULL                                                         \
-    }
+#define RETEX_COMPACT_INIT { 55, 0, 0, 0, 1, NULL, NULL }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.6 everywhere;
@@ -39,8 +30,4 @@ typedef struct RetexCompactParams {
 int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params /* NULL = defaults */,
                       int nthreads /* 0 = all cores */, RetexError *err);
 
-#ifdef __cplusplus
-}
-#endif
-#pragma GCC visibility pop
 #endif
