@@ -135,6 +135,7 @@ BRIDGE_PLACE := $(or $(BRIDGE_FOLDER:$(LIBDIR)/%=lib/%),lib)
 INSTALLED += 644:$(LIBRETEX):lib/ 755:$(LIBRETEX_SHARED):lib/ link:$(notdir $(LIBRETEX_SHARED)):lib/libretex.so \
 	755:$(BRIDGE):$(BRIDGE_PLACE)/ 755:$(DECODER):$(BRIDGE_PLACE)/ \
 	$(patsubst %,644:%:include/retex/,$(wildcard tools/libretex/include/retex/*.h)) \
+	$(patsubst %,644:%:include/retex/host/,$(wildcard tools/libretex/include/retex/host/*.h)) \
 	fill:tools/install/retex.pc.in:lib/pkgconfig/retex.pc \
 	fill:tools/install/retexConfig.cmake.in:lib/cmake/retex/retexConfig.cmake \
 	fill:tools/install/retexConfigVersion.cmake.in:lib/cmake/retex/retexConfigVersion.cmake \

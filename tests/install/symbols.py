@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""Compares what a shared library exports with what public headers declare: symbols.py LIBRARY HEADER…
+"""Compares what a shared library exports with what public headers declare: symbols.py LIBRARY HEADERS
 
 Prints the names that only one of them has, and every version but RETEX_1."""
+import pathlib
 import re
 import subprocess
 import sys
 
 declared = set()
-for path in sys.argv[2:]:
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", open(path).read(), flags=re.S)
+for path in pathlib.Path(sys.argv[2]).rglob("*.h"):
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", path.read_text(), flags=re.S)
     text = re.sub(r"^ *#(.*\\\n)*.*$", "", text, flags=re.M)
     inline = set(re.findall(r"static inline[^;{(]*?\b(retex_\w+)\(", text))
     declared |= set(re.findall(r"\b(retex_\w+)\(", text)) - inline

@@ -142,8 +142,9 @@ done
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT
-for header in tools/libretex/include/retex/*.h; do
-    name=retex/${header##*/}
+headers=$(find tools/libretex/include -name '*.h' | sort)
+for header in $headers; do
+    name=${header#tools/libretex/include/}
     printf '#include <%s>\nint probe;\n' "$name" | tee "$probe/a.c" >"$probe/a.cpp"
     ${CC:-gcc} -std=c11 -Wall -Wextra -Werror -pedantic -fsyntax-only -Itools/libretex/include "$probe/a.c" ||
         complain "$name does not compile alone as C11"
@@ -152,7 +153,7 @@ for header in tools/libretex/include/retex/*.h; do
 done
 
 # Public calls that can fail return int, and take the error last, and the number of threads, if any, before it.
-found=$(for header in tools/libretex/include/retex/*.h; do
+found=$(for header in $headers; do
     case ${header##*/} in error.h | parallel.h) continue ;; esac
     sed -z 's|/\*[^*]*\*\+\([^/*][^*]*\*\+\)*/||g' "$header" | grep -v '^#' | tr -s '\n ' ' ' | tr ';{}' '\n\n\n' |
         sed "s/ , /, /g; s|^ *|$header: |" | awk '
