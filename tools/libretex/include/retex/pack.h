@@ -15,7 +15,7 @@ typedef struct RetexPackParams {
     size_t size;
     int quality;   /* 1..100, default 90: what pictures made of the pack lose at most, see retex-pack(1) */
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
-    RetexWarn *warn; /* as of RetexCompactParams; default NULL */
+    RetexWarn *warn; /* told, in the calling thread, why a set takes more room; default NULL = nobody */
     void *warn_context;
 } RetexPackParams;
 #define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL }
