@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <retex/host/nearest.h>
+
 #include "base/digest.h"
 #include "retex-render.h"
 

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <retex/host/nearest.h>
+
 #include "render/first_hit.h"
 #include "retex-render.h"
 

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <retex/denoise.h>
+#include <retex/host/denoise_data.h>
+#include <retex/host/set_build.h>
 #include "retex-render.h"
 #include "watchdog.h"
 #include "render/aov_files.h"

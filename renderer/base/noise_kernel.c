@@ -9,7 +9,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 #include "base/noise.h"
 
 enum { HASHES = 4096, NUMBERS = 267, GRADIENTS = 2048, RANDOMS = HASHES + 2 };

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include "film/bands.h"
+#include <retex/host/set_build.h>
+
 #include "film/limits.h"
 
 typedef struct BandImage {

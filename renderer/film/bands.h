@@ -4,7 +4,8 @@
 #ifndef RENDERER_FILM_BANDS_H
 #define RENDERER_FILM_BANDS_H
 
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
+#include <retex/host/band_store.h>
 
 #define BAND_LINES RETEX_BAND_ROWS
 #define BAND_IMAGES_MAX 1536 /* as many as a set may have parts */

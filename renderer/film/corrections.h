@@ -7,7 +7,7 @@
 #ifndef RENDERER_FILM_CORRECTIONS_H
 #define RENDERER_FILM_CORRECTIONS_H
 
-#include <retex/rounding.h>
+#include <retex/host/rounding.h>
 #include "base/color4.h"
 #include "film/bands.h"
 #include "scene/scene.h"

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
+#include <retex/host/set_build.h>
 #include "film/film.h"
 #include "film/layout.h"
 #include "film/limits.h"

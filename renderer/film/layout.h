@@ -3,7 +3,7 @@
 #ifndef RENDERER_FILM_LAYOUT_H
 #define RENDERER_FILM_LAYOUT_H
 
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
 #include "film/bands.h"
 #include "film/params.h"
 #include "film/path_hits.h"

@@ -1,5 +1,5 @@
 /* See noise.h. */
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 #include "film/noise.h"
 
 int noise_count(const FilmParams *params, int ntargets)

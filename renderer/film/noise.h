@@ -1,5 +1,5 @@
 /* How noisy each signal of a set is, for denoising: half of the difference between the mean of the first half of a
- * pixel's samples and that of the rest. What signals are, and the names of the parts: <retex/denoise_data.h>. */
+ * pixel's samples and that of the rest. What signals are, and the names of the parts: <retex/host/denoise_data.h>. */
 #ifndef RENDERER_FILM_NOISE_H
 #define RENDERER_FILM_NOISE_H
 

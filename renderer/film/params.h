@@ -2,8 +2,8 @@
 #ifndef RENDERER_FILM_PARAMS_H
 #define RENDERER_FILM_PARAMS_H
 
+#include <retex/host/band_store.h>
 #include <retex/set.h>
-#include <retex/band_store.h>
 
 #define FILM_CLUSTERS_MAX 16
 

@@ -1,6 +1,6 @@
 /* The machine that runs compiled functions, and the operations on numbers by themselves. */
 #include <string.h>
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 #include "base/noise.h"
 #include "function/function.h"
 

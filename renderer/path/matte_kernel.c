@@ -1,5 +1,5 @@
 /* See matte.h. Loops over lanes without branches: the compiler makes vectors of them. */
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 #include "path/matte.h"
 
 /* accel_offset, by the side that a direction points to. */

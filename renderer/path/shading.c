@@ -1,4 +1,6 @@
 /* What a surface looks like where a ray met it. */
+#include <retex/host/texture_lookup.h>
+
 #include "path/leaves.h"
 #include "path/shading.h"
 #include "shade/material.h"

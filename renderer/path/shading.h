@@ -62,7 +62,7 @@ typedef void LeafVisitor(void *context, const SeenLeaf *leaf);
 void shading_each_leaf(const Scene *scene, const RenderVariant *variants, const Ray *ray, const Hit *hit,
                        LeafVisitor *visit, void *context);
 
-/* The AOVs of these names, see <retex/aov.h>. */
+/* The AOVs of these names, see <retex/host/aov.h>. */
 float shading_roughness(const Shading *shading);
 float shading_metallic(const Shading *shading);
 

@@ -1,5 +1,5 @@
 /* See vertex_samples.h. Loops over lanes without branches: the compiler makes vectors of them. */
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 #include "path/vertex_samples.h"
 
 /* sampler_pair, of all lanes. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <retex/aov.h>
+#include <retex/host/aov.h>
 #include <retex/image_file.h>
 #include "base/vec.h"
 #include "render/aov_files.h"

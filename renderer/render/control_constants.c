@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/combine.h>
+#include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
 #include <retex/samples.h>
 #include "camera/camera.h"

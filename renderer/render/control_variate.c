@@ -3,6 +3,8 @@
 #include <string.h>
 #include "render/control_variate.h"
 
+#include <retex/host/set_build.h>
+
 enum { REPLACED = 0, ORIGINAL = 1, CONSTANT = 2 };
 #define RIDGE 1e-3 /* regularization of the least-squares system, for two controls that are nearly collinear */
 

@@ -1,12 +1,12 @@
 /* The features that denoising is guided by, free of noise: normals, positions, albedos and target coverage of the
  * surfaces that each pixel sees, directly and in mirrors and through clear glass. They are the parts guide_… of
- * <retex/denoise_data.h>.
+ * <retex/host/denoise_data.h>.
  *
  * They are averages over sample points of the pixel: paths report what their camera rays hit (FirstHitObserver). */
 #ifndef RENDERER_RENDER_DENOISE_GUIDES_H
 #define RENDERER_RENDER_DENOISE_GUIDES_H
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 #include "film/film.h"
 #include "path/shading.h"
 #include "render/first_hit.h"

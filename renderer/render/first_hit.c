@@ -1,6 +1,7 @@
 /* AOVs of the first hit, by rays through the pixel centres. See first_hit.h. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include "camera/camera.h"
 #include "render/first_hit.h"

@@ -1,8 +1,10 @@
 /* Original textures of targets, sampled to images. See originals.h. */
 #include <stdio.h>
 #include <string.h>
+#include <retex/host/set_build.h>
+#include <retex/host/target_name.h>
+#include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
-#include <retex/target_name.h>
 #include "render/originals.h"
 #include "shade/pigment.h"
 #include "shape/shapes.h"

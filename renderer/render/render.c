@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/clock.h>
+#include <retex/host/set_build.h>
 #include <retex/version.h>
 #include "film/limits.h"
 #include "render/checkpoints.h"

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 #include <stdio.h>
-#include <retex/aov.h>
 #include <retex/budget.h>
+#include <retex/host/aov.h>
 #include "render/control_variate.h"
 #include "scene/selector.h"
 #include "scene/variant.h"
@@ -36,9 +36,9 @@ typedef struct RenderParams {
     int nvariants;           /* 0..VARIANTS_MAX */
     int control_data;        /* 1, 2: also what later control variates read, of so many parts of the samples: two are
                                 independent, so that the picture is another one than without; default 0 */
-    int denoise_data;        /* 1: also what denoising reads, see <retex/denoise_data.h>; nothing where spp is 1, which
-                                does not tell how noisy it is; default 0 */
-    int stored;             /* 1: render_scene leaves parts of the set in a band store, see <retex/band_store.h>, for
+    int denoise_data;        /* 1: also what denoising reads, see <retex/host/denoise_data.h>; nothing where spp is 1,
+                                which does not tell how noisy it is; default 0 */
+    int stored;             /* 1: render_scene leaves parts of the set in a band store (retex/host/band_store.h), for
                                 retex_set_write or retex_set_load; default 0 */
     const char *output;      /* what the result will be written to, so that the band store is near it; NULL = nothing */
     uint64_t key;            /* tells this render from others: of the files below those with another are refused */

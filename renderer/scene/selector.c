@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/nearest.h>
-#include <retex/target_name.h>
+#include <retex/host/nearest.h>
+#include <retex/host/target_name.h>
 #include "scene/selector.h"
 
 struct SelectorForm {

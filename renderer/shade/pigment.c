@@ -1,5 +1,7 @@
 /* Pigments: colours by pattern, map or image as POV-Ray 3.7 evaluates them (measured where its manual is silent), and
  * the UV at which a replacement texture lies on a target. */
+#include <retex/host/texture_lookup.h>
+
 #include "pattern/pattern.h"
 #include "shade/pigment_image.h"
 #include "shade/working_space.h"

@@ -1,6 +1,8 @@
 /* image_map: projections and look-up, as POV-Ray's (measured): UV (0,0) is the lower left corner of the image, texel
  * centres are at (i + 0.5) / width, `interpolate` wraps round the edges and blends numbers of the working space. */
 #include "shade/pigment_image.h"
+#include <retex/host/texture_lookup.h>
+
 #include "shade/working_space.h"
 
 /* Round the y axis, 0..1. */

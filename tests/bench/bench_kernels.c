@@ -8,6 +8,7 @@
 #include "retexture/combine_kernel.h"
 #include "base/half.h"
 #include "lib_test.h"
+#include "texture/filter.h"
 
 /* ---- half ---- */
 

@@ -1,11 +1,13 @@
 /* Texture specifications as on the command line, `opts NAME=IMAGE`, divided at the first line end of the input; what is
  * accepted must give finite colours wherever it is looked up. */
 #include <math.h>
+#include <retex/host/texture_lookup.h>
 #include <retex/texture.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib_fuzz.h"
+#include "texture/pyramid.h"
 
 static RetexImage image;
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "lib_footprints.h"
+#include "set/parts.h"
 
 #define SLANT 0.15 /* of the silhouette */
 

@@ -3,6 +3,7 @@
 
 #include "lib_test.h"
 #include "retexture/sample_row.h"
+#include "texture/pyramid.h"
 
 RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
                       int nthreads)

@@ -265,7 +265,7 @@ void test_make_footprints(RetexSet *set)
     round_to_stored(set);
 }
 
-/* The name of a term's signal: see <retex/denoise_data.h>. */
+/* The name of a term's signal: see <retex/host/denoise_data.h>. */
 static void name_signal(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
     static const char *const kinds[RETEX_ROLES] = {

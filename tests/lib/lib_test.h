@@ -7,6 +7,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <retex/host/aov.h>
+#include <retex/host/band_stats.h>
+#include <retex/host/band_store.h>
+#include <retex/host/cpu.h>
+#include <retex/host/denoise_data.h>
+#include <retex/host/nearest.h>
+#include <retex/host/rounding.h>
+#include <retex/host/set_build.h>
+#include <retex/host/target_name.h>
+#include <retex/host/texture_lookup.h>
+#include <retex/host/uv_stats.h>
 #include <retex/retex.h>
 
 /* The next number of a repeatable sequence, uniform in [0,1). *state is its seed. */
@@ -38,7 +49,7 @@ RetexSet *test_set(int width, int height, uint32_t seed);
  * a unit of UV, and mixtures. */
 void test_make_footprints(RetexSet *set);
 
-/* Add denoising data, as <retex/denoise_data.h> lists it: noise, and guides of two surfaces side by side. */
+/* Add denoising data, as <retex/host/denoise_data.h> lists it: noise, and guides of two surfaces side by side. */
 void test_add_denoise_data(RetexSet *set);
 
 /* Loads the textures of specs and samples them into a band store near a path: see retex_sample_textures. */

@@ -115,10 +115,10 @@ one_definition tools/libretex/base/clock.c '(^|[^_])(clock_gettime|gettimeofday)
 version=$(sed -nE 's/^#define RETEX_VERSION "(.*)"$/\1/p' tools/libretex/include/retex/version.h | sed 's/\./[.]/g')
 one_definition tools/libretex/include/retex/version.h "\"([^\"]* )?${version:-no version}" 'the version'
 one_definition tools/libretex/base/cpu.c '__builtin_cpu|target_clones|ifunc|getauxval|cpuid' 'what the processor can do'
-one_definition tools/libretex/include/retex/cpu.h '__attribute__ *\(\(target|GCC target|__x86_64__' 'how kernels are compiled for a processor'
+one_definition tools/libretex/include/retex/host/cpu.h '__attribute__ *\(\(target|GCC target|__x86_64__' 'how kernels are compiled for a processor'
 
-one_definition tools/libretex/include/retex/aov.h '"irradiance"|"roughness, |, roughness"' 'the list of AOVs'
-one_definition tools/libretex/include/retex/denoise_data.h '"guide_|"noise_("|%|indep|beauty)' 'names of what denoising reads'
+one_definition tools/libretex/include/retex/host/aov.h '"irradiance"|"roughness, |, roughness"' 'the list of AOVs'
+one_definition tools/libretex/include/retex/host/denoise_data.h '"guide_|"noise_("|%|indep|beauty)' 'names of what denoising reads'
 
 # Symbols of the library that others can see begin with retex_.
 unprefixed=$(find "${BUILD:-build}/obj/tools/libretex" -name '*.o' 2>/dev/null | while read -r object; do

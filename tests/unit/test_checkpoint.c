@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
 
 #include "exr/band_store_file.h"
 

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "retexture/combine_kernel.h"
+#include "texture/filter.h"
 
 static RetexTextureSpec constant_spec(const char *target, float r, float g, float b)
 {

@@ -5,6 +5,7 @@
 #include "lib_film.h"
 #include "lib_folder.h"
 #include "precision/edited.h"
+#include "set/parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 #include <retex/set_file.h>
 
 #define PATHS 40

@@ -1,5 +1,6 @@
 /* Images: memory and regions, round trips of EXR files, and files that cannot be written. */
 #include "lib_folder.h"
+#include "base/image.h"
 #include "lib_test.h"
 #include <cmocka.h>
 

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include <retex/uv_stats.h>
+#include <retex/host/uv_stats.h>
 
 #include "pack/bands.h"
 #include "pack/plan.h"

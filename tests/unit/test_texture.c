@@ -1,6 +1,7 @@
 /* Textures: wrap modes, the UV transform, and the Gaussian filter. The filter is compared with a simple numerical
  * integral of the point look-up, and with waves, whose filtered amplitude is known exactly. */
 #include "lib_test.h"
+#include "texture/pyramid.h"
 
 #include <complex.h>
 #include <math.h>

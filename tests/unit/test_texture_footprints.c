@@ -1,6 +1,7 @@
 /* Measurements of the filter kernels: their mean and covariance, by filtering pictures of x, y, x^2, xy and y^2, and
  * their colours, compared with simple numerical integrals of the point look-up. */
 #include "lib_test.h"
+#include "texture/pyramid.h"
 
 #include <math.h>
 #include <stdlib.h>

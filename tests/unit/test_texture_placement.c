@@ -1,6 +1,7 @@
 /* How a texture lies on its target: every transform is exact on points and on footprints, for means and covariances;
  * images of shifted repeats; squares. */
 #include "lib_test.h"
+#include "texture/pyramid.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 #include <cmocka.h>
 
 #include "compact/compact.h"
+#include "texture/pyramid.h"
 
 #include <dlfcn.h>
 #include <pthread.h>

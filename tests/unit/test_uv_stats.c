@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include <retex/uv_stats.h>
+#include <retex/host/uv_stats.h>
 
 #define COUNT 400
 

@@ -3,7 +3,7 @@
  * The cheapest pair is looked for at nearly every path. Nearly always a new hit joins a cluster at a low cost, while
  * merging two clusters would cost much. So there is a lower bound of the cost of merging any two clusters, and their
  * costs are computed only where the bound is below the cost of joining. With f(C) for what a texture varies within a
- * cluster (retex/uv_stats.h), merging a with k costs f(ak) - f(a) - f(k). A hit x that joins a cannot make ak vary
+ * cluster (retex/host/uv_stats.h), merging a with k costs f(ak) - f(a) - f(k). A hit x that joins a cannot make ak vary
  * less, and makes a vary more by exactly what joining cost: f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) -
  * (f(ax) - f(a)). So the bound falls by the cost of joining. There is no bound for UV that close (periodic), as
  * distances there may go either way round. */

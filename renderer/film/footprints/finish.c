@@ -1,5 +1,7 @@
 /* From the images of layout `footprints` to the parts, footprints, mixtures and terms of a set: all that a pixel may
  * have. What none has, retex_set_prune leaves out. */
+#include <retex/host/set_build.h>
+
 #include "film/footprints/images.h"
 
 /* A footprint of three parts; index: its number in the set. */

@@ -2,7 +2,7 @@
 #ifndef RENDERER_FILM_FOOTPRINTS_PIXEL_H
 #define RENDERER_FILM_FOOTPRINTS_PIXEL_H
 
-#include <retex/uv_stats.h>
+#include <retex/host/uv_stats.h>
 #include "base/color4.h"
 #include "film/footprints/images.h"
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/rounding.h>
-#include <retex/target_name.h>
+#include <retex/host/rounding.h>
+#include <retex/host/target_name.h>
 #include "film/footprints/pixel.h"
 
 #define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */

@@ -4,6 +4,8 @@
 #include <string.h>
 #include "film/paper/terms.h"
 
+#include <retex/host/set_build.h>
+
 #define KEY(kind, rest) ((TermKey)(kind) << 56 | (rest))
 #define REST(key) ((key) & (((TermKey)1 << 56) - 1))
 

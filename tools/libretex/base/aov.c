@@ -1,11 +1,11 @@
-/* See retex/aov.h. */
-#include <retex/aov.h>
+/* See retex/host/aov.h. */
+#include <retex/host/aov.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <retex/nearest.h>
+#include <retex/host/nearest.h>
 
 #define ROW(id, ...) [RETEX_AOV_##id] = {__VA_ARGS__},
 const RetexAovInfo retex_aovs[RETEX_AOV_COUNT] = {RETEX_AOV_TABLE(ROW)};

@@ -7,6 +7,8 @@
 #include <retex/budget.h>
 #include <retex/clock.h>
 
+#include "base/clock.h"
+
 struct RetexBudget {
     atomic_int stopped, held;
     _Atomic uint64_t memory, used; /* bytes; memory 0 = no limit */

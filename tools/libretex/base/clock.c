@@ -1,6 +1,8 @@
 /* See retex/clock.h. */
 #include <retex/clock.h>
 
+#include "base/clock.h"
+
 long long retex_clock_nanoseconds(void)
 {
     struct timespec t;

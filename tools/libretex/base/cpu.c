@@ -1,5 +1,5 @@
-/* See retex/cpu.h. */
-#include <retex/cpu.h>
+/* See retex/host/cpu.h. */
+#include <retex/host/cpu.h>
 
 #if RETEX_CPU_X86
 #include <stdatomic.h>

@@ -1,7 +1,7 @@
 /* Conversion between float and half: a scalar reference and, with F16C, eight values at a time. */
 #include <string.h>
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 #include "base/half.h"
 

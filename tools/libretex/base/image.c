@@ -7,6 +7,8 @@
 
 #include <retex/image.h>
 
+#include "base/image.h"
+
 int retex_image_alloc(RetexImage *im, int width, int height, int channels, RetexError *err)
 {
     if (im->pixels)
@@ -54,7 +56,7 @@ int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err)
     return status;
 }
 
-RetexRoi retex_image_roi(const RetexImage *im)
+static RetexRoi whole_roi(const RetexImage *im)
 {
     return (RetexRoi){0, 0, im->width, im->height, 0, im->channels};
 }
@@ -76,7 +78,7 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
                           "the destination has %d x %d pixels and %d channels where %d x %d and %d are needed",
                           dst->width, dst->height, dst->channels, width, height, channels);
     }
-    *out = retex_image_roi(dst);
+    *out = whole_roi(dst);
     if (roi) {
         /* a region outside of the image, or with its bounds swapped, becomes empty */
         out->x0 = clamp(roi->x0, 0, width);

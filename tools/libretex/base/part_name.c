@@ -1,11 +1,11 @@
-/* Names of parts and channels, and of targets: retex/target_name.h. */
+/* Names of parts and channels, and of targets: retex/host/target_name.h. */
 #include "base/part_name.h"
 
 #include <stdio.h>
 #include <string.h>
 
+#include <retex/host/target_name.h>
 #include <retex/set.h>
-#include <retex/target_name.h>
 
 int retex_name_is_valid(const char *name)
 {

@@ -1,10 +1,10 @@
-/* See <retex/rounding.h>. */
+/* See <retex/host/rounding.h>. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include <retex/rounding.h>
+#include <retex/host/rounding.h>
 
 #define COEFFICIENT_STEP (1.0 / 8192)
 #define SHARE_STEP (1.0 / 512)

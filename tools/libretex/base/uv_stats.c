@@ -1,8 +1,8 @@
 /* Weighted means and covariances of UV, updated without cancellation (Welford; Chan et al. for merging). */
 #include <math.h>
 
-#include <retex/rounding.h>
-#include <retex/uv_stats.h>
+#include <retex/host/rounding.h>
+#include <retex/host/uv_stats.h>
 
 /* Wraps x into [0,1); a negative x too small for the sum to be below 1 becomes 0. */
 static double wrapped(double x, int periodic)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include <retex/aov.h>
+#include <retex/host/aov.h>
 
 #include "base/half.h"
 

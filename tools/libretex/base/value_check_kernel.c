@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 #include "base/value_check.h"
 

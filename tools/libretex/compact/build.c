@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/target_name.h>
+#include <retex/host/set_build.h>
+#include <retex/host/target_name.h>
 
 #include "compact/bands.h"
 #include "compact/clusters.h"

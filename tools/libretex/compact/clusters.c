@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/uv_stats.h>
 #include <retex/parallel.h>
-#include <retex/uv_stats.h>
 
 #include "compact/uniform.h"
 

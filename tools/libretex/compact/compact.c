@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/rounding.h>
+#include <retex/host/rounding.h>
+#include <retex/host/set_build.h>
 
 #include "compact/build.h"
 #include "compact/search.h"

@@ -8,6 +8,7 @@
 
 #include <retex/color.h>
 #include <retex/combine.h>
+#include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include <retex/samples.h>
 

@@ -2,7 +2,7 @@
 #ifndef RETEX_COMPACT_UNIFORM_H
 #define RETEX_COMPACT_UNIFORM_H
 
-#include <retex/uv_stats.h>
+#include <retex/host/uv_stats.h>
 
 #include "compact/clusters.h"
 

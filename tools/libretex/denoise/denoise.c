@@ -1,10 +1,12 @@
 /* Denoising a set; see <retex/denoise.h>. */
 #include <retex/denoise.h>
+#include <retex/host/set_build.h>
 #include <retex/set_file.h>
 
 #include <string.h>
 
 #include "base/params.h"
+#include "base/image.h"
 #include "denoise/filter.h"
 #include "denoise/strips.h"
 #include "set/parts.h"

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 

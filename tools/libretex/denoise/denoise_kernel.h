@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 
 enum {
     DENOISE_TILE = 64,

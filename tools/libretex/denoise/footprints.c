@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include <retex/rounding.h>
-#include <retex/uv_stats.h>
+#include <retex/host/rounding.h>
+#include <retex/host/uv_stats.h>
 
 #include "denoise/pools.h"
 

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/band_store.h>
+#include <retex/host/denoise_data.h>
 
 #include "denoise/filter.h"
 #include "base/jobs.h"

@@ -3,7 +3,7 @@
 #define RETEX_DENOISE_TILE_H
 
 #include <retex/denoise.h>
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 #include "denoise/denoise_kernel.h"
 #include "set/signals.h"
 

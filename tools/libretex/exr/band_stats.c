@@ -1,7 +1,7 @@
-/* See <retex/band_stats.h>. */
+/* See <retex/host/band_stats.h>. */
 #include <math.h>
 
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
 
 void retex_band_stats_reset(RetexBandStats *stats)
 {

@@ -1,4 +1,4 @@
-/* The band store: see <retex/band_store.h>. The file is described in band_store_file.h. */
+/* The band store: see <retex/host/band_store.h>. The file is described in band_store_file.h. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>

@@ -2,7 +2,7 @@
 #ifndef RETEX_EXR_BAND_STORE_CHUNKS_H
 #define RETEX_EXR_BAND_STORE_CHUNKS_H
 
-#include <retex/band_store.h>
+#include <retex/host/band_store.h>
 
 #include "exr/chunk.h"
 

@@ -7,7 +7,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <retex/band_stats.h>
+#include <retex/host/band_stats.h>
 
 #include "base/part_name.h"
 #include "exr/band_store_chunks.h"

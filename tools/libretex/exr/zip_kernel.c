@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 #ifdef __SSE2__
 #include <emmintrin.h>

@@ -18,6 +18,7 @@
 #include <retex/output_file.h>
 
 #include "io/output.h"
+#include "base/clock.h"
 #include "io/pending_files.h"
 
 enum { BUFFER_BYTES = 1 << 18, NAME_ATTEMPTS = 100 };

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 enum { RETEX_PACK_LEVEL_ENTRIES = 8192 };
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include <retex/color.h>
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 #include "picture/srgb_codes.h"
 

@@ -7,14 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/denoise_data.h>
-#include <retex/rounding.h>
-#include <retex/uv_stats.h>
+#include <retex/host/denoise_data.h>
+#include <retex/host/rounding.h>
+#include <retex/host/uv_stats.h>
 
 #include "base/jobs.h"
 #include "set/band.h"
 #include "precision/edited.h"
 #include "precision/precision_light.h"
+#include "set/parts.h"
 #include "set/samples.h"
 
 enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include <retex/rounding.h>
+#include <retex/host/rounding.h>
 
 #include "set/band.h"
 #include "precision/precision_rules.h"

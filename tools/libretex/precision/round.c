@@ -2,7 +2,8 @@
  * where they are, those of a band store on the way into another one. */
 #include <stdlib.h>
 
-#include <retex/band_store.h>
+#include <retex/host/band_store.h>
+#include <retex/host/set_build.h>
 #include <retex/set.h>
 
 #include "base/jobs.h"

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/params.h"
+#include "base/image.h"
 #include "retexture/combine_kernel.h"
 #include "retexture/combine_rows.h"
 #include "base/value_check.h"

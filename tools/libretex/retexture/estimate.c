@@ -21,6 +21,8 @@
 #include "retexture/estimate_row.h"
 #include "retexture/polynomial_bands.h"
 #include "retexture/sample_row.h"
+#include "set/parts.h"
+#include "texture/pyramid.h"
 
 typedef struct Estimate {
     RetexTexture *const *textures;

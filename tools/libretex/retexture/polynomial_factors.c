@@ -5,6 +5,7 @@
 
 #include "retexture/mixture_kernel.h"
 #include "retexture/sample_row.h"
+#include "texture/pyramid.h"
 
 /* ---- what a factor is made of ---- */
 

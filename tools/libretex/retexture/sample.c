@@ -1,6 +1,7 @@
 /* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian with the stored
  * mean and standard deviations of the surface UV, which the texture's transform maps exactly. Where the texture is
  * transparent the original albedo of the footprint shows. */
+#include <retex/host/band_store.h>
 #include <retex/samples.h>
 
 #include <stdio.h>
@@ -10,6 +11,8 @@
 #include "set/transfer.h"
 #include "retexture/sample_row.h"
 #include "retexture/textures.h"
+#include "set/parts.h"
+#include "texture/pyramid.h"
 
 typedef struct SampleWork {
     const RetexSet *set;

@@ -6,6 +6,7 @@
 #include <retex/texture.h>
 
 #include "set/rows.h"
+#include "texture/filter.h"
 
 typedef struct RetexFootprintRow {
     const float *uv, *spread, *albedo; /* as the parts of RetexFootprint have them; albedo may be NULL where

@@ -3,12 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <retex/nearest.h>
+#include <retex/host/nearest.h>
 #include <retex/parallel.h>
 
 #include "base/params.h"
 #include "retexture/textures.h"
 #include "set/manifest.h"
+#include "set/parts.h"
 #include "texture/pyramid.h"
 
 typedef struct Loading {

@@ -1,9 +1,11 @@
-/* See retex/denoise_data.h. */
-#include <retex/denoise_data.h>
-#include <retex/target_name.h>
+/* See retex/host/denoise_data.h. */
+#include <retex/host/denoise_data.h>
+#include <retex/host/target_name.h>
 
 #include <stdio.h>
 #include <string.h>
+
+#include "set/parts.h"
 
 #define ROW(id, name, letters, type, kind, hit)                                                                        \
     [RETEX_FEATURE_##                                                                                                  \

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/aov.h>
-#include <retex/denoise_data.h>
+#include <retex/host/aov.h>
+#include <retex/host/denoise_data.h>
 #include <retex/parallel.h>
 #include <retex/set_file.h>
 

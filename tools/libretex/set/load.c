@@ -1,6 +1,7 @@
 /* Loads sets and samples into memory, from the band store or the source. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/host/band_store.h>
 #include <retex/samples.h>
 #include <retex/set_file.h>
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <jansson.h>
+#include <retex/host/band_store.h>
 #include <retex/samples.h>
 #include <retex/set_file.h>
 

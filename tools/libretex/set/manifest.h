@@ -12,6 +12,7 @@ enum {
 
 #define RETEX_MANIFEST_ATTRIBUTE "retex" /* name of the attribute of an EXR file's first part that holds the manifest */
 
+
 /* One of the samples' parts in the manifest. */
 typedef struct RetexSamplePart {
     char name[RETEX_SAMPLE_NAME_MAX]; /* "" where the footprint's target keeps its original */

@@ -6,7 +6,11 @@
 #include <string.h>
 #include <jansson.h>
 
+#include <retex/host/band_store.h>
+#include <retex/host/set_build.h>
+
 #include "set/manifest_fields.h"
+#include "set/parts.h"
 
 static void get_pair(Reading *reading, const json_t *object, const char *key, double out[2])
 {

@@ -1,6 +1,8 @@
 /* Reads the parameters and terms of the manifest. */
 #include <string.h>
 
+#include <retex/host/set_build.h>
+
 #include "set/manifest_fields.h"
 #include "set/parts.h"
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 
 #include "set/parts.h"
 #include "set/rows.h"

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
+#include <retex/host/set_build.h>
 
 #include "set/references.h"
 

@@ -7,8 +7,15 @@
 /* 1 if a term, footprint, mixture or target refers to the part. */
 int retex_part_is_used(const RetexSet *set, int part);
 
-/* 1 if only denoising reads the part: see <retex/denoise_data.h>. */
+/* 1 if only denoising reads the part: see <retex/host/denoise_data.h>. */
 int retex_part_is_denoise_data(const RetexSet *set, int part);
+
+/* Whether a part of that name is noise. */
+int retex_name_is_noise(const char *name);
+/* Whether a part of that name is a feature. */
+int retex_name_is_feature(const char *name);
+/* The scale that all present parts of a footprint have; 1 where none is present; 0 where they differ. */
+int retex_set_footprint_scale(const RetexSet *set, int footprint);
 
 /* The parts of a set that go into a file: arrays of the view's own, pixels borrowed from the set. */
 typedef struct RetexSetView {

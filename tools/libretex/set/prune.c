@@ -2,7 +2,8 @@
 #include <limits.h>
 #include <string.h>
 
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
+#include <retex/host/set_build.h>
 #include <retex/set.h>
 
 #include "set/manifest.h"

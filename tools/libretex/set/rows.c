@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include <retex/host/band_store.h>
+
 #include "set/source.h"
 
 /* The last decoded band of an image in a band store. */

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "set/samples.h"
+#include <retex/host/band_store.h>
+
 #include "set/source.h"
 
 int retex_samples_alloc(RetexSamples **result, int nimages, RetexError *err)

@@ -5,12 +5,15 @@
 #include <string.h>
 #include <strings.h>
 
-#include <retex/aov.h>
+#include <retex/host/aov.h>
+#include <retex/host/band_store.h>
+#include <retex/host/set_build.h>
 #include <retex/set.h>
 
 #include "base/part_name.h"
 #include "io/checksum.h"
 #include "set/manifest.h"
+#include "set/parts.h"
 #include "set/references.h"
 #include "set/source.h"
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include <retex/color.h>
-#include <retex/denoise_data.h>
+#include <retex/host/denoise_data.h>
 
 #define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
 

@@ -1,4 +1,4 @@
-/* The signals of a set, each of which is denoised with weights of its own: see <retex/denoise_data.h>. */
+/* The signals of a set, each of which is denoised with weights of its own: see <retex/host/denoise_data.h>. */
 #ifndef RETEX_SET_SIGNALS_H
 #define RETEX_SET_SIGNALS_H
 

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <retex/host/band_store.h>
+
 int retex_staging_open(RetexStaging *staging, int most, RetexError *err)
 {
     *staging = (RetexStaging){.reduced = calloc((size_t)most + 1, sizeof *staging->reduced),

@@ -1,6 +1,7 @@
 /* Terms, factors and parameters: their names in the manifest, and small questions about them. */
 #include <string.h>
 
+#include <retex/host/set_build.h>
 #include <retex/set.h>
 
 const char *retex_footprint_kind_name(int kind)

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/band_store.h>
+
 #include "base/jobs.h"
 
 #define ROWS_A_JOB 64 /* rows of a pack's band; several bands of a band store */

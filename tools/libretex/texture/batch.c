@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <retex/host/texture_lookup.h>
+
 #include "texture/texture_kernel.h"
 
 /* Gaussians: the least ratio of the smaller variance to the larger, and the least variance, in texels of the level that

@@ -6,9 +6,10 @@
 #ifndef RETEX_TEXTURE_BATCH_H
 #define RETEX_TEXTURE_BATCH_H
 
-#include <retex/cpu.h>
+#include <retex/host/cpu.h>
 
 #include "texture/pyramid.h"
+#include "texture/filter.h"
 
 #define BATCH_LEVELS 16
 #define BATCH_SIZE 1024 /* footprints in one call of a kernel */

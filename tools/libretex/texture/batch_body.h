@@ -143,6 +143,8 @@ RETEX_CPU_INLINE Mask NAME(whole_below)(Lanes x)
     return i + (x < NAME(to_float)(i));
 }
 
+#include <retex/host/cpu.h>
+
 #include "texture/batch_place.h"
 
 /* ---- weights ---- */

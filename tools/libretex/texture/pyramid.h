@@ -59,6 +59,20 @@ typedef struct RetexTexels {
 /* Report what is odd about the texture's colours to spec->warn; the texture was loaded by that spec or a copy of it. */
 void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec);
 
+/* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
+ * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
+int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
+/* A texture with the placement, surface included, of another spec. It shares the texels of `texture`, which must be
+ * closed later. RETEX_EINVAL where spec needs other texels: another image or colour space, another wrap mode, another
+ * kind of repeats. Both must have an image. */
+int retex_texture_place(RetexTexture **placed, const RetexTexture *texture, const RetexTextureSpec *spec,
+                        RetexError *err);
+/* A texture of the same placement whose colours are the squares of the (unassociated) colours, with the same alpha:
+ * E[a^2] - E[a]^2 is a texture's variance within a footprint. */
+int retex_texture_square(RetexTexture **square, const RetexTexture *texture, int nthreads, RetexError *err);
+/* 1: nothing shows through it anywhere. */
+int retex_texture_is_opaque(const RetexTexture *texture);
+
 size_t retex_texture_texel_size(int narrow);           /* bytes */
 int retex_texels_alloc(RetexTexels *texels); /* allocate texels by width, height and narrow; not 0: out of memory */
 void retex_texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4]);

@@ -1,6 +1,6 @@
 /* Parses the texture option, `--texture:scale=2,2:rotate=30 floor=oak.jpg`, into a RetexTextureSpec. Every mistake has
  * one message that names the option and says what would be right. */
-#include <retex/nearest.h>
+#include <retex/host/nearest.h>
 #include <retex/texture.h>
 #include "base/params.h"
 

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */

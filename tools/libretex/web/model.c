@@ -1,5 +1,6 @@
 /* See model.h. */
 #include "web/model.h"
+#include "set/parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,6 @@ extern "C" {
 #endif
 
 /* Time since some moment before the program began, by a clock that never goes back. */
-long long retex_clock_nanoseconds(void);
 double retex_clock_seconds(void);
 
 /* The time of day so many seconds from now, 0 or more: what pthread_mutex_timedlock and its like take. */

@@ -1,7 +1,7 @@
 /* Denoising: the coefficients of a set hold no detail of any texture, so they are filtered once, and every retexture
  * is clean.
  *
- * What it reads, <retex/denoise_data.h>, the renderer leaves with the set.
+ * What it reads, <retex/host/denoise_data.h>, the renderer leaves with the set.
  *
  * Sources: Rousselle, Knaus, Zwicker, 'Adaptive Rendering with Non-Local Means Filtering', 2012: weights from patches
  * of one half of the samples for the other half. Rousselle, Manzi, Zwicker, 'Robust Denoising using Feature and Color
@@ -46,8 +46,6 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params /* NULL = defa
 
 /* 1 if the set has all data that retex_denoise reads. */
 int retex_denoise_has_data(const RetexSet *set);
-/* Remove these data. */
-void retex_denoise_drop_data(RetexSet *set);
 
 #ifdef __cplusplus
 }

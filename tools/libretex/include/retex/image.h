@@ -39,12 +39,6 @@ int retex_image_alloc(RetexImage *im, int width, int height, int channels, Retex
 void retex_image_free(RetexImage *im); /* NULL and unallocated are fine; leaves {0} */
 int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err); /* dst unallocated */
 
-RetexRoi retex_image_roi(const RetexImage *im); /* all of it */
-/* Common checks of an image operation: allocate dst as width x height x channels if it is unallocated, else check that
- * it has that shape; clip *roi (NULL = all) to it into *out. */
-int retex_image_prepare(RetexImage *dst, int width, int height, int channels, const RetexRoi *roi, RetexRoi *out,
-                        RetexError *err);
-
 #ifdef __cplusplus
 }
 #endif

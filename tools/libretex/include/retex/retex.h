@@ -3,33 +3,25 @@
 #define RETEX_RETEX_H
 
 #include <retex/access.h>
-#include <retex/aov.h>
-#include <retex/band_stats.h>
-#include <retex/band_store.h>
 #include <retex/budget.h>
 #include <retex/clock.h>
 #include <retex/color.h>
 #include <retex/combine.h>
-#include <retex/cpu.h>
 #include <retex/denoise.h>
-#include <retex/denoise_data.h>
 #include <retex/diff.h>
 #include <retex/error.h>
 #include <retex/file_sum.h>
 #include <retex/image.h>
 #include <retex/image_file.h>
 #include <retex/metrics.h>
-#include <retex/nearest.h>
 #include <retex/output_file.h>
 #include <retex/pack.h>
 #include <retex/parallel.h>
 #include <retex/picture.h>
-#include <retex/rounding.h>
 #include <retex/samples.h>
 #include <retex/set.h>
 #include <retex/set_file.h>
 #include <retex/texture.h>
-#include <retex/uv_stats.h>
 #include <retex/version.h>
 #include <retex/web.h>
 

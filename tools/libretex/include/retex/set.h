@@ -19,7 +19,6 @@
 
 #include <stdint.h>
 #include <retex/image.h>
-#include <retex/band_store.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -159,6 +158,7 @@ typedef struct RetexMixture {
 } RetexMixture;
 
 typedef struct RetexSetSource RetexSetSource; /* an open file */
+typedef struct RetexBandStore RetexBandStore; /* see <retex/host/band_store.h> */
 
 typedef struct RetexSet {
     int width, height;
@@ -187,27 +187,7 @@ typedef struct RetexSet {
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
 } RetexSet;
 
-int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
 void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
-/* Append a part; *index (may be NULL) receives its number. The image is allocated and zeroed; width 0 = the set's own
- * size. */
-int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
-                       int *index, RetexError *err);
-/* Append a part whose pixels are in the set's band store, under the same name, letters and type. Its rows are read from
- * there. */
-int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
-                         int *index, RetexError *err);
-/* Remove all that is empty; empty[i]: 1 if part i is 0 everywhere. Footprints without UV are removed with their parts,
- * their shares in mixtures, and mixtures that lose all shares; a mixture of one share becomes that footprint. Terms
- * with factors are removed if their radiance or gain is empty, and noise parts of signals without terms. Parts that
- * something else refers to stay. All else keeps its order. */
-void retex_set_prune(RetexSet *set, const char *empty);
-/* Round all numbers of a rendered set to what they are known to, by its noise parts; by less, if it has none: see
- * retex-set(5). Parts that are in a band store go into another one, which lies near the path `near` (NULL: in $TMPDIR
- * or /tmp). The set is in memory or in its band store. Sets without terms stay as they are. */
-int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *err);
-/* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
-void retex_set_remove_part(RetexSet *set, int part);
 /* Names in the manifest: of a RetexFootprintKind "hit", "sharp", "broad" or "interreflection", also in names of parts;
  * of a RetexRole "full" and so on; of a RetexFactorKind "footprint", "mixture", "image" or "parameter"; of a
  * RetexQuantity "color"; of a RetexParameterKind "color" or "correction". */
@@ -240,28 +220,15 @@ static inline int retex_term_is_light(const RetexTerm *term)
 int retex_term_hits(const RetexTerm *term);
 /* The part of a term's first IMAGE factor, or -1. */
 int retex_term_image(const RetexTerm *term);
-/* Append a factor; RETEX_ELIMIT where there are too many. The index is checked by retex_set_add_term. */
-int retex_term_add_factor(RetexTerm *term, RetexFactor factor, RetexError *err);
 
-int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
-int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
-int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int *index, RetexError *err);
-int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
-/* The same of a correction of term->target, which gets the parameter of that target as its last factor. The parameter
- * is added with the target's first correction. */
-int retex_set_add_correction(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
 /* The parameter of that name, or -1. */
 int retex_set_find_parameter(const RetexSet *set, const char *name);
 /* 1: the set has a term of that role. */
 int retex_set_has_role(const RetexSet *set, RetexRole role);
-/* Compute the set's id from its beauty's pixels: the renderer's last step. */
-void retex_set_identify(RetexSet *set);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
 /* The scale of an image, 1, 2, 4 or 8: how many times smaller than the set it is; 0 where it has none of these
  * sizes. */
 int retex_set_scale(const RetexSet *set, const RetexImage *image);
-/* The scale that all present parts of a footprint have; 1 where none is present; 0 where they differ. */
-int retex_set_footprint_scale(const RetexSet *set, int footprint);
 /* 1 if the part holds colours, scene-linear Rec.709: the picture, radiance, albedos and originals. 0: other values. */
 int retex_set_part_is_color(const RetexSet *set, int part);
 /* The weight of the corrections of each edited target, where `edited` of `ntargets` have a new texture: 1 of one, 0 of

@@ -92,74 +92,15 @@ typedef struct RetexTexture RetexTexture;
  * told how many there are and where the first is, and of an albedo that is brighter than white: of an image by its
  * luminance or a channel above 3, of a constant by any channel. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
-/* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
- * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
-int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
-/* A texture with the placement, surface included, of another spec. It shares the texels of `texture`, which must be
- * closed later. RETEX_EINVAL where spec needs other texels: another image or colour space, another wrap mode, another
- * kind of repeats. Both must have an image. */
-int retex_texture_place(RetexTexture **placed, const RetexTexture *texture, const RetexTextureSpec *spec,
-                        RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
-/* A texture of the same placement whose colours are the squares of the (unassociated) colours, with the same alpha:
- * E[a^2] - E[a]^2 is a texture's variance within a footprint. */
-int retex_texture_square(RetexTexture **square, const RetexTexture *texture, int nthreads, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
 void retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
 /* Bytes of its texels, all levels; 0 for a constant, and where they are another texture's. */
 uint64_t retex_texture_bytes(const RetexTexture *texture);
-
-/* 1: nothing shows through it anywhere. */
-int retex_texture_is_opaque(const RetexTexture *texture);
-
-/* One point, bilinear between texel centres, after the spec's UV transform and wraps: rgba, unassociated alpha.
- * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map
- * use. */
-void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
-
-/* Prefetch the memory of a point that will be looked up soon. Thread-safe. */
-void retex_texture_prefetch(const RetexTexture *texture, double u, double v);
-
-/* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) *
- * height) from the top, after the same transform and wraps. What a pigment's image_map without `interpolate` uses.
- * Thread-safe. */
-void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4]);
-
-/* Row y of the image itself, from the top, without transform or wraps: red, green and blue of each texel, multiplied by
- * alpha. Of a texture that has an image. Thread-safe. */
-void retex_texture_row(const RetexTexture *texture, int y, float *rgb);
-
-/* The texture averaged over a Gaussian of mean (u, v) and covariance {uu, uv, vv} in surface UV (before the spec's
- * transform, which is applied to both exactly). With zero covariance equals retex_texture_point. Colours are averaged
- * with alpha as their weight; rgba, unassociated. Thread-safe. */
-void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
-
-/* The same over a disc: the texture averaged evenly over the ellipse of that mean and covariance, whose half axes are
- * two standard deviations along its principal axes (a disc of radius R has the variance R^2 / 4 along each axis). What
- * a footprint is that a box pixel filter sees sharply. Very long ellipses, of more than some forty times their width,
- * skip texels along their length. */
-void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
-
-/* ---- many footprints at once ---- */
-
-typedef enum RetexTextureFilter {
-    RETEX_TEXTURE_DISC,
-    RETEX_TEXTURE_GAUSSIAN, /* widened where it is more than eight times as long as wide */
-    RETEX_TEXTURE_BROAD     /* coarser, and widened from twice on: for footprints that few paths determine */
-} RetexTextureFilter;
-
-/* n footprints as sets hold them, filtered as retex_texture_disc or retex_texture_gaussian would, some ten times as
- * fast. Colours differ from theirs by no more than can be seen; they do not depend on what is filtered beside them, nor
- * on the machine. Where coverage is not above 0 the result is 0 and costs next to nothing. Thread-safe. */
-void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
-                          const float *uv /* n x 3: u, v, coverage */,
-                          const float *spread /* n x spreads: standard deviations along u and v, their correlation */,
-                          int spreads /* 2: the correlation is 0; 3 */, size_t n,
-                          float *colors /* n x channels */, int channels /* 4: unassociated alpha; 3: without it */);
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,8 @@
 /* AOVs: pictures beside the beauty that a render may add to a set, one part each. This table says all that is common
  * to them: names, option values, messages, checks of numbers and how they are shown come from it. To add one: a row
  * here, its values in renderer/render/first_hit.c, and its description in retex-render(1). */
-#ifndef RETEX_AOV_H
-#define RETEX_AOV_H
+#ifndef RETEX_HOST_AOV_H
+#define RETEX_HOST_AOV_H
 
 #include <retex/image.h>
 

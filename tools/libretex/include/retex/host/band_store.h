@@ -5,8 +5,8 @@
  * A band store with a name is a checkpoint: whenever the process ends, the file is whole up to the last band that was
  * committed, so that another process can go on from there. Everything in it has a checksum; bands behind the first
  * damaged place count as absent. */
-#ifndef RETEX_BAND_STORE_H
-#define RETEX_BAND_STORE_H
+#ifndef RETEX_HOST_BAND_STORE_H
+#define RETEX_HOST_BAND_STORE_H
 
 #include <stdint.h>
 #include <retex/image.h>

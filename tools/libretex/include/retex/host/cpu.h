@@ -11,8 +11,8 @@
  * Kernels written with intrinsics, between #if RETEX_CPU_X86 and #endif, fill it by RETEX_CPU_TABLE with a function for
  * each level; the others are not looked at elsewhere. The function of RETEX_CPU_BASELINE is the reference that tests
  * compare the others with. */
-#ifndef RETEX_CPU_H
-#define RETEX_CPU_H
+#ifndef RETEX_HOST_CPU_H
+#define RETEX_HOST_CPU_H
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define RETEX_CPU_X86 1

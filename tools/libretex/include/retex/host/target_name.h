@@ -1,6 +1,6 @@
 /* Names of targets: what people type. Renderers need both calls, others neither. */
-#ifndef RETEX_TARGET_NAME_H
-#define RETEX_TARGET_NAME_H
+#ifndef RETEX_HOST_TARGET_NAME_H
+#define RETEX_HOST_TARGET_NAME_H
 
 #include <retex/set.h>
 

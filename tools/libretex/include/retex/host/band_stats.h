@@ -1,8 +1,9 @@
 /* Statistics of the whole picture, kept band by band while it is rendered, so that the sums are the same to the bit
  * however bands are distributed over threads, or renders. */
-#ifndef RETEX_BAND_STATS_H
-#define RETEX_BAND_STATS_H
+#ifndef RETEX_HOST_BAND_STATS_H
+#define RETEX_HOST_BAND_STATS_H
 
+#include <retex/host/band_store.h>
 #include <retex/set.h>
 
 #pragma GCC visibility push(default)

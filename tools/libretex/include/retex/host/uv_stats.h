@@ -1,6 +1,6 @@
 /* Clusters of weighted UVs, and the cost of merging them. */
-#ifndef RETEX_UV_STATS_H
-#define RETEX_UV_STATS_H
+#ifndef RETEX_HOST_UV_STATS_H
+#define RETEX_HOST_UV_STATS_H
 
 #include <math.h>
 

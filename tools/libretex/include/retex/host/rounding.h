@@ -1,7 +1,7 @@
 /* To what numbers are rounded before they are stored: numbers of few bits compress. retex_set_round rounds a set as
  * retex-set(5) describes, and retex_denoise does so too. */
-#ifndef RETEX_ROUNDING_H
-#define RETEX_ROUNDING_H
+#ifndef RETEX_HOST_ROUNDING_H
+#define RETEX_HOST_ROUNDING_H
 
 #include <math.h>
 

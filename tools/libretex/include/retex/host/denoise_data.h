@@ -16,8 +16,8 @@
  *
  * Features are taken at the first 16 of the pixel's samples, or the first 64 where those do not all see the same, along
  * the likelier way at each mirror and glass: they are free of noise, but for how samples are spread. */
-#ifndef RETEX_DENOISE_DATA_H
-#define RETEX_DENOISE_DATA_H
+#ifndef RETEX_HOST_DENOISE_DATA_H
+#define RETEX_HOST_DENOISE_DATA_H
 
 #include <retex/set.h>
 
@@ -85,9 +85,8 @@ void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target);
 /* The part of a signal's noise. target: NULL for the signals indep and beauty; else signal is the kind of footprint, as
  * retex_footprint_kind_name has it. */
 void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const char *signal);
-/* Whether a part of that name is noise, or a feature. */
-int retex_name_is_noise(const char *name);
-int retex_name_is_feature(const char *name);
+/* Remove from a set all data that only retex_denoise reads. */
+void retex_denoise_drop_data(RetexSet *set);
 
 #ifdef __cplusplus
 }

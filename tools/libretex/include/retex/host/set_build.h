@@ -1,0 +1,51 @@
+/* Building sets: for renderers, and for whatever else makes a set of something that is none. <retex/set.h> says what a
+ * set is, retex-set(5) what files of sets hold. */
+#ifndef RETEX_HOST_SET_BUILD_H
+#define RETEX_HOST_SET_BUILD_H
+
+#include <retex/set.h>
+
+#pragma GCC visibility push(default)
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Create a set without terms, whose part 0 is a beauty of zeros. */
+int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
+/* Append a part; *index (may be NULL) receives its number. The image is allocated and zeroed; width 0 = the set's own
+ * size. */
+int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
+                       int *index, RetexError *err);
+/* Append a part whose pixels are in the set's band store, under the same name, letters and type. Its rows are read from
+ * there. */
+int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
+                         int *index, RetexError *err);
+/* Append a copy; *index (may be NULL) receives its number. */
+int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
+int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
+int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int *index, RetexError *err);
+/* Append a factor; RETEX_ELIMIT where there are too many. The index is checked by retex_set_add_term. */
+int retex_term_add_factor(RetexTerm *term, RetexFactor factor, RetexError *err);
+int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* The same of a correction of term->target, which gets the parameter of that target as its last factor. The parameter
+ * is added with the target's first correction. */
+int retex_set_add_correction(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
+void retex_set_remove_part(RetexSet *set, int part);
+/* Remove all that is empty; empty[i]: 1 if part i is 0 everywhere. Footprints without UV are removed with their parts,
+ * their shares in mixtures, and mixtures that lose all shares; a mixture of one share becomes that footprint. Terms
+ * with hits are removed if their radiance or an image is empty, and noise parts of signals without terms. Parts that
+ * something else refers to stay. All else keeps its order. */
+void retex_set_prune(RetexSet *set, const char *empty);
+/* Round all numbers of a rendered set to what they are known to, by its noise parts; by less, if it has none: see
+ * retex-set(5). Parts that are in a band store go into another one, which lies near the path `near` (NULL: in $TMPDIR
+ * or /tmp). The set is in memory or in its band store. Sets without terms stay as they are. */
+int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *err);
+/* Compute the set's id from its beauty's pixels: the renderer's last step. */
+void retex_set_identify(RetexSet *set);
+
+#ifdef __cplusplus
+}
+#endif
+#pragma GCC visibility pop
+#endif
