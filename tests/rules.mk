@@ -125,7 +125,7 @@ fuzz: sanitized-fuzz
 	@BUILD=$(BUILD)/asan KEEP=$(BUILD)/fuzz tests/fuzz/run.sh $(FUZZ_SECONDS) '$(FUZZ_SEED)' $(FUZZ)
 sanitized-fuzz: | $(BUILD)/test.mk
 	$(MAKE) $(ADDRESS_SANITIZED) fuzz-programs
-fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS)
+fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS) $(BUILD)/lib/libretex.so
 
 bench: $(BUILD)/tests/bench/bench
 	@mkdir -p $(BUILD)/bench

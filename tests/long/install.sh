@@ -58,6 +58,11 @@ cp -r "$work/my tools" "$work/moved here"
 result "$([ "$(find "$work/my tools" | wc -l)" = 1 ] && echo 1)" "PREFIX with a space: nothing is left"
 tree "$work/moved here" "$work/moved here/lib" "moved"
 
+# A program of an older release, with the library that make asan tests.
+oiiotool "$work/wood.tif" -o "$work/wood.png"
+(cd "$work" && "$here/tests/install/older.sh" "$BUILD/asan/lib") >"$work/older" 2>&1
+result "$(sed -n 's/^> //p' "$here/tests/cli/older.t" | cmp - "$work/older" >&2 && echo 1)" "an older program, AddressSanitizer"
+
 if command -v abidiff >/dev/null; then
     python3 tests/install/interface.py --stub tests/install/interface-1.txt "$work/libretex.so.1"
     abidiff --suppressions tests/install/growable.abignore "$work/libretex.so.1" "$BUILD/lib/libretex.so.1" \

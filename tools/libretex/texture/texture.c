@@ -397,15 +397,12 @@ static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *sp
            spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1];
 }
 
-int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *given, RetexError *err)
+int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
 {
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError why = {0};
     int width, height;
     *out = NULL;
-    if (RETEX_PARAMS_COPY(&spec, given, err))
-        return RETEX_EINVAL;
-    RetexTexture *placed = new_texture(&spec, spec.constant, &why);
+    RetexTexture *placed = new_texture(spec, spec->constant, &why);
     int code = why.code;
     if (!code && !has_texels_of(texture, &placed->spec))
         code = retex_fail(&why, RETEX_EINVAL, "%s is not loaded as this placement needs it", texture->spec.image);

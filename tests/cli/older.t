@@ -1,0 +1,39 @@
+# A program of an older release, whose parameter structs are shorter than the library's: nothing beyond them is read or
+# written, and what they lack has its default.
+$ make_set room.exr 48 32 3
+$ oiiotool --pattern fill:topleft=1,0,0:topright=0,1,0:bottomleft=0,0,1:bottomright=1,1,1 16x16 3 -d uint8 -o wood.png
+$ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
+> retex_limits_set: ok
+> retex_limits_environment: ok
+> retex_budget_set_limits: 4711 pixels
+> retex_limits_safe: 60 seconds
+> retex_access_check: ok
+> retex_access_open: ok
+> retex_file_sum: ok
+> retex_image_read_check: ok
+> retex_image_read: ok
+> retex_image_write_check: ok
+> retex_image_format_check: ok
+> retex_image_write: ok
+> retex_diff: ok
+> retex_picture_open: ok
+> retex_picture_open_memory: ok
+> retex_texture_spec_parse: ok
+> retex_texture_spec_parse: ok
+> retex_texture_spec_needs_scale: 0
+> retex_texture_load: ok
+> retex_textures_load: ok
+> retex_textures_place: ok
+> retex_retexture: ok
+> retex_estimate_error: ok
+> retex_sample_textures: ok
+> retex_sample: ok
+> retex_combine: ok
+> retex_image_write: ok
+> retex_texture_create: ok
+> retex_set_write: ok
+> retex_pack_write: ok
+> retex_web_write: this set cannot be written for browsers: its layout is not footprints
+> retex_denoise: the set lacks the part guide_normal: it was rendered or packed without what denoising needs, or is denoised already
+> 9 files were opened
+$ retex-combine -q room.exr --texture Wall='rgb(0.1,0.2,0.3)' --texture:scale=3 Floor=wood.png -o expected.exr && cmp expected.exr older.exr

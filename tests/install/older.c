@@ -1,0 +1,158 @@
+/* A program that was compiled against the headers of an older release, whose parameter structs are shorter than the
+ * library's: shorten.py makes such headers. It hands one to each call that takes one, at the end of a page after which
+ * nothing may be read or written, and the names of the calls and their results are printed.
+ * older SET TARGET=IMAGE FOLDER */
+#include <retex/retex.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+/* A copy of `count` structs that ends where a page ends that nobody may touch. */
+static void *at_the_end(const void *from, size_t bytes, int count)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), all = bytes * (size_t)count;
+    const size_t room = (all + page - 1) / page * page;
+    unsigned char *pages = mmap(NULL, room + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (pages == MAP_FAILED || mprotect(pages + room, page, PROT_NONE) != 0)
+        exit(2);
+    for (int i = 0; i < count; i++)
+        memcpy(pages + room - all + bytes * (size_t)i, from, bytes);
+    return pages + room - all;
+}
+#define OLDER(type, init) ((type *)at_the_end(&(type)init, sizeof(type), 1))
+
+static RetexError err;
+
+static void tell(const char *call, int code)
+{
+    printf("%s: %s\n", call, code ? err.message : "ok");
+}
+#define CALL(call, ...) tell(#call, call(__VA_ARGS__, &err))
+
+static void call_limits(void)
+{
+    RetexLimits *limits = OLDER(RetexLimits, RETEX_LIMITS_INIT);
+    RetexBudget *budget = NULL;
+    CALL(retex_limits_set, limits, "max-pixels", "4711");
+    CALL(retex_limits_environment, limits);
+    retex_budget_create(&budget, NULL);
+    retex_budget_set_limits(budget, limits);
+    printf("retex_budget_set_limits: %ld pixels\n", retex_budget_pixels(budget));
+    retex_limits_safe(limits);
+    printf("retex_limits_safe: %g seconds\n", limits->seconds);
+    retex_budget_close(&budget);
+}
+
+static int files_opened;
+
+static int look_at_file(void *context, int descriptor, RetexError *error)
+{
+    (void)descriptor, (void)error;
+    files_opened++;
+    return context ? RETEX_EINVAL : RETEX_OK;
+}
+
+static RetexAccess *access_of_all(void)
+{
+    RetexAccess *access = OLDER(RetexAccess, RETEX_ACCESS_INIT);
+    access->opened = look_at_file;
+    return access;
+}
+
+static void call_files(const char *image, const char *written)
+{
+    RetexReadParams *read = OLDER(RetexReadParams, RETEX_READ_INIT);
+    RetexWriteParams *write = OLDER(RetexWriteParams, RETEX_WRITE_INIT);
+    RetexDiffParams *diff = OLDER(RetexDiffParams, RETEX_DIFF_INIT);
+    RetexImage picture = {0};
+    RetexPicture *rows = NULL;
+    RetexDiff *difference = NULL;
+    RetexFileSum sum;
+    int descriptor = -1;
+    diff->access = read->access = access_of_all();
+    printf("retex_access_check: %s\n", retex_access_check(read->access, "", image) ? "no" : "ok");
+    CALL(retex_access_open, read->access, image, &descriptor);
+    close(descriptor);
+    CALL(retex_file_sum, &sum, image, read->access);
+    CALL(retex_image_read_check, image, read);
+    CALL(retex_image_read, &picture, image, read, 1);
+    CALL(retex_image_write_check, written, write);
+    CALL(retex_image_format_check, written, write);
+    CALL(retex_image_write, &picture, written, write, 1);
+    CALL(retex_diff, &difference, image, written, diff, 1);
+    CALL(retex_picture_open, &rows, written, 8, 8, 3, write);
+    retex_picture_close(&rows, 0, NULL);
+    CALL(retex_picture_open_memory, &rows, "png", 8, 8, 3, write);
+    retex_picture_close(&rows, 0, NULL);
+    retex_diff_close(&difference);
+    retex_image_free(&picture);
+}
+
+static int drop_rows(void *context, int y0, int y1, const float *rows, RetexError *error)
+{
+    (void)context, (void)y0, (void)y1, (void)rows, (void)error;
+    return RETEX_OK;
+}
+
+static void call_textures(const RetexSet *set, const char *argument, const char *written)
+{
+    RetexTextureSpec *specs = at_the_end(&(RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT, sizeof *specs, 2);
+    RetexTextureSpec *spec = &specs[1];
+    RetexCombineParams *params = OLDER(RetexCombineParams, RETEX_COMBINE_INIT);
+    RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL}, *texture = NULL;
+    RetexSamples *samples = NULL;
+    RetexImage picture = {0};
+    CALL(retex_texture_spec_parse, &specs[0], "", "Wall=rgb(0.1,0.2,0.3)");
+    CALL(retex_texture_spec_parse, spec, "scale=3", argument);
+    spec->access = access_of_all();
+    printf("retex_texture_spec_needs_scale: %d\n", retex_texture_spec_needs_scale(spec));
+    CALL(retex_texture_load, &texture, spec, 1);
+    retex_texture_close(&texture);
+    CALL(retex_textures_load, textures, set, specs, 2, 1);
+    CALL(retex_textures_place, &texture, textures[0], set, spec);
+    retex_texture_close(&texture);
+    CALL(retex_retexture, set, NULL, textures, params, drop_rows, NULL, 1);
+    CALL(retex_estimate_error, set, NULL, textures, params, drop_rows, NULL, 1);
+    CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
+    retex_samples_close(&samples);
+    CALL(retex_sample, &samples, set, specs, 2, 1);
+    CALL(retex_combine, &picture, set, samples, params, NULL, 1);
+    CALL(retex_image_write, &picture, written, NULL, 1);
+    CALL(retex_texture_create, &texture, &picture, spec, 1);
+    retex_texture_close(&texture);
+    retex_textures_close(textures);
+    retex_samples_close(&samples);
+    retex_image_free(&picture);
+}
+
+/* Sets and packs into FOLDER. */
+static void call_sets(RetexSet *set, const char *folder)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/set.exr", folder);
+    CALL(retex_set_write, set, NULL, path, OLDER(RetexStoreParams, RETEX_STORE_INIT), 1);
+    snprintf(path, sizeof path, "%s/set.retex", folder);
+    CALL(retex_pack_write, set, path, OLDER(RetexPackParams, RETEX_PACK_INIT), NULL, 1);
+    CALL(retex_web_write, set, folder, OLDER(RetexWebParams, RETEX_WEB_INIT), NULL, 1);
+    CALL(retex_denoise, set, OLDER(RetexDenoiseParams, RETEX_DENOISE_INIT), NULL, 1);
+}
+
+int main(int argc, char **argv)
+{
+    RetexSet *set = NULL;
+    char path[1024];
+    if (argc != 4 || retex_set_read(argv[1], &set, NULL, 1, &err))
+        return 2;
+    setvbuf(stdout, NULL, _IOLBF, 0); /* the last line names the last call that is right */
+    call_limits();
+    snprintf(path, sizeof path, "%s/copy.png", argv[3]);
+    call_files(strchr(argv[2], '=') + 1, path);
+    snprintf(path, sizeof path, "%s/older.exr", argv[3]);
+    call_textures(set, argv[2], path);
+    call_sets(set, argv[3]);
+    printf("%d files were opened\n", files_opened);
+    retex_set_close(&set);
+    return 0;
+}
