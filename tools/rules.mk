@@ -16,7 +16,7 @@ SAME_ANYWHERE = '-ffile-prefix-map=$(CURDIR)=.'
 KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))
 
 LIBRETEX := $(BUILD)/lib/libretex.a
-LIBRETEX_SHARED := $(BUILD)/lib/libretex.so.1
+LIBRETEX_SHARED := $(BUILD)/lib/libretex.so.2
 BRIDGE := $(BUILD)/lib/libretex-oiio.so
 DECODER := $(BUILD)/lib/retex-decode
 

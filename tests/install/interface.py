@@ -25,6 +25,8 @@ def interface(folder):
         elif ours and line.strip() and not line.startswith("#"):
             kept.append(re.sub(r"__attribute__\s*\(\(.*\)\)", "", line).rstrip())
     for name in sorted(os.listdir(folder + "/retex")):
+        if not name.endswith(".h"):  # the headers of hosts make no part of it
+            continue
         with open(f"{folder}/retex/{name}", encoding="utf-8") as file:
             system += re.findall(r"^#include <(?!retex/).*>", file.read(), flags=re.M)
     return re.sub(r"\)\s+;", ");", "\n".join(sorted(set(system)) + kept) + "\n")
@@ -36,7 +38,7 @@ def stub(path, library):
     text = CALL.sub(r"\n\1 { __builtin_trap(); }", text)
     text = CONSTANT.sub(r"\n\1 = {0};", text)
     here = os.path.dirname(os.path.abspath(__file__))
-    subprocess.run([*CC, "-std=c11", "-w", "-g", "-shared", "-fPIC", "-Wl,-soname,libretex.so.1",
+    subprocess.run([*CC, "-std=c11", "-w", "-g", "-shared", "-fPIC", "-Wl,-soname,libretex.so.2",
                     f"-Wl,--version-script={here}/../../tools/libretex/libretex.map", "-xc", "-", "-o", library],
                    input=text, text=True, check=True)
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # What make install leaves, in the hands of others: programs in C and C++ by pkg-config and by CMake, from PREFIX=/usr
 # below DESTDIR with a multiarch folder, from a PREFIX with spaces, and from a tree that was moved. Then the interface:
-# programs that were linked with the library of interface-1.txt must run with this one.
+# programs that were linked with the library of interface-2.txt must run with this one.
 set -u
 . tests/lib/tap.sh
 stage=$here/tests/install/stage.sh compile=$here/tests/install/compile.sh
@@ -64,12 +64,11 @@ oiiotool "$work/wood.tif" -o "$work/wood.png"
 result "$(sed -n 's/^> //p' "$here/tests/cli/older.t" | cmp - "$work/older" >&2 && echo 1)" "an older program, AddressSanitizer"
 
 if command -v abidiff >/dev/null; then
-    python3 tests/install/interface.py --stub tests/install/interface-1.txt "$work/libretex.so.1"
-    abidiff --suppressions tests/install/growable.abignore "$work/libretex.so.1" "$BUILD/lib/libretex.so.1" \
-        >"$work/changes" 2>&1
-    # Calls may be added.
-    result "$(grep -c 'Functions changes summary: 0 Removed, 0 Changed' "$work/changes")" "functions of interface-1.txt"
-    result "$(grep -c 'Variables changes summary: 0 Removed, 0 Changed' "$work/changes")" "tables of interface-1.txt"
+    python3 tests/install/interface.py --stub tests/install/interface-2.txt "$work/libretex.so.2"
+    abidiff "$work/libretex.so.2" "$BUILD/lib/libretex.so.2" >"$work/changes" 2>&1
+    # Calls may be added; a structure that begins with its size may grow, and is recorded then.
+    result "$(grep -c 'Functions changes summary: 0 Removed, 0 Changed' "$work/changes")" "functions of interface-2.txt"
+    result "$(grep -c 'Variables changes summary: 0 Removed, 0 Changed' "$work/changes")" "tables of interface-2.txt"
     sed 's/^/# /' "$work/changes"
 else
     skip "the library's interface" "abidiff is not on this machine (abigail-tools)"

@@ -12,9 +12,9 @@ built() {
     tar -c --exclude=./.git --exclude=./build . | tar -x -C "$work/$1"
     mkdir -p "$work/$1/build"
     cp "$BUILD/config.mk" "$work/$1/build"
-    (cd "$work/$1" && BUILD=build CCACHE_DISABLE=1 make -j2 CFLAGS='-O0 -g' build/lib/libretex.so.1) >"$work/log" 2>&1 ||
+    (cd "$work/$1" && BUILD=build CCACHE_DISABLE=1 make -j2 CFLAGS='-O0 -g' build/lib/libretex.so.2) >"$work/log" 2>&1 ||
         tail -n 3 "$work/log" >&2
-    echo "$work/$1/build/lib/libretex.so.1"
+    echo "$work/$1/build/lib/libretex.so.2"
 }
 one=$(built a) other=$(built 'another folder/below')
 result "$(cmp "$one" "$other" >&2 && echo 1)" "two folders give one library"

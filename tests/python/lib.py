@@ -9,7 +9,7 @@ import traceback
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 BUILD = os.path.abspath(os.path.join(ROOT, os.environ.get("BUILD", "build")))
-LIBRARY = os.path.join(BUILD, "lib", "libretex.so.1")
+LIBRARY = os.path.join(BUILD, "lib", "libretex.so.2")
 PACKAGE = os.path.join(ROOT, "tools", "python")
 SCENES = os.path.join(ROOT, "scenes")
 

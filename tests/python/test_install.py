@@ -46,17 +46,17 @@ def test_loader():
 def test_beside():
     """The library beside the package, before the loader's"""
     shutil.copytree("site", "own")
-    shutil.copy(lib.LIBRARY, "own/retex/libretex.so.1")
+    shutil.copy(lib.LIBRARY, "own/retex/libretex.so.2")
     program = PROGRAM + "; print(retex.library.lib._name)"
     status, output, _ = python(program, PYTHONPATH="own", LD_LIBRARY_PATH=os.path.dirname(lib.LIBRARY))
-    assert status == 0 and output.endswith("Floor\n" + os.path.abspath("own/retex/libretex.so.1")), output
+    assert status == 0 and output.endswith("Floor\n" + os.path.abspath("own/retex/libretex.so.2")), output
 
 
 def test_missing():
     """Without a library: one line that says what to do"""
-    for environment in ({"RETEX_LIBRARY": "/nonexistent/libretex.so.1"}, {"RETEX_LIBRARY": os.path.abspath("room.exr")}):
+    for environment in ({"RETEX_LIBRARY": "/nonexistent/libretex.so.2"}, {"RETEX_LIBRARY": os.path.abspath("room.exr")}):
         status, _, error = python("import retex", PYTHONPATH="site", **environment)
-        assert status == 1 and error.startswith("ImportError: retex needs the C library libretex.so.1"), error
+        assert status == 1 and error.startswith("ImportError: retex needs the C library libretex.so.2"), error
         assert environment["RETEX_LIBRARY"] in error and "make install" in error and "$RETEX_LIBRARY" in error
 
 

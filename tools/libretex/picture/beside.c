@@ -26,7 +26,7 @@ static int find_near(RetexBesidePath path, const char *name, const char *file, i
     return 0;
 }
 
-/* Beside the shared library that this code is in: libretex.so.1, whatever program uses it, or a plugin, which is in
+/* Beside the shared library that this code is in: libretex.so.2, whatever program uses it, or a plugin, which is in
  * PREFIX/lib/retex/plugins, or in build/plugins. Its symbolic links are followed only where that finds nothing. */
 static int find_near_library(RetexBesidePath path, const char *name)
 {

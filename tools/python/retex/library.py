@@ -13,7 +13,7 @@ from typing import Any, Dict, List, Optional, Tuple
 
 MAX_TARGETS = 8
 BAND = 64  # rows of a picture that are submitted at once
-NAME = "libretex.so.1"
+NAME = "libretex.so.2"
 
 
 class Code(enum.IntEnum):
@@ -122,7 +122,7 @@ def _load() -> ctypes.CDLL:
         except OSError as problem:
             problems.append(str(problem))
     raise ImportError(f"retex needs the C library {NAME}, which cannot be loaded ({problems[0]}). Install it, by `make "
-                      "install` in retex's sources or as Debian's package libretex1, or name the file in $RETEX_LIBRARY.")
+                      "install` in retex's sources or as Debian's package libretex2, or name the file in $RETEX_LIBRARY.")
 
 
 lib = _load()
