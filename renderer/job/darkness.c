@@ -1,7 +1,7 @@
 /* Finds out whether a scene has any emitter, and any object, to warn before a black picture is rendered. */
 #include <stdio.h>
 #include "job/job.h"
-#include "light/lights.h"
+#include "light/environment.h"
 
 static int texture_is(const Texture *texture, int (*has)(const Finish *))
 {

@@ -1,6 +1,7 @@
 /* The sky as a light: its radiance, and a table over the sphere for sampling directions by luminance. */
 #include <stdlib.h>
-#include "light/lights.h"
+#include "light/entry.h"
+#include "light/environment.h"
 #include "pattern/pattern.h"
 #include "shade/pigment.h"
 
@@ -234,3 +235,55 @@ float environment_mean(const Environment *e)
 {
     return e->mean;
 }
+
+/* ---- in the list of lights ---- */
+
+/* A uniform sky is sampled as well by the BSDF alone, without noise where nothing occludes it. */
+static int add_sky(LightEntries *list, RetexError *err)
+{
+    Environment *environment = NULL;
+    int code = list->scene->sky ? environment_create(&environment, list->scene, err) : RETEX_OK;
+    if (environment)
+        code = light_entries_add(list,
+                                 &(LightEntry){.ops = &entry_sky,
+                                               .lamp = list->scene->sky_lamp,
+                                               .strength = environment->mean * (float)PI,
+                                               .is_infinite = 1,
+                                               .data = environment},
+                                 err);
+    if (code)
+        environment_close(&environment);
+    return code;
+}
+
+static void close_sky(LightEntry *e)
+{
+    Environment *environment = e->data;
+    environment_close(&environment);
+}
+
+static float sky_estimate(const Scene *scene, const LightEntry *e, Vec3 position)
+{
+    (void)scene, (void)position;
+    return e->strength;
+}
+
+static int sample_sky(const Scene *scene, const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
+                      LightSample *sample)
+{
+    (void)pick, (void)position;
+    sample->source = NULL, sample->surface.primitive = NULL, sample->shadowless = 0;
+    sample->direction = environment_sample(e->data, u1, u2, &sample->pdf);
+    sample->distance = INFINITY;
+    sample->radiance = sky_radiance(scene, sample->direction, 0);
+    return sample->pdf > 0;
+}
+
+static double sky_pdf(const LightEntry *e, Vec3 from, Vec3 direction, const Surface *surface, int *face)
+{
+    (void)from, (void)surface, (void)face;
+    return environment_pdf(e->data, direction);
+}
+
+const LightEntryOps entry_sky = {
+    .add = add_sky, .close = close_sky, .estimate = sky_estimate, .sample = sample_sky, .pdf = sky_pdf};

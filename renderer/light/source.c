@@ -1,43 +1,8 @@
-/* POV-Ray's light sources: point, spot, cylinder and parallel light, area lights as points of their grid, fading. */
-#include "light/lights.h"
+/* What all light sources share: fading, the grid of an area_light, projected_through, and how the list of lights sees
+ * them. */
+#include "light/entry.h"
+#include "light/source.h"
 #include "shape/csg.h"
-
-/* 0 below low, 1 above high, a smooth cubic between. */
-static double smooth_step(double low, double high, double x)
-{
-    if (x <= low)
-        return 0;
-    if (x >= high)
-        return 1;
-    double t = (x - low) / (high - low);
-    return (3 - 2 * t) * t * t;
-}
-
-static double spot_attenuation(const Light *light, Vec3 to_light)
-{
-    Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
-    double cosine = -vec_dot(axis, to_light);
-    if (cosine <= 0)
-        return 0;
-    double value = light->tightness > 0 ? pow(cosine, light->tightness) : 1;
-    if (light->falloff > 0) {
-        double outer = cos(light->falloff * PI / 180), inner = cos(light->radius * PI / 180);
-        value *= inner > outer ? smooth_step(outer, inner, cosine) : cosine > outer;
-    }
-    return value;
-}
-
-static double cylinder_attenuation(const Light *light, Vec3 position)
-{
-    Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location)), d = vec_sub(position, light->location);
-    double along = vec_dot(d, axis), across = vec_length(vec_mad(d, axis, -along));
-    if (along <= 0 || across >= light->falloff)
-        return 0;
-    double value = 1 - across / light->falloff;
-    double edge =
-        across > light->radius && light->radius > 0 ? smooth_step(0, 1 - light->radius / light->falloff, value) : 1;
-    return edge * (light->tightness > 0 ? pow(value, light->tightness) : 1);
-}
 
 static double distance_fade(const Light *light, double distance)
 {
@@ -47,6 +12,8 @@ static double distance_fade(const Light *light, double distance)
         return 2 / (1 + pow(distance / light->fade_distance, light->fade_power));
     return pow(fmax(distance, 1e-6), -light->fade_power);
 }
+
+/* ---- the grid of an area_light ---- */
 
 /* Which of the n lights on a side. POV-Ray halves the side until two lights are left; a middle one belongs to both
  * halves, so that the outer ones of 3, 5 or 9 weigh half in shadows. *u is uniform in [0,1) again. */
@@ -103,79 +70,36 @@ Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
     return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
 }
 
-/* Parallel light starts on the plane through its location. */
-int source_is_beam(const Light *light)
-{
-    return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER;
-}
+/* ---- light that it gives ---- */
 
-Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance)
+double point_shine(const Light *light, Vec3 position, Vec3 place, Vec3 *direction, double *distance)
 {
-    double value = PI;
-    Vec3 d = vec_sub(light_point, position);
-    if (source_is_beam(light)) {
-        *direction = vec_normalize(vec_sub(light_point, light->point_at));
-        *distance = fmax(0, vec_dot(d, *direction)); /* POV-Ray lights points behind the plane too, without shadows */
-        if (light->kind == LIGHT_CYLINDER)
-            value *= cylinder_attenuation(light, position);
-    } else {
-        *distance = vec_length(d);
-        if (*distance <= 0)
-            return rgb_grey(0);
-        *direction = vec_scale(d, 1 / *distance);
-        if (light->kind == LIGHT_SPOT)
-            value *= spot_attenuation(light, *direction);
-    }
-    return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
-}
-
-/* The part of a line, from a point seen from the light, that lies in its cone about an axis. */
-static int part_in_cone(Vec3 from, Vec3 direction, Vec3 axis, double cosine, double *begin, double *end)
-{
-    const double c2 = cosine * cosine, f = vec_dot(from, axis), d = vec_dot(direction, axis);
-    const double a = d * d - c2, b = f * d - c2 * vec_dot(from, direction), c = f * f - c2 * vec_dot(from, from);
-    const double discriminant = b * b - a * c, root = sqrt(fmax(discriminant, 0));
-    const double one = (-b - root) / a, two = (-b + root) / a, low = fmin(one, two), high = fmax(one, two);
-    if (!isfinite(one + two))
-        return 1;
-    if (a < 0) { /* between the roots, where it is the cone's own half */
-        *begin = fmax(*begin, low), *end = fmin(*end, high);
-        return discriminant > 0 && f + d * (low + high) / 2 > 0;
-    }
-    if (discriminant > 0)
-        *begin = d > 0 ? fmax(*begin, high) : *begin, *end = d > 0 ? *end : fmin(*end, low);
+    const Vec3 d = vec_sub(place, position);
+    (void)light;
+    *distance = vec_length(d);
+    if (*distance <= 0)
+        return 0;
+    *direction = vec_scale(d, 1 / *distance);
     return 1;
 }
 
-static int part_in_cylinder(Vec3 from, Vec3 direction, Vec3 axis, double radius, double *begin, double *end)
+Rgb source_irradiance(const Light *light, Vec3 position, Vec3 place, Vec3 *direction, double *distance)
 {
-    const Vec3 f = vec_mad(from, axis, -vec_dot(from, axis)), d = vec_mad(direction, axis, -vec_dot(direction, axis));
-    const double a = vec_dot(d, d), b = vec_dot(f, d), c = vec_dot(f, f) - radius * radius,
-                 discriminant = b * b - a * c;
-    if (a < 1e-12)
-        return c < 0;
-    *begin = fmax(*begin, (-b - sqrt(fmax(discriminant, 0))) / a);
-    *end = fmin(*end, (-b + sqrt(fmax(discriminant, 0))) / a);
-    return discriminant > 0;
+    const double share = light->ops->shine(light, position, place, direction, distance);
+    return share > 0 ? rgb_scale(light->color, (float)(PI * share * distance_fade(light, *distance))) : rgb_grey(0);
 }
 
 int source_lit_part(const Light *light, const Ray *ray, double distance, double *begin, double *end)
 {
-    const Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
     const Vec3 from = vec_sub(vec_mad(ray->origin, ray->direction, ray->tmin), light->location);
-    int found = 1;
     *begin = 0, *end = distance;
-    if (light->kind == LIGHT_CYLINDER)
-        found = part_in_cylinder(from, ray->direction, axis, light->falloff, begin, end);
-    else if (light->kind == LIGHT_SPOT && light->falloff > 0 && light->falloff < 89 && !light->area_illumination)
-        found = part_in_cone(from, ray->direction, axis, cos(light->falloff * PI / 180), begin, end);
-    return found && *begin < *end;
+    return (!light->ops->lit_part || light->ops->lit_part(light, from, ray->direction, begin, end)) && *begin < *end;
 }
 
 float source_most_irradiance(const Light *light, const Ray *ray, double distance)
 {
     const double strength = PI * fmaxf(0, rgb_luminance(light->color));
-    if (light->fade_power <= 0 || source_is_beam(light))
+    if (light->fade_power <= 0 || light_is_beam(light))
         return (float)strength;
     const Vec3 to = vec_sub(light->location, vec_mad(ray->origin, ray->direction, ray->tmin));
     const double along = fmin(fmax(vec_dot(to, ray->direction), 0), distance);
@@ -193,38 +117,29 @@ static int project(const Light *light, Vec3 position, LightSample *sample)
     return 1;
 }
 
+static void begin_sample(const Light *light, int shadowless, LightSample *sample)
+{
+    sample->source = light, sample->lamp = light->lamp, sample->shadowless = shadowless;
+    sample->surface.primitive = NULL;
+    sample->pdf = 0;
+}
+
 int source_sample(const Light *light, Vec3 position, float u1, float u2, LightSample *sample)
 {
     const Vec3 point = source_point(light, position, u1, u2);
     const int from_middle = light->area && !light->area_illumination;
-    sample->kind = LIGHT_SAMPLE_SOURCE;
-    sample->pdf = 0;
-    sample->shadowless = light->shadowless;
-    sample->source = light;
+    begin_sample(light, light->shadowless, sample);
     sample->radiance = source_irradiance(light, position, from_middle ? light->location : point, &sample->direction,
                                          &sample->distance);
     sample->shadow_direction = sample->direction, sample->shadow_distance = sample->distance;
     if (from_middle)
-        source_irradiance(light, position, point, &sample->shadow_direction, &sample->shadow_distance);
+        light->ops->shine(light, position, point, &sample->shadow_direction, &sample->shadow_distance);
     if (rgb_is_black(sample->radiance))
         return 0;
     return !light->projected_through || project(light, position, sample);
 }
 
 /* ---- what refracted and mirrored paths meet ---- */
-
-static int beam_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
-{
-    const Vec3 to = vec_sub(light->location, light->point_at);
-    const double slope = light->size / vec_length(to), sin2 = slope * slope / (1 + slope * slope);
-    const Vec3 across = vec_cross(vec_normalize(to), ray->direction);
-    Vec3 direction;
-    if (vec_dot(to, ray->direction) <= 0 || vec_dot(across, across) > sin2)
-        return 0;
-    *radiance = rgb_scale(source_irradiance(light, ray->origin, light->location, &direction, distance),
-                          (float)(1 / (PI * sin2)));
-    return 1;
-}
 
 static int sphere_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
 {
@@ -267,26 +182,23 @@ static int area_met(const Light *light, const Ray *ray, Rgb *radiance, double *d
     return 1;
 }
 
-static int is_met(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
+int point_meet(const Light *light, const Ray *ray, Rgb *radiance, double *distance)
 {
-    if (source_is_beam(light))
-        return beam_met(light, ray, radiance, distance);
     const int is_grid = light->area && (light->size1 > 1 || light->size2 > 1);
     return is_grid ? area_met(light, ray, radiance, distance) : sphere_met(light, ray, radiance, distance);
 }
 
 int source_meet(const Light *light, const Ray *ray, LightSample *sample)
 {
-    sample->kind = LIGHT_SAMPLE_SOURCE;
-    sample->pdf = 0;
-    sample->shadowless = 0;
-    sample->source = light;
-    if (!is_met(light, ray, &sample->radiance, &sample->distance) || rgb_is_black(sample->radiance))
+    begin_sample(light, 0, sample);
+    if (!light->ops->meet(light, ray, &sample->radiance, &sample->distance) || rgb_is_black(sample->radiance))
         return 0;
     sample->direction = sample->shadow_direction = ray->direction;
     sample->shadow_distance = sample->distance;
     return !light->projected_through || project(light, ray->origin, sample);
 }
+
+/* ---- in the list of lights ---- */
 
 /* Approximate POV-Ray's fading by constant light, or by light that falls with the square of the distance. */
 static void set_fading(const Light *light, LightBounds *b)
@@ -300,15 +212,18 @@ static void set_fading(const Light *light, LightBounds *b)
     b->peak = at > 0 ? 2 * strength : INFINITY;
 }
 
-LightBounds source_bounds(const Light *light)
+static LightBounds source_bounds(const Scene *scene, const LightEntry *e, int face)
 {
+    const Light *light = &scene->lights[e->index];
     LightBounds b = {
         .low = light->location, .high = light->location, .axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2};
+    (void)face;
     set_fading(light, &b);
-    if (light->kind == LIGHT_SPOT) {
-        b.axis = vec_normalize(vec_sub(light->point_at, light->location));
+    if (light->ops->cone) {
+        const double half = light->ops->cone(light);
+        b.axis = light_axis(light);
         b.theta_o = 0;
-        b.theta_e = light->falloff > 0 ? fmin(90, light->falloff) * PI / 180 : PI / 2;
+        b.theta_e = half > 0 ? fmin(half, PI / 2) : PI / 2;
     }
     if (light->area) {
         double x = vec_length(light->axis1), y = vec_length(light->axis2), most = (x + y) / 2;
@@ -317,3 +232,48 @@ LightBounds source_bounds(const Light *light)
     }
     return b;
 }
+
+static int add_sources(LightEntries *list, RetexError *err)
+{
+    const Scene *scene = list->scene;
+    int code = RETEX_OK;
+    for (int k = 0; k < scene->nlights && !code; k++) {
+        const Light *light = &scene->lights[k];
+        const float strength = rgb_luminance(light->color) * (float)PI;
+        if (strength > 0)
+            code = light_entries_add(list,
+                                     &(LightEntry){.ops = &entry_source,
+                                                   .index = k,
+                                                   .lamp = light->lamp,
+                                                   .strength = strength,
+                                                   .is_infinite = light_is_beam(light)},
+                                     err);
+    }
+    return code;
+}
+
+static int source_reaches(const Scene *scene, const LightEntry *e, const LightGroup *group)
+{
+    return light_reaches_group(&scene->lights[e->index], group);
+}
+
+static float source_estimate(const Scene *scene, const LightEntry *e, Vec3 position)
+{
+    const Light *light = &scene->lights[e->index];
+    Vec3 direction;
+    double distance;
+    return rgb_luminance(source_irradiance(light, position, light->location, &direction, &distance));
+}
+
+static int sample_source(const Scene *scene, const LightEntry *e, const LightPick *pick, Vec3 position, float u1,
+                         float u2, LightSample *sample)
+{
+    (void)pick;
+    return source_sample(&scene->lights[e->index], position, u1, u2, sample);
+}
+
+const LightEntryOps entry_source = {.add = add_sources,
+                                    .reaches = source_reaches,
+                                    .estimate = source_estimate,
+                                    .bounds = source_bounds,
+                                    .sample = sample_source};

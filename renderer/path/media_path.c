@@ -6,6 +6,7 @@
  *
  * Light of light sources, which no path can hit, is scattered once at one point of each segment, chosen by the distance
  * to the light and by extinction; all other light where the path itself is scattered. */
+#include "light/source.h"
 #include "medium/phase.h"
 #include "path/media.h"
 
@@ -62,7 +63,7 @@ static SourceDistance source_distance(const Light *light, const Ray *ray, const 
     d.along = vec_dot(to, ray->direction);
     d.across = vec_length(vec_mad(to, ray->direction, -d.along));
     d.first = atan2(begin - d.along, d.across), d.last = atan2(end - d.along, d.across);
-    d.angular = !source_is_beam(light) && d.across > 1e-9 * vec_length(to) && d.last - d.first > 1e-9;
+    d.angular = !light_is_beam(light) && d.across > 1e-9 * vec_length(to) && d.last - d.first > 1e-9;
     return d;
 }
 
@@ -169,7 +170,7 @@ static void add_other_light(PathWorker *w, Path *path, const Medium *medium, Vec
     segment_pair(w, path, PAIR_LIGHT, &u1, &u2);
     segment_pair(w, path, PAIR_LIGHT_POINT, &u_point1, &u_point2);
     const LightPick pick = lights_pick(c->lights, &context, u1, u2);
-    if (lights_picked_source(c->lights, &pick) || !lights_sample(c->lights, &context, &pick, u_point1, u_point2, light))
+    if (!lights_sample(c->lights, &context, &pick, u_point1, u_point2, light) || light->source)
         return;
     sample.pdf = (float)phase_density(medium, vec_dot(light->direction, before));
     sample.ray = (Ray){p, light->direction, 0, shadow_ray_end(p, light)};

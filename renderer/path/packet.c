@@ -135,7 +135,7 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
     if (!lights->found[k])
         return;
     sample.ray = matte_shadow_ray(lights, k);
-    sample.light.kind = LIGHT_SAMPLE_EMITTER, sample.light.shadowless = 0, sample.light.radiance = rgb_grey(1);
+    sample.light.source = NULL, sample.light.shadowless = 0, sample.light.radiance = rgb_grey(1);
     sample.transmitted = 0, sample.traced = p->traced[k], sample.visibility = p->visibilities[k];
     Factor factors[SHADOW_FACTORS_MAX + 1];
     int passed = trace_shadow_ray(w, path, &v->s.surface, &sample, factors + 1, SHADOW_FACTORS_MAX);
@@ -238,7 +238,7 @@ static void trace_shadow_rays(PathWorker *w, Packet *p)
             p->traced[k] = 1;
         } else if (k < 0 && sample->found && !sample->light.shadowless) {
             rays[n] = sample->ray;
-            sources[n] = sample->light.kind == LIGHT_SAMPLE_SOURCE;
+            sources[n] = sample->light.source != NULL;
             to[n++] = &sample->visibility;
             sample->traced = 1;
         }

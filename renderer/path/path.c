@@ -4,6 +4,8 @@
  * trace_path tells it from top to bottom, for one path. Most paths go by packet.c, which takes the same steps for many
  * paths of a pixel at once. */
 #include <string.h>
+#include "light/environment.h"
+#include "light/source.h"
 #include "path/media.h"
 #include "shade/dispersion.h"
 #include "shade/material.h"
@@ -130,7 +132,7 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
     Factor factors[1 + LIGHT_FACTORS_MAX + SHADOW_FACTORS_MAX];
     if (!sample->found)
         return;
-    int is_source = light->kind == LIGHT_SAMPLE_SOURCE, n = sample->nfactors;
+    int is_source = light->source != NULL, n = sample->nfactors;
     int passed = trace_shadow_ray(w, path, &v->s.surface, sample, factors + n, SHADOW_FACTORS_MAX);
     if (passed < 0)
         return;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
+#include "light/source.h"
 #include "medium/fog.h"
 #include "path/media.h"
 #include "path/sampler.h"
@@ -146,7 +147,7 @@ static double source_weight(const Light *light, const Aim *c)
     if (!light->caustics)
         return 0;
     const double seen = rgb_luminance(source_irradiance(light, c->center, light->location, &direction, &distance));
-    whole.kind = LIGHT_POINT;
+    whole.ops = &light_point;
     return fmax(seen,
                 0.05 * rgb_luminance(source_irradiance(&whole, c->center, light->location, &direction, &distance)));
 }
@@ -182,10 +183,10 @@ static Vec3 disc_point(Vec3 center, Vec3 axis, double radius, float u1, float u2
 /* The cone of a spot, where it is narrower than that of the caster. Returns its solid angle, 0: it is wider. */
 static double aim_spot(const Light *light, const Aim *c, Vec3 from, float u1, float u2, Vec3 *direction)
 {
-    const double half = light->falloff * PI / 180;
-    if (light->kind != LIGHT_SPOT || !(half > 0 && half < 1.5))
+    const double half = light->ops->cone ? light->ops->cone(light) : 0;
+    if (!(half > 0 && half < 1.5))
         return 0;
-    const Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
+    const Vec3 axis = light_axis(light);
     const Aim spot = {c->primitive, c->instance, vec_add(from, axis), sin(half)};
     return vec_length(vec_sub(c->center, from)) * sin(half) < c->radius ? aim(&spot, from, u1, u2, direction) : 0;
 }
@@ -199,7 +200,7 @@ static void start_from_source(const Tracing *m, uint32_t photon, Start *start)
     const Light *light = start->source = pick_source(m, c, photon_number(photon, 1), &probability);
     if (!light || !(probability > 0))
         return;
-    start->beam = source_is_beam(light);
+    start->beam = light_is_beam(light);
     if (start->beam) {
         const Vec3 to = vec_normalize(vec_sub(light->location, light->point_at));
         const double back = fmax(vec_dot(vec_sub(light->location, c->center), to), c->radius);

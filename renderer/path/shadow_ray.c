@@ -192,7 +192,7 @@ static int trace_through_surfaces(PathWorker *w, const Path *path, Ray ray, cons
 static int trace_through_media(PathWorker *w, const Path *path, const Surface *from, const DirectLightSample *t,
                                ShadowFactors *to)
 {
-    const Light *source = t->light.kind == LIGHT_SAMPLE_SOURCE ? t->light.source : NULL;
+    const Light *source = t->light.source;
     Media media = path->media;
     if (t->transmitted)
         media_cross(&media, from);
@@ -205,7 +205,7 @@ static int trace_through_media(PathWorker *w, const Path *path, const Surface *f
 int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, DirectLightSample *t, Factor *factors,
                      int most_factors)
 {
-    const Light *source = t->light.kind == LIGHT_SAMPLE_SOURCE ? t->light.source : NULL;
+    const Light *source = t->light.source;
     Rgb *light = &t->light.radiance;
     if (t->light.shadowless)
         return 0;
@@ -235,7 +235,7 @@ static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emit
 
 float path_pdf_of_light(const PathContext *c, const Ray *ray, RayKind kind, const LightSample *light, float pdf)
 {
-    const Primitive *emitter = light->kind == LIGHT_SAMPLE_EMITTER ? light->surface.primitive : NULL;
+    const Primitive *emitter = light->surface.primitive;
     if (emitter && (kind == RAY_CAMERA ? emitter->no_image : emitter->no_reflection))
         pdf = 0;
     if (!c->has_no_shadow)

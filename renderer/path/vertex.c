@@ -117,7 +117,7 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
         v->pick = lights_pick(c->lights, &context, u->light_choice[k], u->light_part[k]);
     if (!lights_sample(c->lights, &context, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
         return;
-    const int is_source = light->kind == LIGHT_SAMPLE_SOURCE;
+    const int is_source = light->source != NULL;
     if (is_source && !light_reaches_group(light->source, s->surface.primitive->light_group))
         return;
     const BsdfLight kind = !is_source ? BSDF_ANY_LIGHT : light->shadowless ? BSDF_SHADOWLESS : BSDF_LIGHT_SOURCE;

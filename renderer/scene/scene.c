@@ -52,6 +52,43 @@ const Texture *instance_target_texture(const Scene *scene, const Instance *insta
     return NULL;
 }
 
+/* ---- lamps ---- */
+
+static int texture_emits(const Texture *texture)
+{
+    for (int k = 0; k < texture_leaf_count(texture); k++)
+        if (!rgb_is_black(texture_leaf(texture, k)->finish->emission))
+            return 1;
+    return 0;
+}
+
+static int primitive_emits(const Primitive *p)
+{
+    const Texture *texture;
+    int target, emits = 0;
+    for (int k = 0; !emits && (texture = primitive_texture(p, k, &target)); k++)
+        emits = texture_emits(texture);
+    return emits;
+}
+
+void scene_number_lamps(Scene *scene)
+{
+    scene->nlamps = 0;
+    for (int k = 0; k < scene->nlights; k++)
+        scene->lights[k].lamp = scene->nlamps++;
+    for (int k = 0; k < scene->nprimitives; k++)
+        scene->primitives[k].lamp = primitive_emits(&scene->primitives[k]) ? scene->nlamps++ : LAMP_NONE;
+    for (int i = 0; i < scene->ninstances; i++) {
+        const Instance *instance = &scene->instances[i];
+        Primitive *p = scene->primitives + instance->prototype->first;
+        const int emits = instance->texture && texture_emits(instance->texture);
+        for (int k = 0; emits && k < instance->prototype->count; k++)
+            if (p[k].inherits && p[k].lamp == LAMP_NONE)
+                p[k].lamp = scene->nlamps++;
+    }
+    scene->sky_lamp = scene->nlamps++;
+}
+
 /* ---- closing ---- */
 
 int scene_caustic_sources(const Scene *scene)

@@ -444,6 +444,7 @@ typedef struct Primitive {
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
     const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
+    int lamp;                /* see scene_number_lamps; -1: it emits nothing */
     const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit, else NULL */
 } Primitive;
 
@@ -457,9 +458,10 @@ typedef struct LightGroup {
     int global_lights; /* lights of no group shine on what is in it */
 } LightGroup;
 
-typedef enum LightKind { LIGHT_POINT, LIGHT_SPOT, LIGHT_CYLINDER, LIGHT_PARALLEL } LightKind;
+typedef struct LightOps LightOps; /* light/source.h */
 typedef struct Light {
-    LightKind kind;
+    const LightOps *ops;
+    int lamp;                /* see scene_number_lamps */
     Vec3 location, point_at;
     Rgb color;               /* irradiance pi * color on a surface that faces it */
     double radius, falloff;  /* spot: half-angles in degrees; cylinder: lengths */
@@ -601,6 +603,7 @@ typedef struct Scene {
     const Prototype **prototypes;
     Instance *instances;
     Light *lights;
+    int nlamps, sky_lamp;    /* see scene_number_lamps */
     ImageMap **images;
     WorkingSpace working_space;
     int number_of_waves;     /* of ripples and waves */
@@ -631,6 +634,10 @@ const Texture *primitive_target_texture(const Primitive *primitive, int target);
 const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
 /* Each of one -t of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see selector.h. */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
+/* Number the lamps, whose light may be mixed after rendering: each light source, each primitive that emits, and sky and
+ * background together. Light of the air, that of fog for example, is of no lamp: LAMP_NONE. */
+enum { LAMP_NONE = -1 };
+void scene_number_lamps(Scene *scene);
 int scene_caustic_sources(const Scene *scene); /* how many light sources have caustics */
 void scene_close(Scene **scene); /* textures of image maps, then the arena */
 

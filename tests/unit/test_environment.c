@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include "lib_scene_text.h"
 #include <cmocka.h>
-#include "light/lights.h"
+#include "light/environment.h"
 
 /* As it is written, or turned by next to nothing, so that no row is taken as level. */
 static Environment *sky(Scene **scene, const char *pigment, const char *turn)

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include "path/sampler.h"
+#include "light/environment.h"
 #include "light/lights.h"
+#include "light/source.h"
 #include "shade/split.h"
 
 static uint32_t state_of_random = 1;
@@ -184,10 +186,11 @@ static void densities_agree(void **state)
             for (int j = 0; j < 4; j++)
                 u[j] = (float)random_unit();
             LightPick pick = lights_pick(lights, &p, u[0], u[1]);
-            if (!lights_sample(lights, &p, &pick, u[2], u[3], &s) || s.kind == LIGHT_SAMPLE_SOURCE)
+            if (!lights_sample(lights, &p, &pick, u[2], u[3], &s) || s.source)
                 continue;
             found++;
-            if (s.kind == LIGHT_SAMPLE_SKY)
+            assert_int_equal(s.lamp, light_sample_is_emitter(&s) ? s.surface.primitive->lamp : scene->sky_lamp);
+            if (!light_sample_is_emitter(&s))
                 pdf = lights_sky_pdf(lights, &p, s.direction);
             else
                 pdf = lights_emitter_pdf(lights, &p, (int)(s.surface.primitive - scene->primitives), &s.surface);
@@ -255,11 +258,11 @@ static void photons_carry_all_light(void **state)
 static void sources_shine_by_their_laws(void **state)
 {
     (void)state;
-    const Light plain = {.location = {0, 4, 0}, .point_at = {0, 0, 0}, .color = {1, 0.5f, 0.25f}};
+    const Light plain = {.ops = &light_point, .location = {0, 4, 0}, .point_at = {0, 0, 0}, .color = {1, 0.5f, 0.25f}};
     Vec3 direction;
     double distance;
     Light spot = plain;
-    spot.kind = LIGHT_SPOT, spot.radius = 20, spot.falloff = 35, spot.tightness = 3;
+    spot.ops = &light_spotlight, spot.radius = 20, spot.falloff = 35, spot.tightness = 3;
     for (double angle = 1; angle < 180; angle += 2) {
         const Vec3 at = vec3(3 * sin(angle * PI / 180), 4 - 3 * cos(angle * PI / 180), 0);
         const double cosine = cos(angle * PI / 180), outer = cos(35 * PI / 180), inner = cos(20 * PI / 180);
@@ -283,6 +286,69 @@ static void sources_shine_by_their_laws(void **state)
             const Vec3 p = source_point(&grid, vec3(0, 0, 0), (float)((i + 0.5) / 3), (float)((j + 0.5) / 5));
             assert_true(fabs(p.x - (i - 1)) < 1e-6 && p.y == 4 && fabs(p.z - (2 * j - 4)) < 1e-6);
         }
+}
+
+/* What callers take for granted of a row. */
+static void rows_are_whole(void **state)
+{
+    static const LightOps *const rows[] = {
+#define X(name) &light_##name,
+        LIGHT_TABLE(X)
+#undef X
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const LightOps *ops = rows[i];
+        int yields = !ops->yields_to;
+        assert_true(ops->shine && ops->meet);
+        assert_true(!ops->cone || !(ops->properties & LIGHT_BEAM));
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+            yields |= k != i && strcmp(ops->yields_to ? ops->yields_to : "", rows[k]->name) == 0;
+            assert_true(k == i || strcmp(ops->name, rows[k]->name) != 0);
+        }
+        assert_true(yields);
+    }
+}
+
+/* A row of a kind that nothing knows: it lights what is below it. */
+static double half_space_shine(const Light *light, Vec3 position, Vec3 place, Vec3 *direction, double *distance)
+{
+    return point_shine(light, position, place, direction, distance) > 0 && position.y < light->location.y ? 0.5 : 0;
+}
+
+static const LightOps half_space = {.name = "half_space", .shine = half_space_shine, .meet = point_meet};
+
+/* It needs no more to be fading, chosen among few lights and many, sampled as a grid, and met. */
+static void row_of_a_new_kind(void **state)
+{
+    (void)state;
+    for (int others = 0; others <= 9; others += 9) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "camera { look_at 3*z } light_source { 4*y, rgb <1, .5, .25> fade_distance 4 fade_power 2 }"
+                 "#for(I,1,%d) light_source { <I,7,-3>, 1 } #end sphere { 0, .1 }",
+                 others);
+        Scene *scene = test_scene(text);
+        Lights *lights;
+        double sum[2] = {0, 0};
+        enum { N = 4000 };
+        scene->lights[0].ops = &half_space, scene->lights[0].lamp = 7;
+        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        for (int above = 0; above < 2; above++)
+            for (int i = 0; i < N; i++) {
+                const LightSampleContext p = {.position = vec3(0, 8.0 * above, 0)};
+                LightSample s;
+                const LightPick pick = lights_pick(lights, &p, (float)(i + 0.5) / N, 0.5f);
+                if (!lights_sample(lights, &p, &pick, 0.5f, 0.5f, &s) || s.source != &scene->lights[0])
+                    continue;
+                assert_int_equal(s.lamp, 7);
+                sum[above] += (double)(s.radiance.r / s.pick_probability) / N;
+            }
+        if (fabs(sum[0] - PI / 2) > 0.05 || sum[1] != 0) /* half of it; fading leaves 2 / (1 + 1) at 4 */
+            fail_msg("%d others: %.3f below, %.3f above", others, sum[0], sum[1]);
+        lights_close(&lights);
+        scene_close(&scene);
+    }
 }
 
 /* A light source that paths may meet gives what it gives as a point: rays over a cone that holds all of it. */
@@ -472,6 +538,8 @@ int main(void)
         cmocka_unit_test(tree_of_one_place),
         cmocka_unit_test(domes_are_left_to_paths),
         cmocka_unit_test(only_lights_of_the_group_are_chosen),
+        cmocka_unit_test(rows_are_whole),
+        cmocka_unit_test(row_of_a_new_kind),
         cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),

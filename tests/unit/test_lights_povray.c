@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include "accel/accel.h"
-#include "light/lights.h"
+#include "light/source.h"
 
 /* Of 64. Shadows may begin in the middle of a pixel, which POV-Ray samples; an `orient` grid is turned about its axis
  * in another way. */

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 #include <string.h>
 #include "lib_stage.h"
+#include "light/sources.h"
 
 static void furnace_is_invisible(void **state)
 {
@@ -46,7 +47,7 @@ static void point_light_over_a_plane(void **state)
     s.scene->camera = stage_orthographic(vec3(0, 5, 0), vec3(0, -1, 0), vec3(4, 0, 0), vec3(0, 0, 3));
     stage_add(&s, &shape_plane, transform_identity(), 0.5f, 0.25f, 1);
     s.scene->nlights = 1;
-    s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
+    s.lights[0] = (Light){.ops = &light_point, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
     RetexSet *set = stage_render(&s, 64, 0, 2);
     for (int y = 0; y < 12; y++)
         for (int x = 0; x < 16; x++) {
@@ -74,7 +75,7 @@ static void shadowless_lights_have_no_highlights(void **state)
         s.finishes[0].phong = s.finishes[0].specular = k > 0 ? 0.2 : 0;
         s.finishes[0].phong_size = 5, s.finishes[0].roughness = 0.2;
         s.scene->nlights = 1;
-        s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0, 2, 0}, .color = {1, 1, 1}, .shadowless = k < 2};
+        s.lights[0] = (Light){.ops = &light_point, .location = {0, 2, 0}, .color = {1, 1, 1}, .shadowless = k < 2};
         sets[k] = stage_render(&s, 1, 1, 1);
         stage_close(&s);
     }

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include "lib_stage.h"
+#include "light/sources.h"
 
 /* A crop has the pixels of the whole picture, in the beauty, the AOVs and what denoising reads. */
 static void crops_are_cut_from_the_whole(void **state)
@@ -92,7 +93,7 @@ static void irradiance_knows_no_material(void **state)
         s.finishes[0].reflection_metallic = 0.75;
         s.scene->nlights = !sky;
         s.scene->background = rgb_grey((float)sky);
-        s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
+        s.lights[0] = (Light){.ops = &light_point, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
         p.spp = 64, p.plain = 1, p.aovs = RETEX_AOV_ALL;
         assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
         for (int y = 0; y < 12; y++)

@@ -8,7 +8,8 @@
 #include <cmocka.h>
 
 #include "camera/cameras.h"
-#include "light/lights.h"
+#include "light/environment.h"
+#include "light/source.h"
 #include "shade/pigment.h"
 
 /* ---- camera, lights, sky ---- */
@@ -53,14 +54,14 @@ static void test_lights(void **state)
             "light_source{L rotate 90*z} light_source{0, 2 shadowless parallel point_at y}");
     assert_int_equal(scene->nlights, 2);
     const Light *light = &scene->lights[0];
-    assert_int_equal(light->kind, LIGHT_SPOT);
+    assert_ptr_equal(light->ops, &light_spotlight);
     assert_vec(light->location, -5, 0, 0);
     assert_vec(light->axis1, 0, 1, 0);
     assert_int_equal(light->size2, 5);
     assert_near(light->color.b, 0.25);
     assert_near(light->fade_power, 2);
     assert_true(scene->lights[1].shadowless);
-    assert_int_equal(scene->lights[1].kind, LIGHT_PARALLEL);
+    assert_ptr_equal(scene->lights[1].ops, &light_parallel);
     const Primitive *bulb = only(scene);
     assert_true(bulb->no_shadow);
     assert_vec(transform_point(&bulb->transform, vec3(0, 0, 0)), -5, 0, 0);
@@ -72,18 +73,40 @@ static void test_light_kinds_written_twice(void **state)
     (void)state;
     const struct {
         const char *words;
-        LightKind kind;
-    } cases[] = {{"cylinder parallel", LIGHT_CYLINDER},
-                 {"parallel cylinder", LIGHT_CYLINDER},
-                 {"spotlight parallel", LIGHT_PARALLEL},
-                 {"parallel spotlight", LIGHT_PARALLEL}};
+        const LightOps *ops;
+    } cases[] = {{"cylinder parallel", &light_cylinder},    {"parallel cylinder", &light_cylinder},
+                 {"spotlight parallel", &light_parallel},   {"parallel spotlight", &light_parallel},
+                 {"spotlight shadowless", &light_point},    {"parallel shadowless", &light_parallel},
+                 {"shadowless spotlight", &light_spotlight}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char text[128];
         snprintf(text, sizeof text, V37 "light_source{<0,5,0> 1 %s point_at 0}", cases[k].words);
         Scene *scene = parse(text);
-        assert_int_equal(scene->lights[0].kind, cases[k].kind);
+        assert_ptr_equal(scene->lights[0].ops, cases[k].ops);
         scene_close(&scene);
     }
+}
+
+/* Each light source is a lamp, and so is each thing that shines, and the sky; nothing else is. */
+static void test_lamps(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "#declare T = texture{pigment{rgb 1} finish{emission 1}}"
+                             "light_source{y 1} sphere{0,1 finish{emission 1}} sphere{0,1}"
+                             "box{0,1 texture{pigment{checker color rgb 0 color rgb 1} finish{ambient 2}}}"
+                             "mesh{triangle{0,x,y} triangle{0,x,z texture{T}}}"
+                             "light_source{-y 1 spotlight} background{rgb 1}");
+    assert_int_equal(scene->nlights, 2);
+    assert_int_equal(scene->lights[0].lamp, 0);
+    assert_int_equal(scene->lights[1].lamp, 1);
+    assert_int_equal(scene->nprimitives, 4);
+    assert_int_equal(scene->primitives[0].lamp, 2);
+    assert_int_equal(scene->primitives[1].lamp, LAMP_NONE);
+    assert_int_equal(scene->primitives[2].lamp, 3);
+    assert_int_equal(scene->primitives[3].lamp, 4);
+    assert_int_equal(scene->sky_lamp, 5);
+    assert_int_equal(scene->nlamps, 6);
+    scene_close(&scene);
 }
 
 /* Which primitives throw caustics of which lights: what photons blocks say. */
@@ -285,6 +308,7 @@ int main(void)
         cmocka_unit_test(test_bright_lights_of_old_scenes),
         cmocka_unit_test(test_lights),
         cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_lamps),
         cmocka_unit_test(test_photons),
         cmocka_unit_test(test_names_of_insides),
         cmocka_unit_test(test_sky),

@@ -1,4 +1,5 @@
 /* Which light sources throw caustics, and by which primitives: photons blocks, and the options that override them. */
+#include "light/source.h"
 #include "sdl/build/builder.h"
 #include "shade/casters.h"
 #include "shape/shape.h"
@@ -55,8 +56,7 @@ static int find_middle(const Scene *scene, Vec3 *middle)
 
 static double default_size(const Light *light, Vec3 middle)
 {
-    const int beam = light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER;
-    return SIZE_OF_DISTANCE * vec_length(vec_sub(light->location, beam ? light->point_at : middle));
+    return SIZE_OF_DISTANCE * vec_length(vec_sub(light->location, light_is_beam(light) ? light->point_at : middle));
 }
 
 static int mark(void *context, const Caster *caster)

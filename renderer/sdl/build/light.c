@@ -1,10 +1,12 @@
 /* light_source. A light is an object like others until it is placed; the object of its looks_like is its child. */
 #include <string.h>
+#include "light/source.h"
 #include "sdl/build/builder.h"
 
 static Light *light_new(Sdl *sdl)
 {
     Light *light = sdl_alloc(sdl, sizeof *light);
+    light->ops = &light_point;
     light->point_at = vec3(0, 0, 1);
     light->color = rgb_grey(1);
     light->radius = 30;
@@ -13,28 +15,23 @@ static Light *light_new(Sdl *sdl)
     return light;
 }
 
-/* Of two kinds that are both written POV-Ray takes, in either order, cylinder over parallel and parallel over
- * spotlight. */
-static void set_kind(Light *light, LightKind kind)
+static void set_kind(Light *light, const LightOps *kind)
 {
-    if ((kind == LIGHT_PARALLEL && light->kind == LIGHT_CYLINDER) ||
-        (kind == LIGHT_SPOT && light->kind == LIGHT_PARALLEL))
+    if (kind->yields_to && strcmp(kind->yields_to, light->ops->name) == 0)
         return;
-    light->kind = kind;
-    if (kind != LIGHT_PARALLEL)
+    light->ops = kind;
+    if (!(kind->properties & LIGHT_SHADOWLESS))
         light->shadowless = 0;
-    if (kind == LIGHT_CYLINDER) {
-        light->radius = 0.75;
-        light->falloff = 1;
-    }
+    if (kind->set_defaults)
+        kind->set_defaults(light);
 }
 
 /* To POV-Ray this is one more kind, and the last one written counts; but parallel goes with it. */
 static void set_shadowless(Light *light, int shadowless)
 {
     light->shadowless = shadowless;
-    if (shadowless && light->kind != LIGHT_PARALLEL)
-        light->kind = LIGHT_POINT;
+    if (shadowless && !(light->ops->properties & LIGHT_SHADOWLESS))
+        light->ops = &light_point;
 }
 
 static void area_light(Sdl *sdl, Light *light)
@@ -87,9 +84,13 @@ static void looks_like(Sdl *sdl, Object *object)
     object->children = list;
 }
 
-static int accept_number(Sdl *sdl, Light *light)
+static int accept_geometry(Sdl *sdl, Light *light)
 {
-    if (sdl_accept(sdl, "radius"))
+    if (sdl_accept(sdl, "point_at"))
+        light->point_at = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "area_light"))
+        area_light(sdl, light);
+    else if (sdl_accept(sdl, "radius"))
         light->radius = sdl_float(sdl);
     else if (sdl_accept(sdl, "falloff"))
         light->falloff = sdl_float(sdl);
@@ -129,19 +130,17 @@ static int accept_switch(Sdl *sdl, Light *light)
 
 static int accept_kind(Sdl *sdl, Light *light)
 {
-    if (sdl_accept(sdl, "spotlight"))
-        set_kind(light, LIGHT_SPOT);
-    else if (sdl_accept(sdl, "cylinder"))
-        set_kind(light, LIGHT_CYLINDER);
-    else if (sdl_accept(sdl, "parallel"))
-        set_kind(light, LIGHT_PARALLEL);
-    else if (sdl_accept(sdl, "point_at"))
-        light->point_at = sdl_vector(sdl);
-    else if (sdl_accept(sdl, "area_light"))
-        area_light(sdl, light);
-    else
-        return 0;
-    return 1;
+    static const LightOps *const kinds[] = {
+#define X(name) &light_##name,
+        LIGHT_TABLE(X)
+#undef X
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i] != &light_point && sdl_accept(sdl, kinds[i]->name)) {
+            set_kind(light, kinds[i]);
+            return 1;
+        }
+    return 0;
 }
 
 static void photons(Sdl *sdl, Light *light)
@@ -172,7 +171,7 @@ static void modifier(Sdl *sdl, Object *object, Light *light)
     Transform by;
     if (accept_transform(sdl, &by))
         object_move(object, &by);
-    else if (accept_kind(sdl, light) || accept_number(sdl, light) || accept_switch(sdl, light))
+    else if (accept_kind(sdl, light) || accept_geometry(sdl, light) || accept_switch(sdl, light))
         ;
     else if (sdl_accept(sdl, "looks_like"))
         looks_like(sdl, object);

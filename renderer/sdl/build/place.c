@@ -2,6 +2,7 @@
  * inherit what they lack from their groups; an object without any texture has the default texture in force where it is
  * placed. */
 #include <string.h>
+#include "light/source.h"
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
 
@@ -199,8 +200,8 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
     light->axis2 = transform_vector(to_world, light->axis2);
     if (light->fade_distance <= 0)
         light->fade_power = 0;
-    if (light->kind == LIGHT_SPOT)
-        light->falloff = fmax(light->falloff, light->radius);
+    if (light->ops->settle)
+        light->ops->settle(light);
     light->group = here->light_group;
     if (object->projector)
         light->projected_through = placed_projector(sdl, object->projector, to_world);

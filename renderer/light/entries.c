@@ -1,0 +1,16 @@
+/* See entry.h. */
+#include <stdlib.h>
+#include "light/entry.h"
+
+int light_entries_add(LightEntries *list, const LightEntry *entry, RetexError *err)
+{
+    if (list->count == list->capacity) {
+        const int capacity = 2 * list->capacity + 16;
+        LightEntry *entries = realloc(list->entries, (size_t)capacity * sizeof *entries);
+        if (!entries)
+            return retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", capacity);
+        list->entries = entries, list->capacity = capacity;
+    }
+    list->entries[list->count++] = *entry;
+    return RETEX_OK;
+}
