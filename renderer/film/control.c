@@ -14,7 +14,6 @@ struct ControlFilm {
 struct ControlPixel {
     ControlFilm *film;
     double picture[VARIANTS_MAX][3];
-    double sample[VARIANTS_MAX][3]; /* the current one */
     /* by half */
     double sum[2][CONTROL_VARIANTS_MAX][3], product[2][CONTROL_PAIRS_MAX][3];
     int samples[2];
@@ -76,38 +75,37 @@ void control_pixel_close(ControlPixel **pixel)
     *pixel = NULL;
 }
 
-void control_connect(ControlPixel *p, const Rgb *light)
+void control_add(ControlPixel *p, ControlPath *path, const Contribution *c, Float4 light)
 {
-    const ControlFilm *film = p->film;
-    for (int v = 0; v < film->nvariants; v++) {
-        Rgb l = light[v];
+    for (int v = 0; v < p->film->nvariants; v++) {
+        Rgb l = rgb_of4(light);
+        if (v > 0) {
+            l = rgb_mul(path->betas[v], c->variants ? c->variants[v] : c->light);
+            for (int k = 0; k < c->nfactors; k++)
+                l = rgb_of4(colour4(l) * factor_of_variant(&c->factors[k], v));
+        }
         if (!isfinite(l.r + l.g + l.b)) {
             p->dropped += v > 0;
             continue;
         }
-        p->sample[v][0] += l.r, p->sample[v][1] += l.g, p->sample[v][2] += l.b;
+        path->light[v][0] += l.r, path->light[v][1] += l.g, path->light[v][2] += l.b;
     }
 }
 
-/* The contributions of a sample are summed before they are added to pictures, as in the film: the same rounding. */
-static void end_sample(ControlPixel *p)
+/* The contributions of a path are summed before they are added to pictures, as in the film: the same rounding. */
+void control_end(ControlPixel *p, const ControlPath *path, int half)
 {
-    for (int v = 0; v < p->film->nvariants; v++)
-        for (int c = 0; c < 3; c++)
-            p->picture[v][c] += p->sample[v][c], p->sample[v][c] = 0;
-}
-
-void control_sample_end(ControlPixel *p, int half)
-{
-    int n = p->film->nhalves ? p->film->nvariants : 0;
+    const int n = p->film->nvariants;
     p->samples[half]++;
     for (int c = 0; c < 3; c++)
         for (int b = 0; b < n; b++) {
-            p->sum[half][b][c] += p->sample[b][c];
+            p->picture[b][c] += path->light[b][c];
+            if (!p->film->nhalves)
+                continue;
+            p->sum[half][b][c] += path->light[b][c];
             for (int a = 0; a <= b; a++)
-                p->product[half][control_pair(a, b)][c] += p->sample[a][c] * p->sample[b][c];
+                p->product[half][control_pair(a, b)][c] += path->light[a][c] * path->light[b][c];
         }
-    end_sample(p);
 }
 
 static void store_moments(ControlPixel *p, int half, size_t at)
@@ -131,7 +129,6 @@ void control_pixel_end(ControlPixel *p, int x, int y)
 {
     ControlFilm *film = p->film;
     size_t at = retex_image_index(&film->pictures[0], x, y);
-    end_sample(p);
     for (int v = 0; v < film->nvariants; v++)
         for (size_t c = 0; c < 3; c++)
             film->pictures[v].pixels[at + c] = (float)(p->picture[v][c] / film->spp);

@@ -1,10 +1,13 @@
 /* Several pictures along the same paths: the same scene with different textures, and how the pictures vary together.
- * Beside the film, which knows variant 0 only. */
+ * Beside the film, which knows variant 0 only.
+ *
+ * As a sink of contributions it has a throughput for each variant: nothing that is chosen along a path depends on a
+ * texture. */
 #ifndef RENDERER_FILM_CONTROL_H
 #define RENDERER_FILM_CONTROL_H
 
 #include <retex/image.h>
-#include "base/vec.h"
+#include "film/contribution.h"
 #include "scene/variant.h"
 
 #define CONTROL_VARIANTS_MAX 3 /* of which moments can be kept */
@@ -30,9 +33,24 @@ void control_film_close(ControlFilm **film); /* NULL and pointers to NULL are fi
 int control_pixel_create(ControlPixel **pixel, ControlFilm *film, RetexError *err);
 void control_pixel_close(ControlPixel **pixel);
 
-void control_connect(ControlPixel *pixel, const Rgb *light); /* a contribution, by variant */
-void control_sample_end(ControlPixel *pixel, int half);      /* a path ends */
-void control_pixel_end(ControlPixel *pixel, int x, int y);   /* store and reset */
+void control_pixel_end(ControlPixel *pixel, int x, int y); /* store and reset */
+
+/* What a path has in each variant. */
+typedef struct ControlPath {
+    Rgb betas[VARIANTS_MAX];       /* throughput; not of the first variant: that is the path's own */
+    double light[VARIANTS_MAX][3]; /* sum of its contributions */
+} ControlPath;
+
+static inline void control_start(ControlPath *path, int nvariants)
+{
+    for (int v = 0; v < nvariants; v++) {
+        path->betas[v] = rgb_grey(1);
+        path->light[v][0] = path->light[v][1] = path->light[v][2] = 0;
+    }
+}
+/* light: the contribution with all factors, of the first variant. */
+void control_add(ControlPixel *pixel, ControlPath *path, const Contribution *contribution, Float4 light);
+void control_end(ControlPixel *pixel, const ControlPath *path, int half);
 
 /* Borrowed, until the film closes. Pictures are means over all samples. */
 RetexImage *control_film_picture(ControlFilm *film, int variant);

@@ -164,6 +164,12 @@ void film_add_folded(FilmPixel *p, Rgb light, Rgb white)
         p->light.folded_white += rgb_luminance(white);
 }
 
+void film_hit_limits(const FilmPixel *p, int *orders, int *most_hits)
+{
+    *orders = p->film->params.orders;
+    *most_hits = p->film->layout->most_hits(p->film->scene->ntargets);
+}
+
 /* What each signal got in the pixel so far. */
 static void signal_totals(const FilmPixel *p, SignalTotals *totals)
 {
@@ -173,7 +179,7 @@ static void signal_totals(const FilmPixel *p, SignalTotals *totals)
         memcpy(totals->of[0], p->beauty, sizeof p->beauty);
 }
 
-void film_path_end(FilmPixel *p, const PathHits *hits)
+void film_path_end(FilmPixel *p, const TargetTree *hits)
 {
     if (p->film->layout)
         p->film->layout->path_end(p->layout_pixel, hits);

@@ -3,7 +3,7 @@
 #define RENDERER_FILM_FILM_H
 
 #include "film/params.h"
-#include "film/path_hits.h"
+#include "film/target_tree.h"
 #include "scene/scene.h"
 
 typedef struct Film Film;
@@ -20,9 +20,11 @@ void film_drop(FilmPixel *pixel);                             /* count a sample 
 void film_add_light(FilmPixel *pixel, const double light[3]); /* the sum of one path's contributions */
 /* Add the part of a path's light that has folded hits, as it is and as it would be with white targets. */
 void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
-/* End a path. hits: its hits on targets, if the set is for retexturing. A hit together with those before it are at most
- * FilmParams.orders of each target, and at most FilmLayout.most_hits of all targets. */
-void film_path_end(FilmPixel *pixel, const PathHits *hits);
+/* Of films with a split: how many hits on one target, and on all together, a path may keep apart. */
+void film_hit_limits(const FilmPixel *pixel, int *orders, int *most_hits);
+/* End a path. hits: its hits on targets, if the set is for retexturing; within film_hit_limits, from the camera to any
+ * of them. */
+void film_path_end(FilmPixel *pixel, const TargetTree *hits);
 /* Begin a tile whose pixels have another number of samples than FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);
 Rgb film_pixel_take(FilmPixel *pixel); /* instead of film_pixel_end, for films without hits: the sum of light */

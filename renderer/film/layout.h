@@ -6,7 +6,7 @@
 #include <retex/host/band_stats.h>
 #include "film/bands.h"
 #include "film/params.h"
-#include "film/path_hits.h"
+#include "film/target_tree.h"
 #include "film/uv_range.h"
 #include "scene/scene.h"
 
@@ -47,7 +47,7 @@ typedef struct FilmLayout {
     int (*pixel_create)(void **pixel, void *layout, LightSums *light, UvRange *range, RetexError *err);
     void (*pixel_close)(void **pixel);
 
-    void (*path_end)(void *pixel, const PathHits *hits);
+    void (*path_end)(void *pixel, const TargetTree *hits);
     void (*totals)(const void *pixel, SignalTotals *totals); /* between paths */
     void (*pixel_end)(void *pixel, BandRows *rows, int spp, int x, int y); /* store and reset */
     /* Of a finished band: albedo and coverage. */

@@ -3,9 +3,8 @@
 #ifndef RENDERER_LIGHT_ENTRY_H
 #define RENDERER_LIGHT_ENTRY_H
 
-#include "light/light_sample.h"
 #include "light/light_tree.h"
-#include "scene/scene.h"
+#include "light/source.h"
 
 /* The light that was chosen. */
 typedef struct LightPick {

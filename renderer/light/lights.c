@@ -281,6 +281,11 @@ LightPick lights_pick(const Lights *lights, const LightSampleContext *point, flo
     return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
 }
 
+int lights_lamp(const Lights *lights, const LightPick *pick)
+{
+    return lights->list.entries[pick->entry].lamp;
+}
+
 const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density)
 {
     const LightEntry *e = pick->entry >= 0 ? &lights->list.entries[pick->entry] : NULL;

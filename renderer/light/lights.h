@@ -16,6 +16,7 @@ int lights_count(const Lights *lights);
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part);
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
+int lights_lamp(const Lights *lights, const LightPick *pick); /* of the light that was picked */
 /* The picked face of a mesh, if its radiance is uniform and rays of paths see it; else NULL. Such a face is sampled by
  * the matte kernel (path/matte.h) instead of lights_sample. *density: of points on the face, by area. */
 const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density);

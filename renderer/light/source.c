@@ -1,7 +1,6 @@
 /* What all light sources share: fading, the grid of an area_light, projected_through, and how the list of lights sees
  * them. */
 #include "light/entry.h"
-#include "light/source.h"
 #include "shape/csg.h"
 
 static double distance_fade(const Light *light, double distance)

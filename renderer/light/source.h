@@ -5,9 +5,31 @@
 #ifndef RENDERER_LIGHT_SOURCE_H
 #define RENDERER_LIGHT_SOURCE_H
 
-#include "light/light_sample.h"
-#include "light/light_tree.h"
 #include "light/sources.h"
+#include "shape/surface.h"
+
+/* Light that comes to a point from one point of a light, of whatever kind. */
+typedef struct LightSample {
+    Vec3 direction;      /* from the lit point, unit length */
+    double distance;     /* INFINITY for the sky */
+    Rgb radiance;        /* not divided by pick_probability and pdf. Of a light source: irradiance on a surface that
+                            faces it. Of an emitting shape the caller evaluates it at `surface` */
+    float pick_probability; /* of having picked this light */
+    float pdf;           /* per solid angle, without pick_probability; 0 for a light source */
+    int shadowless;
+    int lamp;            /* of the scene's lamps */
+    /* NULL, or the light source that it is, which no path hits; and where its shadow ray goes: to a point of the grid
+     * of an area_light, while its light comes from the middle. */
+    const Light *source;
+    Vec3 shadow_direction;
+    double shadow_distance;
+    Surface surface;     /* of an emitting shape; surface.primitive is NULL for all other lights */
+} LightSample;
+
+static inline int light_sample_is_emitter(const LightSample *sample)
+{
+    return sample->surface.primitive != NULL;
+}
 
 typedef enum LightProperty {
     LIGHT_BEAM = 1,      /* its light comes from infinitely far, from point_at towards location */

@@ -1,4 +1,4 @@
-/* The state of a path and of its vertices; private to path.c, packet.c, vertex.c, shadow_ray.c and contributions.c. */
+/* The state of a path and of its vertices, and the steps that a path is made of; private to this room. */
 #ifndef RENDERER_PATH_INTERNAL_H
 #define RENDERER_PATH_INTERNAL_H
 
@@ -14,25 +14,8 @@
  * left a surface which scatters widely and met only what throws caustics since. */
 enum { SPECULAR_BEGINS = 4 };
 
-/* One factor of a contribution: a surface that light scatters at or passes, or that emits it. */
-typedef struct Factor {
-    int target;          /* -1: none */
-    Float4 d, i, albedo; /* it is d albedo + i */
-    const Rgb *albedos;  /* by variant, or NULL: the same in all */
-    Vec2 uv;
-    int reflects; /* light stays on its side of the surface */
-    int sharp;    /* no vertex between it and the camera scattered widely */
-} Factor;
-
-static inline Float4 factor_whole(const Factor *f)
-{
-    return f->d * f->albedo + f->i;
-}
-
 typedef struct Path {
     Float4 beta;        /* throughput */
-    Rgb *betas;         /* by variant, from the second on: the first one's is beta */
-    Float4 beta_rest;   /* throughput without the factors that hits keep, see contributions.c */
     float beta_neutral; /* throughput with NEUTRAL_ALBEDO everywhere and without the eta scale: for Russian roulette */
     int leaving;        /* the ray ends where light comes out that went below a surface */
     float wavelength;   /* since light was dispersed, see shade/dispersion.h; -1: not yet */
@@ -50,14 +33,8 @@ typedef struct Path {
     Media media;
     Float4 media_weight;         /* of what media did to throughput, the distances of scattering are chosen by it */
     double light[3];             /* sum of its contributions */
-    int first_light, last_light; /* of them in the worker's log, or -1 */
-    /* In sets: */
-    HitCounts counts;      /* of the hits between the camera and the ray */
-    int folded;            /* a hit beyond the last order was multiplied in with its original albedo */
-    PathHits hits;         /* those hits, and those of shadow rays */
-    PathHit *last_hit;     /* the last one between the camera and the ray, or NULL, */
-    Float4 last_d, last_i; /* and its factor */
-    PathHit *current_hit;  /* the hit of the current vertex, once light came by it; or NULL */
+    SplitPath split;             /* in sets */
+    ControlPath *control;        /* in variants */
 } Path;
 
 /* A direct-light sample: a point on one light, chosen for a vertex before its shadow ray is traced. */
@@ -89,7 +66,7 @@ typedef struct Vertex {
     const CausticsCell *cell; /* of the guide to caustics; NULL: none here, or nothing scatters widely */
 } Vertex;
 
-/* ---- contributions.c: throughput, hits, and light that reaches the film ---- */
+/* ---- contributions.c: throughput, and light that reaches the film ---- */
 
 /* d times the colour at a surface, plus i. */
 Factor shading_factor(const Shading *s, Float4 d, Float4 i);
@@ -101,29 +78,27 @@ static inline int path_is_alive(const PathWorker *w, const Path *path)
 {
     const PathContext *c = w->context;
     if (c->split)
-        return !is_black4(path->beta_rest);
+        return !is_black4(path->split.rest);
     int alive = !is_black4(path->beta);
     for (int v = 1; v < c->nvariants && !alive; v++)
-        alive = !rgb_is_black(path->betas[v]);
+        alive = !rgb_is_black(path->control->betas[v]);
     return alive;
 }
 /* Multiply throughput by what no texture changes. Returns path_is_alive. */
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
     path->beta *= colour4(by);
-    path->beta_rest *= colour4(by);
+    path->split.rest *= colour4(by);
     for (int v = 1; v < w->context->nvariants; v++)
-        path->betas[v] = rgb_mul(path->betas[v], by);
+        path->control->betas[v] = rgb_mul(path->control->betas[v], by);
     return path_is_alive(w, path);
 }
 /* Multiply throughput by the factor of a surface, d times its colour plus i: in sets this may be a hit. Returns
  * path_is_alive. */
 int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i, int reflects);
-/* Add the contribution of light that comes to the path's end by some more factors. */
-void path_add_light(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
-/* The same of light by variant that has all further factors in it, of which none is a hit. */
-void path_add_unsplit_light(PathWorker *worker, Path *path, const Rgb *lights);
-/* Hand its contributions over to the film. */
+/* Hand a contribution to all sinks. */
+void path_contribute(PathWorker *worker, Path *path, const Contribution *contribution);
+/* Hand the path's light over to the film, which takes paths one after the other. */
 void path_end(PathWorker *worker, Path *path);
 /* Whether factors of this surface are never hits, so that they may be multiplied into throughput or light. */
 static inline int surface_is_unsplit(const PathContext *c, const Shading *s)

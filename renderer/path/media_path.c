@@ -153,7 +153,9 @@ static void add_source_light(PathWorker *w, Path *path, const Ray *ray, const Me
     if (passed < 0)
         return;
     value *= media_set_transmittance(w, path, set, from, ray->direction, t) * colour4(sample.light.radiance);
-    path_add_light(w, path, rgb_of4(value / splat((float)(density * probability))), factors, passed);
+    path_contribute(
+        w, path,
+        &(Contribution){light->lamp, rgb_of4(value / splat((float)(density * probability))), factors, passed, NULL});
 }
 
 /* ---- scattering of the path ---- */
@@ -180,9 +182,12 @@ static void add_other_light(PathWorker *w, Path *path, const Medium *medium, Vec
         return;
     const float pdf = path_pdf_of_light(c, &sample.ray, RAY_BOUNCE, light, sample.pdf);
     const float light_pdf = light->pdf * light->pick_probability;
-    if (pdf >= 0)
-        path_add_light(w, path, rgb_scale(light->radiance, sample.pdf * mis_weight(light_pdf, pdf) / light_pdf),
-                       factors, n + passed);
+    if (pdf < 0)
+        return;
+    path_contribute(w, path,
+                    &(Contribution){light->lamp,
+                                    rgb_scale(light->radiance, sample.pdf * mis_weight(light_pdf, pdf) / light_pdf),
+                                    factors, n + passed, NULL});
 }
 
 /* Which of the media scatters the path. *weight: its share over the probability. */
@@ -266,7 +271,8 @@ static MediumEvent cross_uniform(PathWorker *w, Path *path, Ray *ray, const Medi
     const Float4 shares = channel_shares(path->media_weight);
     float u, v;
     if (set->emits)
-        path_add_light(w, path, rgb_of4(uniform_glow(&set->sums, distance)), NULL, 0);
+        path_contribute(w, path,
+                        &(Contribution){LAMP_NONE, rgb_of4(uniform_glow(&set->sums, distance)), NULL, 0, NULL});
     if (is_black4(scattering))
         return pass(w, path, exp4(extinction * splat(-(float)distance)));
     segment_pair(w, path, PAIR_DISTANCE, &u, &v);
@@ -303,7 +309,7 @@ static MediumEvent cross_varying(PathWorker *w, Path *path, Ray *ray, const Medi
             break;
     }
     if (set->emits)
-        path_add_light(w, path, rgb_of4(glow), NULL, 0);
+        path_contribute(w, path, &(Contribution){LAMP_NONE, rgb_of4(glow), NULL, 0, NULL});
     if (scattered)
         return scatter_at(w, path, ray, set, t, weight, media_draw(w, path));
     return t < distance ? MEDIUM_ENDED : pass(w, path, weight);

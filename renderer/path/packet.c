@@ -142,17 +142,21 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
     if (passed < 0)
         return;
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}};
-    Rgb light = rgb_mul(rgb_scale(sample.light.radiance, lights->weight[k]), p->faces[k]->emission[lights->behind[k]]);
-    if (passed == 0 && surface_is_unsplit(w->context, &v->s)) {
+    Contribution light = {.lamp = lights_lamp(w->context->lights, &v->pick), .factors = factors};
+    light.light =
+        rgb_mul(rgb_scale(sample.light.radiance, lights->weight[k]), p->faces[k]->emission[lights->behind[k]]);
+    if (passed == 0 && surface_is_unsplit(w->context, &v->s)) { /* the factor is multiplied into the light */
         Rgb by_variant[VARIANTS_MAX];
         for (int i = 0; i < w->context->nvariants; i++)
-            by_variant[i] = rgb_mul(light, split_apply(value, shading_albedo(&v->s, i)));
-        path_add_unsplit_light(w, path, by_variant);
+            by_variant[i] = rgb_mul(light.light, split_apply(value, shading_albedo(&v->s, i)));
+        light.light = by_variant[0], light.variants = by_variant;
+        path_contribute(w, path, &light);
         return;
     }
     factors[0] = shading_factor(&v->s, colour4(value.d), colour4(value.i));
     factors[0].sharp = path->sharp;
-    path_add_light(w, path, light, factors, 1 + passed);
+    light.nfactors = 1 + passed;
+    path_contribute(w, path, &light);
 }
 
 /* As scatter, of a matte surface. */
@@ -301,12 +305,12 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
 {
     Wavefront wave;
     wave.count = count;
-    w->nhits = w->log.count = 0;
+    w->split.count = 0;
     for (int i = 0; i < count; i++) {
         Path *path = wave.live[i] = &wave.paths[i];
         wave.rays[i] = rays[i];
         path->half = w->context->halves == 2 ? i & 1 : 0;
-        path->betas = w->betas[i];
+        path->control = &w->controls[i];
         w->key[path->half] = samplers[i].key;
         path_start(w, path, &rays[i], &samplers[i]);
     }

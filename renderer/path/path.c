@@ -94,7 +94,7 @@ static void add_surface_emission(PathWorker *w, Path *path, const Hit *hit, cons
     const Split light = surface_emission(s);
     Factor factor = shading_factor(s, colour4(light.d), colour4(light.i));
     factor.sharp = path->sharp;
-    path_add_light(w, path, rgb_grey(weight), &factor, 1);
+    path_contribute(w, path, &(Contribution){s->surface.primitive->lamp, rgb_grey(weight), &factor, 1, NULL});
 }
 
 static void add_sky(PathWorker *w, Path *path, Vec3 direction)
@@ -105,7 +105,7 @@ static void add_sky(PathWorker *w, Path *path, Vec3 direction)
     float weight = 1;
     if (path->pdf > 0)
         weight = mis_weight(path->pdf, lights_sky_pdf(w->context->lights, &path->prev_context, direction));
-    path_add_light(w, path, rgb_scale(radiance, weight), NULL, 0);
+    path_contribute(w, path, &(Contribution){w->context->scene->sky_lamp, rgb_scale(radiance, weight), NULL, 0, NULL});
 }
 
 int add_emission(PathWorker *w, Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
@@ -148,7 +148,7 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
     Rgb radiance = rgb_scale(light->radiance, weight);
     if (sample->transmitted && v->wavelength >= 0)
         radiance = rgb_mul(radiance, dispersion_color(v->wavelength));
-    path_add_light(w, path, radiance, factors, n);
+    path_contribute(w, path, &(Contribution){light->lamp, radiance, factors, n, NULL});
 }
 
 /* ---- the next direction ---- */
@@ -183,7 +183,9 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
         met.ray.tmax = met.light.shadow_distance * (1 - 1e-6);
         const int passed = trace_shadow_ray(w, path, &v->s.surface, &met, factors, SHADOW_FACTORS_MAX);
         if (passed >= 0)
-            path_add_light(w, path, rgb_scale(met.light.radiance, path->source_scale), factors, passed);
+            path_contribute(
+                w, path,
+                &(Contribution){light->lamp, rgb_scale(met.light.radiance, path->source_scale), factors, passed, NULL});
     }
 }
 

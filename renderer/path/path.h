@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 #include "film/control.h"
-#include "film/film.h"
+#include "film/split.h"
 #include "path/caustics.h"
 #include "path/shading.h"
 #include "path/vertex_samples.h"
@@ -29,9 +29,8 @@ typedef struct PathContext {
     const Accel *accel;
     const Lights *lights;
     const Caustics *caustics; /* or NULL */
-    int max_depth, orders;
-    int most_hits;     /* of all targets together */
-    int split;         /* keep target hits apart */
+    int max_depth;
+    int split;         /* keep hits on targets apart */
     int matte;         /* packets may sample matte surfaces together, see matte.h */
     int nvariants;     /* 1..VARIANTS_MAX: sets of textures that each path is evaluated with; 1 where split */
     int halves;        /* of a pixel's samples: 1, or 2 with sample numbers of their own, in turn */
@@ -44,14 +43,6 @@ typedef struct PathContext {
     FILE *trace;       /* print every step, or NULL */
 } PathContext;
 
-/* Contributions of the paths of a packet, in the order in which they were added: a control film gets them when the
- * paths end. */
-typedef struct ControlLog {
-    Rgb *lights; /* of so many variants each */
-    int *next;   /* the next one of the same path; -1: none */
-    int count;
-} ControlLog;
-
 /* Is told what a ray from the camera meets: hit->primitive is -1, or the shading has its BSDF. Returns how many more of
  * the pixel it wants to be told. */
 typedef int FirstHitObserver(void *context, const Ray *ray, const Hit *hit, const Shading *shading);
@@ -60,24 +51,22 @@ typedef int FirstHitObserver(void *context, const Ray *ray, const Hit *hit, cons
 typedef struct PathWorker {
     const PathContext *context;
     FilmPixel *pixel;
+    ControlPixel *control;                   /* or NULL: there is no control film */
     const RenderVariant *variants;           /* or NULL: the original */
-    ControlPixel *control;                   /* gets contributions by variant, or NULL */
     FirstHitObserver *first_hit;
     void *first_hit_context;
     int first_hits_wanted;                   /* of the current pixel; 0: there is no observer, or it has enough */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* the variants, where the last one has constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the current pixel */
-    PathHit *hits;                           /* of sets: memory for the hits of all paths of a packet */
-    int nhits;
-    ControlLog log; /* where there is a control film */
+    SplitSink split; /* of sets */
     uint32_t draws; /* random numbers that the current path took in media */
     PixelKeys keys[2];
     uint32_t key[2]; /* of the sample numbers of the current paths, by half of the samples */
     long segments, shadow_rays;
-    /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; throughputs of all
-     * paths that are traced side by side. */
+    /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; what all paths have
+     * that are traced side by side. */
     Rgb light_albedos[ACCEL_PACKET][LIGHT_FACTORS_MAX][VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
-    Rgb betas[PATHS_MAX][VARIANTS_MAX];
+    ControlPath controls[PATHS_MAX];
 } PathWorker;
 
 Media media_at(const Scene *scene, Vec3 point);

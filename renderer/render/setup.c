@@ -153,8 +153,6 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .accel = r->accel,
                                .lights = r->lights,
                                .max_depth = r->params.max_depth,
-                               .orders = r->params.orders,
-                               .most_hits = render_layout(&r->params)->most_hits(scene->ntargets),
                                .split = split,
                                .nvariants = 1,
                                .has_air = scene->fogs || scene->rainbows,

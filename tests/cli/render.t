@@ -95,6 +95,13 @@ $ retex-render -q --size 8x6 --spp 1 ball.pov -o y.exr --stats /dev/full
 $ retex-render --list-targets --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --list-targets goes to standard output: no -o
 = 2
+# Each contribution is of a lamp: light sources, things that shine (too small a mesh for paths to hit), the sky.
+$ printf '#version 3.7; camera { location <0,3,-6> look_at 0 } light_source { <-3,4,0> 1 } light_source { <3,4,0> 1 spotlight point_at 0 radius 40 falloff 60 } plane { y, 0 pigment { rgb .5 } } mesh { triangle { <-2,1,0>, <-1.99,1,0>, <-2,1.01,.005> } pigment { rgb 1 } finish { emission 1e7 } } sphere { <2,1,0>, .5 pigment { rgb 1 } finish { emission 30 } } sky_sphere { pigment { gradient y color_map { [0 rgb .1] [1 rgb 1] } } }\n' >lamps.pov; for s in $(seq 0 31); do retex-render --trace-pixel 4,3,$s --size 8x6 --plain lamps.pov; done | grep -o 'of lamp.*' | sort -u
+> of lamp 0
+> of lamp 1
+> of lamp 2
+> of lamp 3
+> of lamp 4
 $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2

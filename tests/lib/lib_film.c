@@ -27,7 +27,7 @@ void create_film(Fixture *f)
 
 void begin_path(Fixture *f)
 {
-    f->hits = (PathHits){.last = NULL};
+    f->hits = (TargetTree){.last = NULL};
     f->value = rgb_grey(1);
 }
 
@@ -38,8 +38,8 @@ void end_path(Fixture *f)
 
 void split_hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp, Split split)
 {
-    const TargetHit hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
-    path_hits_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, colour4(f->split.d), colour4(f->split.i));
+    const TargetVertex hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
+    target_tree_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, colour4(f->split.d), colour4(f->split.i));
     f->split = split;
     f->value = rgb_mul(f->value, split_apply(split, albedo));
 }
@@ -55,7 +55,7 @@ void connect_light(Fixture *f, Rgb light)
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
     film_add_light(f->pixel, sum);
     if (f->hits.last)
-        path_hit_add_light(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
+        target_node_add_light(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
     else
         f->hits.free += colour4(light), f->hits.free_connections++;
     f->light = rgb_add(f->light, beauty);

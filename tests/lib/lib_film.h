@@ -18,8 +18,8 @@ typedef struct Fixture {
     Film *film;
     FilmPixel *pixel;
     RetexSet *set;
-    PathHits hits; /* of the current path: a chain */
-    PathHit room[PATH_HITS_MAX];
+    TargetTree hits; /* of the current path: a chain */
+    TargetNode room[TARGET_NODES_MAX];
     Split split; /* of its last hit */
     Rgb value;   /* throughput of the path with the original albedos */
     Rgb light;   /* contributed so far */

@@ -38,12 +38,12 @@ static void begin_orders(Fixture *f, int paper, int orders)
                              .ntiles = 1,
                              .layout = paper ? &paper_layout : &footprints_layout};
     f->params.clusters = 2, f->params.sharp = f->params.broad = 1;
-    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .orders = orders, .split = 1, .nvariants = 1};
-    f->context.most_hits = f->params.layout->most_hits(1);
+    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .split = 1, .nvariants = 1};
     test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
     test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
     f->worker.context = &f->context, f->worker.pixel = f->pixel;
     test_must(path_worker_open(&f->worker, &err), &err);
+    f->path.control = f->worker.controls;
     path_start(&f->worker, &f->path, &ray, &sampler);
     f->path.sharp = 0;
 }
@@ -86,14 +86,14 @@ static void bounce(Fixture *f, double u)
 
 static void bring(Fixture *f, float light)
 {
-    path_add_unsplit_light(&f->worker, &f->path, &(Rgb){light, light, light});
+    path_contribute(&f->worker, &f->path, &(Contribution){0, rgb_grey(light), NULL, 0, NULL});
 }
 
 /* Light by one more hit. */
 static void connect_by_floor(Fixture *f, float light, double u)
 {
     Factor factor = floor_factor(1, u);
-    path_add_light(&f->worker, &f->path, rgb_grey(light), &factor, 1);
+    path_contribute(&f->worker, &f->path, &(Contribution){0, rgb_grey(light), &factor, 1, NULL});
 }
 
 static float red(const Fixture *f, const char *name)
@@ -210,15 +210,15 @@ static void light_passes_targets(void **state)
     for (int paper = 0; paper < 2; paper++) {
         Fixture f;
         begin(&f, paper);
-        for (int k = 0; k < 2 * PATH_HITS_MAX; k++)
+        for (int k = 0; k < 2 * TARGET_NODES_MAX; k++)
             connect_by_floor(&f, 1, k / 1024.0);
         Factor factors[] = {floor_factor(1, 0.25), floor_factor(1, 0.75)};
-        path_add_light(&f.worker, &f.path, rgb_grey(4), factors, 2);
+        path_contribute(&f.worker, &f.path, &(Contribution){0, rgb_grey(4), factors, 2, NULL});
         bounce(&f, 0.25);
         bring(&f, 2);
         finish(&f);
-        assert_float_equal(red(&f, "beauty"), PATH_HITS_MAX + 1 + 1, 1e-3);
-        assert_float_equal(f.set->folded, (0.5 * PATH_HITS_MAX + 2) / (PATH_HITS_MAX + 2), 1e-5);
+        assert_float_equal(red(&f, "beauty"), TARGET_NODES_MAX + 1 + 1, 1e-3);
+        assert_float_equal(f.set->folded, (0.5 * TARGET_NODES_MAX + 2) / (TARGET_NODES_MAX + 2), 1e-5);
         end(&f);
     }
 }

@@ -29,13 +29,15 @@ static ControlFilm *fill(int nvariants, int nhalves, float sums[HEIGHT][WIDTH])
             sums[y][x] = 0;
             for (int s = 0; s < SAMPLES; s++) {
                 float value = (float)test_random(&state), other = (float)test_random(&state);
+                ControlPath path;
+                control_start(&path, nvariants);
                 for (int part = 0; part < 2; part++) {
                     float share = part ? 0.75f : 0.25f;
                     Rgb light[3] = {rgb(2 * share * value, 2 * share * value, 0), rgb(share * value, share * value, 0),
                                     rgb_grey(share * other * 0.5f)};
-                    control_connect(pixel, light);
+                    control_add(pixel, &path, &(Contribution){.variants = light}, colour4(light[0]));
                 }
-                control_sample_end(pixel, nhalves == 2 ? s % 2 : 0);
+                control_end(pixel, &path, nhalves == 2 ? s % 2 : 0);
                 sums[y][x] += value;
             }
             control_pixel_end(pixel, x, y);
@@ -71,10 +73,13 @@ static void not_finite_is_left_out(void **state)
     (void)state;
     ControlFilm *film;
     ControlPixel *pixel;
+    ControlPath path;
     Rgb light[2] = {{1, 1, 1}, {NAN, 1, 1}};
     assert_int_equal(control_film_create(&film, 1, 1, 1, 2, 0, NULL), 0);
     assert_int_equal(control_pixel_create(&pixel, film, NULL), 0);
-    control_connect(pixel, light);
+    control_start(&path, 2);
+    control_add(pixel, &path, &(Contribution){.variants = light}, colour4(light[0]));
+    control_end(pixel, &path, 0);
     control_pixel_end(pixel, 0, 0);
     control_pixel_close(&pixel);
     assert_int_equal(control_film_dropped(film), 1);

@@ -31,7 +31,7 @@ static void multiplies_out(void **state)
             targets[j] = (int)(at_random(&seed) * 3);
             for (int k = 3; k < RETEX_MAX_TARGETS && seen[targets[j]] == RETEX_MAX_ORDERS; k++)
                 targets[j] = k;
-            if (!hit_counts_allow(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_HITS)) {
+            if (!target_counts_allow(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_HITS)) {
                 assert_true(2 * e.size.nmonomials > MONOMIALS_MAX); /* eight with both parts, at least */
                 n = j;
                 break;
@@ -39,7 +39,7 @@ static void multiplies_out(void **state)
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;
-            expansion_push(&e, &(TargetHit){.target = (unsigned char)targets[j]}, splat(d), splat(i));
+            expansion_push(&e, &(TargetVertex){.target = (unsigned char)targets[j]}, splat(d), splat(i));
             assert_int_equal(e.hits[j].index, index[j]);
         }
         double sum = 0;

@@ -66,8 +66,8 @@ static inline void add_times(const FootprintFilm *film, HitLight *sum, const Hit
 }
 
 /* Add light times the texture of one more hit. */
-static inline void add_textured(const FootprintFilm *film, HitLight *sum, const HitLight *light, const TargetHit *hit,
-                                Float4 albedo)
+static inline void add_textured(const FootprintFilm *film, HitLight *sum, const HitLight *light,
+                                const TargetVertex *hit, Float4 albedo)
 {
     const Plan *plan = &film->plan;
     const int target = hit->target;
@@ -98,11 +98,11 @@ static inline void start_light(const FootprintFilm *film, HitLight *light, Float
 }
 
 /* Set what the hits before this one, towards the camera, do to light that comes from it. */
-static inline void start_node(const FootprintFilm *film, Node *node, const PathHit *hit, const Node *before)
+static inline void start_node(const FootprintFilm *film, Node *node, const TargetNode *hit, const Node *before)
 {
     start_light(film, &node->dependent, hit->dependent);
     start_light(film, &node->independent, hit->independent);
-    node->white = path_hit_white(hit->dependent, hit->independent);
+    node->white = target_factor_white(hit->dependent, hit->independent);
     if (!before) {
         node->none = node->original = node->half = splat(1);
         return;
@@ -113,7 +113,7 @@ static inline void start_node(const FootprintFilm *film, Node *node, const PathH
 }
 
 /* Add a hit that is an interreflection, in the monomials that have a factor of a hit before it. */
-static int add_interreflection(FootprintPixel *p, const PathHit *hit, const Node *node)
+static int add_interreflection(FootprintPixel *p, const TargetNode *hit, const Node *node)
 {
     const HitLight *light = &node->dependent;
     const double weight = luminance4((node->half - node->none) * (light->c[0] + light->half));
@@ -129,7 +129,7 @@ static int add_interreflection(FootprintPixel *p, const PathHit *hit, const Node
 }
 
 /* Add a hit as the first one, in the monomials that have no factor of a hit before it. */
-static int add_first(FootprintPixel *p, const PathHit *hit, HitLight *light)
+static int add_first(FootprintPixel *p, const TargetNode *hit, HitLight *light)
 {
     const double weight = luminance4(light->c[0] + light->half);
     if (!(weight > 0))
@@ -156,22 +156,22 @@ static void scale_light(const FootprintFilm *film, HitLight *light, Float4 by)
 }
 
 /* Add a hit's light to the hit before it, once it has the light of all further hits itself. */
-static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
+static void gather_node(FootprintPixel *p, const TargetNode *hit, Node *node, Node *before)
 {
     add_textured(p->film, &node->independent, &node->dependent, &hit->at, node->albedo);
     add_times(p->film, &before->dependent, &node->independent, hit->before_d);
     if (!is_black4(hit->before_i))
         add_times(p->film, &before->independent, &node->independent, hit->before_i);
-    before->white += node->white * path_hit_white(hit->before_d, hit->before_i);
+    before->white += node->white * target_factor_white(hit->before_d, hit->before_i);
 }
 
-static void add_range(FootprintPixel *p, const PathHit *hit)
+static void add_range(FootprintPixel *p, const TargetNode *hit)
 {
     const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
     uv_range_add(p->range, hit->at.target, uv);
 }
 
-static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
+static void finish_node(FootprintPixel *p, const TargetNode *hit, Node *node)
 {
     int was_met = 0;
     if (hit->before) {
@@ -184,23 +184,23 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
 }
 
 /* As end_several, of a path with one hit, as most are. */
-static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Float4 *white)
+static void end_single(FootprintPixel *p, const TargetNode *hit, Float4 *free, Float4 *white)
 {
     HitLight light;
     start_light(p->film, &light, hit->dependent);
     *free += hit->independent;
-    *white += path_hit_white(hit->dependent, hit->independent);
+    *white += target_factor_white(hit->dependent, hit->independent);
     if (add_first(p, hit, &light))
         add_range(p, hit);
 }
 
-static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, Float4 *white)
+static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *free, Float4 *white)
 {
-    const PathHit *hits[PATH_HITS_MAX];
-    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+    const TargetNode *hits[TARGET_NODES_MAX];
+    for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
     for (int k = 0; k < path->count; k++) {
-        const PathHit *before = hits[k]->before;
+        const TargetNode *before = hits[k]->before;
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
         start_node(p->film, &p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
     }
@@ -214,7 +214,7 @@ static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, F
     }
 }
 
-static void end_path(void *pixel, const PathHits *path)
+static void end_path(void *pixel, const TargetTree *path)
 {
     FootprintPixel *p = pixel;
     Float4 free = path->free, white = path->free;

@@ -97,7 +97,7 @@ void corrections_store(FootprintPixel *pixel, BandRows *rows, double unit, int x
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
 
-/* A hit of the current path; see path_hits.h. */
+/* A hit of the current path; see target_tree.h. */
 typedef struct Node {
     HitLight dependent,
         independent; /* its light, that of further hits too: what its texture multiplies, and the rest */
@@ -113,7 +113,7 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
-    Node nodes[PATH_HITS_MAX];
+    Node nodes[TARGET_NODES_MAX];
     LightSums *light; /* of contributions */
     UvRange *range;   /* of the hits */
 };

@@ -21,12 +21,12 @@ void expansion_return(Expansion *e, const ExpansionMark *mark)
         e->monomials[k] = mark->monomials[k];
 }
 
-void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i)
+void expansion_push(Expansion *e, const TargetVertex *hit, Float4 d, Float4 i)
 {
     int before = e->size.nmonomials, after = before;
     unsigned bit = 1u << e->size.nhits;
     int dependent = !is_black4(d), independent = !is_black4(i);
-    TargetHit *pushed = &e->hits[e->size.nhits];
+    TargetVertex *pushed = &e->hits[e->size.nhits];
     *pushed = *hit;
     pushed->index = e->size.per_target[hit->target];
     for (int k = 0; k < before; k++) {
@@ -40,5 +40,5 @@ void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i)
             m->coefficient *= d;
         }
     }
-    hit_counts_add(&e->size, hit->target, dependent && independent);
+    target_counts_add(&e->size, hit->target, dependent && independent);
 }

@@ -7,7 +7,7 @@
 #define RENDERER_FILM_PAPER_EXPANSION_H
 
 #include <stdint.h>
-#include "film/path_hits.h"
+#include "film/target_tree.h"
 
 /* A set of hits, by target: bit target * RETEX_MAX_ORDERS + index. */
 typedef uint64_t HitMask;
@@ -23,20 +23,20 @@ typedef struct Monomial {
 } Monomial;
 
 typedef struct Expansion {
-    HitCounts size;
-    TargetHit hits[RETEX_MAX_HITS];
+    TargetCounts size;
+    TargetVertex hits[RETEX_MAX_HITS];
     Monomial monomials[MONOMIALS_MAX];
 } Expansion;
 
 static inline void expansion_reset(Expansion *e)
 {
-    e->size = HIT_COUNTS_INIT;
+    e->size = TARGET_COUNTS_INIT;
     e->monomials[0] = (Monomial){colour4(rgb_grey(1)), 0};
 }
 
 /* What an expansion is before more hits are pushed, to return to. */
 typedef struct ExpansionMark {
-    HitCounts size;
+    TargetCounts size;
     Monomial monomials[MONOMIALS_MAX];
 } ExpansionMark;
 
@@ -47,7 +47,7 @@ void expansion_return(Expansion *e, const ExpansionMark *mark);
  * of T targets (T + n)! / (T! n!), so many targets get fewer hits, for a set holds about a thousand terms. */
 int expansion_most_hits(int ntargets);
 
-/* Multiply by d a + i of one more hit, which hit_counts_allow must allow; its index is found here. */
-void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i);
+/* Multiply by d a + i of one more hit, which target_counts_allow must allow; its index is found here. */
+void expansion_push(Expansion *e, const TargetVertex *hit, Float4 d, Float4 i);
 
 #endif

@@ -45,9 +45,9 @@ typedef struct PaperPixel {
     Float4 corrections[RETEX_MAX_TARGETS][CORRECTION_POWERS + 1]; /* by target, and number of hits on it */
     /* of the current path: */
     Expansion expansion;
-    ExpansionMark mark;            /* of it before a hit that light came by */
-    TargetHit hits[PATH_HITS_MAX]; /* all hits that connected, with how often */
-    int connections[PATH_HITS_MAX], nhits;
+    ExpansionMark mark;                  /* of it before a hit that light came by */
+    TargetVertex hits[TARGET_NODES_MAX]; /* all hits that connected, with how often */
+    int connections[TARGET_NODES_MAX], nhits;
     UvRange *range; /* of the hits */
 } PaperPixel;
 
@@ -55,7 +55,7 @@ static int footprints_count(const PaperFilm *film)
 {
     return film->scene->ntargets * RETEX_MAX_ORDERS;
 }
-static int footprint_number(const TargetHit *hit)
+static int footprint_number(const TargetVertex *hit)
 {
     return hit->target * RETEX_MAX_ORDERS + hit->index;
 }
@@ -181,7 +181,7 @@ static void add_term(PaperPixel *p, TermKey key, Float4 value)
 static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4 value)
 {
     for (unsigned left = hits; left; left &= left - 1) {
-        const TargetHit *hit = &e->hits[__builtin_ctz(left)];
+        const TargetVertex *hit = &e->hits[__builtin_ctz(left)];
         Float4 light = value;
         for (unsigned others = hits & ~(left & -left); others; others &= others - 1)
             light *= colour4(e->hits[__builtin_ctz(others)].albedo);
@@ -198,7 +198,7 @@ static void add_to_corrections(PaperPixel *p, const Expansion *e, unsigned hits,
         Float4 light = value;
         int on = 0, others = 0;
         for (unsigned left = hits; left; left &= left - 1) {
-            const TargetHit *hit = &e->hits[__builtin_ctz(left)];
+            const TargetVertex *hit = &e->hits[__builtin_ctz(left)];
             if (hit->target == t)
                 on++;
             else
@@ -213,7 +213,7 @@ static void add_to_corrections(PaperPixel *p, const Expansion *e, unsigned hits,
 static void add_connections(PaperPixel *p, const Expansion *e, int connections)
 {
     for (int j = 0; j < e->size.nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
+        const TargetVertex *hit = &e->hits[j];
         int k = p->nhits - 1;
         while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
                            p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
@@ -232,7 +232,7 @@ static HitMask mask_by_target(const Expansion *e, unsigned hits)
 {
     HitMask mask = 0;
     for (; hits; hits &= hits - 1) {
-        const TargetHit *hit = &e->hits[__builtin_ctz(hits)];
+        const TargetVertex *hit = &e->hits[__builtin_ctz(hits)];
         mask |= hit_bit(hit->target, hit->index);
     }
     return mask;
@@ -257,7 +257,7 @@ static void connect(PaperPixel *p, int connections)
 }
 
 /* Make the expansion that of the hits before one. */
-static void expand_before(Expansion *e, const PathHit *hit)
+static void expand_before(Expansion *e, const TargetNode *hit)
 {
     expansion_reset(e);
     if (!hit->before)
@@ -266,17 +266,17 @@ static void expand_before(Expansion *e, const PathHit *hit)
     expansion_push(e, &hit->before->at, hit->before_d, hit->before_i);
 }
 
-static void add_path(PaperPixel *p, const PathHits *path)
+static void add_path(PaperPixel *p, const TargetTree *path)
 {
     Expansion *e = &p->expansion;
-    const PathHit *hits[PATH_HITS_MAX], *previous = NULL;
-    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+    const TargetNode *hits[TARGET_NODES_MAX], *previous = NULL;
+    for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
     if (path->free_connections && !is_black4(path->free))
         add_term(p, term_key(0, 0, 0), path->free);
     expansion_reset(e);
     for (int k = 0; k < path->count; previous = hits[k++]) {
-        const PathHit *hit = hits[k];
+        const TargetNode *hit = hits[k];
         if (hit->before && hit->before == previous)
             expansion_push(e, &previous->at, hit->before_d, hit->before_i);
         else
@@ -293,7 +293,7 @@ static void add_path(PaperPixel *p, const PathHits *path)
     }
 }
 
-static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
+static void footprint_add(FootprintSums *f, const TargetVertex *hit, int weight)
 {
     const double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
     f->count += weight;
@@ -306,13 +306,13 @@ static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
     f->albedo += colour4(hit->albedo) * splat((float)weight);
 }
 
-static void end_path(void *pixel, const PathHits *path)
+static void end_path(void *pixel, const TargetTree *path)
 {
     PaperPixel *p = pixel;
     HitMask seen = 0;
     add_path(p, path);
     for (int k = 0; k < p->nhits; k++) {
-        const TargetHit *hit = &p->hits[k];
+        const TargetVertex *hit = &p->hits[k];
         FootprintSums *f = &p->footprints[footprint_number(hit)];
         HitMask bit = hit_bit(hit->target, hit->index);
         const double uv[2] = {hit->uv.u, hit->uv.v};

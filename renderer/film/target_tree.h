@@ -1,45 +1,46 @@
-/* The hits of one light path, and the light that came by them.
+/* The vertices of one light path that lie on targets, as a tree, and the light that came by them. In this room such a
+ * vertex is called a hit for short.
  *
- * A hit is a vertex on a target. Hit n multiplies light by d a_n + i, where a_n is the target's texture there. With D_n
- * and I_n for light that comes to hit n without another hit between it and its emitter, the light that leaves hit n
- * towards the camera is
+ * Hit n multiplies light by d a_n + i, where a_n is the target's texture there. With D_n and I_n for light that comes
+ * to hit n without another hit between it and its emitter, the light that leaves hit n towards the camera is
  *   L_n = D_n a_n + I_n + sum over the hits m next to n, away from the camera, of (d_m a_n + i_m) L_m.
- * D_n and I_n contain all other factors of the path, from the emitter to the camera. A hit has more than one next hit
- * where shadow rays pass through targets; the path itself goes on from one of them. */
-#ifndef RENDERER_FILM_PATH_HITS_H
-#define RENDERER_FILM_PATH_HITS_H
+ * D_n and I_n contain all other factors of the path, from the emitter to the camera. So a layout looks at each hit
+ * once, from the last to the first; with lists of contributions it would look at a path's first hits again and again. A
+ * hit has more than one next hit where shadow rays pass through targets; the path itself goes on from one of them. */
+#ifndef RENDERER_FILM_TARGET_TREE_H
+#define RENDERER_FILM_TARGET_TREE_H
 
 #include <retex/set.h>
 #include "base/color4.h"
 
-#define PATH_HITS_MAX 64  /* of one path, those of its shadow rays too */
+#define TARGET_NODES_MAX 64  /* of one path, those of its shadow rays too */
 #define MONOMIALS_MAX 256 /* of a path multiplied out: eight hits with both parts; of diffuse targets each has one */
 #define WHITE_ALBEDO 0.8f /* of white paint, for what there would be with white targets */
 
 /* A vertex on a target. */
-typedef struct TargetHit {
+typedef struct TargetVertex {
     Vec2 uv;
     Rgb albedo; /* the original's, there */
     unsigned char target, sharp; /* sharp: every bounce between the camera and it was specular, or nearly so */
     unsigned char index;         /* among the hits of the same target along the path, from 0; in expansions */
-} TargetHit;
+} TargetVertex;
 
-/* How many hits a path has, and how many monomials its throughput would have multiplied out. */
-typedef struct HitCounts {
+/* How many such vertices a path has, and how many monomials its throughput would have multiplied out. */
+typedef struct TargetCounts {
     int nhits, nmonomials;
     unsigned char per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
-} HitCounts;
+} TargetCounts;
 
-#define HIT_COUNTS_INIT ((HitCounts){.nmonomials = 1})
+#define TARGET_COUNTS_INIT ((TargetCounts){.nmonomials = 1})
 
 /* May one more hit of a target be kept apart, with at most so many hits of each target and so many of all? */
-static inline int hit_counts_allow(const HitCounts *counts, int target, int orders, int most_hits)
+static inline int target_counts_allow(const TargetCounts *counts, int target, int orders, int most_hits)
 {
     return counts->nhits < most_hits && counts->per_target[target] < orders && 2 * counts->nmonomials <= MONOMIALS_MAX;
 }
 
 /* Count one more hit; both_parts: its d and its i are not black. */
-static inline void hit_counts_add(HitCounts *counts, int target, int both_parts)
+static inline void target_counts_add(TargetCounts *counts, int target, int both_parts)
 {
     counts->nhits++;
     counts->per_target[target]++;
@@ -47,26 +48,27 @@ static inline void hit_counts_add(HitCounts *counts, int target, int both_parts)
         counts->nmonomials *= 2;
 }
 
-/* There are many, so that they should not drive the scene out of the caches: one takes two lines of 64 bytes. */
-typedef struct PathHit {
+/* A hit in its path's tree. There are many, so that they should not drive the scene out of the caches: one takes two
+ * lines of 64 bytes. */
+typedef struct TargetNode {
     Float4 dependent, independent; /* D, I */
     Float4 before_d, before_i;     /* d, i: what the hit before this one does to light that comes from here */
-    TargetHit at;
-    struct PathHit *before,
+    TargetVertex at;
+    struct TargetNode *before,
         *earlier;    /* the next hit towards the camera; the one that was added last before it. Or NULL */
     int number;      /* in the order in which they were added */
     int connections; /* number of contributions in D and I */
-} PathHit;
+} TargetNode;
 
-typedef struct PathHits {
-    PathHit *last; /* that was added, or NULL */
+typedef struct TargetTree {
+    TargetNode *last; /* that was added, or NULL */
     int count;
     Float4 free;          /* sum of contributions without a hit */
     int free_connections; /* their number */
-} PathHits;
+} TargetTree;
 
 /* Add a hit, in memory of the caller; before_d and before_i are of the hit before it. */
-static inline PathHit *path_hits_add(PathHits *hits, PathHit *hit, const TargetHit *at, PathHit *before,
+static inline TargetNode *target_tree_add(TargetTree *hits, TargetNode *hit, const TargetVertex *at, TargetNode *before,
                                      Float4 before_d, Float4 before_i)
 {
     hit->dependent = hit->independent = splat(0);
@@ -78,7 +80,7 @@ static inline PathHit *path_hits_add(PathHits *hits, PathHit *hit, const TargetH
 }
 
 /* Add light that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */
-static inline void path_hit_add_light(PathHit *hit, Float4 d, Float4 i, Float4 light)
+static inline void target_node_add_light(TargetNode *hit, Float4 d, Float4 i, Float4 light)
 {
     hit->dependent += d * light;
     hit->independent += i * light;
@@ -86,12 +88,9 @@ static inline void path_hit_add_light(PathHit *hit, Float4 d, Float4 i, Float4 l
 }
 
 /* d a + i, or D a + I, where the target is white. */
-static inline Float4 path_hit_white(Float4 d, Float4 i)
+static inline Float4 target_factor_white(Float4 d, Float4 i)
 {
     return i + splat(WHITE_ALBEDO) * d;
 }
-
-/* Light that comes to a hit, D and I, or to the camera where hit is NULL: what it would be with white targets. */
-Float4 path_white(const PathHit *hit, Float4 dependent, Float4 independent);
 
 #endif

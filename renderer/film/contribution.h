@@ -1,0 +1,41 @@
+/* What a path hands to the film: light that comes to its end, and what that light met which is not in the path's
+ * throughput yet.
+ *
+ * Contributions have several sinks: the picture, which path/contributions.c sums; of sets, the tree of hits
+ * (film/split.h), which a layout reads when the path ends; and a control film (film/control.h). A sink is told all that
+ * multiplies the path's throughput, and keeps that throughput as it needs it. */
+#ifndef RENDERER_FILM_CONTRIBUTION_H
+#define RENDERER_FILM_CONTRIBUTION_H
+
+#include "base/color4.h"
+
+/* A surface that light scatters at or passes, or that emits it. */
+typedef struct Factor {
+    int target;          /* -1: none */
+    Float4 d, i, albedo; /* it is d albedo + i */
+    const Rgb *albedos;  /* by variant, or NULL: the same in all */
+    Vec2 uv;
+    int reflects; /* light stays on its side of the surface */
+    int sharp;    /* no vertex between it and the camera scattered widely */
+} Factor;
+
+static inline Float4 factor_whole(const Factor *f)
+{
+    return f->d * f->albedo + f->i;
+}
+
+/* The same, in a variant. */
+static inline Float4 factor_of_variant(const Factor *f, int variant)
+{
+    return f->d * (f->albedos ? colour4(f->albedos[variant]) : f->albedo) + f->i;
+}
+
+typedef struct Contribution {
+    int lamp;              /* of the scene's lamps, or LAMP_NONE */
+    Rgb light;             /* without the factors */
+    const Factor *factors; /* from the path's end to the light */
+    int nfactors;
+    const Rgb *variants;   /* light by variant, or NULL: it is the same in all */
+} Contribution;
+
+#endif
