@@ -43,7 +43,8 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
     split_start(&path->split);
-    control_start(path->control, c->nvariants);
+    if (w->control)
+        control_start(path->control, c->nvariants);
 }
 
 int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
