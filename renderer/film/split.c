@@ -16,14 +16,6 @@ void split_close(SplitSink *s)
     s->nodes = NULL;
 }
 
-void split_start(SplitPath *p)
-{
-    p->rest = colour4(rgb_grey(1));
-    p->counts = TARGET_COUNTS_INIT, p->folded = 0;
-    p->tree = (TargetTree){.last = NULL};
-    p->last = p->current_hit = NULL;
-}
-
 /* ---- hits ---- */
 
 /* Whether a hit keeps the factor apart: then it is counted. Else it is multiplied into `rest` as a whole, with the

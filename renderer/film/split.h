@@ -29,7 +29,13 @@ typedef struct SplitPath {
 /* paths: that are traced side by side. */
 int split_open(SplitSink *sink, FilmPixel *pixel, size_t paths, RetexError *err);
 void split_close(SplitSink *sink);
-void split_start(SplitPath *path);
+static inline void split_start(SplitPath *path)
+{
+    path->rest = colour4(rgb_grey(1));
+    path->counts = TARGET_COUNTS_INIT, path->folded = 0;
+    path->tree = (TargetTree){.last = NULL};
+    path->last = path->current_hit = NULL;
+}
 /* Multiply throughput by a factor, which may become a hit. */
 void split_multiply(SplitSink *sink, SplitPath *path, const Factor *factor);
 /* light: the contribution with all factors. Returns 0 if the sum is not finite: then nothing is added. */

@@ -1,5 +1,5 @@
-/* Everything that gives light, sampled one light at a time: POV-Ray's light sources (never seen or hit), shapes that
- * emit, and the sky. Nothing here looks at a pigment's colour: powers are estimated with NEUTRAL_ALBEDO. */
+/* Everything that gives light, sampled one light at a time: light sources, shapes that emit, and the sky. Nothing here
+ * looks at a pigment's colour: powers are estimated with NEUTRAL_ALBEDO. */
 #ifndef RENDERER_LIGHT_LIGHTS_H
 #define RENDERER_LIGHT_LIGHTS_H
 

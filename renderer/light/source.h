@@ -26,7 +26,7 @@ typedef struct LightSample {
     Surface surface;     /* of an emitting shape; surface.primitive is NULL for all other lights */
 } LightSample;
 
-static inline int light_sample_is_emitter(const LightSample *sample)
+static inline int light_sample_is_shape(const LightSample *sample)
 {
     return sample->surface.primitive != NULL;
 }

@@ -151,7 +151,7 @@ LightSampleContext light_sample_context(const Shading *s);
 int emitter_factors(PathWorker *worker, const Path *path, int lane, LightSample *light, Factor *factors);
 static inline int light_factors(PathWorker *w, const Path *path, int lane, LightSample *light, Factor *factors)
 {
-    return light_sample_is_emitter(light) ? emitter_factors(w, path, lane, light, factors) : 0;
+    return light_sample_is_shape(light) ? emitter_factors(w, path, lane, light, factors) : 0;
 }
 /* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
 static inline double shadow_ray_end(Vec3 position, const LightSample *light)
@@ -160,7 +160,7 @@ static inline double shadow_ray_end(Vec3 position, const LightSample *light)
     if (!isfinite(distance))
         return INFINITY;
     double margin = accel_margin(position), end = distance * (1 - 1e-6) - margin;
-    if (light_sample_is_emitter(light)) {
+    if (light_sample_is_shape(light)) {
         /* The flatter the angle, the earlier the ray meets the emitter's surface. */
         double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
         end -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);

@@ -189,8 +189,8 @@ static void densities_agree(void **state)
             if (!lights_sample(lights, &p, &pick, u[2], u[3], &s) || s.source)
                 continue;
             found++;
-            assert_int_equal(s.lamp, light_sample_is_emitter(&s) ? s.surface.primitive->lamp : scene->sky_lamp);
-            if (!light_sample_is_emitter(&s))
+            assert_int_equal(s.lamp, light_sample_is_shape(&s) ? s.surface.primitive->lamp : scene->sky_lamp);
+            if (!light_sample_is_shape(&s))
                 pdf = lights_sky_pdf(lights, &p, s.direction);
             else
                 pdf = lights_emitter_pdf(lights, &p, (int)(s.surface.primitive - scene->primitives), &s.surface);
