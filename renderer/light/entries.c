@@ -11,6 +11,7 @@ int light_entries_add(LightEntries *list, const LightEntry *entry, RetexError *e
             return retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", capacity);
         list->entries = entries, list->capacity = capacity;
     }
-    list->entries[list->count++] = *entry;
+    list->entries[list->count] = *entry;
+    list->entries[list->count++].scene = list->scene;
     return RETEX_OK;
 }

@@ -18,6 +18,7 @@ typedef struct LightEntryOps LightEntryOps;
 
 typedef struct LightEntry {
     const LightEntryOps *ops;
+    const Scene *scene;
     int index;       /* of the light source or primitive */
     int lamp;        /* of the scene's lamps */
     float strength;  /* shape: radiance * area; sky: irradiance; source: luminance of its colour times pi */
@@ -45,25 +46,23 @@ struct LightEntryOps {
     int (*add)(LightEntries *list, RetexError *err);
     void (*close)(LightEntry *entry); /* or NULL */
     /* Whether it shines on what is in a light group. NULL: on everything. */
-    int (*reaches)(const Scene *scene, const LightEntry *entry, const LightGroup *group);
-    /* Estimate of the irradiance on a surface that faces it. */
-    float (*estimate)(const Scene *scene, const LightEntry *entry, Vec3 position);
+    int (*reaches)(const LightEntry *entry, const LightGroup *group);
+    /* Estimate of the irradiance on a surface that faces it. NULL: its strength, everywhere. */
+    float (*estimate)(const LightEntry *entry, Vec3 position);
     /* For the tree: of one of its nfaces, or of the whole, -1. NULL where all entries of this kind are infinite. */
-    LightBounds (*bounds)(const Scene *scene, const LightEntry *entry, int face);
+    LightBounds (*bounds)(const LightEntry *entry, int face);
     /* Sample light for a point; pick_probability and lamp are filled in. Returns 0 where no light reaches it. */
-    int (*sample)(const Scene *scene, const LightEntry *entry, const LightPick *pick, Vec3 position, float u1, float u2,
+    int (*sample)(const LightEntry *entry, const LightPick *pick, Vec3 position, float u1, float u2,
                   LightSample *sample);
     /* Density of `sample`, per solid angle, in a direction in which a ray met the entry: at that surface, if it is a
      * shape. *face: which of nfaces, else it stays. NULL: no ray meets it. */
     double (*pdf)(const LightEntry *entry, Vec3 from, Vec3 direction, const Surface *surface, int *face);
     /* Of shapes, NULL elsewhere. Sample a point by area, where photons may start, too: returns its density, or 0 where
      * nothing is left of an operand of CSG. And the density at a surface that a ray met, with *face as above. */
-    double (*point)(const Scene *scene, const LightEntry *entry, const LightPick *pick, float u1, float u2,
-                    Surface *surface);
+    double (*point)(const LightEntry *entry, const LightPick *pick, float u1, float u2, Surface *surface);
     double (*point_density)(const LightEntry *entry, const Surface *surface, int *face);
     /* See lights_uniform_face. NULL: it has none. */
-    const struct MeshLightFace *(*uniform_face)(const Scene *scene, const LightEntry *entry, const LightPick *pick,
-                                                double *density);
+    const struct MeshLightFace *(*uniform_face)(const LightEntry *entry, const LightPick *pick, double *density);
 };
 
 /* The rows, in the order of the list: shapes stand first, where photons look for them. A new kind of light is a line
@@ -78,7 +77,8 @@ struct LightEntryOps {
 LIGHT_ENTRY_TABLE(X)
 #undef X
 
-/* entries.c: a copy of the entry is the list's last one. On failure the caller still owns the entry's data. */
+/* entries.c: a copy of the entry, of the list's scene, is the list's last one. On failure the caller still owns the
+ * entry's data. */
 int light_entries_add(LightEntries *list, const LightEntry *entry, RetexError *err);
 
 #endif

@@ -262,20 +262,14 @@ static void close_sky(LightEntry *e)
     environment_close(&environment);
 }
 
-static float sky_estimate(const Scene *scene, const LightEntry *e, Vec3 position)
-{
-    (void)scene, (void)position;
-    return e->strength;
-}
-
-static int sample_sky(const Scene *scene, const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
+static int sample_sky(const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
                       LightSample *sample)
 {
     (void)pick, (void)position;
     sample->source = NULL, sample->surface.primitive = NULL, sample->shadowless = 0;
     sample->direction = environment_sample(e->data, u1, u2, &sample->pdf);
     sample->distance = INFINITY;
-    sample->radiance = sky_radiance(scene, sample->direction, 0);
+    sample->radiance = sky_radiance(e->scene, sample->direction, 0);
     return sample->pdf > 0;
 }
 
@@ -285,5 +279,4 @@ static double sky_pdf(const LightEntry *e, Vec3 from, Vec3 direction, const Surf
     return environment_pdf(e->data, direction);
 }
 
-const LightEntryOps entry_sky = {
-    .add = add_sky, .close = close_sky, .estimate = sky_estimate, .sample = sample_sky, .pdf = sky_pdf};
+const LightEntryOps entry_sky = {.add = add_sky, .close = close_sky, .sample = sample_sky, .pdf = sky_pdf};

@@ -93,7 +93,7 @@ static int grow_tree(Lights *lights, RetexError *err)
             e->leaf = n;
         for (int f = 0; f < of_entry; f++) {
             lights->leaves[n] = (Leaf){k, e->nfaces > 0 ? f : -1};
-            bounds[n] = e->ops->bounds(lights->list.scene, e, lights->leaves[n].face), n++;
+            bounds[n] = e->ops->bounds(e, lights->leaves[n].face), n++;
         }
     }
     if (!code)
@@ -174,6 +174,11 @@ int lights_count(const Lights *lights)
 
 /* ---- the choice ---- */
 
+static inline float entry_estimate(const LightEntry *e, Vec3 position)
+{
+    return e->ops->estimate ? e->ops->estimate(e, position) : e->strength;
+}
+
 /* Probabilities of the entries at a point; their sum is 1, or 0 where none shines on the point's group. */
 static void local_shares(const Lights *lights, const LightSampleContext *point, float *shares)
 {
@@ -182,8 +187,8 @@ static void local_shares(const Lights *lights, const LightSampleContext *point, 
     for (int k = 0; k < list->count; k++) {
         const LightEntry *e = &list->entries[k];
         shares[k] = -1;
-        if (!e->ops->reaches || e->ops->reaches(list->scene, e, point->group))
-            total += shares[k] = e->ops->estimate(list->scene, e, point->position);
+        if (!e->ops->reaches || e->ops->reaches(e, point->group))
+            total += shares[k] = entry_estimate(e, point->position);
     }
     const float least = total > 0 ? total * CHOICE_FLOOR / (float)list->count : 1;
     for (int k = 0; k < list->count; k++)
@@ -289,7 +294,7 @@ int lights_lamp(const Lights *lights, const LightPick *pick)
 const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density)
 {
     const LightEntry *e = pick->entry >= 0 ? &lights->list.entries[pick->entry] : NULL;
-    return e && e->ops->uniform_face ? e->ops->uniform_face(lights->list.scene, e, pick, density) : NULL;
+    return e && e->ops->uniform_face ? e->ops->uniform_face(e, pick, density) : NULL;
 }
 
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
@@ -300,7 +305,7 @@ int lights_sample(const Lights *lights, const LightSampleContext *point, const L
     const LightEntry *e = &lights->list.entries[pick->entry];
     sample->pick_probability = pick->probability;
     sample->lamp = e->lamp;
-    return e->ops->sample(lights->list.scene, e, pick, point->position, u1, u2, sample);
+    return e->ops->sample(e, pick, point->position, u1, u2, sample);
 }
 
 /* Of the k-th entry, or 0 where k is below 0. */
@@ -361,7 +366,7 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
     LightPick whole = {low, -1, 1, u_part};
     Surface surface;
     const LightEntry *e = &lights->list.entries[low];
-    double density = e->ops->point(lights->list.scene, e, &whole, u1, u2, &surface);
+    double density = e->ops->point(e, &whole, u1, u2, &surface);
     double part = e->strength / lights->emitter_sums[lights->nemitters];
     if (!(density > 0 && part > 0))
         return 0;
@@ -375,7 +380,7 @@ float lights_estimate(const Lights *lights, const LightSampleContext *point)
     float sum = 0;
     if (is_exact(lights)) {
         for (int k = 0; k < lights->list.count; k++)
-            sum += lights->list.entries[k].ops->estimate(lights->list.scene, &lights->list.entries[k], point->position);
+            sum += entry_estimate(&lights->list.entries[k], point->position);
         return sum;
     }
     if (lights->tree)

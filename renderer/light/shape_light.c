@@ -94,9 +94,8 @@ static int add_shapes(LightEntries *list, RetexError *err)
 
 /* ---- estimates ---- */
 
-static float estimate_shape(const Scene *scene, const LightEntry *e, Vec3 position)
+static float estimate_shape(const LightEntry *e, Vec3 position)
 {
-    (void)scene;
     Vec3 d = vec_sub(e->center, position);
     return e->strength / (float)fmax(vec_dot(d, d), e->radius * e->radius / 4);
 }
@@ -122,9 +121,9 @@ static LightBounds face_bounds(const MeshLight *mesh, int face)
 }
 
 /* An emitting shape as a whole: a flat one, or one of which any side shows a quarter of the surface. */
-static LightBounds bound_shape(const Scene *scene, const LightEntry *e, int face)
+static LightBounds bound_shape(const LightEntry *e, int face)
 {
-    const Primitive *p = &scene->primitives[e->index];
+    const Primitive *p = &e->scene->primitives[e->index];
     (void)face;
     LightBounds b = {
         .axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2, .back_share = 1, .intensity = e->strength / 4};
@@ -140,9 +139,9 @@ static LightBounds bound_shape(const Scene *scene, const LightEntry *e, int face
     return b;
 }
 
-static LightBounds bound_mesh(const Scene *scene, const LightEntry *e, int face)
+static LightBounds bound_mesh(const LightEntry *e, int face)
 {
-    return face < 0 ? bound_shape(scene, e, face) : face_bounds(e->data, face);
+    return face < 0 ? bound_shape(e, face) : face_bounds(e->data, face);
 }
 
 /* ---- points, by area ---- */
@@ -152,10 +151,9 @@ static double left_of_operand(const Primitive *p, Vec3 position, double density)
     return p->csg && !csg_on_surface(p->csg, position) ? 0 : density;
 }
 
-static double shape_point(const Scene *scene, const LightEntry *e, const LightPick *pick, float u1, float u2,
-                          Surface *surface)
+static double shape_point(const LightEntry *e, const LightPick *pick, float u1, float u2, Surface *surface)
 {
-    const Primitive *p = &scene->primitives[e->index];
+    const Primitive *p = &e->scene->primitives[e->index];
     double density;
     (void)pick;
     shape_sample(p, -1, u1, u2, surface, &density);
@@ -177,10 +175,9 @@ static const MeshLightFace *picked_face(const LightEntry *e, const LightPick *pi
     return f;
 }
 
-static double mesh_point(const Scene *scene, const LightEntry *e, const LightPick *pick, float u1, float u2,
-                         Surface *surface)
+static double mesh_point(const LightEntry *e, const LightPick *pick, float u1, float u2, Surface *surface)
 {
-    const Primitive *p = &scene->primitives[e->index];
+    const Primitive *p = &e->scene->primitives[e->index];
     double density;
     mesh_light_point(picked_face(e, pick, &density), p, u1, u2, surface);
     return left_of_operand(p, surface->position, density);
@@ -196,10 +193,9 @@ static double mesh_density(const LightEntry *e, const Surface *surface, int *fac
     return (e->nfaces > 0 ? 1 : f->share) * f->inverse_area;
 }
 
-static const MeshLightFace *uniform_face(const Scene *scene, const LightEntry *e, const LightPick *pick,
-                                         double *density)
+static const MeshLightFace *uniform_face(const LightEntry *e, const LightPick *pick, double *density)
 {
-    const Primitive *p = &scene->primitives[e->index];
+    const Primitive *p = &e->scene->primitives[e->index];
     if (p->no_reflection || p->csg)
         return NULL;
     const MeshLightFace *f = picked_face(e, pick, density);
@@ -210,8 +206,7 @@ static const MeshLightFace *uniform_face(const Scene *scene, const LightEntry *e
 
 /* Sample a direction uniformly in the cone in which a sphere is seen from outside. The sample's surface is where that
  * direction meets the sphere. */
-static int sample_sphere_cone(const Scene *scene, const LightEntry *e, Vec3 position, float u1, float u2,
-                              LightSample *sample)
+static int sample_sphere_cone(const LightEntry *e, Vec3 position, float u1, float u2, LightSample *sample)
 {
     Vec3 axis = vec_sub(e->center, position), s, t;
     double distance2 = vec_dot(axis, axis), sin2 = e->radius * e->radius / distance2;
@@ -226,7 +221,7 @@ static int sample_sphere_cone(const Scene *scene, const LightEntry *e, Vec3 posi
     sample->pdf = (float)(1 / (2 * PI * one_minus));
     Ray ray = {position, sample->direction, 0, INFINITY};
     Hit hit = {.t = sample->distance, .primitive = e->index};
-    surface_at(&sample->surface, scene, &ray, &hit);
+    surface_at(&sample->surface, e->scene, &ray, &hit);
     return 1;
 }
 
@@ -236,13 +231,13 @@ static int outside_sphere(const LightEntry *e, Vec3 position)
     return e->is_sphere && vec_dot(d, d) > e->radius * e->radius * 1.0001;
 }
 
-static int sample_shape(const Scene *scene, const LightEntry *e, const LightPick *pick, Vec3 position, float u1,
-                        float u2, LightSample *sample)
+static int sample_shape(const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
+                        LightSample *sample)
 {
     sample->source = NULL, sample->shadowless = 0;
     if (outside_sphere(e, position))
-        return sample_sphere_cone(scene, e, position, u1, u2, sample);
-    double pdf_area = e->ops->point(scene, e, pick, u1, u2, &sample->surface);
+        return sample_sphere_cone(e, position, u1, u2, sample);
+    double pdf_area = e->ops->point(e, pick, u1, u2, &sample->surface);
     Vec3 d = vec_sub(sample->surface.position, position);
     sample->distance = vec_length(d);
     if (!(sample->distance > 0 && pdf_area > 0))

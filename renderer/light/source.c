@@ -211,9 +211,9 @@ static void set_fading(const Light *light, LightBounds *b)
     b->peak = at > 0 ? 2 * strength : INFINITY;
 }
 
-static LightBounds source_bounds(const Scene *scene, const LightEntry *e, int face)
+static LightBounds source_bounds(const LightEntry *e, int face)
 {
-    const Light *light = &scene->lights[e->index];
+    const Light *light = &e->scene->lights[e->index];
     LightBounds b = {
         .low = light->location, .high = light->location, .axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2};
     (void)face;
@@ -251,24 +251,24 @@ static int add_sources(LightEntries *list, RetexError *err)
     return code;
 }
 
-static int source_reaches(const Scene *scene, const LightEntry *e, const LightGroup *group)
+static int source_reaches(const LightEntry *e, const LightGroup *group)
 {
-    return light_reaches_group(&scene->lights[e->index], group);
+    return light_reaches_group(&e->scene->lights[e->index], group);
 }
 
-static float source_estimate(const Scene *scene, const LightEntry *e, Vec3 position)
+static float source_estimate(const LightEntry *e, Vec3 position)
 {
-    const Light *light = &scene->lights[e->index];
+    const Light *light = &e->scene->lights[e->index];
     Vec3 direction;
     double distance;
     return rgb_luminance(source_irradiance(light, position, light->location, &direction, &distance));
 }
 
-static int sample_source(const Scene *scene, const LightEntry *e, const LightPick *pick, Vec3 position, float u1,
-                         float u2, LightSample *sample)
+static int sample_source(const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
+                         LightSample *sample)
 {
     (void)pick;
-    return source_sample(&scene->lights[e->index], position, u1, u2, sample);
+    return source_sample(&e->scene->lights[e->index], position, u1, u2, sample);
 }
 
 const LightEntryOps entry_source = {.add = add_sources,
