@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <mutex>
 #include <vector>
 
@@ -103,64 +104,69 @@ std::shared_ptr<PackSet> open_set(const std::string &path)
 
 // ---- textures ----
 
-std::string target_names(const RetexSet &set)
-{
-    std::string names;
-    for (int t = 0; t < set.ntargets; t++)
-        names += (t ? ", " : "") + std::string(set.targets[t].name);
-    return names.empty() ? "none" : names;
-}
-
-// Find wrong names and missing files when the name is opened, not when pixels are read.
-void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
-{
-    if (retex_set_find_target(&set, texture.target) < 0)
-        throw Failure(std::string("the set has no target '") + texture.target + "'; there are: " + target_names(set));
-    if (!texture.constant && file_stamp(texture.image) == "absent")
-        throw Failure(std::string("cannot read ") + texture.image + ": No such file or directory");
-}
-
 // Print warnings to standard error, because OpenImageIO has only errors. Textures are read while they are sampled.
 void print_warning(void *, const char *text)
 {
     std::fprintf(stderr, "retex: warning: %s\n", text);
 }
 
-// The arguments are sorted, so a target comes before its options.
-std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const OwnFolder &own)
+struct EditCloser {
+    void operator()(RetexEdit *edit) const
+    {
+        retex_edit_close(&edit);
+    }
+};
+using Edit = std::unique_ptr<RetexEdit, EditCloser>;
+
+Edit parse_edit(const Arguments &arguments)
 {
-    std::vector<RetexTextureSpec> textures;
+    RetexError err{};
+    RetexEdit *made = nullptr;
+    must(retex_edit_create(&made, &err), err);
+    Edit edit(made);
     for (const auto &argument : arguments) {
-        const std::string &name = argument.first;
-        if (name == "safe" && argument.second != "0" && argument.second != "1")
+        if (argument.first != "safe")
+            must(retex_edit_set(made, argument.first.c_str(), argument.second.c_str(), &err), err);
+        else if (argument.second != "0" && argument.second != "1")
             throw Failure("safe: expected 0 or 1, not '" + argument.second + "'");
-        if (name == "safe")
-            continue;
-        size_t dot = name.find('.');
-        if (dot != std::string::npos && !arguments.count(name.substr(0, dot)))
-            throw Failure(name + ": " + name.substr(0, dot) + " has no texture; expected " + name.substr(0, dot) +
-                          "=IMAGE too");
-        if (dot != std::string::npos)
-            continue;
-        std::string options, begin = name + ".";
-        for (auto o = arguments.lower_bound(begin);
-             o != arguments.end() && o->first.compare(0, begin.size(), begin) == 0; ++o) {
-            if (o->second.find(':') != std::string::npos)
-                throw Failure(o->first + ": no colon can be in '" + o->second + "'");
-            options += (options.empty() ? "" : ":") + o->first.substr(begin.size()) + "=" + o->second;
-        }
-        RetexTextureSpec texture = RETEX_TEXTURE_SPEC_INIT;
-        RetexError err{};
-        must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + argument.second).c_str(), &err), err);
-        std::string image = texture.constant ? "" : own.find(texture.image);
+    }
+    must(retex_edit_check(made, &err), err);
+    return edit;
+}
+
+// Finds wrong names of targets and missing files when the name is opened, not when pixels are read.
+std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set, const OwnFolder &own)
+{
+    RetexError err{};
+    RetexTargetNames names;
+    retex_set_target_names(&names, &set);
+    must(retex_edit_bind(edit, &names, &err), err);
+    std::vector<RetexTextureSpec> textures;
+    for (int i = 0; i < retex_edit_count(edit); i++) {
+        RetexTextureSpec texture = *retex_edit_texture(edit, i);
+        const std::string image = texture.constant ? "" : own.find(texture.image);
         if (image.size() >= sizeof texture.image)
             throw Failure(std::string(texture.image) + ": the name is too long");
         std::copy_n(image.c_str(), image.size() + 1, texture.image);
+        char meant[RETEX_MEANT_SIZE];
+        if (!texture.constant && file_stamp(image) == "absent")
+            throw Failure("cannot read " + image + ": No such file or directory" +
+                          retex_color_meant(texture.image, meant));
         texture.access = own.access();
         texture.warn = print_warning;
         textures.push_back(texture);
     }
     return textures;
+}
+
+// The edit as the rest of a name.
+std::string text_of(const RetexEdit *edit)
+{
+    RetexError err{};
+    char *made = nullptr;
+    must(retex_edit_text(edit, '&', &made, &err), err);
+    const std::unique_ptr<char, void (*)(void *)> text(made, std::free);
+    return made;
 }
 
 // ---- the source ----
@@ -193,21 +199,15 @@ class PackSource final : public Source
 {
   public:
     PackSource(const std::string &path, const Arguments &arguments, int threads)
-        : own_(path, wants_safe(arguments)), budget_(own_.access()->safe), textures_(parse_textures(arguments, own_)),
-          threads_(threads), key_((own_.access()->safe ? "safe:" : "") + path), stamp_(file_stamp(path)),
-          set_(open_set(path))
+        : own_(path, wants_safe(arguments)), budget_(own_.access()->safe), edit_(parse_edit(arguments)),
+          threads_(threads), stamp_(file_stamp(path)), set_(open_set(path))
     {
         budget_.check_size(set_->description().width, set_->description().height);
-        for (const RetexTextureSpec &texture : textures_) {
-            check_texture(set_->description(), texture);
+        textures_ = find_textures(edit_.get(), set_->description(), own_);
+        for (const RetexTextureSpec &texture : textures_)
             stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
-        }
-        for (const auto &argument : arguments) {
-            if (argument.first == "safe")
-                continue;
-            key_ += "&" + argument.first + "=" + argument.second;
-            shown_ += (shown_.empty() ? "" : "&") + argument.first + "=" + argument.second;
-        }
+        shown_ = text_of(edit_.get());
+        key_ = (own_.access()->safe ? "safe:" : "") + path + "?" + shown_;
     }
     int count() override
     {
@@ -252,10 +252,11 @@ class PackSource final : public Source
 
     const OwnFolder own_;
     const Budget budget_;
-    const std::vector<RetexTextureSpec> textures_;
+    const Edit edit_;
     const int threads_;
     std::string key_, stamp_, shown_;
     const std::shared_ptr<PackSet> set_;
+    std::vector<RetexTextureSpec> textures_;
     std::mutex mutex_;
     std::shared_ptr<Picture> picture_;
 };

@@ -19,14 +19,16 @@ namespace plugins
 namespace
 {
 
-// Decode %26 to & and %25 to %, because an & ends the value of an option.
+// Decode %25, %26 and %3B to %, & and ;, because an & ends the value of an option, and a ; ends it in other texts of
+// edits.
 std::string unescaped(const std::string &text)
 {
+    static const std::map<std::string, char> codes = {{"%25", '%'}, {"%26", '&'}, {"%3B", ';'}, {"%3b", ';'}};
     std::string plain;
     for (size_t i = 0; i < text.size(); i++) {
-        bool ampersand = text.compare(i, 3, "%26") == 0, percent = text.compare(i, 3, "%25") == 0;
-        plain += ampersand ? '&' : text[i];
-        i += ampersand || percent ? 2 : 0;
+        const auto code = codes.find(text.substr(i, 3));
+        plain += code == codes.end() ? text[i] : code->second;
+        i += code == codes.end() ? 0 : 2;
     }
     return plain;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #include "base/digest.h"
 #include "retex-render.h"
@@ -142,14 +142,8 @@ static void parse_replace(Arguments *a)
     RetexError err;
     if (a->nreplacements == RETEX_MAX_TARGETS)
         cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
-    RetexTextureSpec *spec = &a->replacements[a->nreplacements++];
-    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    if (retex_texture_spec_parse(spec, a->cli->modifiers, a->cli->value, &err))
+    if (texture_args_parse(a->cli, &a->replacements[a->nreplacements++], &err))
         cli_die(a->cli, "--replace: %s", err.message);
-    spec->access = &a->cli->access;
-    spec->warn = cli_warn_text;
-    spec->warn_context = a->cli;
-    spec->budget = a->cli->budget;
 }
 
 /* The index of the option's value among names; an error if it is none of them. */

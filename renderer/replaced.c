@@ -3,34 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #include "render/first_hit.h"
 #include "retex-render.h"
 
-/* As retex_set_find_target. */
-static int find_target(const Scene *scene, const char *name)
+static RetexTargetNames target_names(const Scene *scene)
 {
-    int found = -1, count = 0, of_ident = 0;
-    for (int k = 0; k < scene->ntargets; k++) {
-        if (!strcmp(scene->targets[k].name, name))
-            return k;
-        if (!strcasecmp(scene->targets[k].name, name))
-            found = k, count++;
-    }
-    for (int k = 0; !count && k < scene->ntargets; k++)
-        if (!strcmp(scene->targets[k].idents, name))
-            found = k, of_ident++;
-    return count + of_ident == 1 ? found : -1;
-}
-
-/* Advice for a name that is no target: the name probably meant, or the option to add. */
-static const char *target_meant(const Scene *scene, const char *name, char meant[RETEX_MEANT_SIZE])
-{
-    RetexNearest nearest = {name, NULL, 0};
+    RetexTargetNames names = {.count = scene->ntargets, .of = "the scene", .advice = "; name it with -t"};
     for (int k = 0; k < scene->ntargets; k++)
-        retex_nearest_try(&nearest, scene->targets[k].name);
-    return nearest.best ? retex_meant(nearest.best, meant) : "; name it with -t";
+        names.names[k] = scene->targets[k].name, names.idents[k] = scene->targets[k].idents;
+    return names;
 }
 
 /* Load a texture for target t. The option `width` of a texture needs the scale of the target's UV. */
@@ -49,16 +32,15 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
 
 int replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded, RetexError *err)
 {
-    char meant[RETEX_MEANT_SIZE];
+    const RetexTargetNames names = target_names(scene);
     for (int k = 0; k < a->nreplacements; k++) {
-        const char *name = a->replacements[k].target;
-        int t = find_target(scene, name);
-        if (t < 0)
-            return retex_fail(err, RETEX_EINVAL, "--replace: `%s` is no target%s", name,
-                              target_meant(scene, name, meant));
+        RetexError why;
+        int t, code = retex_target_find(&t, &names, a->replacements[k].target, &why);
+        if (code)
+            return retex_fail(err, code, "--replace: %s", why.message);
         if (a->replaced.textures[t])
             return retex_fail(err, RETEX_EINVAL, "--replace: `%s` is replaced twice", a->replacements[k].target);
-        const int code = load_texture(a, scene, t, &a->replacements[k], &loaded[k], err);
+        code = load_texture(a, scene, t, &a->replacements[k], &loaded[k], err);
         if (code)
             return code;
         a->replaced.textures[t] = loaded[k];
@@ -88,12 +70,13 @@ static void close_variant(Variants *v, int k)
 static int load_variant(Arguments *a, const Scene *scene, Variants *v, int row, RetexError *err)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    const RetexTargetNames names = target_names(scene);
     const int k = v->count, count = texture_table_textures(&a->batch.table, row, specs);
     int code = RETEX_OK;
     v->rows[k] = row;
     v->variants[k] = a->replaced;
     for (int i = 0; i < count && !code; i++) {
-        int t = find_target(scene, specs[i].target);
+        int t = retex_target_index(&names, specs[i].target);
         code = load_texture(a, scene, t, &specs[i], &v->loaded[k][t], err);
         v->variants[k].textures[t] = v->loaded[k][t];
     }
@@ -161,7 +144,7 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
     const Arguments *a = context;
     for (int i = 0; i < count; i++) {
         textures[i].target = specs[i].target;
-        texture_args_name(&specs[i], textures[i].texture, sizeof textures[i].texture);
+        retex_edit_image_text(&specs[i], textures[i].texture, sizeof textures[i].texture);
     }
     for (int k = 0; k < a->nreplacements; k++) {
         int i = 0;
@@ -170,7 +153,7 @@ static int describe_row(void *context, const RetexTextureSpec *specs, int count,
         if (i < count)
             continue;
         textures[count].target = a->replacements[k].target;
-        texture_args_name(&a->replacements[k], textures[count].texture, sizeof textures[count].texture);
+        retex_edit_image_text(&a->replacements[k], textures[count].texture, sizeof textures[count].texture);
         count++;
     }
     return count;
@@ -205,17 +188,14 @@ static void check_columns(Arguments *a, const Scene *scene)
 {
     TextureTable *table = &a->batch.table;
     int taken[RETEX_MAX_TARGETS] = {0};
-    char meant[RETEX_MEANT_SIZE], known[RETEX_MAX_TARGETS * (RETEX_NAME_MAX + 2)] = "";
-    for (int t = 0; t < scene->ntargets; t++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", t ? ", " : "", scene->targets[t].name);
+    const RetexTargetNames names = target_names(scene);
     for (int k = 0; k < table->ncolumns; k++) {
-        const char *name = table->columns[k];
-        int t = find_target(scene, name);
-        if (t < 0)
-            texture_table_mistake(table, TABLE_ITSELF, "`%s` is no target, there are: %s%s", name, known,
-                                  target_meant(scene, name, meant));
+        RetexError err = {0};
+        int t;
+        if (retex_target_find(&t, &names, table->columns[k], &err))
+            texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
         else if (taken[t]++)
-            texture_table_mistake(table, TABLE_ITSELF, "target `%s` has two columns", name);
+            texture_table_mistake(table, TABLE_ITSELF, "target `%s` has two columns", table->columns[k]);
     }
     batch_refuse_mistakes(&a->batch);
 }
@@ -250,10 +230,14 @@ int read_control(Arguments *a, RetexError *err)
     if (!set)
         return retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", a->control);
     a->control_set = set;
-    for (int k = 0; k < a->nreplacements; k++)
-        if (set->ntargets && !a->named && retex_set_find_target(set, a->replacements[k].target) < 0)
-            return retex_fail(err, RETEX_EINVAL, "--control %s: the set has no target `%s`", a->control,
-                              a->replacements[k].target);
+    RetexTargetNames names;
+    retex_set_target_names(&names, set);
+    for (int k = 0; k < a->nreplacements && set->ntargets && !a->named; k++) {
+        RetexError why;
+        int t;
+        if (retex_target_find(&t, &names, a->replacements[k].target, &why))
+            return retex_fail(err, why.code, "--control %s: %s", a->control, why.message);
+    }
     for (int t = 0; t < set->ntargets && !a->named; t++) {
         snprintf(a->set_targets[t], sizeof a->set_targets[t], "%s=%s", set->targets[t].name, set->targets[t].idents);
         a->targets[t] = a->set_targets[t];

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #include "cli.h"
 

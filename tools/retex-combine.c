@@ -8,7 +8,7 @@
 #include "combine/job.h"
 
 static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts as in retex-sample", 1},
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts as in retex-sample", 1},
     {"display", 0, "NAME", "OCIO display for the picture", 0},
     {"view", 0, "NAME", "OCIO view of that display", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},

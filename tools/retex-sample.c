@@ -3,7 +3,7 @@
 #include "texture_args.h"
 
 static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
     FRAMES_OPTION,
     {"keep-going", 0, NULL, "continue after a frame that fails", 0},
     {0},

@@ -13,7 +13,7 @@
 
 #include "cli.h"
 
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include <retex/retex.h>
 
 enum { COMMANDS_MAX = 64 };

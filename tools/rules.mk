@@ -82,7 +82,12 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 
 # The player of --web is one script: its parts one after the other, made small by esbuild, which keeps the names that the
 # parts share. A comment that begins with /*! stays.
-PLAYER_PARTS := $(patsubst %,tools/web/%.js,files shaders renderer look element)
+PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit shaders renderer look element)
+# The names of colours are those of the library; it has each grey by both spellings.
+$(BUILD)/gen/colors.js: tools/libretex/base/color_text.c tools/rules.mk
+	@mkdir -p $(@D)
+	$(SAY){ printf 'const COLORS = "'; grep -o '{"[a-z]*", 0x[0-9a-f]*}' $< | grep -v grey | \
+	    sed 's/{"\(.*\)", 0x\(.*\)}/\1\U\2/' | tr -d '\n'; echo '";'; } >$@
 $(BUILD)/gen/retex-room.js: $(PLAYER_PARTS) tools/rules.mk
 	@mkdir -p $(@D)
 	$(SAY)sed 's/^ *//' $(PLAYER_PARTS) | esbuild --loader=js --minify --charset=utf8 --legal-comments=inline \

@@ -16,20 +16,36 @@ typedef struct TextureArgs {
     int count;
 } TextureArgs;
 
-/* Parse --texture, the option that cli_next returned. */
+/* An image of a texture is read, and warned about, as the command line says. */
+static inline void texture_args_read_by(const Cli *cli, RetexTextureSpec *spec)
+{
+    spec->access = &cli->access;
+    spec->warn = cli_warn_text;
+    spec->warn_context = (void *)cli;
+    spec->budget = cli->budget;
+}
+
+/* Parse --texture or --replace, the option that cli_next returned. */
+static inline int texture_args_parse(const Cli *cli, RetexTextureSpec *spec, RetexError *err)
+{
+    RetexEdit *edit = NULL;
+    int code = retex_edit_create(&edit, err);
+    if (!code)
+        code = retex_edit_option(edit, cli->modifiers, cli->value, err);
+    if (!code)
+        *spec = *retex_edit_texture(edit, 0);
+    retex_edit_close(&edit);
+    texture_args_read_by(cli, spec);
+    return code;
+}
+
 static inline void texture_args_add(const Cli *cli, TextureArgs *args)
 {
     RetexError err = {0};
     if (args->count == RETEX_MAX_TARGETS)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
-    args->specs[args->count] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    if (retex_texture_spec_parse(&args->specs[args->count], cli->modifiers, cli->value, &err))
+    if (texture_args_parse(cli, &args->specs[args->count++], &err))
         cli_fail(cli, &err);
-    args->specs[args->count].access = &cli->access;
-    args->specs[args->count].warn = cli_warn_text;
-    args->specs[args->count].warn_context = (void *)cli;
-    args->specs[args->count].budget = cli->budget;
-    args->count++;
 }
 
 /* Announce the file of a texture, if it has one. For a name with options, `room.retex?Floor=oak.jpg`, also announce the
@@ -77,15 +93,6 @@ static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextur
         strcpy(spec->image, image ? image : "");
         free(image);
     }
-}
-
-/* A texture in readable form: its file name or its colour. */
-static inline void texture_args_name(const RetexTextureSpec *spec, char *text, size_t size)
-{
-    if (spec->constant)
-        snprintf(text, size, "rgb(%g,%g,%g)", (double)spec->color[0], (double)spec->color[1], (double)spec->color[2]);
-    else
-        snprintf(text, size, "%s", spec->image);
 }
 
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */

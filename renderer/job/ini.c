@@ -8,7 +8,7 @@
 #include <strings.h>
 #include <unistd.h>
 #include <retex/access.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include "job/ini.h"
 
 enum { BYTES_MAX = 1 << 20, LINES_MAX = 100000, READS_MAX = 1000, DEPTH_MAX = 10 };

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 #include <retex/access.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include "job/ini_settings.h"
 #include "job/job.h"
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include "film/params.h"
 #include "job/animation.h"
 #include "job/job.h"

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <retex/host/set_build.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
 #include "render/originals.h"

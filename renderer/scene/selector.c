@@ -5,8 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/host/nearest.h>
-#include <retex/host/target_name.h>
+#include <retex/color_text.h>
+#include <retex/nearest.h>
+#include <retex/target_name.h>
 #include "scene/selector.h"
 
 struct SelectorForm {
@@ -223,7 +224,7 @@ int selector_of_object(char text[SELECTOR_MAX], const ObjectPart *object)
     return 1;
 }
 
-/* ---- ~rgb(r,g,b) ---- */
+/* ---- ~COLOUR ---- */
 
 static int begins_color(const char *text)
 {
@@ -233,11 +234,9 @@ static int begins_color(const char *text)
 static int read_color(Selector *selector, const Scene *scene, RetexError *err)
 {
     float rgb[3];
-    int used = 0;
     (void)scene;
-    if (sscanf(selector->text, "~rgb( %f , %f , %f )%n", &rgb[0], &rgb[1], &rgb[2], &used) != 3 || !used ||
-        selector->text[used] || !isfinite(rgb[0]) || !isfinite(rgb[1]) || !isfinite(rgb[2]))
-        return malformed(selector, "~rgb(r,g,b) with three numbers, scene-linear", err);
+    if (retex_color_parse(rgb, selector->text + 1, NULL))
+        return malformed(selector, "a colour, as ~rgb(.6,.4,.2), which is scene-linear, ~#cbaa7c or ~tan", err);
     selector->color = (Rgb){rgb[0], rgb[1], rgb[2]};
     return RETEX_OK;
 }

@@ -1,7 +1,7 @@
 /* Targets: NAME=SELECTOR,… of the command line is read, and the surfaces that they select are marked. */
 #include <stdio.h>
 #include <string.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include "scene/selector.h"
 
 /* ---- reading NAME=SELECTOR,SELECTOR ---- */

@@ -152,7 +152,7 @@ static void bench_files(const char *scenes, const char *folder)
     char path[512], argument[600], name[96];
     snprintf(path, sizeof path, "%s/living-room/living-room.pov", scenes);
     snprintf(argument, sizeof argument, "Floor=%s/textures/terrazzo.jpg", scenes);
-    test_must(retex_texture_spec_parse(&room.texture, "", argument, &err), &err);
+    test_must(test_texture_spec(&room.texture, "", argument, &err), &err);
     room.plain = parse(path, NULL, 0);
     room.targets = parse(path, targets, 2);
     room.params.width = 192;
@@ -164,7 +164,7 @@ static void bench_files(const char *scenes, const char *folder)
     snprintf(name, sizeof name, "living-room, 192x108, an image on the floor, against %d samples a pixel",
              REFERENCE_SPP);
     bench_pair(name, retexture, render_again, &room);
-    test_must(retex_texture_spec_parse(&room.texture, "", "Floor=rgb(0.4,0.3,0.2)", &err), &err);
+    test_must(test_texture_spec(&room.texture, "", "Floor=rgb(0.4,0.3,0.2)", &err), &err);
     snprintf(name, sizeof name, "the same with a colour");
     bench_pair(name, retexture, render_again, &room);
 

@@ -431,13 +431,13 @@ $ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1
 ! retex-render: error: ../t:4: 2.exr: the output of the table's line 3 and the output of the table's line 4 are the same file
 ! retex-render: error: ../t:5: colour 'rgb(1)': expected rgb(r,g,b) with three numbers
 ! retex-render: error: none.pov: cannot read none.pov: No such file or directory
-! retex-render: error: ../t:1: `sofa` is no target, there are: floor; name it with -t
+! retex-render: error: ../t:1: no target is called 'sofa'; the scene has floor; name it with -t
 ! retex-render: error: ../t:1: target `Floor` has two columns
 ! retex-render: error: ../t:1: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White, Red, Green
 ! retex-render: error: ../t:1: no texture, pigment, material or object `lamp` in the scene; there are: Floor, White, Red, Green
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
-! retex-render: error: ../t:1: `sofa` is no target, there are: white; name it with -t
-! retex-render: error: ../t:1: `lamp` is no target, there are: white; name it with -t
+! retex-render: error: ../t:1: no target is called 'sofa'; the scene has white; name it with -t
+! retex-render: error: ../t:1: no target is called 'lamp'; the scene has white; name it with -t
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
 $ printf '%s\n' output,floor 1.exr,none.jpg 2.exr,brick.jpg gone/3.exr '4.exr,"rgb(1,0,0)"' >../t; retex-render --size 8x6 --spp 1 --variants ../t --keep-going scenes/cornell-box/cornell-box.pov 2>&1 | sed 's/: [0-9.]* s$//'; ls -A | diff ../before - | grep '^>'; rm 2.exr 4.exr; retex-render -q --size 8x6 --spp 1 --variants ../t --keep-going --dry-run scenes/cornell-box/cornell-box.pov; echo $?
 > retex-render: error: ../t:2: cannot read none.jpg: No such file or directory

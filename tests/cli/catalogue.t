@@ -12,7 +12,7 @@ $ sh batch --plan | sed 's/about .*//'; ls m; sh batch --plan | grep -c 'by 4 tr
 > retex-combine: d.png: Wall <- brick.jpg, 48 x 32, S
 > retex-combine: 4 pictures, S
 > {"output": "a.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Floor": "brick.jpg C", "wall": "brick.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
-> {"output": "b.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Floor": "oak.jpg scale=2,2 rotate=30 C", "Wall": "rgb(0.5,0.25,0.125)"}, "bytes": B, "crc32": "C", "seconds": S}
+> {"output": "b.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Floor": ":scale=2,2:rotate=30 oak.jpg C", "Wall": "rgb(0.5,0.25,0.125)"}, "bytes": B, "crc32": "C", "seconds": S}
 > {"output": "c.jpg", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"Wall": "oak.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
 > {"output": "d.png", "version": "0.1.0", "set": "C", "samples": "", "options": "quality=80 cross=3 display= view= colorspace= ocio=00000000", "textures": {"wall": "brick.jpg C"}, "bytes": B, "crc32": "C", "seconds": S}
 > 4

@@ -121,8 +121,8 @@ $ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx'
 ! retex-render: error: no texture, pigment, material or object `flor` in the scene; similar: Floor
 ! retex-render: error: no texture, pigment, material or object `Wihte` in the scene; similar: White
 ! retex-render: error: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White
-! retex-render: error: --replace: `flor` is no target; is Floor meant?
-! retex-render: error: standard input:1: `flor` is no target, there are: Floor; is Floor meant?
+! retex-render: error: --replace: no target is called 'flor'; the scene has Floor; is Floor meant?
+! retex-render: error: standard input:1: no target is called 'flor'; the scene has Floor; is Floor meant?
 = 2
 # Of a crop its own pixels count.
 $ retex-render -q --max-pixels 600 --size 100x100 --crop 0,0,100,5 --spp 1 box.pov -o x.exr && rm x.exr; retex-render -q --max-pixels 400 --size 100x100 --crop 0,0,5,100 --spp 1 box.pov -o x.exr

@@ -18,8 +18,11 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_diff: ok
 > retex_picture_open: ok
 > retex_picture_open_memory: ok
-> retex_texture_spec_parse: ok
-> retex_texture_spec_parse: ok
+> retex_edit_create: ok
+> retex_edit_option: ok
+> retex_edit_option: ok
+> retex_edit_options_text: ok
+> retex_edit_image_text: wood.png of scale=3,3
 > retex_texture_spec_needs_scale: 0
 > retex_texture_load: ok
 > retex_textures_load: ok

@@ -195,7 +195,7 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: standard input:2: x.nothing: no picture format that can be written has the ending .nothing; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: standard input:1: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
-! retex-render: error: standard input:1: `nope` is no target, there are: floor; name it with -t
+! retex-render: error: standard input:1: no target is called 'nope'; the scene has floor; name it with -t
 ! retex-render: error: the table of --variants names the outputs: no -o
 = 2
 

@@ -110,7 +110,7 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 > Make a picture from a set, with its original textures or new ones.
 >
 >       --texture[:opts] NAME=IMAGE
->                               put IMAGE, a file or rgb(r,g,b), on target NAME;
+>                               put IMAGE, a file or a colour, on target NAME;
 >                               opts as in retex-sample
 >       --display NAME          OCIO display for the picture
 >       --view NAME             OCIO view of that display

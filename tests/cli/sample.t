@@ -57,6 +57,22 @@ $ retex-sample -q s.exr --texture 'floor=rgb(1,2' -o x.exr
 $ retex-sample -q s.exr --texture 'floor=rgb(1,nan,2)' -o x.exr
 ! retex-sample: error: colour 'rgb(1,nan,2)': expected rgb(r,g,b) with three numbers of 0 or more
 = 2
+# Colours as people write them; a file of such a name is named by its place; misspelt ones.
+$ cp brick.jpg tan; for c in tan TAN '#d2b48c' 'srgb(0.8235294,0.7058824,0.5490196)' ./tan; do retex-sample s.exr --texture "floor=$c" -o x.exr 2>&1 | sed 's/: 48 x.*//'; done; rm tan x.exr
+> retex-sample: Floor <- rgb(0.6444797,0.45641103,0.26225066)
+> retex-sample: Floor <- rgb(0.6444797,0.45641103,0.26225066)
+> retex-sample: Floor <- rgb(0.6444797,0.45641103,0.26225066)
+> retex-sample: Floor <- rgb(0.64447963,0.4564111,0.26225066)
+> retex-sample: Floor <- ./tan
+$ for c in rde oka '#ff88' 'srgb(255,0,0)'; do retex-sample -q s.exr --texture "floor=$c" -o x.exr; echo $?; done
+> 2
+> 2
+> 2
+> 2
+! retex-sample: error: cannot read rde: No such file or directory; is red meant?
+! retex-sample: error: cannot read oka: No such file or directory
+! retex-sample: error: colour '#ff88': expected #rgb or #rrggbb with hexadecimal digits
+! retex-sample: error: colour 'srgb(255,0,0)': expected srgb(r,g,b) with three numbers from 0 to 1
 $ retex-sample -q none.exr --texture floor=brick.jpg -o x.exr
 ! retex-sample: error: cannot read none.exr: No such file or directory
 = 2

@@ -164,6 +164,10 @@ def conditions(server):
     expect('others', len({ask(server, path).getheader('ETag') for path in (
         url, url + '?quality=80', '/v1/small/Floor=oak/full.png', '/v1/small/Floor=oak/32x24.jpg', '/v1/small/full.jpg',
         '/v1/raw/Floor=oak/full.jpg', '/v1/small/Wall=oak/full.jpg', '/v1/small/Floor=oak;Floor.scale=2/full.jpg')}), 8)
+    expect('one edit in several words', len({(answer.status, answer.getheader('ETag')) for answer in (
+        ask(server, f'/v1/small/{edits}/full.jpg') for edits in (
+            'Wall=tan;Floor=oak;Floor.scale=2', 'Floor.scale=2,2.0;Floor=oak;Wall=%23D2B48C',
+            'Floor=oak;Floor.rotate=0;Wall=Tan;Floor.scale=2e0'))}), 1)
 
 
 def replaced(server):
@@ -261,6 +265,8 @@ def refused(server):
     for path, hint in (
             ('/v1/none', "there is no room 'none'; /v1 lists them"),
             ('/v1/small/Wall=oak;Floor.zoom=2/full.jpg', "Floor.zoom: there is no texture '2'; /v1 lists them"),
+            ('/v1/small/Wall=rde/full.jpg', "Wall: there is no texture 'rde'; /v1 lists them; is red meant?"),
+            ('/v1/small/Wall=%23ff88/full.jpg', "colour '#ff88': expected #rgb or #rrggbb with hexadecimal digits"),
             ('/v1/small/full.gif', 'pictures are not written as .gif; /v1 lists the formats'),
             ('/v1/small/', 'a part of the path is empty: there are two slashes, or one at its end'),
             ('/iiif/2/small/info.json', 'of IIIF there is version 3 of the Image API: /iiif/3/ID/info.json')):

@@ -30,7 +30,8 @@ $ for s in name number; do retex-combine -q $s.exr --texture 'A=rgb(.1,.9,.5)' -
 $ retex-combine -q number.exr -o same.exr; retex-render -q --plain --size 16x16 --spp 4 room.pov -o plain.exr; retex-diff --fail-psnr 75 same.exr plain.exr >/dev/null
 $ retex-combine -q number.exr --texture 'A=rgb(.1,.9,.5)' -o new.exr; retex-render -q --size 16x16 --spp 4 -t 'A=@0:0,#4.2' --replace 'A=rgb(.1,.9,.5)' room.pov -o again.exr; retex-diff --fail-psnr 75 new.exr again.exr >/dev/null
 # Nothing matches: one line each, with what is near.
-$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '~rgb(.8,.3,.2)' '~rgb(1,2)' '~red' room.pov:11 hall.pov:7 '*oak.png' Pin '#1,' ',#1' '#1,~rgb(1,1,1)'; do retex-render -q --size 8x8 -t "A=$t" room.pov -o b.exr; echo $?; done; ls b.exr
+$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '~rgb(.8,.3,.2)' '~rgb(1,2)' '~red' '~rde' room.pov:11 hall.pov:7 '*oak.png' Pin '#1,' ',#1' '#1,~rgb(1,1,1)'; do retex-render -q --size 8x8 -t "A=$t" room.pov -o b.exr; echo $?; done; ls b.exr
+> 2
 > 2
 > 2
 > 2
@@ -60,8 +61,9 @@ $ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '~rgb(.8,.3,.
 ! retex-render: error: target `@1`: expected @X:Y, a pixel of the picture
 ! retex-render: error: target `@1:2:3`: expected @X:Y, a pixel of the picture
 ! retex-render: error: no surface of the colour `~rgb(.8,.3,.2)` in the scene; nearest: ~rgb(0.8,0.4,0.2), ~rgb(0.3,0.3,0.3), ~rgb(0.1,0.2,0.7)
-! retex-render: error: target `~rgb(1,2)`: expected ~rgb(r,g,b) with three numbers, scene-linear
-! retex-render: error: target `~red`: expected ~rgb(r,g,b) with three numbers, scene-linear
+! retex-render: error: target `~rgb(1,2)`: expected a colour, as ~rgb(.6,.4,.2), which is scene-linear, ~#cbaa7c or ~tan
+! retex-render: error: no surface of the colour `~red` in the scene; nearest: ~rgb(0.8,0.4,0.2), ~rgb(0.3,0.3,0.3), ~rgb(0.1,0.2,0.7)
+! retex-render: error: target `~rde`: expected a colour, as ~rgb(.6,.4,.2), which is scene-linear, ~#cbaa7c or ~tan
 ! retex-render: error: no object that begins in `room.pov:11` in the scene; nearest: room.pov:10, room.pov:9, room.pov:7, room.pov:6
 ! retex-render: error: no object that begins in `hall.pov:7` in the scene; nearest: room.pov:7, room.pov:6, room.pov:8
 ! retex-render: error: no image `*oak.png` in the scene; nearest: *grey.png

@@ -24,7 +24,7 @@ static void begin(void)
     RetexSamples *samples;
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
-    test_must(retex_texture_spec_parse(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
+    test_must(test_texture_spec(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
     test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     give(set, NULL);
     give(NULL, samples);

@@ -47,7 +47,7 @@ static void begin(void)
     RetexSamples *samples;
     RetexSet *set = test_set(12, 8, 1), *tall = test_set(3, 40, 2);
     test_make_footprints(tall);
-    test_must(retex_texture_spec_parse(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
+    test_must(test_texture_spec(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
     test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     for (int compress = 0; compress < 2; compress++) {
         give(set, NULL, compress);

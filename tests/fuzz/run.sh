@@ -6,7 +6,7 @@ set -u
 seconds=$1 seed=${2-} here=$(pwd)
 shift; [ $# = 0 ] || shift
 [ -n "$seed" ] || seed=$(date +%s)
-[ $# != 0 ] || set -- spec request ini manifest pack set scene gltf import
+[ $# != 0 ] || set -- edit request ini manifest pack set scene gltf import
 case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
 case $KEEP in /*) ;; *) KEEP=$here/$KEEP ;; esac
 mkdir -p "$KEEP"

@@ -104,8 +104,20 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL}, *texture = NULL;
     RetexSamples *samples = NULL;
     RetexImage picture = {0};
-    CALL(retex_texture_spec_parse, &specs[0], "", "Wall=rgb(0.1,0.2,0.3)");
-    CALL(retex_texture_spec_parse, spec, "scale=3", argument);
+    RetexEdit *edit = NULL;
+    char *text = NULL, image[32];
+    CALL(retex_edit_create, &edit);
+    CALL(retex_edit_option, edit, "scale=3", argument);
+    CALL(retex_edit_option, edit, "", "Wall=rgb(0.1,0.2,0.3)");
+    for (int i = 0; i < 2; i++) {
+        specs[i] = *retex_edit_texture(edit, 1 - i);
+        specs[i].size = sizeof specs[i];
+    }
+    retex_edit_close(&edit);
+    CALL(retex_edit_options_text, spec, &text);
+    retex_edit_image_text(spec, image, sizeof image);
+    printf("retex_edit_image_text: %s of %s\n", image, text);
+    free(text);
     spec->access = access_of_all();
     printf("retex_texture_spec_needs_scale: %d\n", retex_texture_spec_needs_scale(spec));
     CALL(retex_texture_load, &texture, spec, 1);

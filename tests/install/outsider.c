@@ -1,5 +1,5 @@
-/* A program of somebody else: puts a texture on a target of a set, and writes the picture.
- * outsider SET TARGET=IMAGE OUTPUT */
+/* A program of somebody else: changes the textures of a set, and writes the picture.
+ * outsider SET EDIT OUTPUT, where EDIT is as Floor=oak.jpg;Floor.scale=2 */
 #include <retex/retex.h>
 #include <stdio.h>
 
@@ -9,16 +9,18 @@ int main(int argc, char **argv)
     RetexSet *set = NULL;
     RetexSamples *samples = NULL;
     RetexImage picture = {0};
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexEdit *edit = NULL;
     if (argc != 4) {
-        fprintf(stderr, "usage: outsider SET TARGET=IMAGE OUTPUT\n");
+        fprintf(stderr, "usage: outsider SET EDIT OUTPUT\n");
         return 2;
     }
-    int code = retex_texture_spec_parse(&spec, "", argv[2], &err);
+    int code = retex_edit_create(&edit, &err);
+    if (code == RETEX_OK)
+        code = retex_edit_parse(edit, argv[2], &err);
     if (code == RETEX_OK)
         code = retex_set_read(argv[1], &set, NULL, 0, &err);
     if (code == RETEX_OK)
-        code = retex_sample(&samples, set, &spec, 1, 0, &err);
+        code = retex_sample(&samples, set, retex_edit_texture(edit, 0), retex_edit_count(edit), 0, &err);
     if (code == RETEX_OK)
         code = retex_combine(&picture, set, samples, NULL, NULL, 0, &err);
     if (code == RETEX_OK)
@@ -28,5 +30,6 @@ int main(int argc, char **argv)
     retex_image_free(&picture);
     retex_samples_close(&samples);
     retex_set_close(&set);
+    retex_edit_close(&edit);
     return code == RETEX_OK ? 0 : 2;
 }

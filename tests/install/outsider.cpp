@@ -1,4 +1,4 @@
-// The same program in C++, with objects that close themselves. outsider SET TARGET=IMAGE OUTPUT
+// The same program in C++, with objects that close themselves. outsider SET EDIT OUTPUT
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +10,7 @@ template <class T, void (*close)(T **)> struct Closer {
     void operator()(T *object) const { close(&object); }
 };
 using Set = std::unique_ptr<RetexSet, Closer<RetexSet, retex_set_close>>;
+using Edit = std::unique_ptr<RetexEdit, Closer<RetexEdit, retex_edit_close>>;
 using Samples = std::unique_ptr<RetexSamples, Closer<RetexSamples, retex_samples_close>>;
 
 static void must(int code, const RetexError &err)
@@ -20,15 +21,17 @@ static void must(int code, const RetexError &err)
 
 int main(int argc, char **argv) try {
     if (argc != 4)
-        throw std::runtime_error("usage: outsider SET TARGET=IMAGE OUTPUT");
+        throw std::runtime_error("usage: outsider SET EDIT OUTPUT");
     RetexError err = {};
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    must(retex_texture_spec_parse(&spec, "", argv[2], &err), err);
+    RetexEdit *made = nullptr;
+    must(retex_edit_create(&made, &err), err);
+    Edit edit(made);
+    must(retex_edit_parse(made, argv[2], &err), err);
     RetexSet *read = nullptr;
     must(retex_set_read(argv[1], &read, nullptr, 0, &err), err);
     Set set(read);
     RetexSamples *filtered = nullptr;
-    must(retex_sample(&filtered, set.get(), &spec, 1, 0, &err), err);
+    must(retex_sample(&filtered, set.get(), retex_edit_texture(made, 0), retex_edit_count(made), 0, &err), err);
     Samples samples(filtered);
     std::unique_ptr<RetexImage, void (*)(RetexImage *)> picture(new RetexImage(), [](RetexImage *image) {
         retex_image_free(image);

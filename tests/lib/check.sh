@@ -26,7 +26,7 @@ jobs_of() {
     cli | oiio) for t in tests/"$1"/*.t; do
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.t} tests/lib/case.sh $1 $t"; }
         done ;;
-    man) for t in man/*.[137]; do # retex(3) stands beside retex(1)
+    man) for t in man/*.[137] man/retex-edit.5; do # retex(3) stands beside retex(1)
             [ ! -e "$t" ] || { t=${t##*/}; n=${t%.?}; [ "$t" = "$n.1" ] || [ ! -e "man/$n.1" ] || n=$t
             echo "man/$n tests/lib/man.sh man/$t"; }
         done ;;

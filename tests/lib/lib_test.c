@@ -33,6 +33,18 @@ void test_must(int code, const RetexError *err)
     abort();
 }
 
+int test_texture_spec(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)
+{
+    RetexEdit *edit = NULL;
+    int code = retex_edit_create(&edit, err);
+    if (!code)
+        code = retex_edit_option(edit, opts, arg, err);
+    if (!code)
+        *spec = *retex_edit_texture(edit, 0);
+    retex_edit_close(&edit);
+    return code;
+}
+
 void test_random_image(RetexImage *im, int width, int height, int channels, uint32_t seed, double low, double high)
 {
     RetexError err = {0};

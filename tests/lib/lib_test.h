@@ -12,10 +12,10 @@
 #include <retex/host/band_store.h>
 #include <retex/host/cpu.h>
 #include <retex/host/denoise_data.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include <retex/host/rounding.h>
 #include <retex/host/set_build.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include <retex/host/texture_lookup.h>
 #include <retex/host/uv_stats.h>
 #include <retex/retex.h>
@@ -58,5 +58,8 @@ int test_sample_to_store(RetexSamples **samples, const RetexSet *set, const Rete
 
 /* Ends the process with a message. For functions that run outside of a test. */
 void test_must(int code, const RetexError *err);
+
+/* The texture of --texture:opts arg. */
+int test_texture_spec(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
 
 #endif

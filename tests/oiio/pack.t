@@ -98,15 +98,15 @@ $ retex-combine -q room.retex --texture Wall=room.retex -o x.exr && oiiotool 'ro
 
 # What is wrong with options.
 $ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&Floor.scal=2' 'Floor=brick.jpg&Floor.scale=0' 'Floor=brick.jpg&floor=brick.jpg' 'Floor=rgb(1,2)' 'Floor=brick.jpg&Floor.wrap=a:b'; do oiiotool "room.retex?$o" -o no.exr 2>&1 | grep ERROR; done
-> oiiotool ERROR: read : "room.retex?Flor=brick.jpg": the set has no target 'Flor'; there are: Floor, Wall
+> oiiotool ERROR: read : "room.retex?Flor=brick.jpg": no target is called 'Flor'; the set has Floor, Wall; is Floor meant?
 > oiiotool ERROR: read : "room.retex?Floor=none.jpg": cannot read none.jpg: No such file or directory
 > oiiotool ERROR: read : "room.retex?Floor=-": cannot read -: No such file or directory
-> oiiotool ERROR: read : "room.retex?Floor.scale=2": Floor.scale: Floor has no texture; expected Floor=IMAGE too
+> oiiotool ERROR: read : "room.retex?Floor.scale=2": Floor has options, but no texture; expected Floor=IMAGE too
 > oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scal=2": no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is scale meant?
 > oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scale=0": texture option scale='0': a scale cannot be 0
 > oiiotool ERROR: read : "room.retex?Floor=brick.jpg&floor=brick.jpg": target Floor is given two textures
 > oiiotool ERROR: read : "room.retex?Floor=rgb(1,2)": colour 'rgb(1,2)': expected rgb(r,g,b) with three numbers
-> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.wrap=a:b": Floor.wrap: no colon can be in 'a:b'
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.wrap=a:b": texture option wrap='a:b': expected repeat, mirror, clamp or black, or two of them for u,v
 $ oiiotool 'room.retex?Floor' -o no.exr 2>&1 | grep ERROR; iinfo 'room.retex?Floor'
 > oiiotool ERROR: read : File does not exist: "room.retex?Floor"
 ! iinfo ERROR: "room.retex?Floor" : ImageInput::create() called with malformed filename

@@ -18,7 +18,7 @@ $ /usr/bin/python3 pictures.py buffer room.retex; /usr/bin/python3 pictures.py b
 > 48x32, 1 subimages
 > 16x12, 1 subimages
 $ /usr/bin/python3 pictures.py open 'room.retex?Wal=rgb(1,0,0)'; /usr/bin/python3 pictures.py open none.retex; head -c 9000 room.retex >cut.retex; /usr/bin/python3 pictures.py open cut.retex; head -c 9000 brick.jpg >cut.jpg; /usr/bin/python3 pictures.py open 'room.retex?Wall=cut.jpg'
-> cannot read: the set has no target 'Wal'; there are: Floor, Wall
+> cannot read: no target is called 'Wal'; the set has Floor, Wall; is Wall meant?
 > cannot open: cannot read none.retex: No such file or directory
 > cannot open: cut.retex: the pack is damaged or truncated: its directory is missing
 > cannot read: cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)

@@ -21,8 +21,8 @@ $ for s in 0 1 2; do oiiotool "in/room.retex?Floor=up.png&safe=$s" -o x.exr 2>&1
 > oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=0": cannot read up.png: No such file or directory
 > oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=1": cannot read up.png: No such file or directory
 > oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=1": cannot read up.png: No such file or directory
-> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": cannot read up.png: No such file or directory
-> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": safe: expected 0 or 1, not '2'
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": safe: expected 0 or 1, not '2'
 
 # Scenes.
 $ printf 'box { -1, 1 pigment { image_map { png "../up.png" } } }\nbackground { rgb 1 }\n' >in/up.pov; printf '#include "i.inc"\nbackground { rgb 1 }\n' >in/inc.pov; echo 'box { -1, 1 }' >in/sub/i.inc; cp in/sub/i.inc .

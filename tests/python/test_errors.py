@@ -1,6 +1,7 @@
 """Wrong inputs end in exceptions that say why."""
 import copy
 import os
+import pathlib
 import pickle
 import shutil
 import warnings
@@ -58,7 +59,10 @@ def test_textures():
         expect(Code.ENOTFOUND, "Flor", room.combine, {"Flor": np.zeros((4, 4, 3))})
         expect(Code.EINVAL, "two textures", room.combine, {"Floor": (1, 1, 1), "floor": (0, 0, 0)})
         expect(Code.EIO, "none.png", room.combine, {"Floor": "none.png"})
-        expect(Code.EIO, "rgb(1,1,1)", room.combine, {"Floor": "rgb(1,1,1)"})
+        expect(Code.EIO, "rgb(1,1,1)", room.combine, {"Floor": pathlib.Path("rgb(1,1,1)")})
+        expect(Code.EIO, "cannot read ./red", room.combine, {"Floor": pathlib.Path("red")})
+        expect(Code.EIO, "is red meant?", room.combine, {"Floor": "rde"})
+        expect(Code.EPARSE, "three numbers", room.combine, {"Floor": "rgb(1,1)"})
         lib.fails(Error, room.combine, {"Floor": "text.exr"})
         lib.fails(ValueError, room.combine, {"Floor": ""})
         lib.fails(ValueError, room.combine, {"Floor": "a\0b"})

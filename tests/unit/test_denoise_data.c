@@ -482,8 +482,8 @@ static void plain_guides_show_all_colours(void **state)
     RenderParams p = RENDER_PARAMS_INIT;
     RetexError err = {0};
     RetexTexture *texture = NULL;
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    test_must(retex_texture_spec_parse(&spec, NULL, "Wall=rgb(0.5,0.25,1)", &err), &err);
+    RetexTextureSpec spec = {0};
+    test_must(test_texture_spec(&spec, NULL, "Wall=rgb(0.5,0.25,1)", &err), &err);
     test_must(retex_texture_load(&texture, &spec, 1, &err), &err);
     RenderVariant variant = {.textures = {texture}};
     p.width = WIDTH, p.height = HEIGHT, p.spp = 2, p.denoise_data = 1, p.plain = 1;

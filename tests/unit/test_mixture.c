@@ -144,9 +144,9 @@ static int make_specs(RetexTextureSpec specs[2], const Retexture *r)
     int count = 0;
     specs[0] = specs[1] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     if (r->white_floor)
-        test_must(retex_texture_spec_parse(&specs[count++], "", "Floor=rgb(1,1,1)", &err), &err);
+        test_must(test_texture_spec(&specs[count++], "", "Floor=rgb(1,1,1)", &err), &err);
     if (r->white_wall)
-        test_must(retex_texture_spec_parse(&specs[count++], "", "Wall=rgb(1,1,1)", &err), &err);
+        test_must(test_texture_spec(&specs[count++], "", "Wall=rgb(1,1,1)", &err), &err);
     return count;
 }
 

@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 static int least(int a, int b)
 {

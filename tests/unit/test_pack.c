@@ -409,7 +409,7 @@ static void test_recombination_from_a_pack_is_close(void **state)
     RetexSet *back = unpack(data, bytes);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexImage pictures[2] = {{0}};
-    test_must(retex_texture_spec_parse(&spec, "scale=3", "Floor=rgb(0.8,0.4,0.1)", &err), &err);
+    test_must(test_texture_spec(&spec, "scale=3", "Floor=rgb(0.8,0.4,0.1)", &err), &err);
     RetexSet *sets[2] = {set, back};
     for (int i = 0; i < 2; i++) {
         RetexSamples *samples = NULL;

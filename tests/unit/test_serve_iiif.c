@@ -215,7 +215,7 @@ static void test_canonical_links(void **state)
     assert_canonical("/iiif/3/room/square/!50,90/270.0/default.webp",
                      "http://a.b:1/iiif/3/room/50,0,200,200/50,50/270/default.webp");
     assert_canonical("/iiif/3/ro%6Fm%3BWall%3Drgb(1%2C.5,0)%3bFloor=my%20oak.jpg;Floor.scale=2/full/max/0/default.jpg",
-                     "http://a.b:1/iiif/3/room;Floor=my%20oak.jpg;Floor.scale=2;Wall=rgb(1,.5,0)/full/max/0/"
+                     "http://a.b:1/iiif/3/room;Floor=my%20oak.jpg;Floor.scale=2,2;Wall=rgb(1,0.5,0)/full/max/0/"
                      "default.jpg");
 }
 

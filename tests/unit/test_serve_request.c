@@ -110,9 +110,9 @@ static void test_textures(void **state)
     assert_int_equal(request.size.width, 800);
     assert_int_equal(request.size.height, 600);
     assert_int_equal(request.quality, 90);
-    assert_string_equal(request.edits, "Floor=oak old.jpg;Floor.colorspace=Linear Rec.709;Floor.flip=u;"
-                                       "Floor.offset=0,.5;Floor.repeat=straight;Floor.rotate=30;Floor.scale=2,1;"
-                                       "Floor.width=1.5,2;Floor.wrap=mirror;Wall=rgb(.2,.3,.4)");
+    assert_string_equal(request.edits, "Floor=oak old.jpg;Floor.scale=2,1;Floor.rotate=30;Floor.offset=0,0.5;"
+                                       "Floor.flip=u;Floor.wrap=mirror;Floor.width=1.5,2;"
+                                       "Floor.colorspace=Linear Rec.709;Wall=rgb(0.2,0.3,0.4)");
     /* without textures; dots in a target's name */
     accept_url("/v1/room/x600.png");
     assert_int_equal(request.nspecs, 0);

@@ -4,7 +4,7 @@
 #include <setjmp.h>
 #include <string.h>
 #include <cmocka.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include "base/part_name.h"
 
 static void what_may_be_a_name(void **state)

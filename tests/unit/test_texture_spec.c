@@ -10,7 +10,7 @@ static RetexTextureSpec parse(const char *opts, const char *arg)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
-    test_must(retex_texture_spec_parse(&spec, opts, arg, &err), &err);
+    test_must(test_texture_spec(&spec, opts, arg, &err), &err);
     return spec;
 }
 
@@ -135,18 +135,18 @@ static void test_mistakes(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         RetexError err = {0};
-        assert_int_equal(retex_texture_spec_parse(&spec, cases[i].opts, cases[i].arg, &err), RETEX_EPARSE);
+        assert_int_equal(test_texture_spec(&spec, cases[i].opts, cases[i].arg, &err), RETEX_EPARSE);
         assert_int_equal(err.code, RETEX_EPARSE);
         if (!strstr(err.message, cases[i].says))
             fail_msg("'%s' '%.40s': '%s' does not say '%s'", cases[i].opts, cases[i].arg, err.message, cases[i].says);
-        assert_int_equal(retex_texture_spec_parse(&spec, cases[i].opts, cases[i].arg, NULL), RETEX_EPARSE);
+        assert_int_equal(test_texture_spec(&spec, cases[i].opts, cases[i].arg, NULL), RETEX_EPARSE);
     }
     memset(longer + 2, 'y', sizeof longer - 3);
     longer[300] = '=';
     longer[1] = 'a';
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
-    assert_int_equal(retex_texture_spec_parse(&spec, "", longer, &err), RETEX_EPARSE);
+    assert_int_equal(test_texture_spec(&spec, "", longer, &err), RETEX_EPARSE);
     assert_non_null(strstr(err.message, "at most 127 bytes"));
 }
 

@@ -145,7 +145,7 @@ static void test_constants(void **state)
         Heard heard = {""};
         float p[4];
         snprintf(argument, sizeof argument, "Floor=%s", cases[k].color);
-        test_must(retex_texture_spec_parse(&spec, NULL, argument, &err), &err);
+        test_must(test_texture_spec(&spec, NULL, argument, &err), &err);
         spec.warn = hear;
         spec.warn_context = &heard;
         test_must(retex_texture_load(&texture, &spec, 1, &err), &err);

@@ -175,7 +175,7 @@ static void test_streams(void **state)
     RetexSamples *samples = NULL;
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexError err = {0};
-    test_must(retex_texture_spec_parse(&spec, NULL, "Floor=rgb(.1,.2,.3)", &err), &err);
+    test_must(test_texture_spec(&spec, NULL, "Floor=rgb(.1,.2,.3)", &err), &err);
     test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     int i = 0;
     while (!samples->images[i].pixels)

@@ -1,25 +1,7 @@
-/* How textures look and lie in the player: colours, scales, turns, offsets, flips, wraps, shifted repeats, light. The
+/* How textures look and lie in the player: scales, turns, offsets, flips, wraps, shifted repeats, light. The
  * references are the formulas of retex-sample(1) and the definition of sRGB. */
 import { fails, near, random, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
-
-/* ---- colours ---- */
-
-test("sRGB is decoded by the curve of IEC 61966-2-1", () => {
-  const { srgbDecode } = player();
-  const encode = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
-  for (let k = 0; k <= 255; k++) near(encode(srgbDecode(k / 255)), k / 255, 1e-7, `code ${k}`);
-  same([0, 1].map(srgbDecode), [0, 1]);
-  near([0.04045, 0.04045 + 1e-9].map(srgbDecode), [0.0031308, 0.0031308], 1e-7, "its two parts meet");
-});
-
-test("colours by their codes or by linear numbers", () => {
-  const { parseColor } = player();
-  near(parseColor("#Ff8000"), [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0], 1e-12);
-  same(parseColor("rgb(0.5, .25,1)"), [0.5, 0.25, 1]);
-  same(parseColor("rgb( 1 , 0 , 0 )"), [1, 0, 0]);
-  for (const text of ["#fff", "red", "rgb(1,2)", "rgb(-1,0,0)", "a#ffffff", "#ffffffff", "b.jpg"]) same(parseColor(text), null, text);
-});
 
 /* ---- what may be asked of a texture ---- */
 
@@ -30,11 +12,14 @@ test("options of textures are checked, and the others stay", async () => {
   same(placing({ ...plain, ...good }, { rotate: 1 }), { ...good, rotate: 1 });
   same(placing(plain, { scale: null }).scale, 1);
   const bad = [["scale", 0], ["scale", [1, 0]], ["scale", [1]], ["scale", "2"], ["scale", NaN], ["rotate", Infinity], ["rotate", "1"],
-    ["offset", 1], ["offset", [1, null]], ["offset", [1, 2, 3]], ["tint", "red"], ["flip", "w"], ["flip", "vu"], ["wrap", "none"],
+    ["offset", 1], ["offset", [1, null]], ["offset", [1, 2, 3]], ["tint", "rde"], ["flip", "w"], ["flip", "vu"], ["wrap", "none"],
     ["wrap", "clamp,"], ["wrap", "clamp,clamp,clamp"], ["repeat", "tiles"], ["label", 3]];
   for (const [key, value] of bad)
     await fails(() => placing(plain, { [key]: value }), `A texture's ${key} cannot be ${JSON.stringify(value)}.`, key);
   await fails(() => placing(plain, { repeat: "brick", wrap: "clamp" }), "A texture's repeat brick needs wrap repeat.");
+  same(placing(plain, { colorspace: "sRGB", tint: "tan" }).tint, "tan");
+  for (const options of [{ width: 2 }, { colorspace: "ACEScg" }])
+    await fails(() => placing(plain, options), "A texture's width and colorspace are for the tools, not for this page.");
 });
 
 /* ---- where textures lie ---- */

@@ -63,15 +63,29 @@ test("controls: size is the inverse of scale in powers of two, and a pair keeps 
 test("links have the state of this room beside others, and the state comes back", async () => {
   const location = { href: "https://x.org/p?q=1#room=%7B%7D&other%3D=1&part", hash: "" };
   const { RetexRoom, plainTexture } = player({ location });
-  const room = element(RetexRoom, {}, { id: "a b=", room: { targets: [{ name: "Floor" }, { name: "Wall" }] }, light: { exposure: 1, warmth: -0.5 },
-    textures: [{ ...plainTexture(), source: "oak & ash.jpg", image: 1, scale: [2, 3], rotate: 10, flip: "u" }, { ...plainTexture(), image: 2 }] });
+  const room = element(RetexRoom, {}, { id: "a b=", room: { targets: [{ name: "Floor", uv_scale: [2, 3] }, { name: "Wall" }] },
+    light: { exposure: 1, warmth: -0.5 }, textures: [{ ...plainTexture(), source: "oak & ash.jpg", image: { width: 400, height: 200 }, scale: 2, rotate: 10, flip: "u" },
+      { ...plainTexture(), image: 2 }] });
   const link = new URL(room.link), parts = link.hash.slice(1).split("&");
   same(parts.slice(0, 2), ["room=%7B%7D", "other%3D=1"]);
   same(parts.length, 3);
   if (!parts[2].startsWith("a%20b%3D=")) throw new Error(parts[2]);
-  const state = JSON.parse(decodeURIComponent(parts[2].slice("a%20b%3D=".length)));
-  same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: [2, 3], rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
+  same(parts[2].slice("a%20b%3D=".length), "Floor=oak%20%2526%20ash.jpg;Floor.scale=2,6;Floor.rotate=10;Floor.flip=u;exposure=1;warmth=-0.5");
+  const colored = element(RetexRoom, {}, { id: "b", room: { targets: [{ name: "Sofa", uv_scale: [2, 3] }] }, light: {},
+    textures: [{ ...plainTexture(), source: "tan", image: [1, 0, 0] }] });
+  same(new URL(colored.link).hash.split("&").at(-1), "b=Sofa=tan"); // a colour has no proportions
+  const state = room.getState();
+  same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: 2, rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
     light: { exposure: 1, warmth: -0.5 } });
+  const restored = [];
+  Object.assign(room, { renderer: {}, hasAttribute: () => false, setState: async (all) => restored.push(all) });
+  location.hash = link.hash;
+  await room.restore();
+  location.hash = `#${parts[2].split("=")[0]}=${encodeURIComponent(JSON.stringify(state))}`; // as links were once
+  await room.restore();
+  same(restored[0].textures.Floor, { source: "oak & ash.jpg", scale: [2, 6], rotate: 10, flip: "u" });
+  same([restored[0].light, restored[1]], [state.light, state]);
+  delete room.setState;
   const put = [];
   Object.assign(room, { setTexture: async (...all) => put.push(all), update: () => {}, light: {} });
   await room.setState(state);

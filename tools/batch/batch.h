@@ -32,7 +32,7 @@
         "plan", 0, NULL, "print how many pictures it would make, their size and time, and stop", 0                     \
     }
 
-/* The texture of one target in one picture, in readable form: a file name or rgb(r,g,b). */
+/* The texture of one target in one picture, in readable form: a file name or a colour. */
 typedef struct BatchTexture {
     const char *target;
     char texture[1024];

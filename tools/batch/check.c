@@ -86,6 +86,20 @@ static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthre
     return known->codes[k];
 }
 
+/* A name that cannot be read may be a misspelt colour. */
+static int check_image(const RetexTextureSpec *spec, const RetexReadParams *params, RetexError *err)
+{
+    char meant[RETEX_MEANT_SIZE];
+    int code = texture_args_add_input(spec, err);
+    if (code)
+        return code;
+    code = retex_image_read_check(spec->image, params, err);
+    const size_t used = strlen(err->message);
+    if (code == RETEX_EIO)
+        snprintf(err->message + used, sizeof err->message - used, "%s", retex_color_meant(spec->image, meant));
+    return code;
+}
+
 /* Each image is read once; all rows that name it have its mistake. */
 static void check_images(Batch *batch)
 {
@@ -106,7 +120,7 @@ static void check_images(Batch *batch)
         const int same = i > 0 && strcmp(images[i - 1].name, name) == 0;
         texture_table_texture(table, images[i].row, images[i].column, &spec, &name);
         if (!same)
-            unreadable = texture_args_add_input(&spec, &unread) || retex_image_read_check(name, &read_params, &unread);
+            unreadable = check_image(&spec, &read_params, &unread);
         if (unreadable && !(same && images[i - 1].row == images[i].row))
             note(table, images[i].row, &unread);
         else if (!unreadable && check_colorspace(known, spec, batch->cli->threads, &err))

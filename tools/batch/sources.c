@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <retex/edit.h>
 #include <retex/file_sum.h>
 #include <retex/version.h>
 
@@ -61,28 +62,6 @@ static int sum_file(const char **text, SourceSums *sums, const char *path, const
 
 /* ---- the text ---- */
 
-/* The placement, as far as it is not the default. */
-static void print_placement(FILE *file, const RetexTextureSpec *s)
-{
-    const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
-    if (memcmp(s->scale, plain.scale, sizeof s->scale) != 0)
-        fprintf(file, " scale=%.9g,%.9g", s->scale[0], s->scale[1]);
-    if (memcmp(&s->rotate, &plain.rotate, sizeof s->rotate) != 0)
-        fprintf(file, " rotate=%.9g", s->rotate);
-    if (memcmp(s->offset, plain.offset, sizeof s->offset) != 0)
-        fprintf(file, " offset=%.9g,%.9g", s->offset[0], s->offset[1]);
-    if (s->wrap[0] != plain.wrap[0] || s->wrap[1] != plain.wrap[1])
-        fprintf(file, " wrap=%d,%d", (int)s->wrap[0], (int)s->wrap[1]);
-    if (s->flip[0] || s->flip[1])
-        fprintf(file, " flip=%d,%d", s->flip[0], s->flip[1]);
-    if (s->repeat != plain.repeat)
-        fprintf(file, " repeat=%d", (int)s->repeat);
-    if (memcmp(s->width, plain.width, sizeof s->width) != 0)
-        fprintf(file, " width=%.9g,%.9g", s->width[0], s->width[1]);
-    if (s->colorspace[0])
-        fprintf(file, " colorspace=%s", s->colorspace);
-}
-
 /* Close a text in memory; 0 if a part of it is missing. */
 static int close_text(FILE *file)
 {
@@ -90,31 +69,26 @@ static int close_text(FILE *file)
     return fclose(file) == 0 && !failed;
 }
 
-/* The name and placement of a texture, and the checksum of its file. The name may have options: `room.retex?…`. */
+/* A texture as a cell of the table has it, and the checksum of its file. The name may have options:
+ * `room.retex?Floor=…`. */
 static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s, RetexError *err)
 {
-    char *text = NULL, name[sizeof s->image];
+    char *options = NULL, image[sizeof s->image], text[4 * sizeof s->image], name[sizeof s->image];
     const char *sum = "";
-    size_t bytes;
-    int code = RETEX_OK;
     snprintf(name, sizeof name, "%s", s->image);
     if (strchr(name, '?') && access(name, F_OK) != 0)
         *strchr(name, '?') = '\0';
-    if (!s->constant)
-        code = sum_file(&sum, sums, name, s->access, err);
-    FILE *file = code ? NULL : open_memstream(&text, &bytes);
-    if (!file)
-        return code ? code : RETEX_ENOMEM;
-    if (s->constant)
-        fprintf(file, "rgb(%.9g,%.9g,%.9g)", (double)s->color[0], (double)s->color[1], (double)s->color[2]);
-    else
-        fputs(s->image, file), print_placement(file, s), fprintf(file, " %s", sum);
-    if (close_text(file))
-        json_text(out, text);
-    else
-        code = RETEX_ENOMEM;
-    free(text);
-    return code;
+    int code = s->constant ? RETEX_OK : sum_file(&sum, sums, name, s->access, err);
+    if (!code)
+        code = retex_edit_options_text(s, &options, err);
+    if (code)
+        return code;
+    retex_edit_image_text(s, image, sizeof image);
+    snprintf(text, sizeof text, "%s%s%s%s%s%s", *options ? ":" : "", options, *options ? " " : "", image,
+             s->constant ? "" : " ", sum);
+    json_text(out, text);
+    free(options);
+    return RETEX_OK;
 }
 
 static int compare_targets(const void *a, const void *b)

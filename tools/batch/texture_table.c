@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "batch/texture_table.h"
+#include "texture_args.h"
 
 /* Grow an array for one more element. */
 static void *grow(const Cli *cli, void *array, size_t used, size_t *capacity, size_t size)
@@ -212,32 +213,14 @@ static int next_row(Reader *reader, TableRow *row)
     }
 }
 
-/* The image of a cell, after its options; NULL if it has only options. */
-static char *find_image(char *cell)
+/* Parse a cell that is not empty. */
+static int parse_cell(const TextureTable *table, RetexTextureSpec *spec, int column, const char *cell, RetexError *err)
 {
-    if (*cell != ':')
-        return cell;
-    char *space = strchr(cell, ' ');
-    return space ? space + strspn(space, " ") : NULL;
-}
-
-/* Parse a cell: IMAGE, rgb(r,g,b), or `:opts IMAGE`. */
-static int parse_cell(RetexTextureSpec *spec, const char *target, char *cell, RetexError *err)
-{
-    const char *image = find_image(cell);
-    char opts[1024] = "", argument[sizeof spec->target + sizeof spec->image + 2];
-    if (!image)
-        return retex_fail(err, RETEX_EPARSE, "options without an image; expected `:scale=2 IMAGE`");
-    if (image != cell) {
-        int length = (int)strcspn(cell + 1, " ");
-        if (length >= (int)sizeof opts)
-            return retex_fail(err, RETEX_EPARSE, "the options are too long");
-        snprintf(opts, sizeof opts, "%.*s", length, cell + 1);
-    }
-    if (snprintf(argument, sizeof argument, "%s=%s", target, image) >= (int)sizeof argument)
-        return retex_fail(err, RETEX_EPARSE, "the image's name is too long");
-    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    return retex_texture_spec_parse(spec, opts, argument, err);
+    retex_edit_clear(table->edit);
+    const int code = retex_edit_cell(table->edit, table->columns[column], cell, err);
+    if (!code)
+        *spec = *retex_edit_texture(table->edit, 0);
+    return code;
 }
 
 /* Add all mistakes of a row that was read. */
@@ -254,7 +237,7 @@ static void check_row(TextureTable *table, int number)
         texture_table_mistake(table, number, "a table cannot write to standard output");
     for (int i = 1; i < row->ncells && i <= table->ncolumns; i++) {
         RetexTextureSpec spec;
-        if (*cells[i] && parse_cell(&spec, table->columns[i - 1], cells[i], &err))
+        if (*cells[i] && parse_cell(table, &spec, i - 1, cells[i], &err))
             texture_table_mistake(table, number, "%s", err.message);
     }
 }
@@ -298,7 +281,10 @@ static void read_rows(Reader *reader)
 
 void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
 {
+    RetexError err = {0};
     *table = (TextureTable){.name = strcmp(path, "-") ? path : "standard input", .access = &cli->access, .cli = cli};
+    if (retex_edit_create(&table->edit, &err))
+        cli_fail(cli, &err);
     table->text = read_text(cli, path);
     Reader reader = {.cli = cli, .table = table, .at = table->text, .line = 1};
     reader.at += strncmp(table->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark */
@@ -318,13 +304,12 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
     char *cell = column + 1 < r->ncells ? table->cells[r->first + 1 + (size_t)column] : NULL;
     if (!cell || !*cell)
         return RETEX_ENOTFOUND;
-    *image = find_image(cell);
-    int code = parse_cell(spec, table->columns[column], cell, NULL);
-    spec->access = table->access;
-    spec->budget = table->cli->budget;
-    spec->warn = cli_warn_text;
-    spec->warn_context = (void *)table->cli;
-    return code;
+    const int code = parse_cell(table, spec, column, cell, NULL);
+    if (code)
+        return code;
+    texture_args_read_by(table->cli, spec);
+    *image = cell + strlen(cell) - strlen(spec->image); /* it ends the cell */
+    return RETEX_OK;
 }
 
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS])
@@ -344,5 +329,6 @@ void texture_table_close(TextureTable *table)
     free(table->text);
     free(table->cells);
     free(table->rows);
+    retex_edit_close(&table->edit);
     *table = (TextureTable){0};
 }

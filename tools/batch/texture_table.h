@@ -1,12 +1,11 @@
 /* A table of pictures: comma-separated values (RFC 4180), or values between semicolons or tabs, as spreadsheets write
  * them in other countries. The first row names the columns: output, then targets. Each further row is a picture: its
- * file, then for each target IMAGE, rgb(r,g,b), `:opts IMAGE`, or nothing. The whole table is read at once. Mistakes
- * are collected, so that all of them can be reported together. */
+ * file, then for each target a texture as retex_edit_cell reads it, or nothing. The whole table is read at once.
+ * Mistakes are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H
 
-#include <retex/set.h>
-#include <retex/texture.h>
+#include <retex/edit.h>
 
 #include "cli.h"
 
@@ -34,6 +33,7 @@ typedef struct TextureTable {
     const char *name;          /* for messages */
     const RetexAccess *access; /* rules for reading images */
     const Cli *cli;            /* prints warnings about textures */
+    RetexEdit *edit;           /* of the cell that is parsed */
     char *text;
     char **cells;
     TableRow *rows;

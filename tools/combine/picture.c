@@ -24,7 +24,7 @@ int job_describe(const Job *job, const RetexTextureSpec *specs, int count, Batch
         BatchTexture *texture = &textures[found++];
         texture->target = job->set->targets[t].name;
         if (spec)
-            texture_args_name(spec, texture->texture, sizeof texture->texture);
+            retex_edit_image_text(spec, texture->texture, sizeof texture->texture);
         else
             snprintf(texture->texture, sizeof texture->texture, "%s", sampled);
     }

@@ -23,21 +23,19 @@ static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
 /* Replace the table's column names by the set's target names. */
 static void find_columns(TextureTable *table, const RetexSet *set)
 {
-    RetexTexture *textures[RETEX_MAX_TARGETS];
     int taken[RETEX_MAX_TARGETS] = {0};
+    RetexTargetNames names;
+    retex_set_target_names(&names, set);
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
-        RetexTextureSpec unknown = RETEX_TEXTURE_SPEC_INIT;
-        int t = retex_set_find_target(set, table->columns[i]);
-        if (t >= 0) {
-            if (taken[t]++)
-                texture_table_mistake(table, TABLE_ITSELF, "target '%s' has two columns", table->columns[i]);
-            table->columns[i] = set->targets[t].name;
+        int t;
+        if (retex_target_find(&t, &names, table->columns[i], &err)) {
+            texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
             continue;
         }
-        snprintf(unknown.target, sizeof unknown.target, "%s", table->columns[i]);
-        retex_textures_load(textures, set, &unknown, 1, 1, &err); /* makes the message, which lists the targets */
-        texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
+        if (taken[t]++)
+            texture_table_mistake(table, TABLE_ITSELF, "target '%s' has two columns", table->columns[i]);
+        table->columns[i] = names.names[t];
     }
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 
 #include "import/surface.h"
 

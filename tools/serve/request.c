@@ -7,6 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include <retex/edit.h>
+
 #include "iiif.h"
 #include "json_text.h"
 #include "url.h"
@@ -94,119 +96,44 @@ static int set_room(ServeRequest *request, const char *name)
 
 /* ---- textures ---- */
 
-static const char *const option_names[] = {"colorspace", "flip",  "offset", "repeat",
-                                           "rotate",     "scale", "width",  "wrap"};
-enum { OPTIONS = sizeof option_names / sizeof *option_names };
-
-/* What is asked for one target, as text. */
-typedef struct Edit {
-    const char *target, *image; /* image NULL: only options came so far */
-    const char *options[OPTIONS];
-} Edit;
-
-typedef struct Edits {
-    Edit edits[RETEX_MAX_TARGETS];
-    int count;
-} Edits;
-
-static int find_option(const char *name)
+/* Take what the edit says into the request. */
+static int take_edit(ServeRequest *request, RetexEdit *edit)
 {
-    for (int o = 0; o < OPTIONS; o++)
-        if (strcmp(name, option_names[o]) == 0)
-            return o;
-    return -1;
-}
-
-static Edit *edit_of(Edits *edits, const char *target)
-{
-    for (int i = 0; i < edits->count; i++)
-        if (strcmp(edits->edits[i].target, target) == 0)
-            return &edits->edits[i];
-    if (edits->count == RETEX_MAX_TARGETS)
-        return NULL;
-    Edit *edit = &edits->edits[edits->count++];
-    *edit = (Edit){.target = target};
-    return edit;
-}
-
-/* Add KEY=VALUE, KEY being TARGET or TARGET.OPTION. The text is changed and must stay. */
-static int add_edit(ServeRequest *request, Edits *edits, char *key, const char *value)
-{
-    char *dot = strrchr(key, '.');
-    int option = dot ? find_option(dot + 1) : -1;
-    if (option >= 0)
-        *dot = '\0';
-    size_t length = strlen(key);
-    if (length < 1 || length > SERVE_NAME_MAX || !value || !*value)
-        return serve_refuse(request, 400, "`%s`: expected TARGET=IMAGE or TARGET.OPTION=VALUE", key);
-    Edit *edit = edit_of(edits, key);
-    if (!edit)
-        return serve_refuse(request, 400, "textures for more than %d targets", RETEX_MAX_TARGETS);
-    const char **place = option < 0 ? &edit->image : &edit->options[option];
-    if (*place)
-        return serve_refuse(request, 400, "%s%s%s is given twice", key, option < 0 ? "" : ".",
-                            option < 0 ? "" : option_names[option]);
-    if (option >= 0 && strpbrk(value, ":;"))
-        return serve_refuse(request, 400, "%s.%s: neither a colon nor a semicolon can be in `%s`", key,
-                            option_names[option], value);
-    if (option < 0 && strncasecmp(value, "rgb(", 4) != 0 && !serve_name_is_valid(value))
-        return serve_refuse(request, 400, "`%s` cannot be the name of a texture", value);
-    *place = value;
-    return 0;
-}
-
-static int add_edits(ServeRequest *request, Edits *edits, char *text)
-{
-    for (char *next; text; text = next) {
-        next = url_cut(text, ';');
-        char *value = url_cut(text, '=');
-        if (add_edit(request, edits, text, value))
-            return request->status;
+    RetexError err = {0};
+    char *text = NULL;
+    if (retex_edit_check(edit, &err))
+        return serve_refuse(request, 400, "%s", err.message);
+    for (int i = 0; i < retex_edit_count(edit); i++) {
+        const RetexTextureSpec *spec = retex_edit_texture(edit, i);
+        request->specs[request->nspecs++] = *spec;
+        if (!spec->constant && !serve_name_is_valid(spec->image))
+            return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->image);
     }
-    return 0;
+    if (retex_edit_text(edit, ';', &text, &err))
+        return serve_refuse(request, 503, "%s", err.message);
+    if (strlen(text) >= sizeof request->edits)
+        serve_refuse(request, 414, "the textures take more than %d bytes", SERVE_URL_MAX);
+    else
+        strcpy(request->edits, text);
+    free(text);
+    return request->status;
 }
 
-static int compare_edits(const void *a, const void *b)
+static int add_edits(ServeRequest *request, RetexEdit *edit, const char *text)
 {
-    return strcmp(((const Edit *)a)->target, ((const Edit *)b)->target);
+    RetexError err = {0};
+    if (!*text)
+        return serve_refuse(request, 400, "nothing follows the semicolon; expected TARGET=IMAGE");
+    return retex_edit_parse(edit, text, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
 }
 
-/* Text cannot be longer than the URL that it came from. */
-static void append(char *text, size_t size, const char *fmt, ...) RETEX_PRINTF(3, 4);
-static void append(char *text, size_t size, const char *fmt, ...)
+/* TARGET.OPTION=VALUE of a query. */
+static int add_option(ServeRequest *request, RetexEdit *edit, const char *key, const char *value)
 {
-    size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, fmt);
-    vsnprintf(text + used, size - used, fmt, arguments);
-    va_end(arguments);
-}
-
-/* Parse the textures, sorted by target. */
-static int take_edits(ServeRequest *request, Edits *edits)
-{
-    qsort(edits->edits, (size_t)edits->count, sizeof *edits->edits, compare_edits);
-    for (int i = 0; i < edits->count; i++) {
-        const Edit *edit = &edits->edits[i];
-        char options[SERVE_URL_MAX] = "", argument[SERVE_URL_MAX];
-        RetexError err = {0};
-        if (!edit->image)
-            return serve_refuse(request, 400, "%s has options, but no texture; expected %s=IMAGE too", edit->target,
-                                edit->target);
-        snprintf(argument, sizeof argument, "%s=%s", edit->target, edit->image);
-        append(request->edits, sizeof request->edits, "%s%s", i ? ";" : "", argument);
-        for (int o = 0; o < OPTIONS; o++)
-            if (edit->options[o]) {
-                append(options, sizeof options, "%s%s=%s", *options ? ":" : "", option_names[o], edit->options[o]);
-                append(request->edits, sizeof request->edits, ";%s.%s=%s", edit->target, option_names[o],
-                       edit->options[o]);
-            }
-        request->specs[i] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-        if (retex_texture_spec_parse(&request->specs[i], options, argument, &err))
-            return serve_refuse(request, 400, "%s", err.message);
-        request->nspecs++;
-    }
-    return 0;
+    RetexError err = {0};
+    if (strchr(value, ';'))
+        return serve_refuse(request, 400, "%s: expected & before what follows, not a semicolon", key);
+    return retex_edit_set(edit, key, value, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
 }
 
 /* ---- pictures ---- */
@@ -225,7 +152,7 @@ static int set_crop(ServeRequest *request, char *text)
     return 0;
 }
 
-static int parse_query(ServeRequest *request, Edits *edits, char *query)
+static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
 {
     int has_crop = 0;
     if (query && !*query)
@@ -235,15 +162,14 @@ static int parse_query(ServeRequest *request, Edits *edits, char *query)
         char *value = url_cut(query, '=');
         if (!value || !url_decode(query) || !url_decode(value))
             return serve_refuse(request, 400, "the query is not well formed; expected KEY=VALUE&KEY=VALUE");
-        char *dot = strrchr(query, '.');
         if (strcmp(query, "crop") == 0 && !has_crop++) {
             if (set_crop(request, value))
                 return request->status;
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
-        } else if (dot && find_option(dot + 1) >= 0) {
-            if (add_edit(request, edits, query, value))
+        } else if (retex_edit_key_is_option(query)) {
+            if (add_option(request, edit, query, value))
                 return request->status;
         } else {
             return serve_refuse(request, 400, "`%s`: expected crop, quality or TARGET.OPTION, each once", query);
@@ -279,13 +205,13 @@ static int set_size(ServeRequest *request, char *text)
 }
 
 /* The last part of a picture's path, and the query. */
-static int parse_picture(ServeRequest *request, Edits *edits, char *name, char *query, const char *accept,
+static int parse_picture(ServeRequest *request, RetexEdit *edit, char *name, char *query, const char *accept,
                          unsigned formats)
 {
     char *dot = strrchr(name, '.');
     if (dot)
         *dot = '\0';
-    if (set_size(request, name) || parse_query(request, edits, query) || take_edits(request, edits))
+    if (set_size(request, name) || parse_query(request, edit, query) || take_edit(request, edit))
         return request->status;
     return !dot                               ? choose_format(request, accept, formats)
            : strcasecmp(dot + 1, "jpeg") == 0 ? serve_format_set(request, "jpg", formats)
@@ -302,11 +228,10 @@ static int unknown_path(ServeRequest *request)
 }
 
 /* ROOM;EDITS, and what follows. */
-static int parse_iiif(ServeRequest *request, char *parts[], int count, unsigned formats)
+static int parse_iiif(ServeRequest *request, RetexEdit *edit, char *parts[], int count, unsigned formats)
 {
-    Edits edits = {.count = 0};
     char *text = url_cut(parts[0], ';');
-    if (set_room(request, parts[0]) || add_edits(request, &edits, text) || take_edits(request, &edits))
+    if (set_room(request, parts[0]) || (text && add_edits(request, edit, text)) || take_edit(request, edit))
         return request->status;
     if (count == 1) {
         request->route = SERVE_IIIF_BASE;
@@ -322,11 +247,10 @@ static int parse_iiif(ServeRequest *request, char *parts[], int count, unsigned 
     return iiif_parse(request, parts[1], parts[2], parts[3], parts[4], formats);
 }
 
-static int parse_path(ServeRequest *request, char *parts[], int count, char *query, const char *accept,
+static int parse_path(ServeRequest *request, RetexEdit *edit, char *parts[], int count, char *query, const char *accept,
                       unsigned formats)
 {
     int is_picture = count >= 3 && strcmp(parts[0], "v1") == 0;
-    Edits edits = {.count = 0};
     if (!is_picture && query && *query)
         return serve_refuse(request, 400, "only pictures of /v1 have a query");
     if (count == 1 && strcmp(parts[0], "health") == 0) {
@@ -339,11 +263,11 @@ static int parse_path(ServeRequest *request, char *parts[], int count, char *que
         request->route = SERVE_ROOM;
         return set_room(request, parts[1]);
     } else if (is_picture && count <= 4) {
-        if (set_room(request, parts[1]) || (count == 4 && add_edits(request, &edits, parts[2])))
+        if (set_room(request, parts[1]) || (count == 4 && add_edits(request, edit, parts[2])))
             return request->status;
-        return parse_picture(request, &edits, parts[count - 1], query, accept, formats);
+        return parse_picture(request, edit, parts[count - 1], query, accept, formats);
     } else if (count >= 3 && strcmp(parts[0], "iiif") == 0 && strcmp(parts[1], "3") == 0) {
-        return parse_iiif(request, parts + 2, count - 2, formats);
+        return parse_iiif(request, edit, parts + 2, count - 2, formats);
     } else if (strcmp(parts[0], "iiif") == 0) {
         return serve_refuse(request, 404, "of IIIF there is version 3 of the Image API: /iiif/3/ID/info.json");
     } else {
@@ -374,5 +298,11 @@ int serve_request_parse(ServeRequest *request, const char *url, const char *acce
             return unknown_path(request);
         parts[count++] = part;
     }
-    return parse_path(request, parts, count, query, accept, formats);
+    RetexEdit *edit = NULL;
+    RetexError err = {0};
+    if (retex_edit_create(&edit, &err))
+        return serve_refuse(request, 503, "%s", err.message);
+    parse_path(request, edit, parts, count, query, accept, formats);
+    retex_edit_close(&edit);
+    return request->status;
 }

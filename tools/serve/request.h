@@ -7,9 +7,9 @@
  *     /iiif/3/ID   /iiif/3/ID/info.json                 IIIF Image API 3.0; ID = ROOM[;EDITS]
  *     /iiif/3/ID/REGION/SIZE/ROTATION/QUALITY.FORMAT
  *
- * EDITS are divided by semicolons, in any order: TARGET=IMAGE, TARGET=rgb(r,g,b) and TARGET.OPTION=VALUE, where OPTION
- * is one of --texture, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have further options of these
- * targets, and crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
+ * EDITS are the text of an edit, see retex/edit.h, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have
+ * further options of these targets, and crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT,
+ * full or thumbnail.
  *
  * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be
  * UTF-8 without control characters, slashes and backslashes. */
@@ -71,7 +71,7 @@ typedef struct ServeSize {
 
 typedef struct ServeRequest {
     ServeRoute route;
-    int status;       /* 0, or the HTTP status of an error: 400, 404, 406, 414 or 501 */
+    int status;       /* 0, or the HTTP status of an error: 400, 404, 406, 414, 501 or 503 */
     char reason[200]; /* of the error, one line of plain text: UTF-8 without control characters */
     char room[SERVE_NAME_MAX + 1];
 
@@ -79,7 +79,7 @@ typedef struct ServeRequest {
      * of targets are as in the URL: whether the room has them, and as what, is for retex_set_find_target. */
     int nspecs;
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    char edits[SERVE_URL_MAX]; /* the same as text in one form, decoded: EDITS sorted by target and option, or "" */
+    char edits[SERVE_URL_MAX]; /* the same as the canonical text of an edit */
 
     /* pictures, thumbnails and images of IIIF */
     ServeRegion region;

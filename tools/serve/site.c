@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/color_text.h>
 #include <retex/version.h>
 
 #include "hash.h"
@@ -56,7 +57,7 @@ typedef struct SiteFiles {
 /* The files that names stand for now; the specs of textures get the paths. */
 static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *files)
 {
-    char path[PATH_MAX];
+    char path[PATH_MAX], meant[RETEX_MEANT_SIZE];
     if (rooms_find(site->rooms, request->room, path, &files->room))
         return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
     for (int i = 0; i < request->nspecs; i++) {
@@ -65,7 +66,8 @@ static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *fi
         if (spec->constant)
             continue;
         if (images_find(site->images, spec->image, image, sizeof image, &files->images[i]))
-            return answer_error(404, "%s: there is no texture '%s'; /v1 lists them", spec->target, spec->image);
+            return answer_error(404, "%s: there is no texture '%s'; /v1 lists them%s", spec->target, spec->image,
+                                retex_color_meant(spec->image, meant));
         strcpy(spec->image, image);
     }
     return NULL;

@@ -45,8 +45,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     return this.whenComplete;
   }
 
-  /* Put a texture on a target: a File or Blob, the URL of a picture, "#rrggbb", "rgb(r,g,b)" with linear numbers, or null
-   * for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
+  /* Put a texture on a target: a File or Blob, the URL of a picture, a colour as in retex-edit(5), or null for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
    * degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine. Resolves when it is drawn. */
   async setTexture(name, source, options = {}) {
     const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
@@ -56,7 +55,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       image = await decodePicture(source, label);
     } else if (source) {
       kept = String(source);
-      image = parseColor(kept);
+      image = readColor(kept);
       label = kept;
       if (!image) {
         label = nameOf(kept);
@@ -124,7 +123,13 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   /* A link to the page with this room's state. Pictures from the visitor's own files are not in it. */
   get link() {
     const url = new URL(location.href), others = url.hash.slice(1).split("&").filter((part) => part.includes("=") && !part.startsWith(this.key));
-    url.hash = [...others, this.key + encodeURIComponent(JSON.stringify(this.getState()))].join("&");
+    const state = this.getState();
+    this.targets.forEach((name, i) => {
+      const said = state.textures[name];
+      if (said) said.scale = Array.isArray(this.textures[i].image) ? undefined : this.scaleOf(i); // a colour has none
+    });
+    const text = encodeURIComponent(editText(state)).replace(/%(3B|3D|2C|2F|3A)/g, decodeURIComponent);
+    url.hash = [...others, this.key + text].join("&");
     return url.href;
   }
 
@@ -244,7 +249,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     const part = location.hash.slice(1).split("&").find((text) => text.startsWith(this.key));
     if (!part || !this.renderer || this.hasAttribute("no-link")) return;
     try {
-      await this.setState(JSON.parse(decodeURIComponent(part.slice(this.key.length))));
+      const text = decodeURIComponent(part.slice(this.key.length));
+      await this.setState(text.startsWith("{") ? JSON.parse(text) : parseEdit(text)); // links were JSON once
     } catch (error) {
       this.fail(`The link's textures could not be restored: ${error.message}`);
     }
@@ -252,14 +258,17 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   // ---- drawing ----
 
+  /* A target's scale as a pair, by which the tools go. */
+  scaleOf(index) {
+    const { uv_scale: unit } = this.room.targets[index], { image, scale } = this.textures[index];
+    if (Array.isArray(scale)) return scale;
+    const wide = image && !Array.isArray(image) ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
+    return [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
+  }
+
   settings() {
     return this.textures.map((t, i) => {
-      const { uv_scale: unit } = this.room.targets[i], image = t.image;
-      let scale = t.scale;
-      if (!Array.isArray(scale)) {
-        const wide = image && !Array.isArray(image) ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
-        scale = [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
-      }
+      const scale = this.scaleOf(i), image = t.image;
       const modes = (Array.isArray(image) ? "repeat" : t.wrap).split(",");
       const wrap = [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && t.repeat === "mirror" ? m = "mirror" : m));
       const share = [t.put.shifted === "half-drop" ? 0.5 : 1, t.put.shifted === "brick" ? 0.5 : 1];

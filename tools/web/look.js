@@ -1,14 +1,4 @@
-// ---- colours ----
-
-const srgbDecode = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
-
-/* "#rrggbb" as a display shows it, or "rgb(r,g,b)" with linear numbers from 0 to 1, as the tools take it. Or null. */
-function parseColor(text) {
-  const hex = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text);
-  if (hex) return hex.slice(1).map((x) => srgbDecode(parseInt(x, 16) / 255));
-  const linear = /^rgb\(\s*([\d.]+)\s*,\s*([\d.]+)\s*,\s*([\d.]+)\s*\)$/.exec(text);
-  return linear ? linear.slice(1).map(Number) : null;
-}
+// ---- how textures lie ----
 
 /* A file's name as people read it. */
 const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
@@ -16,8 +6,6 @@ const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
 const plainTexture = () => ({
   source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff", flip: "", wrap: "repeat", repeat: "straight",
 });
-const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
-const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
 
 /* What the options of a texture may be. */
 const isPair = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite);
@@ -41,6 +29,8 @@ function placing(texture, options) {
   }
   if (isShifted(placed.repeat) && placed.wrap.split(",").some((m) => m !== "repeat"))
     throw new Error(`A texture's repeat ${placed.repeat} needs wrap repeat.`);
+  if (options.width || (options.colorspace && options.colorspace !== "sRGB"))
+    throw new Error("A texture's width and colorspace are for the tools, not for this page.");
   return placed;
 }
 

@@ -5,7 +5,7 @@ export interface RetexPlacing {
   /** Degrees. */
   rotate?: number;
   offset?: [number, number];
-  /** "#rrggbb" */
+  /** A colour: "#rrggbb", "tomato", "rgb(0.8,0.1,0.1)" with linear numbers. */
   tint?: string;
   repeat?: "straight" | "mirror" | "brick" | "half-drop";
   /** "repeat", "mirror", "clamp" or "black", or two for u and v: "clamp,repeat". */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include <retex/host/rounding.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include "film/footprints/pixel.h"
 
 #define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/host/set_build.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include "film/corrections.h"
 #include "film/paper/expansion.h"
 #include "film/paper/paper.h"

@@ -2,7 +2,7 @@
  * without a search. The table of reserved words is in this file too. */
 #include <stdlib.h>
 #include <string.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 #include "sdl/lang/internal.h"
 
 /* Reserved words of POV-Ray 3.7, except the built-in functions, which have their own table. Reserved words cannot be

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #define ROW(id, ...) [RETEX_AOV_##id] = {__VA_ARGS__},
 const RetexAovInfo retex_aovs[RETEX_AOV_COUNT] = {RETEX_AOV_TABLE(ROW)};

@@ -1,5 +1,5 @@
 /* See nearest.h. */
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #include <stdio.h>
 #include <string.h>

@@ -1,10 +1,11 @@
-/* Names of parts and channels, and of targets: retex/host/target_name.h. */
+/* Names of parts and channels, and of targets: retex/target_name.h. */
 #include "base/part_name.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 #include <retex/set.h>
 
 int retex_name_is_valid(const char *name)
@@ -87,4 +88,24 @@ void retex_target_word(char word[RETEX_NAME_MAX], const char *name)
         if (!retex_name_is_valid((char[]){*letter, 0}))
             *letter = '_';
     snprintf(word, RETEX_NAME_MAX, "%s_%08x", kept, (unsigned)checksum(name));
+}
+
+int retex_target_index(const RetexTargetNames *names, const char *name)
+{
+    int found = -1, count = 0, of_ident = 0;
+
+    for (int i = 0; i < names->count; i++) {
+        if (strcmp(names->names[i], name) == 0)
+            return i;
+        if (strcasecmp(names->names[i], name) == 0) {
+            found = i;
+            count++;
+        }
+    }
+    for (int i = 0; !count && i < names->count; i++)
+        if (strcmp(names->idents[i], name) == 0) {
+            found = i;
+            of_ident++;
+        }
+    return count + of_ident == 1 ? found : -1;
 }

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include <retex/host/set_build.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 
 #include "compact/bands.h"
 #include "compact/clusters.h"

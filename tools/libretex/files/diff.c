@@ -1,7 +1,7 @@
 /* Compares two files: matches parts and channels by name, then compares values. See retex/diff.h. Parts differ too if
  * their sizes differ, or if a part or a channel is in one file only. */
 #include <retex/diff.h>
-#include <retex/host/nearest.h>
+#include <retex/nearest.h>
 
 #include <math.h>
 #include <stdio.h>

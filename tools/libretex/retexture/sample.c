@@ -1,6 +1,8 @@
 /* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian with the stored
  * mean and standard deviations of the surface UV, which the texture's transform maps exactly. Where the texture is
  * transparent the original albedo of the footprint shows. */
+#include <retex/combine.h>
+#include <retex/edit.h>
 #include <retex/host/band_store.h>
 #include <retex/samples.h>
 
@@ -49,14 +51,6 @@ static int sample_all(SampleWork *work, int nthreads, RetexError *err)
                                 nthreads, err);
 }
 
-static void describe_texture(char *text, size_t size, const RetexTextureSpec *spec)
-{
-    if (spec->constant)
-        snprintf(text, size, "rgb(%g,%g,%g)", (double)spec->color[0], (double)spec->color[1], (double)spec->color[2]);
-    else
-        snprintf(text, size, "%.*s", (int)size - 1, spec->image);
-}
-
 static int create_samples(SampleWork *work, RetexError *err)
 {
     const RetexSet *set = work->set;
@@ -64,8 +58,9 @@ static int create_samples(SampleWork *work, RetexError *err)
     if (code)
         return code;
     for (int i = 0; i < work->nspecs; i++)
-        describe_texture(work->samples->textures[retex_set_find_target(set, work->specs[i].target)],
-                         sizeof work->samples->textures[0], &work->specs[i]);
+        retex_edit_image_text(&work->specs[i],
+                              work->samples->textures[retex_set_find_target(set, work->specs[i].target)],
+                              sizeof work->samples->textures[0]);
     return RETEX_OK;
 }
 

@@ -1,9 +1,9 @@
 /* Loads the textures for a set's targets, after checking them against the set. */
 
-#include <stdio.h>
 #include <string.h>
 
-#include <retex/host/nearest.h>
+#include <retex/combine.h>
+#include <retex/edit.h>
 #include <retex/parallel.h>
 
 #include "base/params.h"
@@ -40,28 +40,15 @@ int retex_texture_specs_copy(RetexTextureSpec own[RETEX_MAX_TARGETS], const Rete
     return RETEX_OK;
 }
 
-static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
-{
-    char names[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
-    RetexNearest nearest = {name, NULL, 0};
-    size_t used = 0;
-    for (int i = 0; i < set->ntargets; i++)
-        retex_nearest_try(&nearest, set->targets[i].name);
-    for (int i = 0; i < set->ntargets && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", set->targets[i].name);
-    if (!set->ntargets)
-        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': the set has no targets", name);
-    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.700s%s", name, names,
-                      retex_meant(nearest.best, meant));
-}
-
 static int find_targets(Loading *loading, RetexError *err)
 {
     int taken[RETEX_MAX_TARGETS] = {0};
+    RetexTargetNames names;
+    retex_set_target_names(&names, loading->set);
     for (int i = 0; i < loading->nspecs; i++) {
-        int target = retex_set_find_target(loading->set, loading->specs[i].target);
-        if (target < 0)
-            return unknown_target(loading->set, loading->specs[i].target, err);
+        int target, code = retex_target_find(&target, &names, loading->specs[i].target, err);
+        if (code)
+            return code;
         if (taken[target]++)
             return retex_fail(err, RETEX_EINVAL, "target %s is given two textures", loading->set->targets[target].name);
         loading->target[i] = target;
@@ -153,12 +140,15 @@ int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, con
                          const RetexTextureSpec *spec, RetexError *err)
 {
     RetexTextureSpec own = RETEX_TEXTURE_SPEC_INIT;
+    RetexTargetNames names;
+    int target;
     *placed = NULL;
     if (RETEX_PARAMS_COPY(&own, spec, err))
         return RETEX_EINVAL;
-    const int target = retex_set_find_target(set, own.target);
-    if (target < 0)
-        return unknown_target(set, own.target, err);
+    retex_set_target_names(&names, set);
+    const int code = retex_target_find(&target, &names, own.target, err);
+    if (code)
+        return code;
     describe_surface(&own, &set->targets[target]);
     return retex_texture_place(placed, texture, &own, err);
 }

@@ -1,6 +1,6 @@
 /* See retex/host/denoise_data.h. */
 #include <retex/host/denoise_data.h>
-#include <retex/host/target_name.h>
+#include <retex/target_name.h>
 
 #include <stdio.h>
 #include <string.h>

@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include <retex/host/aov.h>
 #include <retex/host/band_store.h>
 #include <retex/host/set_build.h>
 #include <retex/set.h>
+#include <retex/target_name.h>
 
 #include "base/part_name.h"
 #include "io/checksum.h"
@@ -366,24 +366,21 @@ double retex_correction_weight(int ntargets, int edited)
     return edited == 1 ? 1 : edited < 1 ? 0 : (double)(ntargets - edited) / (edited * (ntargets - 1.0));
 }
 
+void retex_set_target_names(RetexTargetNames *names, const RetexSet *set)
+{
+    *names = (RetexTargetNames){.count = set->ntargets, .of = "the set", .advice = ""};
+    for (int i = 0; i < set->ntargets; i++) {
+        names->names[i] = set->targets[i].name;
+        names->idents[i] = set->targets[i].idents;
+    }
+}
+
 int retex_set_find_target(const RetexSet *set, const char *name)
 {
-    int found = -1, count = 0, of_ident = 0;
+    RetexTargetNames names;
 
-    for (int i = 0; i < set->ntargets; i++) {
-        if (strcmp(set->targets[i].name, name) == 0)
-            return i;
-        if (strcasecmp(set->targets[i].name, name) == 0) {
-            found = i;
-            count++;
-        }
-    }
-    for (int i = 0; !count && i < set->ntargets; i++)
-        if (strcmp(set->targets[i].idents, name) == 0) {
-            found = i;
-            of_ident++;
-        }
-    return count + of_ident == 1 ? found : -1;
+    retex_set_target_names(&names, set);
+    return retex_target_index(&names, name);
 }
 
 void retex_set_identify(RetexSet *set)

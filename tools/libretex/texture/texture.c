@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include <retex/host/texture_lookup.h>
+#include <retex/color_text.h>
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
@@ -341,9 +342,16 @@ static RetexReadParams read_params(RetexTexture *texture)
     return params;
 }
 
+int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
+}
+
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    char meant[RETEX_MEANT_SIZE];
     RetexError why = {0};
     *out = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
@@ -365,6 +373,10 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nt
     }
     if (code) {
         retex_texture_close(&texture);
+        if (code == RETEX_EIO) { /* perhaps a misspelt colour */
+            const size_t used = strlen(why.message);
+            snprintf(why.message + used, sizeof why.message - used, "%s", retex_color_meant(spec.image, meant));
+        }
         if (err)
             *err = why;
         return code;

@@ -7,7 +7,7 @@ whose textures can be replaced. Set.combine() makes a picture with new ones:
 
     with retex.open("room.exr") as room:
         print([target.name for target in room.targets])
-        picture = room.combine({"Floor": "oak.jpg", "Wall": (0.8, 0.1, 0.1)})
+        picture = room.combine({"Floor": "oak.jpg", "Wall": "tomato"})
         retex.write(picture, "oak.png")
 
 Pictures are numpy arrays of floats: rows from the top, then pixels, then channels; scene-linear, with Rec.709's
@@ -20,8 +20,8 @@ Error."""
 from .library import Code, Error, RetexWarning
 from .pictures import Picture, encode, read, write
 from .sets import Samples, Set, Target, open  # pylint: disable=redefined-builtin
-from .texture import Source, Texture
+from .texture import Source, Texture, edit_text, parse_edit
 
 __version__ = "0.1.0"
-__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture", "encode", "open",
-           "read", "write"]
+__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture", "edit_text",
+           "encode", "open", "parse_edit", "read", "write"]

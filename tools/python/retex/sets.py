@@ -17,10 +17,8 @@ from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexDenoiseP
 from .library import RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes, text_bytes, threads_of
 from .library import warn
 from .pictures import Path, Picture, array_of, image_of
-from .texture import Source, Texture
+from .texture import Texture, Textures, parse_edit
 
-#: New textures by the names of their targets.
-Textures = Mapping[str, Union[Source, Texture]]
 Crop = Tuple[int, int, int, int]
 MEGABYTE = 1 << 20
 
@@ -268,7 +266,7 @@ class Set:
         """Textures by target for the library; what keeps them; and their descriptions."""
         by_target = (c_void_p * MAX_TARGETS)()
         kept, specs = [], []
-        for name, source in (textures or {}).items():
+        for name, source in (parse_edit(textures) if isinstance(textures, str) else textures or {}).items():
             texture = Texture.of(source)
             target = lib.retex_set_find_target(pointer, text_bytes(name))
             key = target, texture.key()
@@ -345,7 +343,7 @@ class Set:
                 out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
 
-        textures  by target: a file's name, a colour, an array, or a Texture
+        textures  by target: a file's name, a colour, an array, or a Texture; or the text of an edit
         samples   of this set; `textures` override them
         parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it

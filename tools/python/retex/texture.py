@@ -1,15 +1,18 @@
 """Textures: an image, a colour or an array, and how it is placed on its target."""
+import contextlib
+import ctypes
 import os
-from ctypes import byref, c_void_p, sizeof
-from typing import Optional, Sequence, Tuple, Union
+from ctypes import byref, c_float, c_void_p
+from typing import Any, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from .library import Error, Code, RetexTextureSpec, call, path_bytes, text_bytes, threads_of, warn
+from .library import Error, Code, RetexTextureSpec, call, free, lib, path_bytes, text_bytes, threads_of, warn
 from .pictures import image_of
 
-#: A file's name; a colour, scene-linear red, green and blue; or an array of rows, texels and 1, 3 or 4 channels.
+#: A file's name or a colour as text; a colour, scene-linear red, green and blue; or an array of rows, texels and 1, 3 or
+#: 4 channels.
 Source = Union[str, "os.PathLike[str]", Sequence[float], npt.NDArray[np.generic]]
 Pair = Union[float, Tuple[float, float]]
 
@@ -30,10 +33,40 @@ def _linear(array: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
     return texels
 
 
+def _is_color(text: str) -> bool:
+    try:
+        call("retex_color_parse", (c_float * 3)(), os.fsencode(text))
+    except Error as error:
+        return error.code != Code.ENOTFOUND
+    return True
+
+
+@contextlib.contextmanager
+def _edit() -> Iterator[c_void_p]:
+    """An edit of the library, for a while."""
+    edit = c_void_p()
+    call("retex_edit_create", byref(edit))
+    try:
+        yield edit
+    finally:
+        lib.retex_edit_close(byref(edit))
+
+
+def _take_text(name: str, *arguments: Any) -> str:
+    """The text that a call makes."""
+    made = c_void_p()
+    call(name, *arguments, byref(made))
+    try:
+        return os.fsdecode(ctypes.string_at(made))
+    finally:
+        free(made)
+
+
 class Texture:
     """A texture for a target. All but `image` is as for --texture of retex-sample(1):
 
-    image       a file's name; a colour, three scene-linear numbers; or a numpy array, row 0 at the top: of floats,
+    image       a file's name or a colour, as in retex-edit(5): "oak.jpg", "#f80", "tomato"; a pathlib.Path, always a
+                file; a colour of three scene-linear numbers; or a numpy array, row 0 at the top: of floats,
                 scene-linear; of uint8 or uint16, sRGB from 0 to the highest number, as such files are
     scale       repeats in a unit of UV; a pair for u and v
     rotate      degrees, counter-clockwise
@@ -60,7 +93,7 @@ class Texture:
             self.image = os.fsdecode(path_bytes(image))
             if not self.image:
                 raise ValueError("the name of the image is empty")
-            if self.image.startswith("rgb("):  # a file of that name, not a colour
+            if isinstance(image, os.PathLike) and _is_color(self.image):
                 self.image = "./" + self.image
         elif np.ndim(image) == 1 and len(image) == 3:
             self.image = "rgb({!r},{!r},{!r})".format(*(float(channel) for channel in image))
@@ -74,6 +107,14 @@ class Texture:
     def __repr__(self) -> str:
         return f"Texture({self.image!r}{', ' + self.options if self.options else ''})"
 
+    @classmethod
+    def _of_spec(cls, spec: RetexTextureSpec) -> "Texture":
+        image = ctypes.create_string_buffer(ctypes.sizeof(spec))
+        lib.retex_edit_image_text(byref(spec), image, len(image))
+        texture = cls((0, 0, 0))
+        texture.image, texture.options = os.fsdecode(image.value), _take_text("retex_edit_options_text", byref(spec))
+        return texture
+
     @staticmethod
     def of(source: Union[Source, "Texture"]) -> "Texture":
         """The texture itself, or a plain one of that image."""
@@ -81,13 +122,18 @@ class Texture:
 
     def spec(self, target: str) -> RetexTextureSpec:
         """Its description for the library, on a target."""
-        spec = RetexTextureSpec(sizeof(RetexTextureSpec))
+        spec = RetexTextureSpec()
+        with _edit() as edit:
+            self._add(edit, target)
+            ctypes.pointer(spec)[0] = lib.retex_edit_texture(edit, 0)[0]
+        spec.warn = warn
+        return spec
+
+    def _add(self, edit: c_void_p, target: str) -> None:
         if "=" in target:
             raise Error(Code.ENOTFOUND, f"there is no target '{target}'")
         argument = b"%s=%s" % (text_bytes(target), os.fsencode(self.image))
-        call("retex_texture_spec_parse", byref(spec), text_bytes(self.options), argument)
-        spec.warn = warn
-        return spec
+        call("retex_edit_option", edit, text_bytes(self.options), argument)
 
     def key(self) -> Tuple[str, str, int]:
         """Equal for textures that look the same, as long as no file changes."""
@@ -101,3 +147,27 @@ class Texture:
         spec.uv_scale[:] = 1, 1  # until it is put on the surface
         call("retex_texture_create", byref(handle), byref(image), byref(spec), threads_of(threads))
         return handle
+
+
+#: New textures by the names of their targets; or the text of an edit.
+Textures = Union[Mapping[str, Union[Source, Texture]], str]
+
+
+def parse_edit(text: str) -> Dict[str, Texture]:
+    """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato"."""
+    with _edit() as edit:
+        call("retex_edit_parse", edit, path_bytes(text))
+        specs = [lib.retex_edit_texture(edit, index)[0] for index in range(lib.retex_edit_count(edit))]
+        return {os.fsdecode(spec.target): Texture._of_spec(spec) for spec in specs}
+
+
+def edit_text(textures: Textures) -> str:
+    """The canonical text of an edit, which is the same for textures that look the same, however they were written. An
+    array has none."""
+    with _edit() as edit:
+        for target, source in (parse_edit(textures) if isinstance(textures, str) else textures).items():
+            texture = Texture.of(source)
+            if texture.array is not None:
+                raise ValueError(f"{target}: an array cannot be written as text")
+            texture._add(edit, target)
+        return _take_text("retex_edit_text", edit, ord(";"))

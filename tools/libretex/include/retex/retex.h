@@ -6,9 +6,11 @@
 #include <retex/budget.h>
 #include <retex/clock.h>
 #include <retex/color.h>
+#include <retex/color_text.h>
 #include <retex/combine.h>
 #include <retex/denoise.h>
 #include <retex/diff.h>
+#include <retex/edit.h>
 #include <retex/error.h>
 #include <retex/file_sum.h>
 #include <retex/image.h>

@@ -38,12 +38,12 @@ typedef enum RetexRepeat {
     RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
 } RetexRepeat;
 
-/* A parsed texture option: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
+/* A texture and how it lies on its target; retex/edit.h makes it of text. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
     size_t size;
     char target[128];
     char image[1024];      /* file name, or "" when constant */
-    int constant;          /* 1: `rgb(r,g,b)` */
+    int constant;          /* 1: a colour */
     float color[3];        /* scene-linear, any finite value >= 0; of a constant */
     double scale[2];       /* default 1, 1; not 0 */
     double rotate;         /* degrees, default 0 */
@@ -72,10 +72,6 @@ typedef struct RetexTextureSpec {
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
       "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0} }
-
-/* Fill spec, of which only its size counts before; where it fails, spec stays. opts: what follows `--texture:`
- * ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
-int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);

@@ -1,6 +1,6 @@
 /* The word most like a misspelt one, for messages. */
-#ifndef RETEX_HOST_NEAREST_H
-#define RETEX_HOST_NEAREST_H
+#ifndef RETEX_NEAREST_H
+#define RETEX_NEAREST_H
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus

@@ -1,8 +1,8 @@
-/* Texture specifications as on the command line, `opts NAME=IMAGE`, divided at the first line end of the input; what is
- * accepted must give finite colours wherever it is looked up. */
+/* Edits as text or, where the input has a line end, as an option: `opts` and `NAME=IMAGE` before and behind it. What is
+ * accepted must have a canonical text that says the same, and give finite colours wherever it is looked up. */
 #include <math.h>
+#include <retex/edit.h>
 #include <retex/host/texture_lookup.h>
-#include <retex/texture.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +14,10 @@ static RetexImage image;
 static void begin(void)
 {
     static const char *const seeds[] = {
+        "Floor=oak.jpg;Floor.scale=2,1;Floor.rotate=30;Wall=tomato;Sofa.001=#f80",
+        "Wall%2Escale=a%3Bb%26%25.png&Wall.scale.flip=uv&Wall=srgb(.5,0.25,1)",
+        "Floor.colorspace=x;Floor.width=1.2,3;Floor.repeat=brick;Floor.offset=0,-1e3;Floor=#ff8800",
+        "A=a;A.wrap=mirror,clamp;B=b;C=c;D=d;E=e;F=f;G=g;H=rgb(1,2,3)",
         "scale=2,2:rotate=30:offset=0,0.5:wrap=repeat\nFloor=oak.jpg",
         "scale=0.5:wrap=mirror,clamp\nWall=a b/c=d.png",
         "wrap=black:colorspace=sRGB\nfloor=rgb(0.8,0.1,0.1)",
@@ -62,34 +66,64 @@ static void look_up(const RetexTextureSpec *spec)
     retex_texture_close(&texture);
 }
 
+static void check_texture(RetexTextureSpec *spec)
+{
+    fuzz_must(spec->scale[0] != 0 && spec->scale[1] != 0, "a scale is not 0");
+    fuzz_must(isfinite(spec->scale[0]) && isfinite(spec->scale[1]) && isfinite(spec->rotate) &&
+                  isfinite(spec->offset[0]) && isfinite(spec->offset[1]),
+              "numbers are finite");
+    fuzz_must(isfinite(spec->width[0]) && spec->width[0] >= 0 && isfinite(spec->width[1]) && spec->width[1] >= 0,
+              "a width is finite and not negative");
+    spec->uv_scale[0] = 2;
+    spec->uv_scale[1] = 0.3;
+    look_up(spec);
+}
+
+/* The text of an edit, which the caller frees. */
+static char *text_of(const RetexEdit *edit)
+{
+    char *text;
+    if (retex_edit_text(edit, ';', &text, NULL))
+        abort();
+    return text;
+}
+
+static void check_canonical(const RetexEdit *edit, RetexEdit *again)
+{
+    char *text = text_of(edit), *same;
+    retex_edit_clear(again);
+    fuzz_must(!retex_edit_parse(again, text, NULL), "the canonical text is accepted");
+    same = text_of(again);
+    fuzz_must(strcmp(text, same) == 0 && retex_edit_count(edit) == retex_edit_count(again),
+              "the canonical text is canonical itself");
+    free(same);
+    free(text);
+}
+
 static int run(const unsigned char *bytes, size_t size)
 {
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    char *opts = strdup((const char *)bytes), *line = opts ? strchr(opts, '\n') : NULL;
+    char *text = strdup((const char *)bytes), *line = text ? strchr(text, '\n') : NULL;
+    RetexEdit *edit = NULL, *again = NULL;
     int code = -1;
     (void)size;
     if (line)
         *line = '\0';
-    if (opts)
-        code = retex_texture_spec_parse(&spec, opts, line ? line + 1 : "", NULL);
-    if (!code) {
-        fuzz_must(spec.scale[0] != 0 && spec.scale[1] != 0, "a scale is not 0");
-        fuzz_must(isfinite(spec.scale[0]) && isfinite(spec.scale[1]) && isfinite(spec.rotate) &&
-                      isfinite(spec.offset[0]) && isfinite(spec.offset[1]),
-                  "numbers are finite");
-        fuzz_must(isfinite(spec.width[0]) && spec.width[0] >= 0 && isfinite(spec.width[1]) && spec.width[1] >= 0,
-                  "a width is finite and not negative");
-        spec.uv_scale[0] = 2;
-        spec.uv_scale[1] = 0.3;
-        look_up(&spec);
-    }
-    free(opts);
+    if (text && !retex_edit_create(&edit, NULL) && !retex_edit_create(&again, NULL))
+        code = line ? retex_edit_option(edit, text, line + 1, NULL) : retex_edit_parse(edit, text, NULL);
+    fuzz_must(!edit || !code || retex_edit_count(edit) == 0, "what fails adds nothing");
+    if (!code)
+        check_canonical(edit, again);
+    for (int i = 0; !code && i < retex_edit_count(edit); i++)
+        check_texture(retex_edit_texture(edit, i));
+    retex_edit_close(&edit);
+    retex_edit_close(&again);
+    free(text);
     return !code;
 }
 
 int main(int argc, char **argv)
 {
-    static const FuzzDriver driver = {"spec", 1, begin, run};
+    static const FuzzDriver driver = {"edit", 1, begin, run};
     int found = fuzz_main(&driver, argc, argv);
     retex_image_free(&image);
     return found;

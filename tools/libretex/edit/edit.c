@@ -1,0 +1,298 @@
+/* Edits in memory, and the forms in which their statements come: see retex/edit.h. What is added is added to a copy,
+ * which becomes the edit where nothing failed. */
+#include <retex/edit.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include <retex/nearest.h>
+
+#include "edit/edit.h"
+#include "edit/statement.h"
+
+enum { STATEMENT_MAX = 4096 }; /* bytes of a statement, and of the options of a texture */
+
+int retex_edit_create(RetexEdit **edit, RetexError *err)
+{
+    *edit = calloc(1, sizeof **edit);
+    return *edit ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for an edit");
+}
+
+void retex_edit_close(RetexEdit **edit)
+{
+    free(*edit);
+    *edit = NULL;
+}
+
+void retex_edit_clear(RetexEdit *edit)
+{
+    edit->count = 0;
+}
+
+int retex_edit_count(const RetexEdit *edit)
+{
+    return edit->count;
+}
+
+RetexTextureSpec *retex_edit_texture(RetexEdit *edit, int index)
+{
+    return &edit->specs[index];
+}
+
+/* ---- statements ---- */
+
+/* The index of a target, whose texture is added if there is none. */
+static int find_texture(RetexEdit *edit, const char *target, int *index, RetexError *err)
+{
+    int at = 0, order = 1;
+    while (at < edit->count && (order = strcmp(edit->specs[at].target, target)) < 0)
+        at++;
+    *index = at;
+    if (at < edit->count && order == 0)
+        return RETEX_OK;
+    if (edit->count == RETEX_MAX_TARGETS)
+        return retex_fail(err, RETEX_EPARSE, "textures for more than %d targets", RETEX_MAX_TARGETS);
+    if (strlen(target) >= sizeof edit->specs->target)
+        return retex_fail(err, RETEX_EPARSE, "texture '%.40s…': a target's name has at most %d bytes", target,
+                          (int)sizeof edit->specs->target - 1);
+    memmove(edit->specs + at + 1, edit->specs + at, (size_t)(edit->count - at) * sizeof *edit->specs);
+    memmove(edit->said + at + 1, edit->said + at, (size_t)(edit->count++ - at) * sizeof *edit->said);
+    edit->specs[at] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+    edit->said[at] = 0;
+    strcpy(edit->specs[at].target, target);
+    return RETEX_OK;
+}
+
+/* Where the word of an option begins in a key; NULL in the key of a texture itself. */
+static const char *find_option(const char *key)
+{
+    const char *dot = strrchr(key, '.');
+    return dot && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
+}
+
+int retex_edit_key_is_option(const char *key)
+{
+    return find_option(key) != NULL;
+}
+
+static int no_statement(const char *key, RetexError *err)
+{
+    return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE or TARGET.OPTION=VALUE", key);
+}
+
+static int state(RetexEdit *edit, const char *target, const char *option /* or NULL */, const char *value,
+                 RetexError *err)
+{
+    const int kind = option ? retex_statement_option(option, strlen(option)) : 0;
+    int at, code = find_texture(edit, target, &at, err);
+    if (code)
+        return code;
+    if (edit->said[at] & 1u << kind)
+        return retex_fail(err, RETEX_EPARSE, "%s%s%s is given twice", target, option ? "." : "", option ? option : "");
+    edit->said[at] |= 1u << kind;
+    return retex_statement_kinds[kind].parse(&edit->specs[at], value, err);
+}
+
+int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexError *err)
+{
+    char target[STATEMENT_MAX];
+    const char *option = find_option(key);
+    const size_t length = option ? (size_t)(option - 1 - key) : strlen(key);
+    if (length < 1 || length >= sizeof target || !*value)
+        return no_statement(key, err);
+    memcpy(target, key, length);
+    target[length] = '\0';
+    RetexEdit next = *edit;
+    const int code = state(&next, target, option, value, err);
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+int retex_edit_check(const RetexEdit *edit, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 0; i < edit->count && !code; i++) {
+        const char *target = edit->specs[i].target;
+        code = edit->said[i] & 1 ? retex_statement_check(&edit->specs[i], err)
+                                 : retex_fail(err, RETEX_EPARSE,
+                                              "%s has options, but no texture; expected %s=IMAGE too", target, target);
+    }
+    return code;
+}
+
+/* ---- text ---- */
+
+/* Decodes, in place, the characters that mean something in the text of an edit. */
+static void decode(char *text)
+{
+    static const char *const codes[] = {"25", "26", "2E", "2e", "3B", "3b"};
+    enum { CODES = sizeof codes / sizeof *codes };
+    char *out = text;
+    for (const char *c = text; *c; c++) {
+        int i = *c == '%' ? 0 : CODES;
+        while (i < CODES && strncmp(c + 1, codes[i], 2) != 0)
+            i++;
+        *out++ = i < CODES ? "%&..;;"[i] : *c;
+        c += i < CODES ? 2 : 0;
+    }
+    *out = '\0';
+}
+
+/* One statement of a text, which is changed. */
+static int parse_statement(RetexEdit *edit, char *text, RetexError *err)
+{
+    char *value = strchr(text, '='), *option;
+    if (!value)
+        return no_statement(text, err);
+    *value++ = '\0';
+    option = (char *)find_option(text);
+    if (option)
+        option[-1] = '\0';
+    decode(text);
+    decode(value);
+    return *text && *value ? state(edit, text, option, value, err) : no_statement(text, err);
+}
+
+int retex_edit_parse(RetexEdit *edit, const char *text, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int code = RETEX_OK;
+    while (*text && !code) {
+        char statement[STATEMENT_MAX];
+        const size_t length = strcspn(text, ";&");
+        if (length >= sizeof statement)
+            return retex_fail(err, RETEX_EPARSE, "`%.40s…`: a statement of more than %d characters", text,
+                              STATEMENT_MAX - 1);
+        memcpy(statement, text, length);
+        statement[length] = '\0';
+        code = parse_statement(&next, statement, err);
+        text += length;
+        if (!code && *text && !*++text)
+            code = no_statement(text, err);
+    }
+    if (!code)
+        code = retex_edit_check(&next, err);
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+/* ---- options and cells ---- */
+
+/* `opts`, of which the last of a name holds. */
+static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *err)
+{
+    char text[STATEMENT_MAX];
+    int code = RETEX_OK;
+    if (strlen(opts) >= sizeof text)
+        return retex_fail(err, RETEX_EPARSE, "texture options of more than %zu characters", sizeof text - 1);
+    strcpy(text, opts);
+    for (char *at = text, *next; at && !code; at = next) {
+        next = strchr(at, ':');
+        if (next)
+            *next++ = '\0';
+        if (!*at) /* "::" and a colon at either end are allowed */
+            continue;
+        char *value = strchr(at, '=');
+        if (!value)
+            return retex_fail(err, RETEX_EPARSE, "texture option '%s' has no value; expected name=value, as in scale=2",
+                              at);
+        *value++ = '\0';
+        const int kind = retex_statement_option(at, strlen(at));
+        code = kind < 0 ? retex_statement_unknown(at, err) : retex_statement_kinds[kind].parse(spec, value, err);
+    }
+    return code;
+}
+
+static int add_texture(RetexEdit *edit, const char *target, const char *opts, const char *image, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int at, code = find_texture(&next, target, &at, err);
+    if (!code && next.said[at])
+        code = retex_fail(err, RETEX_EINVAL, "target %s is given two textures", target);
+    if (!code)
+        code = parse_options(&next.specs[at], opts, err);
+    if (!code)
+        code = state(&next, target, NULL, image, err);
+    if (!code)
+        code = retex_statement_check(&next.specs[at], err);
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err)
+{
+    char target[sizeof edit->specs->target + 1];
+    const char *equals = arg ? strchr(arg, '=') : NULL;
+    if (!equals || equals == arg)
+        return retex_fail(err, RETEX_EPARSE, "texture '%s': expected NAME=IMAGE, a target and what to put on it",
+                          arg ? arg : "");
+    if (!equals[1])
+        return retex_fail(err, RETEX_EPARSE, "texture '%s': no image after '='", arg);
+    snprintf(target, sizeof target, "%.*s", (int)(equals - arg), arg);
+    return add_texture(edit, target, opts ? opts : "", equals + 1, err);
+}
+
+int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err)
+{
+    char opts[STATEMENT_MAX] = "";
+    if (*cell == ':') {
+        const size_t length = strcspn(cell, " ");
+        if (length >= sizeof opts)
+            return retex_fail(err, RETEX_EPARSE, "the options are too long");
+        memcpy(opts, cell, length);
+        opts[length] = '\0';
+        cell += length;
+        cell += strspn(cell, " ");
+    }
+    if (!*cell)
+        return retex_fail(err, RETEX_EPARSE, "options without an image; expected `:scale=2 IMAGE`");
+    return add_texture(edit, target, opts, cell, err);
+}
+
+/* ---- targets ---- */
+
+int retex_target_find(int *target, const RetexTargetNames *names, const char *name, RetexError *err)
+{
+    char all[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
+    const char *dot = strrchr(name, '.');
+    RetexNearest nearest = {name, NULL, 0};
+    *target = retex_target_index(names, name);
+    if (*target >= 0)
+        return RETEX_OK;
+    for (int i = 0; i < names->count; i++) {
+        const size_t used = strlen(all), length = dot ? (size_t)(dot - name) : 0;
+        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", names->names[i]);
+        retex_nearest_try(&nearest, names->names[i]);
+        if (length && strlen(names->names[i]) == length && strncasecmp(names->names[i], name, length) == 0)
+            return retex_statement_unknown(dot + 1, err);
+    }
+    if (!names->count)
+        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': %s has no targets%s", name, names->of,
+                          names->advice);
+    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; %s has %.700s%s", name, names->of, all,
+                      nearest.best ? retex_meant(nearest.best, meant) : names->advice);
+}
+
+int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err)
+{
+    RetexEdit next = {.count = 0};
+    for (int i = 0; i < edit->count; i++) {
+        int target, at, code = retex_target_find(&target, names, edit->specs[i].target, err);
+        if (!code)
+            code = find_texture(&next, names->names[target], &at, err);
+        if (!code && next.said[at])
+            code = retex_fail(err, RETEX_EINVAL, "target %s is given two textures", names->names[target]);
+        if (code)
+            return code;
+        next.specs[at] = edit->specs[i];
+        next.said[at] = edit->said[i];
+        strcpy(next.specs[at].target, names->names[target]);
+    }
+    *edit = next;
+    return RETEX_OK;
+}

@@ -1,0 +1,82 @@
+/* The canonical text of edits. See retex/edit.h. */
+#include <retex/edit.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/params.h"
+#include "edit/edit.h"
+#include "edit/statement.h"
+
+/* What is divided by `;` and `&`, with these encoded, and the point at `dot`, if there is one. */
+static void write_encoded(FILE *file, const char *text, const char *dot)
+{
+    for (; *text; text++)
+        if (strchr("%&;", *text) || text == dot)
+            fprintf(file, "%%%02X", (unsigned)*text);
+        else
+            fputc(*text, file);
+}
+
+/* TARGET or TARGET.OPTION, and `=`. A point in the target's name that would begin an option is encoded. */
+static void write_key(FILE *file, const char *target, const char *option)
+{
+    const char *dot = retex_edit_key_is_option(target) && !*option ? strrchr(target, '.') : NULL;
+    write_encoded(file, target, dot);
+    fprintf(file, "%s%s=", *option ? "." : "", option);
+}
+
+/* The caller's `file` is closed. */
+static int close_text(FILE *file, char **text, RetexError *err)
+{
+    const int failed = !file || ferror(file);
+    if ((file && fclose(file) != 0) || failed) {
+        free(*text);
+        *text = NULL;
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for the text of an edit");
+    }
+    return RETEX_OK;
+}
+
+int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError *err)
+{
+    size_t size;
+    *text = NULL;
+    FILE *file = open_memstream(text, &size);
+    for (int i = 0; i < edit->count && file; i++)
+        for (int k = 0; k < STATEMENT_KINDS; k++) {
+            char value[STATEMENT_TEXT_MAX];
+            if (!retex_statement_kinds[k].write(&edit->specs[i], value))
+                continue;
+            if (i || k)
+                fputc(divider, file);
+            write_key(file, edit->specs[i].target, retex_statement_kinds[k].word);
+            write_encoded(file, value, NULL);
+        }
+    return close_text(file, text, err);
+}
+
+int retex_edit_options_text(const RetexTextureSpec *given, char **text, RetexError *err)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    char value[STATEMENT_TEXT_MAX];
+    size_t size;
+    *text = NULL;
+    if (RETEX_PARAMS_COPY(&spec, given, err))
+        return RETEX_EINVAL;
+    FILE *file = open_memstream(text, &size);
+    for (int k = 1, written = 0; k < STATEMENT_KINDS && file; k++)
+        if (retex_statement_kinds[k].write(&spec, value))
+            fprintf(file, "%s%s=%s", written++ ? ":" : "", retex_statement_kinds[k].word, value);
+    return close_text(file, text, err);
+}
+
+void retex_edit_image_text(const RetexTextureSpec *given, char *text, size_t size)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    char value[STATEMENT_TEXT_MAX];
+    (void)RETEX_PARAMS_COPY(&spec, given, NULL);
+    retex_statement_kinds[0].write(&spec, value);
+    snprintf(text, size, "%s", value);
+}

@@ -1,0 +1,82 @@
+/* Edits: what a user wants to have changed in a set. Options, tables of batches, names that OpenImageIO opens, URLs,
+ * Python and links to the player all say it in the words of one grammar; retex-edit(5) has it for users.
+ *
+ * An edit is a list of statements KEY=VALUE in any order, each at most once:
+ *
+ *     TARGET=IMAGE           a texture, the name of a file
+ *     TARGET=COLOUR          a colour, see retex/color_text.h
+ *     TARGET.OPTION=VALUE    how the texture lies; OPTION is scale, rotate, offset, flip, wrap, repeat, width or
+ *                            colorspace, see RetexTextureSpec
+ *
+ * as in `Floor=oak.jpg;Floor.scale=2,1;Wall=tomato`. What follows the last point of a key is an option if it is the
+ * word of one; else the point belongs to the name of the target. Calls that add to an edit leave it as it was where
+ * they fail, with RETEX_EPARSE and a message that says what would be right, or RETEX_EINVAL for a second texture on one
+ * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target. */
+#ifndef RETEX_EDIT_H
+#define RETEX_EDIT_H
+
+#include <retex/target_name.h>
+#include <retex/texture.h>
+
+#pragma GCC visibility push(default)
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct RetexEdit RetexEdit;
+
+/* An edit that changes nothing. */
+int retex_edit_create(RetexEdit **edit, RetexError *err);
+void retex_edit_close(RetexEdit **edit);
+/* Remove all that it says. Needs no memory, nor does what is added then. */
+void retex_edit_clear(RetexEdit *edit);
+
+/* ---- the forms in which statements come ---- */
+
+/* Add the statements of a text, divided by `;` or `&`. In keys and values %25 stands for %, %26 for &, %3B for ; and
+ * %2E for a point that begins no option. All textures must be complete then, as retex_edit_check says. */
+int retex_edit_parse(RetexEdit *edit, const char *text, RetexError *err);
+/* Add a statement that something else has divided and decoded already. */
+int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexError *err);
+/* Whether each target with options has a texture, and the options suit each other. */
+int retex_edit_check(const RetexEdit *edit, RetexError *err);
+/* Add the texture of an option of a command line, --texture[:opts] NAME=IMAGE. opts: `scale=2,2:rotate=30`, of which
+ * the last of a name holds; or NULL. */
+int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err);
+/* Add the texture of a cell of a table, for the target that its column has: IMAGE or `:opts IMAGE`. */
+int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err);
+/* Whether a key is TARGET.OPTION. */
+int retex_edit_key_is_option(const char *key);
+
+/* The canonical text: equal edits have equal texts, parsing it gives the edit, and options of their default values are
+ * left out. Numbers have the fewest digits that mean the same, colours are rgb(). divider: ';' or '&'. *text is the
+ * caller's to free. */
+int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError *err);
+/* The options of a texture as retex_edit_option takes them, "" where it has none. *text is the caller's to free. */
+int retex_edit_options_text(const RetexTextureSpec *spec, char **text, RetexError *err);
+/* Its image's name or its colour, for messages too: cut off where it is longer than `size` bytes. */
+void retex_edit_image_text(const RetexTextureSpec *spec, char *text, size_t size);
+
+/* ---- what it says ---- */
+
+int retex_edit_count(const RetexEdit *edit);
+/* One of its textures, sorted by target; borrowed until the edit changes. They stand one after the other: that
+ * of index 0 and retex_edit_count are what retex_sample and retex_textures_load take. What RetexTextureSpec says is
+ * filled in by the caller is for the caller to set, and the image's name may be replaced. In a copy of one, size is to
+ * become sizeof(RetexTextureSpec): the library may know more members than its caller. */
+RetexTextureSpec *retex_edit_texture(RetexEdit *edit, int index);
+
+/* ---- the targets that there are ---- */
+
+/* The index of the target that a name means, as retex_target_index, or -1. RETEX_ENOTFOUND lists what there is, with
+ * the nearest name; RETEX_EPARSE where it is a target's name with an option that there is not. */
+int retex_target_find(int *target, const RetexTargetNames *names, const char *name, RetexError *err);
+/* Give the targets of an edit the names that the set, or scene, has them by. RETEX_EINVAL where two are one there.
+ * After a failure the edit is as it was. */
+int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#pragma GCC visibility pop
+#endif

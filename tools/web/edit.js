@@ -1,0 +1,110 @@
+// ---- edits: colours and the grammar of links, as in retex-edit(5) ----
+
+const srgbDecode = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
+const colorNames = new Map(Array.from(COLORS.matchAll(/([a-z]+)(\w{6})/g), ([, name, code]) => [name, code]));
+
+/* Text as a finite number; NaN if it is none. */
+const numberOf = (text) => (/^\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*$/i.test(text) && isFinite(text) ? Number(text) + 0 : NaN);
+
+/* A colour, scene-linear; null if the text is none and may be the address of a picture. */
+function readColor(text) {
+  const word = text.trim().toLowerCase(), wrong = (expected) => new Error(`'${text}' is no colour: expected ${expected}.`);
+  const call = /^(s?rgb)\s*\((.*)$/s.exec(word), digits = /^#([^./]*)$/.exec(word)?.[1] ?? colorNames.get(word.replace("grey", "gray"));
+  if (call) {
+    const numbers = call[2].endsWith(")") ? call[2].slice(0, -1).split(",").map(numberOf) : [], encoded = call[1] === "srgb";
+    if (numbers.length !== 3 || !numbers.every((x) => x >= 0 && x <= (encoded ? 1 : 1e30)))
+      throw wrong(encoded ? "srgb(r,g,b) with three numbers from 0 to 1" : "rgb(r,g,b) with three numbers of 0 or more");
+    return encoded ? numbers.map(srgbDecode) : numbers;
+  }
+  if (digits === undefined) return null;
+  if (!/^([0-9a-f]{3}){1,2}$/i.test(digits)) throw wrong("#rgb or #rrggbb");
+  return digits.replace(/^(.)(.)(.)$/, "$1$1$2$2$3$3").match(/../g).map((x) => srgbDecode(parseInt(x, 16) / 255));
+}
+
+/* The same, and null if the text is wrong. */
+function parseColor(text) {
+  try {
+    return readColor(text);
+  } catch {
+    return null;
+  }
+}
+
+const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
+const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
+
+/* One or two numbers that are allowed, and what stands for the second. */
+function pairOf(text, isAllowed, second = (first) => first) {
+  const [u, v = second(u), ...rest] = text.split(",").map(numberOf);
+  return rest.length || ![u, v].every((x) => isFinite(x) && isAllowed(x)) ? undefined : [u, v];
+}
+const wordOf = (text, words) => words.find((word) => word === text.toLowerCase());
+function wrapsOf(text) {
+  const modes = text.split(",").map((mode) => wordOf(mode, WRAPS));
+  return modes.length > 2 || modes.includes(undefined) ? undefined : modes[0] === modes[1] ? modes[0] : modes.join();
+}
+
+/* The statements about a texture, in the order of the canonical text: what reads a value, undefined if there is none; and
+ * the text that needs no statement. */
+const OPTIONS = {
+  scale: [(text) => pairOf(text, (x) => x !== 0), "1,1"],
+  rotate: [(text) => [numberOf(text)].find(isFinite), "0"],
+  offset: [(text) => pairOf(text, () => true), "0,0"],
+  flip: [(text) => wordOf(text, ["u", "v", "uv", "vu"])?.replace("vu", "uv"), ""],
+  wrap: [wrapsOf, "repeat"],
+  repeat: [(text) => wordOf(text, REPEATS), "straight"],
+  width: [(text) => (text.includes(",") ? pairOf(text, (x) => x > 0) : [numberOf(text)].find((x) => x > 0)), ""],
+  colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
+  tint: [(text) => (parseColor(text) ? text : undefined), "#ffffff"],
+};
+const LIGHT = ["exposure", "warmth"];
+
+/* The option that a key ends with. */
+const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
+
+/* What the text of an edit says, as getState() has it. A target without a scale has the tools', not a picture's own. */
+function parseEdit(text) {
+  const textures = Object.create(null), light = {};
+  const decode = (part) => part.replace(/%(25|26|2e|3b)/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
+  for (const statement of text ? text.split(/[;&]/) : []) {
+    const equals = statement.indexOf("="), key = statement.slice(0, Math.max(equals, 0)), word = optionOf(key);
+    const target = decode(word ? key.slice(0, -word.length - 1) : key), value = decode(statement.slice(equals + 1));
+    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE or TARGET.OPTION=VALUE.`);
+    const isLight = LIGHT.includes(key) && isFinite(numberOf(value)), said = isLight ? light : (textures[target] ||= {});
+    const name = isLight ? key : word || "source";
+    if (name in said) throw new Error(`${key} is given twice.`);
+    if (name === "source") readColor(value);
+    said[name] = isLight ? numberOf(value) : word ? OPTIONS[word][0](value) : value;
+    if (said[name] === undefined) throw new Error(`${key} cannot be '${value}'.`);
+  }
+  for (const [target, said] of Object.entries(textures)) {
+    if (!said.source) throw new Error(`${target} has options, but no texture.`);
+    if (isShifted(said.repeat) && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: repeat ${said.repeat} needs wrap repeat.`);
+    if (!parseColor(said.source)) said.scale ||= [1, 1];
+  }
+  if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
+  return { textures, light };
+}
+
+/* The fewest digits that mean the same, as printf has them. */
+function numberText(x) {
+  const digits = [15, 16, 17].find((n) => Number(x.toPrecision(n)) === x), [fraction, power] = x.toExponential(digits - 1).split("e");
+  if (power >= -4 && power < digits) return String(Number(x.toPrecision(digits)));
+  return `${fraction.replace(/\.?0+$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
+}
+
+/* The text of an edit that says what a state does. */
+function editText({ textures = {}, light = {} }) {
+  const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
+  const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
+  const statements = [];
+  for (const target of Object.keys(textures).sort()) {
+    const name = encode(target), option = optionOf(name);
+    statements.push(`${option ? name.slice(0, -option.length - 1) + "%2E" + option : name}=${encode(textures[target].source)}`);
+    for (const [word, [, unsaid]] of Object.entries(OPTIONS)) {
+      const text = textOf(textures[target][word] ?? unsaid);
+      if (text !== unsaid) statements.push(`${name}.${word}=${encode(text)}`);
+    }
+  }
+  return [...statements, ...LIGHT.filter((key) => light[key]).map((key) => `${key}=${numberText(light[key])}`)].join(";");
+}
