@@ -191,6 +191,25 @@ def test_cross():
                   combined("room.exr", "--texture", "Floor=" + OAK, "--cross", str(cross)))
 
 
+def test_parameters():
+    """Parameters: light is linear in a lamp's colour, by colour"""
+    lib.run("make_set", "lamp.exr", "40", "30", "lamp:Lamp")
+    with retex.open("lamp.exr") as room:
+        lamp, = [p for p in room.manifest["parameters"] if p["kind"] == "color"]
+        assert lamp["name"] == "Lamp" and lamp["value"] == [1, 0.5, 2]
+        textures = {"Floor": TERRAZZO}
+        dark = room.combine(textures, parameters={"Lamp": (0, 0, 0)})
+        one = room.combine(textures, parameters={"Lamp": (1, 1, 1)})
+        assert np.abs(one - dark).max() > 0.01
+        for colour in ((1, 0.5, 2), (3, 0, 0.25)):
+            picture = room.combine(textures, parameters={"Lamp": colour})
+            assert np.allclose(picture, dark + (one - dark) * np.float32(colour), rtol=1e-4, atol=1e-6), colour
+        assert np.array_equal(room.combine(textures), room.combine(textures, parameters={"Lamp": (1, 0.5, 2)}))
+        for wrong in ({"lamp": (1, 1, 1)}, {"Lamp": (1, 1)}):
+            lib.fails(ValueError, room.combine, parameters=wrong)
+        assert lib.fails(retex.Error, room.combine, parameters={"Lamp": (1, -1, 1)}).code == retex.Code.EINVAL
+
+
 def test_error():
     """The expected error"""
     lib.run("retex-combine", "-q", "clusters.exr", "--texture", "Floor=" + OAK, "--error", "error.exr", "-o", "x.exr")

@@ -214,7 +214,7 @@ static double interreflected_light(const ClustersWork *work, size_t pixel,
     double interreflected = 0;
     for (int i = 0; i < set->nterms; i++) {
         const RetexTerm *term = &set->terms[i];
-        if (retex_term_hits(term) < 2)
+        if (!retex_term_is_light(term) || retex_term_hits(term) < 2)
             continue;
         const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = retex_compact_grey(term);
         interreflected += retex_compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
