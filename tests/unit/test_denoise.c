@@ -235,7 +235,7 @@ static void test_missing_parts(void **state)
 /* A pixel without light on a cluster has no footprint of it either. */
 static void clear_cluster(RetexSet *set, const RetexSignalMember *member, int i)
 {
-    const int footprint = retex_signal_cluster(set, member);
+    const int footprint = member->cluster;
     if (footprint >= 0)
         memset(set->parts[set->footprints[footprint].uv].image.pixels + (size_t)3 * (size_t)i, 0, 3 * sizeof(float));
 }

@@ -213,10 +213,10 @@ static double interreflected_light(const ClustersWork *work, size_t pixel,
     const double sum = sum_of_shares(work->light, pixel);
     double interreflected = 0;
     for (int i = 0; i < set->nterms; i++) {
-        const RetexTerm *term = &set->terms[i];
-        if (!retex_term_is_light(term) || retex_term_hits(term) < 2)
+        const float grey = work->light->greys[i];
+        if (grey == 0)
             continue;
-        const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = retex_compact_grey(term);
+        const float *rgb = set->parts[set->terms[i].radiance].image.pixels + 3 * pixel;
         interreflected += retex_compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
     }
     for (int k = 0; k < work->kind->count; k++) {

@@ -117,6 +117,16 @@ static const char *unknown_factor(const RetexTerm *term)
     return NULL;
 }
 
+static void find_greys(RetexCompactLight *light)
+{
+    for (int i = 0; i < light->set->nterms; i++) {
+        const RetexTerm *term = &light->set->terms[i];
+        light->greys[i] = retex_term_is_light(term) && retex_term_hits(term) > 1 ? 1 : 0;
+        for (int k = retex_term_hits(term); k > 1; k--)
+            light->greys[i] *= RETEX_COMPACT_GREY;
+    }
+}
+
 static const char *sort_all(RetexCompactLight *light)
 {
     if (!sort_footprints(light))
@@ -136,8 +146,10 @@ int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, doub
     if (*unknown)
         return RETEX_OK;
     light->interreflections = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->interreflections);
-    if (!light->interreflections)
+    light->greys = calloc((size_t)set->nterms + 1, sizeof *light->greys);
+    if (!light->interreflections || !light->greys)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
+    find_greys(light);
     for (int i = 0; i < light->nkinds; i++)
         light->kinds[i].interreflections = light->interreflections + (size_t)i * (size_t)set->nterms;
     for (int i = 0; i < set->nterms && !*unknown; i++)
@@ -158,15 +170,9 @@ void retex_compact_light_close(RetexCompactLight *light)
         }
     }
     free(light->interreflections);
+    free(light->greys);
     light->interreflections = NULL;
-}
-
-float retex_compact_grey(const RetexTerm *term)
-{
-    float grey = 1;
-    for (int k = retex_term_hits(term); k > 1; k--)
-        grey *= RETEX_COMPACT_GREY;
-    return grey;
+    light->greys = NULL;
 }
 
 static int is_covered(const RetexSet *set, int footprint, size_t pixel)
@@ -201,8 +207,9 @@ void retex_compact_cluster_light(const RetexCompactLight *light, const RetexComp
     for (int k = 0; k < kind->count; k++)
         all += shares[k] = share_of(light, kind, k, pixel);
     for (int i = 0; i < kind->ninterreflections && all > 0; i++) {
-        const RetexTerm *term = &set->terms[kind->interreflections[i].term];
-        const float *radiance = set->parts[term->radiance].image.pixels + 3 * pixel, grey = retex_compact_grey(term);
+        const int number = kind->interreflections[i].term;
+        const float *radiance = set->parts[set->terms[number].radiance].image.pixels + 3 * pixel;
+        const float grey = light->greys[number];
         for (int c = 0; c < 3; c++)
             interreflected[c] += (double)(grey * radiance[c]);
     }

@@ -48,15 +48,14 @@ typedef struct RetexCompactLight {
     int nkinds;
     RetexCompactKind kinds[RETEX_COMPACT_KINDS];
     RetexCompactInterreflection *interreflections; /* of all kinds */
+    float *greys; /* by term with interreflections: its radiance's factor if all of these meet RETEX_COMPACT_GREY; 0 of
+                     other terms */
 } RetexCompactLight;
 
 /* Sort footprints and terms. *unknown: what of the set cannot be made compact, or NULL. light is then of no use. */
 int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, const char **unknown,
                              RetexError *err);
 void retex_compact_light_close(RetexCompactLight *light);
-
-/* Factor on a term's radiance if all hits but the first meet RETEX_COMPACT_GREY. */
-float retex_compact_grey(const RetexTerm *term);
 
 /* Light of a cluster in a pixel, RGB: of paths with this hit only, and of those with interreflections, these on
  * RETEX_COMPACT_GREY. */

@@ -19,7 +19,7 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
         for (int c = 0; c < 3; c++)
             scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
-            if (retex_signal_corrects(d->set, &d->signals.of[s].members[k]))
+            if (d->signals.of[s].members[k].corrects)
                 continue;
             RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
             float *row = im->pixels + retex_image_index(im, 0, y);

@@ -87,11 +87,11 @@ static RetexPoolGroup start_group(const RetexDenoiseFootprints *f, const RetexSe
     return g;
 }
 
-static int has_cluster(const RetexSet *set, const RetexSignal *signal, int footprint)
+static int has_cluster(const RetexSignal *signal, int footprint)
 {
     int count = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        count += retex_signal_cluster(set, &signal->members[k]) == footprint;
+        count += signal->members[k].cluster == footprint;
     return count;
 }
 
@@ -100,15 +100,15 @@ static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const 
 {
     *g = start_group(f, set, signal->target, signal->kind);
     for (int k = 0; k < signal->nmembers; k++) {
-        int footprint = retex_signal_cluster(set, &signal->members[k]);
+        int footprint = signal->members[k].cluster;
         if (footprint < 0)
             continue;
         add_place(f, set, g, footprint, signal->members[k].part);
-        g->movable &= has_cluster(set, signal, footprint) == 1;
+        g->movable &= has_cluster(signal, footprint) == 1;
     }
     for (int k = 0; k < set->nfootprints && g->count; k++)
         if (set->footprints[k].target == signal->target && set->footprints[k].kind == signal->kind &&
-            !has_cluster(set, signal, k))
+            !has_cluster(signal, k))
             add_place(f, set, g, k, -1);
     g->movable &= g->count <= POOL_GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
 }
@@ -149,7 +149,7 @@ static int find_interreflected_light(float **interreflected, const RetexSet *set
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
         RetexFootprintImage light = find_image(set, m->part, 3, 3);
-        if (signal->target < 0 || m->term < 0 || retex_term_hits(&set->terms[m->term]) < 2 || !light.pixels)
+        if (signal->target < 0 || m->term < 0 || m->hits < 2 || !light.pixels)
             continue;
         if (!*interreflected && !(*interreflected = calloc(pixels, sizeof **interreflected)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");

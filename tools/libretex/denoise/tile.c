@@ -66,11 +66,11 @@ static float *take(Layout *l, size_t floats)
     return p;
 }
 
-static void plan_signal(SignalScratch *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
+static void plan_signal(SignalScratch *r, Layout *l, const RetexSignal *signal)
 {
     r->nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        r->nclusters += retex_signal_cluster(set, &signal->members[k]) >= 0;
+        r->nclusters += signal->members[k].cluster >= 0;
     r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
@@ -106,7 +106,7 @@ static void plan_scratch(RetexDenoiseScratch *work, Layout *l, const RetexDenois
         work->errors[k] = take(l, DENOISE_PIXELS);
     work->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
     for (int s = 0; s < d->signals.count; s++)
-        plan_signal(&work->signals[s], l, d->set, &d->signals.of[s]);
+        plan_signal(&work->signals[s], l, &d->signals.of[s]);
 }
 
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
@@ -167,7 +167,7 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
         memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
-        int to = retex_signal_cluster(d->set, m) >= 0 ? 0 : image++;
+        int to = m->cluster >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
             float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
             retex_denoise_load_plane(work->spare, d->set, m->part, c, x0, y0);
@@ -381,13 +381,12 @@ static float filtered_total(const SignalScratch *r, const TilePixel *at, int c)
 }
 
 /* The total of the members filtered with the first candidate's weights. */
-static float total_of_members(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
-                              const TilePixel *at, int c)
+static float total_of_members(const SignalScratch *r, const RetexSignal *signal, const TilePixel *at, int c)
 {
     float members = r->nclusters ? r->sums[c][at->i] : 0;
     int image = r->nclusters > 0;
     for (int k = 0; k < signal->nmembers; k++)
-        if (retex_signal_cluster(d->set, &signal->members[k]) < 0)
+        if (signal->members[k].cluster < 0)
             members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
     return members;
 }
@@ -437,19 +436,19 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     int image = r->nclusters > 0;
     for (int c = 0; c < 3; c++) {
         total[c] = filtered_total(r, at, c);
-        members[c] = total_of_members(r, d, signal, at, c);
+        members[c] = total_of_members(r, signal, at, c);
         sums->before[c] += 0.5f * r->modulation[c][at->p] * (r->half[0][c][at->p] + r->half[1][c][at->p]);
         sums->after[c] += total[c];
         light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
     }
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
-        if (retex_signal_cluster(d->set, m) >= 0)
+        if (m->cluster >= 0)
             continue;
         float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
-            to[c] = retex_signal_corrects(d->set, m) ? correction_value(r, at, image, c)
-                                                     : image_value(r, at, image, c, total[c], members[c], m->weight);
+            to[c] = m->corrects ? correction_value(r, at, image, c)
+                                : image_value(r, at, image, c, total[c], members[c], m->weight);
         image++;
     }
     if (r->nclusters) {

@@ -75,7 +75,7 @@ static void round_member(const RetexPixelLight *p, const RetexSignalMember *memb
 {
     float *light = retex_pixel_at(p->rows, member->part, p->at);
     double weight = 1;
-    for (int n = retex_term_hits(&p->rows->terms[member->term]); n > 1; n--)
+    for (int n = member->hits; n > 1; n--)
         weight *= CARRIED;
     for (int c = 0; c < 3; c++) {
         if (light[c] == 0)

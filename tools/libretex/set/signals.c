@@ -17,22 +17,15 @@ void retex_factor_target(const RetexSet *set, RetexFactor factor, int *target, R
     *kind = set->footprints[footprint].kind;
 }
 
-int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member)
+/* The footprint of a term that is the light of one cluster alone, or -1. */
+static int cluster_of(const RetexTerm *term)
 {
-    const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
-    const int clustered = term && (term->role == RETEX_ROLE_SHARP || term->role == RETEX_ROLE_BROAD ||
-                                   term->role == RETEX_ROLE_INTERREFLECTION);
-    if (!clustered || retex_term_hits(term) != 1)
-        return -1;
-    for (int k = 0; k < term->nfactors; k++)
+    const int clustered =
+        term->role == RETEX_ROLE_SHARP || term->role == RETEX_ROLE_BROAD || term->role == RETEX_ROLE_INTERREFLECTION;
+    for (int k = 0; k < term->nfactors && clustered && retex_term_hits(term) == 1; k++)
         if (term->factors[k].kind == RETEX_FACTOR_FOOTPRINT)
             return term->factors[k].index;
     return -1;
-}
-
-int retex_signal_corrects(const RetexSet *set, const RetexSignalMember *member)
-{
-    return member->term >= 0 && set->terms[member->term].role == RETEX_ROLE_CORRECTION;
 }
 
 static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
@@ -137,7 +130,7 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
         if (is_member(&set->terms[t]) && !signal_of(signals, &set->terms[t]))
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
     if (!set->nterms) {
-        signals->members[0] = (RetexSignalMember){0, 1, -1};
+        signals->members[0] = (RetexSignalMember){.weight = 1, .term = -1, .cluster = -1};
         *signal_of(signals, NULL) =
             (RetexSignal){.target = -1, .noise = -1, .cover = -1, .nmembers = 1, .members = signals->members};
     }
@@ -145,10 +138,12 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
         RetexSignal *signal = &signals->of[k];
         signal->members = signals->members + used;
         for (int t = 0; t < set->nterms; t++) {
-            if (!is_member(&set->terms[t]) || signal_of(signals, &set->terms[t]) != signal)
+            const RetexTerm *term = &set->terms[t];
+            if (!is_member(term) || signal_of(signals, term) != signal)
                 continue;
             signal->members[signal->nmembers++] =
-                (RetexSignalMember){set->terms[t].radiance, member_weight(set, &set->terms[t]), t};
+                (RetexSignalMember){term->radiance,        member_weight(set, term),   t,
+                                    retex_term_hits(term), !retex_term_is_light(term), cluster_of(term)};
             used++;
         }
     }

@@ -9,6 +9,10 @@ typedef struct RetexSignalMember {
     int part;
     float weight; /* its factor in the signal's total: 0 of corrections */
     int term;     /* -1: the beauty of a set without terms */
+    int hits;     /* of the term */
+    int corrects; /* 1: a correction. These are members of the signal that no target's texture multiplies */
+    int cluster;  /* the footprint whose light alone it is, that is the term has that one hit; else -1, as always in
+                     layout paper */
 } RetexSignalMember;
 
 typedef struct RetexSignal {
@@ -35,13 +39,6 @@ void retex_signals_close(RetexSignals *signals);
 
 /* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
 int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
-
-/* 1 if the member is a correction. These are members of the signal that no target's texture multiplies. */
-int retex_signal_corrects(const RetexSet *set, const RetexSignalMember *member);
-
-/* The footprint of a cluster if the member is the light of that cluster alone, that is its term has that one factor.
- * Else -1, as always in layout paper. */
-int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member);
 
 /* The name of the noise part of a term's signal; term NULL: of the beauty of a set without terms. */
 void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX]);
