@@ -53,7 +53,7 @@ class PackSet
             RetexError err{};
             must(retex_set_read(path_.c_str(), &whole_, nullptr, threads, &err), err);
             must(retex_set_checksum(whole_, threads, &err), err);
-            if (whole_->nparts != set_->nparts)
+            if (retex_set_info(whole_).nparts != retex_set_info(set_).nparts)
                 throw Failure("the pack has changed while it was read");
         });
         return *whole_;
@@ -66,13 +66,14 @@ class PackSet
         RetexError err{};
         RetexImage picture{};
         RetexTexture *textures[RETEX_MAX_TARGETS];
-        if (!set_->nterms && specs.empty()) {
-            must(retex_image_copy(&picture, &whole(threads).parts[0].image, &err), err);
+        const RetexSetInfo info = retex_set_info(set_);
+        if (!info.nterms && specs.empty()) {
+            must(retex_image_copy(&picture, &retex_set_part(&whole(threads), 0)->image, &err), err);
             return picture;
         }
         int code = retex_textures_load(textures, set_, specs.data(), int(specs.size()), threads, &err);
         if (!code)
-            code = retex_image_alloc(&picture, set_->width, set_->height, 3, &err);
+            code = retex_image_alloc(&picture, info.width, info.height, 3, &err);
         if (!code)
             code = retex_retexture(set_, nullptr, textures, nullptr, keep_rows, &picture, threads, &err);
         retex_textures_close(textures);
@@ -172,11 +173,11 @@ std::string text_of(const RetexEdit *edit)
 // ---- the source ----
 
 struct Picture {
-    RetexPart part{};
+    RetexImage image{};
     std::string manifest; // manifest of the set with this picture as part 0; "" for a picture with other textures
     ~Picture()
     {
-        retex_image_free(&part.image);
+        retex_image_free(&image);
     }
 };
 
@@ -184,15 +185,10 @@ struct Picture {
 void make_manifest(Picture &picture, const RetexSet &set)
 {
     RetexError err{};
-    RetexSet front = set;
-    front.nparts = 1;
-    front.parts = &picture.part;
-    must(retex_set_checksum(&front, 1, &err), err);
-    std::vector<RetexPart> parts(set.parts, set.parts + set.nparts);
-    parts[0] = picture.part;
-    front.nparts = set.nparts;
-    front.parts = parts.data();
-    picture.manifest = manifest_of(front);
+    char *made = nullptr;
+    must(retex_set_picture_manifest(&set, &picture.image, &made, 1, &err), err);
+    const std::unique_ptr<char, void (*)(void *)> text(made, std::free);
+    picture.manifest = made;
 }
 
 class PackSource final : public Source
@@ -202,7 +198,8 @@ class PackSource final : public Source
         : own_(path, wants_safe(arguments)), budget_(own_.access()->safe), edit_(parse_edit(arguments)),
           threads_(threads), stamp_(file_stamp(path)), set_(open_set(path))
     {
-        budget_.check_size(set_->description().width, set_->description().height);
+        const RetexSetInfo info = retex_set_info(&set_->description());
+        budget_.check_size(info.width, info.height);
         textures_ = find_textures(edit_.get(), set_->description(), own_);
         for (const RetexTextureSpec &texture : textures_)
             stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
@@ -211,22 +208,25 @@ class PackSource final : public Source
     }
     int count() override
     {
-        return textures_.empty() ? set_->description().nparts : 1;
+        return textures_.empty() ? retex_set_info(&set_->description()).nparts : 1;
     }
     OIIO::ImageSpec spec(int index) override
     {
-        OIIO::ImageSpec spec = part_spec(set_->description(), index);
+        const RetexSet &set = set_->description();
         if (index > 0)
-            return spec;
-        spec.set_format(OIIO::TypeDesc::FLOAT);
-        describe_picture(spec, set_->description(), textures_.empty() ? picture().manifest : "");
+            return part_spec(set, index);
+        OIIO::ImageSpec spec =
+            picture_spec(retex_set_info(&set), targets_of(set), textures_.empty() ? picture().manifest : "");
         if (!textures_.empty())
             spec.attribute("retex:textures", shown_);
         return spec;
     }
-    const RetexPart &part(int index) override
+    Pixels pixels(int index) override
     {
-        return index ? set_->whole(threads_).parts[index] : picture().part;
+        if (index == 0)
+            return {picture().image, RETEX_FLOAT};
+        const RetexPart &part = *retex_set_part(&set_->whole(threads_), index);
+        return {part.image, part.type};
     }
 
   private:
@@ -241,10 +241,7 @@ class PackSource final : public Source
     std::shared_ptr<Picture> make_picture() const
     {
         auto picture = std::make_shared<Picture>();
-        picture->part = set_->description().parts[0];
-        picture->part.type = RETEX_FLOAT;
-        picture->part.image = RetexImage{};
-        picture->part.image = set_->picture(textures_, budget_, threads_);
+        picture->image = set_->picture(textures_, budget_, threads_);
         if (textures_.empty())
             make_manifest(*picture, set_->whole(threads_));
         return picture;

@@ -121,8 +121,8 @@ class SceneJob
     {
         return (options_.targets.empty() || options_.render.plain) && !options_.render.aovs;
     }
-    // The description of a picture alone, without pixels.
-    const RetexSet &description() const
+    // What is known of a picture alone before it is rendered.
+    const RetexSetInfo &description() const
     {
         return description_;
     }
@@ -166,14 +166,9 @@ class SceneJob
         description_.height = r.crop[3] ? r.crop[3] : height;
         if (description_.width > RETEX_MAX_SIZE || description_.height > RETEX_MAX_SIZE)
             throw Failure("a picture may have " + std::to_string(RETEX_MAX_SIZE) + " pixels a side");
-        std::snprintf(description_.layout, sizeof description_.layout, "plain");
-        std::snprintf(description_.scene, sizeof description_.scene, "%.255s", slash ? slash + 1 : scene_->path);
+        name_ = std::string(slash ? slash + 1 : scene_->path).substr(0, RETEX_SCENE_MAX - 1);
+        description_.layout = "plain", description_.scene = name_.c_str(), description_.generator = "";
         description_.spp = r.spp, description_.max_depth = r.max_depth, description_.seed = r.seed;
-        description_.nparts = 1, description_.parts = &front_;
-        std::snprintf(front_.name, sizeof front_.name, "beauty");
-        std::snprintf(front_.letters, sizeof front_.letters, "RGB");
-        front_.type = RETEX_FLOAT;
-        front_.image.width = description_.width, front_.image.height = description_.height, front_.image.channels = 3;
     }
     void render()
     {
@@ -200,9 +195,8 @@ class SceneJob
     Budget budget_; // declared before all members that use it
     SceneOptions options_;
     ScenePointer scene_;
-    std::string warnings_, manifest_;
-    RetexSet description_{};
-    RetexPart front_{};
+    std::string warnings_, manifest_, name_;
+    RetexSetInfo description_{};
     std::mutex mutex_;
     RetexSet *set_ = nullptr;
 };
@@ -215,23 +209,25 @@ class SceneSource final : public Source
     }
     int count() override
     {
-        return job_->is_picture() ? 1 : job_->set().nparts;
+        return job_->is_picture() ? 1 : retex_set_info(&job_->set()).nparts;
     }
     OIIO::ImageSpec spec(int index) override
     {
-        const RetexSet &set = job_->is_picture() ? job_->description() : job_->set();
-        OIIO::ImageSpec spec = part_spec(set, index);
-        if (index == 0)
-            describe_picture(spec, set, job_->manifest());
-        if (index == 0 && !job_->warnings().empty())
+        if (index > 0)
+            return part_spec(job_->set(), index);
+        OIIO::ImageSpec spec =
+            job_->is_picture() ? picture_spec(job_->description(), "", job_->manifest())
+                               : picture_spec(retex_set_info(&job_->set()), targets_of(job_->set()), job_->manifest());
+        if (!job_->warnings().empty())
             spec.attribute("retex:warnings", job_->warnings());
-        if (index == 0 && std::getenv("RETEX_OIIO_DEBUG"))
+        if (std::getenv("RETEX_OIIO_DEBUG"))
             spec.attribute("retex:renders", renders.load());
         return spec;
     }
-    const RetexPart &part(int index) override
+    Pixels pixels(int index) override
     {
-        return job_->set().parts[index];
+        const RetexPart &part = *retex_set_part(&job_->set(), index);
+        return {part.image, part.type};
     }
 
   private:

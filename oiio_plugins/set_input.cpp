@@ -51,7 +51,7 @@ class Unreadable final : public Source
         spec.attribute("retex:error", why_);
         return spec;
     }
-    const RetexPart &part(int) override
+    Pixels pixels(int) override
     {
         throw Failure(why_);
     }
@@ -117,10 +117,10 @@ class SetInput final : public OIIO::ImageInput
         if (!seek_subimage(subimage, miplevel))
             return false;
         return entry([&] {
-            const RetexPart &part = source_->part(subimage);
-            if (y < 0 || y >= part.image.height)
-                throw Failure("there is no line " + std::to_string(y) + " in " + part.name);
-            retex_part_stored_row(&part, y, data);
+            const Pixels pixels = source_->pixels(subimage);
+            if (y < 0 || y >= pixels.image.height)
+                throw Failure("there is no line " + std::to_string(y) + " in subimage " + std::to_string(subimage));
+            retex_image_stored_row(&pixels.image, pixels.type, y, data);
         });
     }
 

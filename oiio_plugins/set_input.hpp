@@ -16,6 +16,12 @@ namespace plugins
 // The options after the `?` of a name, sorted by name.
 using Arguments = std::map<std::string, std::string>;
 
+// An image, and the type in which its rows are given.
+struct Pixels {
+    const RetexImage &image;
+    RetexPixelType type;
+};
+
 // The content of an opened name. All calls are thread-safe.
 class Source
 {
@@ -23,7 +29,7 @@ class Source
     virtual ~Source() = default;
     virtual int count() = 0; // number of parts
     virtual OIIO::ImageSpec spec(int index) = 0;
-    virtual const RetexPart &part(int index) = 0; // includes its pixels
+    virtual Pixels pixels(int index) = 0;
 };
 
 struct Format {
@@ -38,8 +44,9 @@ OIIO::ImageInput *create_input(const Format &format);
 
 // Describe a part: the subimage's name, its channels and its role in the set.
 OIIO::ImageSpec part_spec(const RetexSet &set, int index);
-// Add the attributes that tell where a picture comes from. manifest may be "".
-void describe_picture(OIIO::ImageSpec &spec, const RetexSet &set, const std::string &manifest);
+// Describe a set's picture, and where it comes from. targets: their names, with commas between. Both texts may be "".
+OIIO::ImageSpec picture_spec(const RetexSetInfo &info, const std::string &targets, const std::string &manifest);
+std::string targets_of(const RetexSet &set);
 // The manifest of a set whose checksums are all known.
 std::string manifest_of(const RetexSet &set);
 

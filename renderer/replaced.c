@@ -232,14 +232,14 @@ int read_control(Arguments *a, RetexError *err)
     a->control_set = set;
     RetexTargetNames names;
     retex_set_target_names(&names, set);
-    for (int k = 0; k < a->nreplacements && set->ntargets && !a->named; k++) {
+    for (int k = 0; k < a->nreplacements && names.count && !a->named; k++) {
         RetexError why;
         int t;
         if (retex_target_find(&t, &names, a->replacements[k].target, &why))
             return retex_fail(err, why.code, "--control %s: %s", a->control, why.message);
     }
-    for (int t = 0; t < set->ntargets && !a->named; t++) {
-        snprintf(a->set_targets[t], sizeof a->set_targets[t], "%s=%s", set->targets[t].name, set->targets[t].idents);
+    for (int t = 0; t < names.count && !a->named; t++) {
+        snprintf(a->set_targets[t], sizeof a->set_targets[t], "%s=%s", names.names[t], names.idents[t]);
         a->targets[t] = a->set_targets[t];
         a->ntargets = t + 1;
     }
@@ -254,7 +254,7 @@ int render_controlled(Arguments *a, const Scene *scene, const char *output, Rete
     RenderStats stats;
     double distance;
     if (!a->seeded)
-        a->render.seed = set->seed + 1;
+        a->render.seed = retex_set_info(set).seed + 1;
     if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &why))
         return retex_fail(err, why.code, "--control %s: %s", a->control, why.message);
     if (distance > 8)

@@ -159,19 +159,20 @@ static int write_result(Arguments *a, RetexSet *set, const char *output, RetexEr
     case OUTPUT_PICTURE:
         break;
     }
-    return retex_image_write(&set->parts[0].image, output, NULL, threads, err);
+    return retex_image_write(&retex_set_part(set, 0)->image, output, NULL, threads, err);
 }
 
 static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)
 {
+    const RetexSetInfo info = retex_set_info(set);
     double seconds = s->render_seconds > 0 ? s->render_seconds : 1e-9;
-    cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", set->width, set->height, set->spp,
+    cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", info.width, info.height, info.spp,
              s->render_seconds, (double)s->paths / seconds * 1e-6,
              (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
     warn_numbers(a->cli, s);
-    if (set->nterms)
-        cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s",
-                 set->orders, 100 * set->folded);
+    if (info.nterms)
+        cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", info.ntargets, info.ntargets == 1 ? "" : "s",
+                 info.orders, 100 * info.folded);
 }
 
 static void check_targets(const Arguments *a, const Scene *scene)

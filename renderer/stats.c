@@ -32,7 +32,7 @@ int write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double 
                   "segments", (json_int_t)s->segments, "shadow_rays", (json_int_t)s->shadow_rays, "dropped_samples",
                   (json_int_t)s->dropped, "limited_numbers", (json_int_t)s->limited, "lights", (json_int_t)s->lights,
                   "primitives", (json_int_t)s->primitives, "triangles", (json_int_t)s->triangles, "peak_memory_bytes",
-                  (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
+                  (json_int_t)usage.ru_maxrss * 1024, "folded", retex_set_info(set).folded);
     char *text = j ? json_dumps(j, JSON_INDENT(2)) : NULL;
     RetexError why;
     json_decref(j);

@@ -510,9 +510,10 @@ uint64_t cli_memory(const Cli *cli, uint64_t bytes)
 
 void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path)
 {
-    if (set && (int64_t)set->width * set->height > cli->limits.pixels)
+    const RetexSetInfo info = set ? retex_set_info(set) : (RetexSetInfo){.width = 0};
+    if ((int64_t)info.width * info.height > cli->limits.pixels)
         cli_die(cli, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels",
-                strcmp(path, "-") == 0 ? "standard input" : path, set->width, set->height, cli->limits.pixels);
+                strcmp(path, "-") == 0 ? "standard input" : path, info.width, info.height, cli->limits.pixels);
 }
 
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, uint64_t memory, RetexError *err)

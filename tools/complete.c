@@ -69,9 +69,10 @@ static void print_set_targets(const char *path)
     struct stat info;
     if (stat(path, &info) || !S_ISREG(info.st_mode) || retex_set_open(path, &set, NULL, 1, NULL))
         return;
-    for (int t = 0; set && t < set->ntargets; t++)
-        if (is_harmless(set->targets[t].name))
-            printf("%s=\t%.1f %% of the picture\n", set->targets[t].name, 100 * set->targets[t].share);
+    const RetexTarget *target;
+    for (int t = 0; set && (target = retex_set_target(set, t)); t++)
+        if (is_harmless(target->name))
+            printf("%s=\t%.1f %% of the picture\n", target->name, 100 * target->share);
     retex_set_close(&set);
 }
 

@@ -23,50 +23,60 @@ static int is_used(const RetexSet *set, const RetexTerm *term)
 
 static int hit_is_used(const RetexSet *set, int footprint)
 {
-    for (int i = 0; i < set->nterms; i++)
-        for (int k = 0; k < set->terms[i].nfactors && is_used(set, &set->terms[i]); k++)
-            if (set->terms[i].factors[k].kind == RETEX_FACTOR_FOOTPRINT && set->terms[i].factors[k].index == footprint)
+    const RetexTerm *term;
+    for (int i = 0; (term = retex_set_term(set, i)); i++)
+        for (int k = 0; k < term->nfactors && is_used(set, term); k++)
+            if (term->factors[k].kind == RETEX_FACTOR_FOOTPRINT && term->factors[k].index == footprint)
                 return 1;
     return 0;
 }
 
 static int part_is_used(const RetexSet *set, int part)
 {
+    const RetexTerm *term;
+    const RetexFootprint *footprint;
     int used = 0;
-    for (int i = 0; i < set->nterms; i++)
-        used |= set->terms[i].radiance == part && is_used(set, &set->terms[i]);
-    for (int i = 0; i < set->nfootprints; i++)
-        used |= (set->footprints[i].uv == part || set->footprints[i].spread == part) && hit_is_used(set, i);
+    for (int i = 0; (term = retex_set_term(set, i)); i++)
+        used |= term->radiance == part && is_used(set, term);
+    for (int i = 0; (footprint = retex_set_footprint(set, i)); i++)
+        used |= (footprint->uv == part || footprint->spread == part) && hit_is_used(set, i);
     return used && retex_set_is_layer(set, part);
 }
 
 static const char *name_of(const RetexSet *set, int part)
 {
-    return set->parts[part].name;
+    return retex_set_part(set, part)->name;
 }
 
 /* "" where the spread has no layer. */
 static const char *spread_of(const RetexSet *set, int footprint)
 {
-    const int part = set->footprints[footprint].spread;
+    const int part = retex_set_footprint(set, footprint)->spread;
     return part >= 0 && retex_set_is_layer(set, part) ? name_of(set, part) : "";
+}
+
+static int is_of_full_size(const RetexSet *set, int footprint)
+{
+    const RetexPart *uv = retex_set_part(set, retex_set_footprint(set, footprint)->uv);
+    return uv && retex_set_scale(set, &uv->image) == 1;
 }
 
 int compositor_check(const RetexSet *set, const char *path, RetexError *err)
 {
-    if (strcmp(set->layout, "paper") != 0 || set->ntargets != 1)
+    const RetexSetInfo info = retex_set_info(set);
+    const RetexTerm *term;
+    if (strcmp(info.layout, "paper") != 0 || info.ntargets != 1)
         return retex_fail(err, RETEX_EUNSUPPORTED,
                           "%s has %d target%s in layout %s: scripts rebuild sets of one target in layout paper", path,
-                          set->ntargets, set->ntargets == 1 ? "" : "s", set->layout);
-    for (int i = 0; i < set->nterms; i++) {
+                          info.ntargets, info.ntargets == 1 ? "" : "s", info.layout);
+    for (int i = 0; (term = retex_set_term(set, i)); i++) {
         int sound = 1;
-        for (int k = 0; k < set->terms[i].nfactors && sound; k++) {
-            const RetexFactor factor = set->terms[i].factors[k];
-            if (factor.kind == RETEX_FACTOR_PARAMETER)
-                sound = set->parameters[factor.index].kind == RETEX_PARAMETER_CORRECTION;
+        for (int k = 0; k < term->nfactors && sound; k++) {
+            const int index = term->factors[k].index;
+            if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
+                sound = retex_set_parameter(set, index)->kind == RETEX_PARAMETER_CORRECTION;
             else
-                sound = factor.kind == RETEX_FACTOR_FOOTPRINT && set->footprints[factor.index].uv >= 0 &&
-                        retex_set_scale(set, &set->parts[set->footprints[factor.index].uv].image) == 1;
+                sound = term->factors[k].kind == RETEX_FACTOR_FOOTPRINT && is_of_full_size(set, index);
         }
         if (!sound)
             return retex_fail(err, RETEX_EUNSUPPORTED, "%s has terms that no script rebuilds: take the set as rendered",
@@ -206,14 +216,17 @@ static const char *const blender_code =
 
 static void print_blender(FILE *out, const RetexSet *set, const char *layers)
 {
-    const RetexTarget *target = &set->targets[0];
+    const RetexSetInfo info = retex_set_info(set);
+    const RetexTarget *target = retex_set_target(set, 0);
+    const RetexFootprint *footprint;
+    const RetexTerm *term;
     fprintf(out, "# Compositor nodes of Blender that retexture %s, by retex-info --blender.\n", target->name);
     fprintf(out, "# In Blender: open this file in the text editor and run it. From a shell:\n"
                  "#     blender -b --python THIS -- TEXTURE PICTURE.exr\n"
                  "import os\nimport sys\n\nimport bpy\n\nLAYERS = ");
     print_python(out, layers);
     fprintf(out, "\nTEXTURE = \"\"  # an image; a grid of colours without one\n");
-    fprintf(out, "SIZE = (%d, %d)\n", set->width, set->height);
+    fprintf(out, "SIZE = (%d, %d)\n", info.width, info.height);
     fprintf(out, "# Whether the texture repeats along u and v.\nREPEATS = (%s, %s)\n",
             repeats(target, 0) ? "True" : "False", repeats(target, 1) ? "True" : "False");
     fprintf(out,
@@ -222,19 +235,17 @@ static void print_blender(FILE *out, const RetexSet *set, const char *layers)
             SOFT_SIZE, SOFT_SIGMA);
     fprintf(out, "# The layers that say where each hit lies on the texture, and how widely: u is red, v is green.\n"
                  "HITS = [\n");
-    for (int i = 0; i < set->nfootprints; i++)
+    for (int i = 0; (footprint = retex_set_footprint(set, i)); i++)
         if (hit_is_used(set, i))
-            fprintf(out, "    (%d, \"%s\", \"%s\"),\n", set->footprints[i].hit, name_of(set, set->footprints[i].uv),
-                    spread_of(set, i));
+            fprintf(out, "    (%d, \"%s\", \"%s\"),\n", footprint->hit, name_of(set, footprint->uv), spread_of(set, i));
     fprintf(out, "]\n# The layers of light, each with the hits whose colours multiply it; the picture is their sum.\n"
                  "TERMS = [\n");
-    for (int i = 0; i < set->nterms; i++) {
-        const RetexTerm *term = &set->terms[i];
+    for (int i = 0; (term = retex_set_term(set, i)); i++) {
         if (!is_used(set, term))
             continue;
         fprintf(out, "    (\"%s\", [", name_of(set, term->radiance));
         for (int k = 0; k < retex_term_hits(term); k++) /* which come before the weight of a correction */
-            fprintf(out, "%s%d", k ? ", " : "", set->footprints[term->factors[k].index].hit);
+            fprintf(out, "%s%d", k ? ", " : "", retex_set_footprint(set, term->factors[k].index)->hit);
         fprintf(out, "]),\n");
     }
     fprintf(out, "]\n%s", blender_code);
@@ -307,10 +318,11 @@ static void print_nuke_map(FILE *out, const char *texture, const char *name, int
 
 static void print_nuke_hit(FILE *out, const RetexSet *set, int footprint)
 {
-    const int hit = set->footprints[footprint].hit, x = 3 * hit;
-    const int wraps[2] = {repeats(&set->targets[0], 0), repeats(&set->targets[0], 1)};
+    const RetexTarget *target = retex_set_target(set, 0);
+    const int hit = retex_set_footprint(set, footprint)->hit, x = 3 * hit;
+    const int wraps[2] = {repeats(target, 0), repeats(target, 1)};
     const char *spread = spread_of(set, footprint);
-    print_nuke_layer(out, name_of(set, set->footprints[footprint].uv), x, 2);
+    print_nuke_layer(out, name_of(set, retex_set_footprint(set, footprint)->uv), x, 2);
     if (wraps[0] || wraps[1])
         fprintf(out, "Expression {\n expr0 %s\n expr1 %s\n name Wrap_%d\n xpos %d\n ypos 270\n}\n",
                 wraps[0] ? "r-floor(r)" : "r", wraps[1] ? "g-floor(g)" : "g", hit, 120 * x);
@@ -327,12 +339,14 @@ static void print_nuke_hit(FILE *out, const RetexSet *set, int footprint)
 
 static void print_nuke(FILE *out, const RetexSet *set, const char *layers)
 {
+    const RetexSetInfo info = retex_set_info(set);
+    const RetexTerm *term;
     char layer[RETEX_NAME_MAX];
     int terms = 0, products = 0;
     fprintf(out,
             "# A script of Nuke that retextures %s, by retex-info --nuke. Put your texture into the node Texture.\n",
-            set->targets[0].name);
-    for (int i = 1; i < set->nparts; i++)
+            retex_set_target(set, 0)->name);
+    for (int i = 1; i < info.nparts; i++)
         if (part_is_used(set, i)) {
             nuke_layer(layer, name_of(set, i));
             fprintf(out, "add_layer {%s %s.red %s.green %s.blue}\n", layer, layer, layer, layer);
@@ -348,16 +362,15 @@ static void print_nuke(FILE *out, const RetexSet *set, const char *layers)
         " xpos -240\n ypos 90\n}\nBlur {\n channels rgb\n size %g\n name Soft\n xpos -240\n ypos 180\n}\n"
         "set Nsofttexture [stack 0]\n",
         SOFT_SIZE, SOFT_SIZE, 2 * SOFT_SIZE * SOFT_SIGMA);
-    for (int i = 0; i < set->nfootprints; i++)
+    for (int i = 0; i < info.nfootprints; i++)
         if (hit_is_used(set, i))
             print_nuke_hit(out, set, i);
-    for (int i = 0; i < set->nterms; i++) {
-        const RetexTerm *term = &set->terms[i];
+    for (int i = 0; (term = retex_set_term(set, i)); i++) {
         if (!is_used(set, term))
             continue;
         print_nuke_layer(out, name_of(set, term->radiance), 2 * terms, 6);
         for (int k = 0; k < retex_term_hits(term); k++) {
-            fprintf(out, "push $Nhit%d\n", set->footprints[term->factors[k].index].hit);
+            fprintf(out, "push $Nhit%d\n", retex_set_footprint(set, term->factors[k].index)->hit);
             print_nuke_merge(out, "multiply", "Times", ++products, 2 * terms, 7 + k);
         }
         if (terms) {

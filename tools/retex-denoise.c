@@ -103,8 +103,9 @@ int main(int argc, char **argv)
         cli_fail(&cli, &err);
     const double written = retex_clock_seconds();
 
-    cli_info(&cli, "%s: %d x %d, %.2f s", strcmp(output, "-") == 0 ? "standard output" : output, set->width,
-             set->height, written - began);
+    const RetexSetInfo info = retex_set_info(set);
+    cli_info(&cli, "%s: %d x %d, %.2f s", strcmp(output, "-") == 0 ? "standard output" : output, info.width,
+             info.height, written - began);
     cli_detail(&cli, "read %.2f s, denoised %.2f s, written %.2f s", read - began, denoised - read, written - denoised);
     retex_set_close(&set);
     return cli_close(&cli, CLI_OK);

@@ -37,28 +37,31 @@ static void count_part(const RetexSet *set, int part, char *counted, long long *
     if (part < 0 || counted[part])
         return;
     counted[part] = 1;
-    *bytes += part_bytes(&set->parts[part]);
+    *bytes += part_bytes(retex_set_part(set, part));
     if (aovs)
         ++*aovs;
 }
 
 static int measure_set(const RetexSet *set, Sizes *sizes)
 {
-    char *counted = calloc((size_t)set->nparts + 1, 1);
+    const RetexSetInfo info = retex_set_info(set);
+    const RetexTerm *term;
+    const RetexFootprint *footprint;
+    char *counted = calloc((size_t)info.nparts + 1, 1);
 
     if (!counted)
         return 0;
-    for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].role != RETEX_ROLE_PICTURE)
-            count_part(set, set->terms[i].radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
-    for (int i = 0; i < set->nfootprints; i++) {
-        count_part(set, set->footprints[i].uv, counted, &sizes->uv, &sizes->uv_aovs);
-        count_part(set, set->footprints[i].spread, counted, &sizes->spread, &sizes->spread_aovs);
-        count_part(set, set->footprints[i].albedo, counted, &sizes->albedo, NULL);
+    for (int i = 0; (term = retex_set_term(set, i)); i++)
+        if (term->role != RETEX_ROLE_PICTURE)
+            count_part(set, term->radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
+    for (int i = 0; (footprint = retex_set_footprint(set, i)); i++) {
+        count_part(set, footprint->uv, counted, &sizes->uv, &sizes->uv_aovs);
+        count_part(set, footprint->spread, counted, &sizes->spread, &sizes->spread_aovs);
+        count_part(set, footprint->albedo, counted, &sizes->albedo, NULL);
     }
-    for (int i = 0; i < set->ntargets; i++)
-        count_part(set, set->targets[i].original, counted, &sizes->originals, NULL);
-    for (int i = 0; i < set->nparts; i++)
+    for (int i = 0; i < info.ntargets; i++)
+        count_part(set, retex_set_target(set, i)->original, counted, &sizes->originals, NULL);
+    for (int i = 0; i < info.nparts; i++)
         count_part(set, i, counted, &sizes->other, NULL);
     free(counted);
     return 1;
@@ -73,9 +76,10 @@ static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *
         sizes.file = status.st_size;
     if (set)
         measure_set(set, &sizes);
-    for (int i = 0; samples && i < samples->nimages; i++)
+    const RetexSamplesInfo info = samples ? retex_samples_info(samples) : (RetexSamplesInfo){.width = 0};
+    for (int i = 0; i < info.nfootprints; i++)
         if (retex_samples_have(samples, i))
-            sizes.samples += (long long)samples->width * samples->height * 3 * 4;
+            sizes.samples += (long long)info.width * info.height * 3 * 4;
     return sizes;
 }
 
@@ -85,10 +89,19 @@ static void print_bytes(FILE *out, const char *what, long long bytes)
         fprintf(out, "  %-12s %10.2f MB\n", what, (double)bytes / 1e6);
 }
 
+/* Names in users' files must not send control characters to a terminal. */
+static const char *plain(char text[512], const char *name)
+{
+    snprintf(text, 512, "%s", name);
+    return cli_plain(text);
+}
+
 static void print_target(FILE *out, const RetexSet *set, const RetexTarget *target)
 {
-    fprintf(out, "target %s\n", target->name);
-    fprintf(out, "  idents       %s\n", target->idents);
+    const RetexPart *original = retex_set_part(set, target->original);
+    char text[512];
+    fprintf(out, "target %s\n", plain(text, target->name));
+    fprintf(out, "  idents       %s\n", plain(text, target->idents));
     if (target->uv_scale[0] > 0 && target->uv_scale[1] > 0)
         fprintf(out, "  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
                 target->uv_scale[1]);
@@ -99,23 +112,33 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
             target->periodic[0] ? ", closed" : "");
     fprintf(out, "  v            %.6g to %.6g%s\n", target->uv_min[1], target->uv_max[1],
             target->periodic[1] ? ", closed" : "");
-    if (target->original >= 0)
-        fprintf(out, "  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n",
-                set->parts[target->original].image.width, set->parts[target->original].image.height,
-                target->original_min[0], target->original_min[1], target->original_max[0], target->original_max[1]);
+    if (original)
+        fprintf(out, "  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n", original->image.width,
+                original->image.height, target->original_min[0], target->original_min[1], target->original_max[0],
+                target->original_max[1]);
+}
+
+/* Of a colour that can be changed; the weights of corrections follow from the edit. */
+static void print_parameter(FILE *out, const RetexParameter *parameter)
+{
+    char text[512];
+
+    if (parameter->kind == RETEX_PARAMETER_COLOR)
+        fprintf(out, "parameter %s\n  as rendered  %.6g %.6g %.6g\n", plain(text, parameter->name),
+                (double)parameter->value[0], (double)parameter->value[1], (double)parameter->value[2]);
 }
 
 /* Layout footprints: print the highest number of clusters per pixel and target, for any target. */
 static void print_clusters(FILE *out, const RetexSet *set)
 {
     int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0;
+    const RetexFootprint *footprint;
 
-    for (int i = 0; i < set->nfootprints; i++) {
-        const RetexFootprint *footprint = &set->footprints[i];
+    for (int i = 0; (footprint = retex_set_footprint(set, i)); i++) {
         sharp[footprint->target] += footprint->kind == RETEX_FOOTPRINT_SHARP;
         broad[footprint->target] += footprint->kind == RETEX_FOOTPRINT_BROAD;
     }
-    for (int i = 0; i < set->ntargets; i++) {
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++) {
         most_sharp = sharp[i] > most_sharp ? sharp[i] : most_sharp;
         most_broad = broad[i] > most_broad ? broad[i] : most_broad;
     }
@@ -126,38 +149,43 @@ static void print_clusters(FILE *out, const RetexSet *set)
 /* Warn of folded light, which does not follow a new texture: its path has more hits than the set keeps apart. */
 static void warn_folded(const Cli *cli, const RetexSet *set)
 {
-    const double worst = set->folded > set->folded_white ? set->folded : set->folded_white;
-    const char *advice = set->orders < RETEX_MAX_ORDERS ? "more --orders keep its hits apart"
-                         : set->ntargets > 1            ? "fewer targets may keep its hits apart"
+    const RetexSetInfo info = retex_set_info(set);
+    const double worst = info.folded > info.folded_white ? info.folded : info.folded_white;
+    const char *advice = info.orders < RETEX_MAX_ORDERS ? "more --orders keep its hits apart"
+                         : info.ntargets > 1            ? "fewer targets may keep its hits apart"
                                                         : "it has more hits than a set can keep apart";
 
     if (worst > 0.005)
         cli_warn(cli, "%.2f%% of the light%s keeps the original textures: %s", 100 * worst,
-                 set->folded < worst ? ", were the targets white," : "", advice);
+                 info.folded < worst ? ", were the targets white," : "", advice);
 }
 
 static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
 {
-    fprintf(out, "layout         %s\n", set->layout);
-    fprintf(out, "size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
-    fprintf(out, "samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
-    if (set->denoised)
+    const RetexSetInfo info = retex_set_info(set);
+    char text[512];
+    fprintf(out, "layout         %s\n", info.layout);
+    fprintf(out, "size           %d x %d pixels, %s filter\n", info.width, info.height, plain(text, info.filter));
+    fprintf(out, "samples        %d a pixel, seed %lu\n", info.spp, (unsigned long)info.seed);
+    if (info.denoised)
         fprintf(out, "denoised       yes\n");
     else
         fprintf(out, "denoise data   %s\n", retex_denoise_has_data(set) ? "yes" : "no");
-    fprintf(out, "orders         %d%s\n", set->orders, set->strict_paper ? " (strict)" : "");
-    fprintf(out, "folded         %.4f%% of the light", 100 * set->folded);
-    if (set->folded_white > 0)
-        fprintf(out, ", %.4f%% were the targets white", 100 * set->folded_white);
+    fprintf(out, "orders         %d%s\n", info.orders, info.strict_paper ? " (strict)" : "");
+    fprintf(out, "folded         %.4f%% of the light", 100 * info.folded);
+    if (info.folded_white > 0)
+        fprintf(out, ", %.4f%% were the targets white", 100 * info.folded_white);
     fprintf(out, "\n");
     print_clusters(out, set);
-    fprintf(out, "max depth      %d segments\n", set->max_depth);
-    if (set->scene[0])
-        fprintf(out, "scene          %s\n", set->scene);
-    if (set->generator[0])
-        fprintf(out, "generator      %s\n", set->generator);
-    for (int i = 0; i < set->ntargets; i++)
-        print_target(out, set, &set->targets[i]);
+    fprintf(out, "max depth      %d segments\n", info.max_depth);
+    if (info.scene[0])
+        fprintf(out, "scene          %s\n", plain(text, info.scene));
+    if (info.generator[0])
+        fprintf(out, "generator      %s\n", plain(text, info.generator));
+    for (int i = 0; i < info.nparameters; i++)
+        print_parameter(out, retex_set_parameter(set, i));
+    for (int i = 0; i < info.ntargets; i++)
+        print_target(out, set, retex_set_target(set, i));
     fprintf(out, "AOVs           %d: %d radiance, %d UV, %d spread\n",
             sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance_aovs, sizes->uv_aovs,
             sizes->spread_aovs);
@@ -165,15 +193,18 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
 
 static void print_samples(FILE *out, const RetexSamples *samples)
 {
+    const RetexSamplesInfo info = retex_samples_info(samples);
+    char name[512], texture[512];
     int count = 0;
 
-    for (int i = 0; i < samples->nimages; i++)
+    for (int i = 0; i < info.nfootprints; i++)
         count += retex_samples_have(samples, i);
-    fprintf(out, "samples of     %d footprints out of %d, %d x %d pixels\n", count, samples->nimages, samples->width,
-            samples->height);
-    for (int i = 0; i < samples->ntargets; i++)
-        if (samples->textures[i][0])
-            fprintf(out, "  %-12s %s\n", samples->target_names[i], samples->textures[i]);
+    fprintf(out, "samples of     %d footprints out of %d, %d x %d pixels\n", count, info.nfootprints, info.width,
+            info.height);
+    for (int i = 0; i < info.ntargets; i++)
+        if (*retex_samples_texture(samples, i))
+            fprintf(out, "  %-12s %s\n", plain(name, retex_samples_target(samples, i)),
+                    plain(texture, retex_samples_texture(samples, i)));
 }
 
 /* For a pack: print the sizes of its parts in the file. */
@@ -240,17 +271,6 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
     return CLI_OK;
 }
 
-/* Names in users' files must not send control characters to a terminal. */
-static void make_plain(RetexSet *set, RetexSamples *samples)
-{
-    for (int i = 0; set && i < set->ntargets; i++)
-        cli_plain(set->targets[i].name), cli_plain(set->targets[i].idents);
-    if (set)
-        cli_plain(set->scene), cli_plain(set->generator), cli_plain(set->filter);
-    for (int i = 0; samples && i < samples->ntargets; i++)
-        cli_plain(samples->target_names[i]), cli_plain(samples->textures[i]);
-}
-
 static int print_info(const Cli *cli, const char *path, int json)
 {
     RetexSet *set = NULL;
@@ -265,7 +285,6 @@ static int print_info(const Cli *cli, const char *path, int json)
     if (json) {
         status = print_json(cli, set, samples, &sizes);
     } else {
-        make_plain(set, samples);
         print_text(cli->answer, set, samples, &sizes);
     }
     if (set)

@@ -93,9 +93,10 @@ static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, Rete
         return code;
     double written = retex_clock_seconds();
 
+    const RetexSetInfo info = retex_set_info(*set);
     char text[2048];
-    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(*samples, text, sizeof text), (*set)->width,
-             (*set)->height, written - began);
+    cli_info(cli, "%s: %d x %d, %.2f s", texture_args_describe(*samples, text, sizeof text), info.width, info.height,
+             written - began);
     cli_detail(cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
     return RETEX_OK;
 }

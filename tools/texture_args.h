@@ -98,12 +98,13 @@ static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextur
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */
 static inline const char *texture_args_describe(const RetexSamples *samples, char *text, size_t size)
 {
+    const int ntargets = samples ? retex_samples_info(samples).ntargets : 0;
     size_t used = 0;
     text[0] = '\0';
-    for (int t = 0; samples && t < samples->ntargets && used < size; t++)
-        if (samples->textures[t][0])
-            used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", used ? ", " : "", samples->target_names[t],
-                                     samples->textures[t]);
+    for (int t = 0; t < ntargets && used < size; t++)
+        if (*retex_samples_texture(samples, t))
+            used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", used ? ", " : "",
+                                     retex_samples_target(samples, t), retex_samples_texture(samples, t));
     return used ? text : "original textures";
 }
 

@@ -348,8 +348,9 @@ int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexErr
     int index, code = retex_set_add_part(set, image->name, image->letters, image->type, 1, 1, &index, err);
     if (code)
         return code;
-    retex_image_free(&set->parts[index].image);
-    set->parts[index].image = image->whole;
+    RetexImage *moved = retex_set_mutable_image(set, index);
+    retex_image_free(moved);
+    *moved = image->whole;
     image->whole = (RetexImage){0};
     if (part)
         *part = index;

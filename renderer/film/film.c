@@ -438,15 +438,19 @@ long film_limited(const Film *film)
 
 /* ---- into a set ---- */
 
-static void name_targets(const Film *film, RetexSet *set)
+static int describe_split(const Film *film, RetexSet *set, RetexError *err)
 {
-    set->ntargets = film->scene->ntargets;
-    for (int t = 0; t < set->ntargets; t++) {
-        RetexTarget *target = &set->targets[t];
-        snprintf(target->name, sizeof target->name, "%s", film->scene->targets[t].name);
-        snprintf(target->idents, sizeof target->idents, "%s", film->scene->targets[t].idents);
-        target->original = -1;
+    RetexSetInfo info = retex_set_info(set);
+    info.orders = film->params.orders;
+    info.strict_paper = film->params.strict_paper;
+    int code = retex_set_describe(set, &info, err);
+    for (int t = 0; t < film->scene->ntargets && !code; t++) {
+        RetexTarget target = {.original = -1};
+        snprintf(target.name, sizeof target.name, "%s", film->scene->targets[t].name);
+        snprintf(target.idents, sizeof target.idents, "%s", film->scene->targets[t].idents);
+        code = retex_set_add_target(set, &target, NULL, err);
     }
+    return code;
 }
 
 static int finish_stats_of_all(const Film *film, RetexSet *set, RetexError *err)
@@ -472,8 +476,9 @@ static int finish_images(Film *film, RetexSet *set, RetexError *err)
 /* Which of the film's parts no pixel has. */
 static void find_empty(const Film *film, const RetexSet *set, char *empty)
 {
-    for (int i = 0; i < set->nparts; i++) {
-        int image = bands_find(film->bands, set->parts[i].name);
+    const RetexPart *part;
+    for (int i = 0; (part = retex_set_part(set, i)); i++) {
+        int image = bands_find(film->bands, part->name);
         empty[i] = image >= 0 && bands_is_empty(film->bands, image);
     }
 }
@@ -483,21 +488,21 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     char empty[BAND_IMAGES_MAX];
     if (film->failed)
         return retex_fail(err, film->error.code, "%s", film->error.message);
-    retex_image_free(&set->parts[0].image);
-    set->parts[0].image = film->beauty;
+    RetexImage *beauty = retex_set_mutable_image(set, 0);
+    retex_image_free(beauty);
+    *beauty = film->beauty;
     film->beauty = (RetexImage){0};
     retex_set_identify(set);
     if (film->params.split) {
-        set->orders = film->params.orders;
-        set->strict_paper = film->params.strict_paper;
-        name_targets(film, set);
-        int code = finish_stats_of_all(film, set, err);
+        int code = describe_split(film, set, err);
+        if (!code)
+            code = finish_stats_of_all(film, set, err);
         if (code)
             return code;
     }
     int code = finish_images(film, set, err);
     const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
-    if (!code && film->params.split && !set->strict_paper)
+    if (!code && film->params.split && !film->params.strict_paper)
         code = retex_set_add_term(set, &picture, NULL, err);
     if (!code && film->layout && film->layout->prunes) {
         find_empty(film, set, empty);
@@ -513,5 +518,5 @@ int film_move_image(Film *film, int image, RetexSet *set, RetexError *err)
 
 void film_move_store(Film *film, RetexSet *set)
 {
-    set->store = bands_take_store(film->bands);
+    retex_set_take_store(set, bands_take_store(film->bands));
 }

@@ -51,10 +51,9 @@ int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexEr
     int wanted[NOISE_SIGNALS_MAX], code = RETEX_OK;
     for (int k = 0; k < images->count; k++)
         wanted[k] = images->prunes;
-    for (int t = 0; t < set->nterms && !images->prunes; t++) {
-        const RetexTerm *term = &set->terms[t];
+    const RetexTerm *term;
+    for (int t = 0; !images->prunes && (term = retex_set_term(set, t)); t++)
         wanted[retex_term_hits(term) ? 1 + term->target : 0] = 1;
-    }
     for (int k = 0; k < images->count && !code; k++)
         if (wanted[k])
             code = bands_move_part(bands, images->of[k], set, NULL, err);

@@ -79,7 +79,7 @@ enum { PICTURES = 1 + RETEX_AOV_COUNT };
 
 static const char *name_of(int picture)
 {
-    return picture ? retex_aovs[picture - 1].name : "beauty";
+    return picture ? retex_aov_info(picture - 1)->name : "beauty";
 }
 
 int aov_files_path(char *path, size_t size, const char *folder, int k)
@@ -106,10 +106,10 @@ static int write_picture(const RetexSet *set, const char *folder, int k, int nth
 {
     const RetexAov aov = (RetexAov)(k - 1);
     const int part = k ? retex_set_find_part(set, name_of(k)) : 0, is_color = k == 0 || retex_aov_is_color(aov),
-              is_number = k && retex_aovs[aov].shown == RETEX_AOV_NUMBER;
+              is_number = k && retex_aov_info(aov)->shown == RETEX_AOV_NUMBER;
     if (part < 0)
         return RETEX_OK;
-    const RetexImage *image = &set->parts[part].image;
+    const RetexImage *image = &retex_set_part(set, part)->image;
     char path[4096];
     RetexImage shown = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
@@ -118,8 +118,8 @@ static int write_picture(const RetexSet *set, const char *folder, int k, int nth
     int code = retex_image_write(image, path, &params, nthreads, err);
     if (!code)
         code = is_number ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
-    if (!code && k && encoders[retex_aovs[aov].shown])
-        encoders[retex_aovs[aov].shown](&shown);
+    if (!code && k && encoders[retex_aov_info(aov)->shown])
+        encoders[retex_aov_info(aov)->shown](&shown);
     params.colorspace = k == 0 ? NULL : is_color ? "sRGB" : "raw"; /* NULL: the display transform */
     aov_files_path(path, sizeof path, folder, 2 * k + 1);
     if (!code)

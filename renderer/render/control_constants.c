@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/combine.h>
+#include <retex/host/set_build.h>
 #include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
-#include <retex/samples.h>
 #include "camera/camera.h"
 #include "render/control_constants.h"
 #include "path/path.h"
@@ -14,11 +14,12 @@ enum { GRID = 3, MEANS = 32 }; /* per side: rays of a pixel, and texels of a tar
 
 int control_constants_fit(const Scene *scene, const RetexSet *set)
 {
-    if (!set->nterms || set->strict_paper || set->folded > FOLDED_MAX || set->ntargets != scene->ntargets)
+    const RetexSetInfo info = retex_set_info(set);
+    if (!info.nterms || info.strict_paper || info.folded > FOLDED_MAX || info.ntargets != scene->ntargets)
         return 0;
     for (int t = 0; t < scene->ntargets; t++) {
         int found = retex_set_find_target(set, scene->targets[t].name);
-        if (found < 0 || strcmp(set->targets[found].idents, scene->targets[t].idents))
+        if (found < 0 || strcmp(retex_set_target(set, found)->idents, scene->targets[t].idents))
             return 0;
     }
     return 1;
@@ -81,7 +82,7 @@ int control_constants(RetexImage *colors, const FirstHitWindow *window, const Re
     ColorJob job = {.window = window, .colors = colors};
     int code = RETEX_OK;
     for (int t = 0; t < scene->ntargets && !code; t++) {
-        const RetexTarget *target = &set->targets[retex_set_find_target(set, scene->targets[t].name)];
+        const RetexTarget *target = retex_set_target(set, retex_set_find_target(set, scene->targets[t].name));
         job.means[t] = target_mean(target, window->variants[0].textures[t]);
         code = retex_image_alloc(&colors[t], window->w, window->h, 3, err);
     }
@@ -101,11 +102,12 @@ int control_constants_combine(RetexImage *dst, const RetexSet *set, const Scene 
         specs[t].constant = 1;
     }
     int code = retex_sample(&samples, set, specs, scene->ntargets, nthreads, err);
-    for (int k = 0; k < set->nfootprints && !code; k++)
+    const RetexFootprint *footprint;
+    for (int k = 0; !code && (footprint = retex_set_footprint(set, k)); k++)
         for (int t = 0; t < scene->ntargets; t++)
-            if (!strcmp(set->targets[set->footprints[k].target].name, scene->targets[t].name))
-                memcpy(samples->images[k].pixels, colors[t].pixels,
-                       (size_t)set->width * (size_t)set->height * 3 * sizeof(float));
+            if (!strcmp(retex_set_target(set, footprint->target)->name, scene->targets[t].name))
+                memcpy(retex_samples_mutable_image(samples, k)->pixels, colors[t].pixels,
+                       (size_t)colors[t].width * (size_t)colors[t].height * 3 * sizeof(float));
     if (!code)
         code = retex_combine(dst, set, samples, NULL, NULL, nthreads, err);
     retex_samples_close(&samples);

@@ -15,11 +15,8 @@ typedef struct Control {
 
 static const RetexImage *find_image(const RetexSet *set, const char *name)
 {
-    int part = retex_set_find_part(set, name);
-    if (part < 0 || set->parts[part].image.channels != 3 || set->parts[part].image.width != set->width ||
-        set->parts[part].image.height != set->height)
-        return NULL;
-    return &set->parts[part].image;
+    const RetexPart *part = retex_set_part(set, retex_set_find_part(set, name));
+    return part && part->image.channels == 3 && retex_set_scale(set, &part->image) == 1 ? &part->image : NULL;
 }
 
 /* Number of the window's columns (rows) that are inside an image of this width (height). */
@@ -99,9 +96,9 @@ static void add_estimate(RetexImage *dst, const ControlMoments *m, const RetexIm
 static int from_all(RetexImage *dst, const ControlMoments *m, int samples, const RetexSet *set, int others_only,
                     RetexError *err)
 {
-    Control control = {&set->parts[0].image, find_image(set, "variance")};
+    Control control = {&retex_set_part(set, 0)->image, find_image(set, "variance")};
     RetexImage alpha = {0};
-    int code = find_alpha(&alpha, m, samples, samples, &control, 1, set->spp, others_only, err);
+    int code = find_alpha(&alpha, m, samples, samples, &control, 1, retex_set_info(set).spp, others_only, err);
     if (!code)
         add_estimate(dst, m, &alpha, control.mean, 1);
     retex_image_free(&alpha);
@@ -119,11 +116,12 @@ static int from_halves(RetexImage *dst, ControlMoments *const *moments, const in
         halves &= controls[h].mean && controls[h].variance;
     }
     for (int h = 0; h < 2 && !halves; h++) /* no variance from the same samples: it correlates with the beauty image */
-        controls[h] = (Control){&set->parts[0].image, NULL};
+        controls[h] = (Control){&retex_set_part(set, 0)->image, NULL};
     for (int h = 0; h < 2 && !code; h++) {
         RetexImage alpha = {0};
         int other = 1 - h;
-        code = find_alpha(&alpha, moments[other], samples[other], total, &controls[other], 0.5, set->spp, 0, err);
+        code = find_alpha(&alpha, moments[other], samples[other], total, &controls[other], 0.5, retex_set_info(set).spp,
+                          0, err);
         if (!code)
             add_estimate(dst, moments[h], &alpha, controls[h].mean, (double)samples[h] / total);
         retex_image_free(&alpha);
@@ -142,9 +140,9 @@ static int from_both(RetexImage *dst, const ControlMoments *m, int samples, cons
     int code = RETEX_OK;
     for (int k = 0; k < 5 && !code; k++)
         code = smooth(&c[k], &m->covariance[control_pair(pairs[k][0], pairs[k][1])], 1, err);
-    double share = 1 / (1 + (double)samples / set->spp);
+    double share = 1 / (1 + (double)samples / retex_set_info(set).spp);
     const float *f1 = m->mean[REPLACED].pixels, *f0 = m->mean[ORIGINAL].pixels, *fc = m->mean[CONSTANT].pixels,
-                *g0 = set->parts[0].image.pixels, *gc = combined->pixels;
+                *g0 = retex_set_part(set, 0)->image.pixels, *gc = combined->pixels;
     size_t count = (size_t)dst->width * (size_t)dst->height * 3;
     for (size_t i = 0; i < count && !code; i++) {
         double r0 = c[0].pixels[i], rc = c[1].pixels[i], v0 = c[2].pixels[i] * (1 + RIDGE), v0c = c[3].pixels[i],
@@ -165,7 +163,8 @@ static int from_both(RetexImage *dst, const ControlMoments *m, int samples, cons
 int control_variate(RetexImage *dst, ControlMoments *const *moments, const int *samples, const RetexSet *set,
                     const RetexImage *combined, ControlMode mode, RetexError *err)
 {
-    int code = retex_image_alloc(dst, set->width, set->height, 3, err);
+    const RetexSetInfo info = retex_set_info(set);
+    int code = retex_image_alloc(dst, info.width, info.height, 3, err);
     if (!code)
         code = mode == CONTROL_HALVES ? from_halves(dst, moments, samples, set, err)
                : combined             ? from_both(dst, moments[0], samples[0], set, combined, err)
@@ -178,13 +177,14 @@ int control_variate(RetexImage *dst, ControlMoments *const *moments, const int *
 double control_distance(ControlMoments *const *moments, const int *samples, int nhalves, const RetexSet *set)
 {
     double difference = 0, variance = 0, total = nhalves > 1 ? samples[0] + samples[1] : samples[0];
-    const RetexImage *g = &set->parts[0].image;
+    const RetexImage *g = &retex_set_part(set, 0)->image;
+    const int spp = retex_set_info(set).spp;
     for (size_t i = 0; i < (size_t)g->width * (size_t)g->height * 3; i++) {
         double f0 = 0;
         for (int h = 0; h < nhalves; h++) {
             double share = samples[h] / total, own = moments[h]->covariance[control_pair(ORIGINAL, ORIGINAL)].pixels[i];
             f0 += share * moments[h]->mean[ORIGINAL].pixels[i];
-            variance += share * share * own * (1 + total / set->spp);
+            variance += share * share * own * (1 + total / spp);
         }
         difference += f0 - g->pixels[i];
     }
@@ -195,7 +195,7 @@ static int add_image(RetexSet *set, const char *name, const RetexImage *image, R
 {
     int part, code = retex_set_add_part(set, name, "RGB", RETEX_FLOAT, 0, 0, &part, err);
     if (!code)
-        memcpy(set->parts[part].image.pixels, image->pixels,
+        memcpy(retex_set_mutable_image(set, part)->pixels, image->pixels,
                (size_t)image->width * (size_t)image->height * 3 * sizeof(float));
     return code;
 }
@@ -207,8 +207,9 @@ int control_data_add(RetexSet *set, ControlMoments *const *moments, const int *s
     int part, code = retex_set_add_part(set, "variance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
     for (int h = 0; h < nhalves && !code; h++) {
         const float *own = moments[h]->covariance[0].pixels;
-        float *sum = set->parts[part].image.pixels, share = (float)(samples[h] / total);
-        for (size_t i = 0; i < (size_t)set->width * (size_t)set->height * 3; i++)
+        const RetexImage *variance = retex_set_mutable_image(set, part);
+        float *sum = variance->pixels, share = (float)(samples[h] / total);
+        for (size_t i = 0; i < (size_t)variance->width * (size_t)variance->height * 3; i++)
             sum[i] += share * share * own[i];
         if (nhalves > 1 && !(code = add_image(set, names[h][0], &moments[h]->mean[0], err)))
             code = add_image(set, names[h][1], &moments[h]->covariance[0], err);

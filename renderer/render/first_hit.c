@@ -137,7 +137,7 @@ static void aov_row(void *context, int y, int thread)
             shading_each_leaf(w->scene, w->variants, &ray, &hit, add_leaf, &pixel);
         for (int k = 0; k < RETEX_AOV_COUNT; k++) {
             RetexImage *image = job->images[k];
-            const float nothing[3] = {retex_aovs[k].nothing, retex_aovs[k].nothing, retex_aovs[k].nothing};
+            const float empty = retex_aov_info(k)->nothing, nothing[3] = {empty, empty, empty};
             if (image)
                 memcpy(image->pixels + retex_image_index(image, x, y), is_hit ? pixel.values[k] : nothing,
                        (size_t)image->channels * sizeof *nothing);
@@ -147,7 +147,7 @@ static void aov_row(void *context, int y, int thread)
 
 int first_hit_add_aov(RetexSet *set, RetexAov aov, int *part, RetexError *err)
 {
-    const RetexAovInfo *info = &retex_aovs[aov];
+    const RetexAovInfo *info = retex_aov_info(aov);
     return retex_set_add_part(set, info->name, info->letters, info->type, 0, 0, part, err);
 }
 
@@ -164,7 +164,7 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
     }
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
         if (parts[k] >= 0)
-            job.images[k] = &set->parts[parts[k]].image, wanted = 1;
+            job.images[k] = retex_set_mutable_image(set, parts[k]), wanted = 1;
     if (wanted)
         retex_parallel(window->nthreads, window->h, aov_row, &job);
     return RETEX_OK;
@@ -310,9 +310,10 @@ int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *e
 {
     double shares[RETEX_MAX_TARGETS] = {0};
     int code = count_shares(window, window->scene->ntargets, 0, shares, err);
-    for (int t = 0; t < set->ntargets; t++) {
-        set->targets[t].share = shares[t];
-        target_periodic(window->scene, t, set->targets[t].periodic);
+    RetexTarget *target;
+    for (int t = 0; (target = retex_set_mutable_target(set, t)); t++) {
+        target->share = shares[t];
+        target_periodic(window->scene, t, target->periodic);
     }
     return code;
 }

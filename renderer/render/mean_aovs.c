@@ -2,6 +2,7 @@
  *
  * They have no noise but that of the sample points, which are the picture's own: an edge, a texture or a lens blurs
  * both in the same way. */
+#include <retex/host/set_build.h>
 #include <retex/parallel.h>
 #include "render/mean_aovs.h"
 
@@ -84,7 +85,7 @@ int mean_aovs_add(RetexSet *set, const Render *r, unsigned aovs, RetexError *err
             return code;
     }
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
-        job.images[k] = parts[k] >= 0 ? &set->parts[parts[k]].image : NULL;
+        job.images[k] = parts[k] >= 0 ? retex_set_mutable_image(set, parts[k]) : NULL;
     retex_parallel(r->params.nthreads, r->h, mean_row, &job);
     return render_is_stopped(r) ? retex_budget_check(r->params.budget, err) : RETEX_OK;
 }

@@ -111,7 +111,7 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
     if (!pigment || !is_function_of_uv(p, pigment))
         return RETEX_OK;
     const int axis = baked_axis(p, pigment);
-    RetexTarget *target = &set->targets[t];
+    RetexTarget *target = retex_set_mutable_target(set, t);
     for (int k = 0; k < 2; k++) {
         int whole = pigment->kind == PIGMENT_IMAGE || !(target->uv_max[k] > target->uv_min[k]);
         target->original_min[k] = whole ? 0 : target->uv_min[k];
@@ -126,7 +126,7 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
     if (code)
         return code;
     target->original = part;
-    return fill_original(&set->parts[part].image, pigment, axis < 0 ? 1 : axis, target, nthreads, err);
+    return fill_original(retex_set_mutable_image(set, part), pigment, axis < 0 ? 1 : axis, target, nthreads, err);
 }
 
 int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *err)

@@ -17,16 +17,18 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     int code = retex_set_create(set, r->w, r->h, err);
     if (code)
         return code;
-    RetexSet *s = *set;
-    if (s->nparts == 0 && (code = retex_set_add_part(s, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err)))
+    code = retex_set_add_part(*set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err);
+    if (code)
         return code;
     const char *name = strrchr(r->scene->path, '/');
-    snprintf(s->layout, sizeof s->layout, "%s", r->context.split ? render_layout(&r->params)->name : "plain");
-    snprintf(s->filter, sizeof s->filter, "%s", r->params.gaussian ? "gaussian" : "box");
-    snprintf(s->scene, sizeof s->scene, "%.255s", name ? name + 1 : r->scene->path);
-    snprintf(s->generator, sizeof s->generator, "retex-render " RETEX_VERSION);
-    s->orders = r->params.orders, s->spp = r->params.spp, s->max_depth = r->params.max_depth, s->seed = r->params.seed;
-    return RETEX_OK;
+    RetexSetInfo info = retex_set_info(*set);
+    info.layout = r->context.split ? render_layout(&r->params)->name : "plain";
+    info.filter = r->params.gaussian ? "gaussian" : "box";
+    info.scene = name ? name + 1 : r->scene->path;
+    info.generator = "retex-render " RETEX_VERSION;
+    info.orders = r->params.orders, info.spp = r->params.spp;
+    info.max_depth = r->params.max_depth, info.seed = r->params.seed;
+    return retex_set_describe(*set, &info, err);
 }
 
 /* The part `irradiance`: a separate pass with its own samples, at the first hits of the pixel centres. */
@@ -61,7 +63,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     if (!code)
         code = first_hit_add_aov(set, RETEX_AOV_IRRADIANCE, &part, err);
     for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
-        set->parts[part].image.pixels[i] = (float)PI * found->parts[0].image.pixels[i];
+        retex_set_mutable_image(set, part)->pixels[i] = (float)PI * retex_set_part(found, 0)->image.pixels[i];
     render_close_films(&pass);
     retex_set_close(&found);
     return code;
@@ -71,12 +73,13 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 static long limit_numbers(RetexSet *set)
 {
     long replaced = 0;
-    for (int k = 0; k < set->nparts; k++) {
-        const RetexImage *im = &set->parts[k].image;
-        const int aov = retex_aov_find(set->parts[k].name);
+    const RetexPart *part;
+    for (int k = 0; (part = retex_set_part(set, k)); k++) {
+        const RetexImage *im = retex_set_mutable_image(set, k);
+        const int aov = retex_aov_find(part->name);
         if (im->pixels)
             replaced += film_limit_numbers(im->pixels, (size_t)im->width * (size_t)im->height * (size_t)im->channels,
-                                           aov >= 0 && isinf(retex_aovs[aov].nothing));
+                                           aov >= 0 && isinf(retex_aov_info(aov)->nothing));
     }
     return replaced;
 }
@@ -98,8 +101,9 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     double scales[RETEX_MAX_TARGETS][2];
     if (!code && r->context.split)
         code = uv_scale_measure(r->scene, r->accel, scales, err);
-    for (int t = 0; t < set->ntargets && !code; t++)
-        memcpy(set->targets[t].uv_scale, scales[t], sizeof scales[t]);
+    RetexTarget *target;
+    for (int t = 0; !code && (target = retex_set_mutable_target(set, t)); t++)
+        memcpy(target->uv_scale, scales[t], sizeof scales[t]);
     if (!code && r->context.split)
         code = originals_add(set, r->scene, r->params.nthreads, err);
     if (!code)

@@ -45,23 +45,24 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
 /* Fails if the set does not belong to the same image. */
 static int check_control(const Render *r, const RetexSet *set, RetexError *err)
 {
+    const RetexSetInfo info = retex_set_info(set);
     const char *slash = strrchr(r->scene->path, '/'), *scene = slash ? slash + 1 : r->scene->path;
-    if (set->width != r->w || set->height != r->h)
-        return retex_fail(err, RETEX_EINVAL, "the set is %dx%d, this picture %dx%d", set->width, set->height, r->w,
+    if (info.width != r->w || info.height != r->h)
+        return retex_fail(err, RETEX_EINVAL, "the set is %dx%d, this picture %dx%d", info.width, info.height, r->w,
                           r->h);
-    if (strncmp(set->scene, scene, sizeof set->scene - 1))
-        return retex_fail(err, RETEX_EINVAL, "the set is of %s, this is %s", set->scene, scene);
-    if (strcmp(set->filter, r->params.gaussian ? "gaussian" : "box"))
-        return retex_fail(err, RETEX_EINVAL, "the set has the pixel filter %s, this picture another", set->filter);
-    if (set->max_depth != r->params.max_depth)
+    if (strncmp(info.scene, scene, RETEX_SCENE_MAX - 1))
+        return retex_fail(err, RETEX_EINVAL, "the set is of %s, this is %s", info.scene, scene);
+    if (strcmp(info.filter, r->params.gaussian ? "gaussian" : "box"))
+        return retex_fail(err, RETEX_EINVAL, "the set has the pixel filter %s, this picture another", info.filter);
+    if (info.max_depth != r->params.max_depth)
         return retex_fail(err, RETEX_EINVAL, "the set has paths of up to %d segments, this picture of up to %d",
-                          set->max_depth, r->params.max_depth);
-    for (int t = 0; set->ntargets && t < r->scene->ntargets; t++)
+                          info.max_depth, r->params.max_depth);
+    for (int t = 0; info.ntargets && t < r->scene->ntargets; t++)
         if (retex_set_find_target(set, r->scene->targets[t].name) < 0)
             return retex_fail(err, RETEX_EINVAL, "the set has no target `%s`", r->scene->targets[t].name);
-    if (set->seed == r->params.seed)
+    if (info.seed == r->params.seed)
         return retex_fail(err, RETEX_EINVAL, "the set has the same seed, %u: the new samples must have other noise",
-                          (unsigned)set->seed);
+                          (unsigned)info.seed);
     return RETEX_OK;
 }
 

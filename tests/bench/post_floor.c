@@ -14,6 +14,7 @@
 #include <retex/set_file.h>
 
 #include "set/rows.h"
+#include "set/set.h"
 
 typedef struct Floor {
     const RetexSet *set;

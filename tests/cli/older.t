@@ -31,9 +31,13 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_estimate_error: ok
 > retex_sample_textures: ok
 > retex_sample: ok
+> retex_samples_get_info: 48 x 32
 > retex_combine: ok
 > retex_image_write: ok
 > retex_texture_create: ok
+> retex_set_get_info: 48 x 32, paper, lib_test
+> retex_set_describe: ok
+> retex_set_describe: older
 > retex_set_write: ok
 > retex_pack_write: ok
 > retex_web_write: this set cannot be written for browsers: its layout is not footprints

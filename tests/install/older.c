@@ -2,6 +2,7 @@
  * library's: shorten.py makes such headers. It hands one to each call that takes one, at the end of a page after which
  * nothing may be read or written, and the names of the calls and their results are printed.
  * older SET TARGET=IMAGE FOLDER */
+#include <retex/host/set_build.h>
 #include <retex/retex.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -130,6 +131,9 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
     retex_samples_close(&samples);
     CALL(retex_sample, &samples, set, specs, 2, 1);
+    RetexSamplesInfo *info = OLDER(RetexSamplesInfo, {.size = sizeof(RetexSamplesInfo)});
+    retex_samples_get_info(samples, info);
+    printf("retex_samples_get_info: %d x %d\n", info->width, info->height);
     CALL(retex_combine, &picture, set, samples, params, NULL, 1);
     CALL(retex_image_write, &picture, written, NULL, 1);
     CALL(retex_texture_create, &texture, &picture, spec, 1);
@@ -143,6 +147,12 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
 static void call_sets(RetexSet *set, const char *folder)
 {
     char path[1024];
+    RetexSetInfo *info = OLDER(RetexSetInfo, {.size = sizeof(RetexSetInfo)});
+    retex_set_get_info(set, info);
+    printf("retex_set_get_info: %d x %d, %s, %s\n", info->width, info->height, info->layout, info->generator);
+    info->generator = "older";
+    CALL(retex_set_describe, set, info);
+    printf("retex_set_describe: %s\n", retex_set_info(set).generator);
     snprintf(path, sizeof path, "%s/set.exr", folder);
     CALL(retex_set_write, set, NULL, path, OLDER(RetexStoreParams, RETEX_STORE_INIT), 1);
     snprintf(path, sizeof path, "%s/set.retex", folder);

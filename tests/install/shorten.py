@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 STRUCT = re.compile(r"typedef struct (Retex\w+) \{\s*size_t size;(.*?)\} \1;\s*"
-                    r"#define (RETEX_\w+_INIT)((?:[^\n]*\\\n)*[^\n]*)", re.S)
+                    r"(?:#define (RETEX_\w+_INIT)((?:[^\n]*\\\n)*[^\n]*))?", re.S)
 
 
 def split(text, separator):
@@ -39,9 +39,12 @@ def shorten(text, lost):
     def replace(match):
         name, body, macro, init = match.groups()
         kept = members(body)[:-lost[name]] if lost[name] else members(body)
+        shorter = "".join(f"{one.strip()};\n" for one in ["size_t size", *kept])
+        shorter = f"typedef struct {name} {{\n{shorter}}} {name};\n"
+        if not macro:  # what the library fills
+            return shorter
         values = split(init.replace("\\\n", " ").strip()[1:-1], ",")[:1 + len(kept)]
-        return (f"typedef struct {name} {{\nsize_t size;\n" + "".join(f"{one.strip()};\n" for one in kept) +
-                f"}} {name};\n#define {macro} {{ {','.join(values)} }}\n")
+        return shorter + f"#define {macro} {{ {','.join(values)} }}\n"
     return STRUCT.sub(replace, text)
 
 

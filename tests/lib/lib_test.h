@@ -20,6 +20,8 @@
 #include <retex/host/uv_stats.h>
 #include <retex/retex.h>
 
+#include "set/samples.h" /* tests look into sets */
+
 /* The next number of a repeatable sequence, uniform in [0,1). *state is its seed. */
 double test_random(uint32_t *state);
 

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "set/samples.h"
+
 int main(int argc, char **argv)
 {
     RetexError err;

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "set/samples.h"
+
 int main(int argc, char **argv)
 {
     RetexError err = {0};

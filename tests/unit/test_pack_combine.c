@@ -46,7 +46,7 @@ static void round_picture(RetexSet *set)
     const size_t width = 3 * (size_t)part->image.width;
     uint16_t halves[3 * 64];
     for (int y = 0; y < part->image.height && part->type == RETEX_HALF; y++) {
-        retex_part_stored_row(part, y, halves);
+        retex_image_stored_row(&part->image, part->type, y, halves);
         retex_half_to_float(part->image.pixels + width * (size_t)y, halves, width);
     }
 }

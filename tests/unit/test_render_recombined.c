@@ -8,6 +8,7 @@
 #include <retex/combine.h>
 #include <retex/samples.h>
 #include "lib_stage.h"
+#include "set/samples.h"
 
 static void bits_do_not_depend_on_threads(void **state)
 {

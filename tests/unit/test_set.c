@@ -316,6 +316,74 @@ static void test_samples_of_another_set(void **state)
 }
 
 /* What rows are as they are stored, and their checksums, tell of the same samples as a file. */
+/* Each member has a value of its own, there and back. */
+static void test_description_there_and_back(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(5, 4, 1);
+    char layout[] = "plain", filter[] = "gaussian", generator[] = "test 2", scene[300];
+    RetexError err = {0};
+    memset(scene, 's', sizeof scene - 1);
+    scene[sizeof scene - 1] = '\0';
+    RetexSetInfo info = retex_set_info(set);
+    const RetexSetInfo before = info;
+    assert_string_equal(info.layout, "paper");
+    info.width = info.height = info.ntargets = info.nparts = 99; /* which it does not take over */
+    info.layout = layout, info.filter = filter, info.scene = scene, info.generator = generator;
+    info.orders = 1, info.spp = 2, info.max_depth = 3, info.seed = 4, info.denoised = 5, info.strict_paper = 6;
+    info.folded = 0.7, info.folded_white = 0.8;
+    test_must(retex_set_describe(set, &info, &err), &err);
+    memset(layout, 0, sizeof layout); /* texts are copied */
+    for (int again = 0; again < 2; again++) {
+        info = retex_set_info(set);
+        assert_int_equal(info.width, before.width);
+        assert_int_equal(info.height, before.height);
+        assert_int_equal(info.id, before.id);
+        assert_int_equal(info.ntargets, before.ntargets);
+        assert_int_equal(info.nparts, before.nparts);
+        assert_string_equal(info.layout, "plain");
+        assert_string_equal(info.filter, "gaussian");
+        assert_string_equal(info.generator, "test 2");
+        assert_int_equal(strlen(info.scene), RETEX_SCENE_MAX - 1);
+        assert_int_equal(info.orders, 1);
+        assert_int_equal(info.spp, 2);
+        assert_int_equal(info.max_depth, 3);
+        assert_int_equal(info.seed, 4);
+        assert_int_equal(info.denoised, 5);
+        assert_int_equal(info.strict_paper, 6);
+        assert_true(info.folded == 0.7 && info.folded_white == 0.8);
+        test_must(retex_set_describe(set, &info, &err), &err); /* with the set's own texts */
+    }
+    info.size = 3;
+    assert_int_equal(retex_set_describe(set, &info, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+#define EXPECT_ELEMENTS(set, call, array, count)                                                                       \
+    do {                                                                                                               \
+        assert_int_not_equal(count, 0);                                                                                \
+        for (int i = 0; i < (count); i++)                                                                              \
+            assert_ptr_equal(call(set, i), &(set)->array[i]);                                                          \
+        assert_null(call(set, -1));                                                                                    \
+        assert_null(call(set, count));                                                                                 \
+    } while (0)
+
+static void test_elements_are_the_set_s(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(5, 4, 1);
+    test_make_footprints(set);
+    test_add_lamp(set, "Lamp");
+    const RetexSetInfo info = retex_set_info(set);
+    EXPECT_ELEMENTS(set, retex_set_target, targets, info.ntargets);
+    EXPECT_ELEMENTS(set, retex_set_footprint, footprints, info.nfootprints);
+    EXPECT_ELEMENTS(set, retex_set_mixture, mixtures, info.nmixtures);
+    EXPECT_ELEMENTS(set, retex_set_term, terms, info.nterms);
+    EXPECT_ELEMENTS(set, retex_set_parameter, parameters, info.nparameters);
+    EXPECT_ELEMENTS(set, retex_set_part, parts, info.nparts);
+    retex_set_close(&set);
+}
+
 static void test_stored_rows(void **state)
 {
     (void)state;
@@ -336,7 +404,7 @@ static void test_stored_rows(void **state)
         uint16_t halves[4 * 64];
         float floats[4 * 64];
         assert_int_equal(of->crc == read->parts[i].crc, i != part);
-        retex_part_stored_row(of, 0, of->type == RETEX_HALF ? (void *)halves : floats);
+        retex_image_stored_row(&of->image, of->type, 0, of->type == RETEX_HALF ? (void *)halves : floats);
         if (of->type == RETEX_HALF)
             retex_half_to_float(floats, halves, (size_t)count);
         if (i == part)
@@ -361,6 +429,8 @@ int main(void)
         cmocka_unit_test(test_names_are_checked),
         cmocka_unit_test(test_samples_of_another_set),
         cmocka_unit_test(test_stored_rows),
+        cmocka_unit_test(test_description_there_and_back),
+        cmocka_unit_test(test_elements_are_the_set_s),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

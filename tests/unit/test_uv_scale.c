@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include "render/render.h"
 #include "sdl/sdl.h"
+#include "set/samples.h"
 
 /* A scene with targets A and B, where it declares them. */
 static Scene *read_scene(const char *text, const char *const *targets, int ntargets)

@@ -78,10 +78,10 @@ int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count,
     RetexTextureSpec colors[RETEX_MAX_TARGETS];
     for (int i = 0; i < count; i++) {
         const int t = retex_set_find_target(set, specs[i].target);
-        if (t >= 0 && retex_texture_spec_needs_scale(&specs[i]) && !(set->targets[t].uv_scale[0] > 0))
-            return retex_fail(
-                err, RETEX_EINVAL,
-                "the size of target %s is not known: width= cannot be used on it, only scale=", set->targets[t].name);
+        if (t >= 0 && retex_texture_spec_needs_scale(&specs[i]) && !(retex_set_target(set, t)->uv_scale[0] > 0))
+            return retex_fail(err, RETEX_EINVAL,
+                              "the size of target %s is not known: width= cannot be used on it, only scale=",
+                              retex_set_target(set, t)->name);
         colors[i] = specs[i];
         colors[i].constant = 1;
         colors[i].warn = NULL; /* warnings come when it is loaded for the picture */
@@ -93,17 +93,18 @@ int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count,
 
 void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS])
 {
+    const int ntargets = retex_set_info(job->set).ntargets;
     int edited[RETEX_MAX_TARGETS] = {0}, count = 0;
-    for (int t = 0; t < job->set->ntargets; t++)
-        edited[t] = job->samples && job->samples->textures[t][0];
+    for (int t = 0; t < ntargets; t++)
+        edited[t] = job->samples && *retex_samples_texture(job->samples, t);
     for (int i = 0; i < nspecs; i++) {
         const int t = retex_set_find_target(job->set, specs[i].target);
         if (t >= 0)
             edited[t] = 1;
     }
-    for (int t = 0; t < job->set->ntargets; t++)
+    for (int t = 0; t < ntargets; t++)
         count += edited[t];
-    for (int t = 0; t < job->set->ntargets && retex_correction_weight(job->set->ntargets, count) > 0; t++)
+    for (int t = 0; t < ntargets && retex_correction_weight(ntargets, count) > 0; t++)
         corrected[t] |= edited[t];
 }
 

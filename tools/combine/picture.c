@@ -12,17 +12,18 @@
 
 int job_describe(const Job *job, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS])
 {
+    const RetexTarget *target;
     int found = 0;
-    for (int t = 0; t < job->set->ntargets; t++) {
+    for (int t = 0; (target = retex_set_target(job->set, t)); t++) {
         const RetexTextureSpec *spec = NULL;
-        const char *sampled = job->samples ? job->samples->textures[t] : "";
+        const char *sampled = job->samples ? retex_samples_texture(job->samples, t) : "";
         for (int i = 0; i < count; i++)
             if (retex_set_find_target(job->set, specs[i].target) == t)
                 spec = &specs[i];
         if (!spec && !sampled[0])
             continue;
         BatchTexture *texture = &textures[found++];
-        texture->target = job->set->targets[t].name;
+        texture->target = target->name;
         if (spec)
             retex_edit_image_text(spec, texture->texture, sizeof texture->texture);
         else
@@ -67,7 +68,8 @@ static int write_error_rows(void *context, int y0, int y1, const float *rows, Re
 /* Compute and write the expected error; text gets its root mean square. */
 static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
 {
-    const int width = job->set->width, height = job->set->height;
+    const RetexSetInfo info = retex_set_info(job->set);
+    const int width = info.width, height = info.height;
     const int bands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
     ErrorPicture error = {NULL, calloc((size_t)bands, sizeof *error.squares), (size_t)width};
     double squares = 0;
@@ -87,6 +89,7 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
 
 int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
 {
+    const RetexSetInfo info = retex_set_info(job->set);
     RetexPicture *picture = NULL;
     struct stat old;
     char text[2048], expected[64] = "";
@@ -95,7 +98,7 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     if (code)
         return code;
     watchdog_remove(is_new ? job->error : NULL);
-    code = retex_picture_open(&picture, output, job->set->width, job->set->height, 3, &job->write, err);
+    code = retex_picture_open(&picture, output, info.width, info.height, 3, &job->write, err);
     if (!code)
         code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
                                err);
@@ -107,18 +110,18 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     if (code)
         return code;
     cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-             describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
-             retex_clock_seconds() - began);
+             describe(job, row, text, sizeof text), info.width, info.height, expected, retex_clock_seconds() - began);
     return RETEX_OK;
 }
 
 int job_try_picture(const Cli *cli, Job *job, const Row *row, const char *output, size_t *bytes, RetexError *err)
 {
+    const RetexSetInfo info = retex_set_info(job->set);
     RetexPicture *picture = NULL;
     const char *ending = strrchr(output, '.');
     void *data = NULL;
-    int code = retex_picture_open_memory(&picture, ending ? ending + 1 : "exr", job->set->width, job->set->height, 3,
-                                         &job->write, err);
+    int code =
+        retex_picture_open_memory(&picture, ending ? ending + 1 : "exr", info.width, info.height, 3, &job->write, err);
     if (!code)
         code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
                                err);

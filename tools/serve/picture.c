@@ -52,15 +52,17 @@ static int write_rows(void *context, int y0, int y1, const float *rows, RetexErr
 
 static int is_whole(const PicturePlan *plan)
 {
+    const RetexSetInfo info = retex_set_info(plan->set);
     const ServePlace *p = &plan->place;
-    return p->width == plan->set->width && p->height == plan->set->height && p->scaled_width == p->width &&
+    return p->width == info.width && p->height == info.height && p->scaled_width == p->width &&
            p->scaled_height == p->height && !plan->quarter_turns && !plan->mirror && !plan->gray;
 }
 
 static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
 {
+    const RetexSetInfo info = retex_set_info(plan->set);
     Whole whole = {plan, NULL};
-    int code = open_picture(&whole.picture, plan, plan->set->width, plan->set->height, err);
+    int code = open_picture(&whole.picture, plan, info.width, info.height, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, NULL, write_rows, &whole, nthreads, err);
     return take_picture(&whole.picture, code, data, bytes, err);
@@ -77,7 +79,7 @@ static int keep_rows(void *context, int y0, int y1, const float *rows, RetexErro
 {
     const Part *part = context;
     const ServePlace *place = &part->plan->place;
-    const size_t length = 3 * (size_t)part->plan->set->width;
+    const size_t length = 3 * (size_t)retex_set_info(part->plan->set).width;
     int code = check_time(part->plan->deadline, err);
     for (int y = y0; y < y1 && !code; y++, rows += length)
         shrink_row(part->image->pixels + retex_image_index(part->image, 0, y - place->y), place->scaled_width, rows,

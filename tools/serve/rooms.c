@@ -113,9 +113,10 @@ static int open_set(Rooms *rooms, OpenRoom *room, int file, RetexError *err)
     int code = retex_set_open(path, &room->set, NULL, rooms->params.threads, err);
     if (!code && !room->set)
         code = retex_fail(err, RETEX_EFORMAT, "it holds no set");
-    if (!code && (long)room->set->width * room->set->height > rooms->params.pixels)
-        code = retex_fail(err, RETEX_EFORMAT, "room %s is too large: %d x %d pixels", room->name, room->set->width,
-                          room->set->height);
+    const RetexSetInfo info = code ? (RetexSetInfo){.width = 0} : retex_set_info(room->set);
+    if ((long)info.width * info.height > rooms->params.pixels)
+        code =
+            retex_fail(err, RETEX_EFORMAT, "room %s is too large: %d x %d pixels", room->name, info.width, info.height);
     room->room.set = room->set;
     return code;
 }
@@ -176,16 +177,17 @@ void rooms_return(Rooms *rooms, const Room *room)
 static uint64_t bytes_in_memory(const RetexSet *set)
 {
     uint64_t bytes = 0;
-    for (int i = 0; i < set->nparts; i++)
-        if (set->parts[i].image.pixels)
-            bytes += sizeof(float) * retex_image_index(&set->parts[i].image, 0, set->parts[i].image.height);
+    const RetexPart *part;
+    for (int i = 0; (part = retex_set_part(set, i)); i++)
+        if (part->image.pixels)
+            bytes += sizeof(float) * retex_image_index(&part->image, 0, part->image.height);
     return bytes;
 }
 
 static int is_decoded(const OpenRoom *room, const int corrected[RETEX_MAX_TARGETS])
 {
     int is = room->is_decoded;
-    for (int t = 0; t < room->set->ntargets; t++)
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         is = is && (!corrected[t] || room->decoded[t]);
     return is;
 }

@@ -130,6 +130,12 @@ static void make_etag(const Site *site, const ServeRequest *request, const Serve
     snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
 }
 
+static int find_place(ServeRequest *request, const Room *room, ServePlace *place)
+{
+    const RetexSetInfo info = retex_set_info(room->set);
+    return iiif_place(request, info.width, info.height, place);
+}
+
 int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETAG_SIZE])
 {
     char path[PATH_MAX];
@@ -143,7 +149,7 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
             return 0;
     const Room *room = rooms_peek(site->rooms, request->room, &id);
     ServeRequest copy = *request; /* iiif_place may put an error into it */
-    const int is_known = room && !iiif_place(&copy, room->set->width, room->set->height, &place);
+    const int is_known = room && !find_place(&copy, room, &place);
     if (is_known)
         make_etag(site, request, &place, room, contents, etag);
     rooms_return(site->rooms, room);
@@ -197,8 +203,9 @@ static int place_textures(const ServeRequest *request, const RetexSet *set, Text
  * tells. */
 static void find_corrected(const ServeRequest *request, const RetexSet *set, int corrected[RETEX_MAX_TARGETS])
 {
+    const int ntargets = retex_set_info(set).ntargets;
     memset(corrected, 0, RETEX_MAX_TARGETS * sizeof *corrected);
-    for (int i = 0; i < request->nspecs && retex_correction_weight(set->ntargets, request->nspecs) > 0; i++) {
+    for (int i = 0; i < request->nspecs && retex_correction_weight(ntargets, request->nspecs) > 0; i++) {
         const int target = retex_set_find_target(set, request->specs[i].target);
         if (target >= 0)
             corrected[target] = 1;
@@ -257,8 +264,9 @@ static Answer *make_picture_of(const Site *site, const WorkItem *item, const Roo
     if (!answer)
         return NULL;
     make_etag(site, request, &plan->place, room, contents, answer->etag);
-    answer->width = room->set->width;
-    answer->height = room->set->height;
+    const RetexSetInfo info = retex_set_info(room->set);
+    answer->width = info.width;
+    answer->height = info.height;
     if (is_of_key(site, item, room, contents))
         cache_add(site->pictures, item->key, answer);
     return answer;
@@ -276,7 +284,7 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                         .deadline = item->deadline};
     Textures textures = {0};
     RetexError err = {0};
-    if (iiif_place(&request, room->set->width, room->set->height, &plan.place))
+    if (find_place(&request, room, &plan.place))
         return answer_error(request.status, "%s", request.reason);
     Answer *answer = take_images(site, &request, item->deadline, &textures, &err)
                          ? answer_of_error(&err)
@@ -333,15 +341,22 @@ static void write_target(FILE *file, const RetexTarget *target)
 
 static void write_room(FILE *file, const ServeRequest *request, const RetexSet *set)
 {
+    const RetexSetInfo info = retex_set_info(set);
     fputs("{\"room\": ", file);
     json_text(file, request->room);
     fprintf(file, ", \"width\": %d, \"height\": %d, \"layout\": \"%s\", \"spp\": %d, \"denoised\": %s, \"targets\": [",
-            set->width, set->height, set->layout, set->spp, set->denoised ? "true" : "false");
-    for (int t = 0; t < set->ntargets; t++) {
+            info.width, info.height, info.layout, info.spp, info.denoised ? "true" : "false");
+    for (int t = 0; t < info.ntargets; t++) {
         fputs(t ? ", " : "", file);
-        write_target(file, &set->targets[t]);
+        write_target(file, retex_set_target(set, t));
     }
     fputs("]}\n", file);
+}
+
+static void write_image(FILE *file, const WorkItem *item, const RetexSet *set)
+{
+    const RetexSetInfo info = retex_set_info(set);
+    iiif_info_write(file, &item->request, item->base, info.width, info.height, picture_formats());
 }
 
 static Answer *make_text(const Site *site, const WorkItem *item, const Room *room)
@@ -357,7 +372,7 @@ static Answer *make_text(const Site *site, const WorkItem *item, const Room *roo
     else if (item->request.route == SERVE_ROOM)
         write_room(file, &item->request, room->set);
     else
-        iiif_info_write(file, &item->request, item->base, room->set->width, room->set->height, picture_formats());
+        write_image(file, item, room->set);
     Answer *answer = answer_of_text(200, "application/json", file, &text, &bytes);
     if (!failed)
         return answer;

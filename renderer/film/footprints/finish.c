@@ -108,7 +108,7 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
         RetexTerm term = {.role = role_of(kind), .target = t};
         add_factors(&term, places->kinds[t][kind], 1);
         add_factors(&term, places->any, c->mixed);
-        for (int b = 0; b < set->ntargets; b++)
+        for (int b = 0; b < film->scene->ntargets; b++)
             add_factors(&term, places->interreflections[b], c->powers[b]);
         code = finish_term(film, set, &term, film->targets[t].kinds[kind].interreflected[i], err);
     }
@@ -148,7 +148,7 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
     RetexMixture any = {0};
     RetexTerm free_term = {.role = RETEX_ROLE_INDEP, .target = -1};
     int code = finish_term(film, set, &free_term, film->free, err);
-    for (int t = 0; t < set->ntargets && !code; t++) {
+    for (int t = 0; t < film->scene->ntargets && !code; t++) {
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_kind(film, set, t, kind, &places, err);
         if (!code)
@@ -156,7 +156,7 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
     }
     if (!code && film->plan.coefficients[film->plan.count - 1].mixed)
         code = finish_mixture(set, &any, &places.any, err);
-    for (int t = 0; t < set->ntargets; t++)
+    for (int t = 0; t < film->scene->ntargets; t++)
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_interreflected(film, set, t, kind, &places, err);
     return code ? code : finish_corrections(film, set, &places, err);

@@ -259,7 +259,7 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
     int code = RETEX_OK;
     for (int k = 0; k < table->count && !code; k++) {
         RetexTerm term = {.role = (RetexRole)(order[k][0] >> 56), .target = -1};
-        term_factors(&term, order[k][0], table->ntargets, set->orders);
+        term_factors(&term, order[k][0], table->ntargets, retex_set_info(set).orders);
         code = bands_move_part(table->bands, table->images[order[k][1]], set, &term.radiance, err);
         if (!code)
             code = retex_set_add_term(set, &term, NULL, err);

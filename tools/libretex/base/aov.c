@@ -8,12 +8,17 @@
 #include <retex/nearest.h>
 
 #define ROW(id, ...) [RETEX_AOV_##id] = {__VA_ARGS__},
-const RetexAovInfo retex_aovs[RETEX_AOV_COUNT] = {RETEX_AOV_TABLE(ROW)};
+static const RetexAovInfo rows[RETEX_AOV_COUNT] = {RETEX_AOV_TABLE(ROW)};
+
+const RetexAovInfo *retex_aov_info(int aov)
+{
+    return aov >= 0 && aov < RETEX_AOV_COUNT ? &rows[aov] : NULL;
+}
 
 static int find(const char *name, size_t length)
 {
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
-        if (strlen(retex_aovs[k].name) == length && strncmp(retex_aovs[k].name, name, length) == 0)
+        if (strlen(rows[k].name) == length && strncmp(rows[k].name, name, length) == 0)
             return k;
     return -1;
 }
@@ -25,7 +30,7 @@ int retex_aov_find(const char *name)
 
 int retex_aov_is_color(RetexAov aov)
 {
-    return retex_aovs[aov].shown == RETEX_AOV_COLOR || retex_aovs[aov].shown == RETEX_AOV_EXPOSED;
+    return rows[aov].shown == RETEX_AOV_COLOR || rows[aov].shown == RETEX_AOV_EXPOSED;
 }
 
 int retex_aov_channels(unsigned aovs)
@@ -33,7 +38,7 @@ int retex_aov_channels(unsigned aovs)
     size_t sum = 0;
 
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
-        sum += aovs >> k & 1 ? strlen(retex_aovs[k].letters) : 0;
+        sum += aovs >> k & 1 ? strlen(rows[k].letters) : 0;
     return (int)sum;
 }
 
@@ -45,7 +50,7 @@ static int fail_unknown(const char *option, const char *name, size_t length, Ret
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     retex_nearest_try(&nearest, "beauty");
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
-        retex_nearest_try(&nearest, retex_aovs[k].name);
+        retex_nearest_try(&nearest, rows[k].name);
     return retex_fail(err, RETEX_EPARSE, "%s: expected " RETEX_AOV_NAMES ", not `%.*s`%s", option, (int)length, name,
                       retex_meant(nearest.best, meant));
 }

@@ -12,7 +12,7 @@ RetexAllowedValues retex_allowed_values(const char *name)
 {
     const int aov = retex_aov_find(name);
 
-    return aov >= 0 && isinf(retex_aovs[aov].nothing) ? RETEX_ALLOW_INFINITE : RETEX_ALLOW_FINITE;
+    return aov >= 0 && isinf(retex_aov_info(aov)->nothing) ? RETEX_ALLOW_INFINITE : RETEX_ALLOW_FINITE;
 }
 
 static float sample_at(const void *samples, RetexPixelType type, size_t i)

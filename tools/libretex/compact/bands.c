@@ -2,6 +2,7 @@
 #include "compact/bands.h"
 
 #include "set/band.h"
+#include "set/set.h"
 
 int retex_compact_bands(const RetexCompactLight *light, RetexCompactBandJob *job, void *context, int nthreads,
                         RetexError *err)

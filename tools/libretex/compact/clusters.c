@@ -9,6 +9,7 @@
 #include <retex/parallel.h>
 
 #include "compact/uniform.h"
+#include "set/set.h"
 
 #define POOL 12                  /* most clusters while a block is gathered */
 #define SHARE_STEP (1.0 / 512)   /* quantizer step of weights */

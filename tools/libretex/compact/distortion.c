@@ -16,6 +16,8 @@
 #include "compact/build.h"
 #include "compact/image_noise.h"
 #include "set/noise.h"
+#include "set/samples.h"
+#include "set/set.h"
 
 #define TILE RETEX_COMPACT_BAND_ROWS /* side of a tile in pixels, without margins */
 #define MARGIN 16                    /* pixels on each side: two pixels of an image of scale 8 */

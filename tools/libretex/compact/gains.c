@@ -7,6 +7,8 @@
 
 #include <retex/parallel.h>
 
+#include "set/set.h"
+
 typedef struct Source {
     const float *radiance, *uv; /* uv: means and coverage of its footprint, or NULL */
     double share;

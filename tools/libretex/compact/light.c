@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "compact/orders.h"
+#include "set/set.h"
 #include "set/signals.h"
 
 static RetexCompactKind *find_kind(RetexCompactLight *light, int target, RetexFootprintKind kind)

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "set/set.h"
 #include "set/signals.h"
 
 static const int kept_orders[] = {1, 2, 3, 5, 8}; /* the highest order is kept too */

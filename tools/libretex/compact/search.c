@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "compact/distortion.h"
+#include "set/set.h"
 
 #define STEPS RETEX_COMPACT_STEPS
 #define NOISE_ALLOWED 0.025   /* distortion allowed, as a share of the set's own noise: 0.1 dB */

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "set/set.h"
+
 #define STRENGTH 0.6f /* k_f of Rousselle et al. 2013 */
 #define SLOPE 0.3f    /* distance from the tangent plane, per distance, that counts as one surface */
 

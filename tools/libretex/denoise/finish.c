@@ -6,6 +6,7 @@
 
 #include "base/half.h"
 #include "precision/precision.h"
+#include "set/set.h"
 
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;

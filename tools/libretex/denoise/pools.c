@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "set/set.h"
+
 static int is_part(const RetexSet *set, int part)
 {
     return part >= 0 && part < set->nparts;

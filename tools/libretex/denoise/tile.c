@@ -9,6 +9,7 @@
 
 #include "denoise/features.h"
 #include "denoise/footprints.h"
+#include "set/set.h"
 
 #define STRENGTH 0.45f    /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
 #define LEAST_COVER 0.02f /* coverage of a target below which it counts as not seen */

@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 #include <retex/image.h>
+#include <retex/host/band_store.h>
 #include <retex/set.h>
 
 #include "exr/color_tag.h"
@@ -16,19 +17,19 @@
 
 enum {
     RETEX_EXR_PARTS_MAX = 2048,
-    RETEX_EXR_NAME_MAX = 192   /* bytes of a part or channel name, with the final NUL */
+    RETEX_EXR_NAME_MAX = 192 /* bytes of a part or channel name, with the final NUL */
 };
 
 /* A part to write. */
 typedef struct RetexExrPart {
-    char name[RETEX_EXR_NAME_MAX]; /* unique in the file */
+    char name[RETEX_EXR_NAME_MAX];           /* unique in the file */
     char letters[RETEX_EXR_LETTERS_MAX + 1]; /* one for each channel of image, in its order */
-    RetexPixelType type;           /* how samples are stored; see base/half.h for what becomes of floats */
-    const RetexImage *image;       /* borrowed until the encoding is freed, as is: */
-    const RetexBandStore *store;       /* holds the pixels if image has none, */
-    int store_image;                   /* as its image of this number */
-    uint32_t crc;                  /* filled by retex_exr_encode: see RetexPart */
-    const RetexColorTag *color;    /* colours for its header, or NULL; borrowed as image is */
+    RetexPixelType type;                     /* how samples are stored; see base/half.h for what becomes of floats */
+    const RetexImage *image;                 /* borrowed until the encoding is freed, as is: */
+    const RetexBandStore *store;             /* holds the pixels if image has none, */
+    int store_image;                         /* as its image of this number */
+    uint32_t crc;                            /* filled by retex_exr_encode: see RetexPart */
+    const RetexColorTag *color;              /* colours for its header, or NULL; borrowed as image is */
 } RetexExrPart;
 
 /* All chunks of a file, converted and compressed, in memory or in a band store, so that checksums are known before the
@@ -59,11 +60,11 @@ int retex_exr_probe(const RetexInput *input); /* 1 if it begins like an EXR */
 int retex_exr_open(RetexExr **exr, RetexInput *input /* borrowed */, RetexError *err);
 void retex_exr_close(RetexExr **exr);
 int retex_exr_part_count(const RetexExr *exr);
-int retex_exr_find_part(const RetexExr *exr, const char *name); /* index or -1 */
+int retex_exr_find_part(const RetexExr *exr, const char *name);                   /* index or -1 */
 void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height); /* of the data window */
 /* 1 if the part can be decoded; else 0, and *reason says why not. */
 int retex_exr_part_readable(const RetexExr *exr, int part, const char **reason);
-const char *retex_exr_part_name(const RetexExr *exr, int part);     /* "" where it has none */
+const char *retex_exr_part_name(const RetexExr *exr, int part); /* "" where it has none */
 int retex_exr_channel_count(const RetexExr *exr, int part);
 const char *retex_exr_channel_name(const RetexExr *exr, int part, int channel); /* in the file's order */
 int retex_exr_has_channel(const RetexExr *exr, int part, const char *channel);
@@ -79,12 +80,12 @@ typedef struct RetexExrRequest {
     int part;
     RetexImage *image;
     char channels[RETEX_EXR_LETTERS_MAX][RETEX_EXR_NAME_MAX];
-    int with_crc;      /* 1: also compute crc (see RetexPart) over the channels asked for */
+    int with_crc; /* 1: also compute crc (see RetexPart) over the channels asked for */
     uint32_t crc;
-    uint32_t expected;     /* the expected crc, for the caller and for set/exr_source.c, which also uses: */
-    const uint32_t *bands; /* borrowed: as from retex_exr_band_crcs; NULL: not known */
+    uint32_t expected;          /* the expected crc, for the caller and for set/exr_source.c, which also uses: */
+    const uint32_t *bands;      /* borrowed: as from retex_exr_band_crcs; NULL: not known */
     RetexAllowedValues allowed; /* other values make the reading fail; default: any */
-    int damaged;       /* 1: reading failed at this part */
+    int damaged;                /* 1: reading failed at this part */
 } RetexExrRequest;
 
 /* Read all requests. image may be NULL where only the crc is wanted. */

@@ -13,6 +13,7 @@
 #include "exr/io.h"
 #include "io/input.h"
 #include "pack/bands.h"
+#include "set/set.h"
 
 struct RetexLayers {
     int nthreads;
@@ -26,8 +27,8 @@ struct RetexLayers {
 static int check_pixels(const RetexLayers *layers, const char *name, int width, int height, RetexError *err)
 {
     if (layers->max_pixels > 0 && (int64_t)width * height > layers->max_pixels)
-        return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels",
-                          name, width, height, layers->max_pixels);
+        return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels", name,
+                          width, height, layers->max_pixels);
     return RETEX_OK;
 }
 

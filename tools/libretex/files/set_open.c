@@ -1,12 +1,12 @@
 /* Opens, reads and checks sets, each an EXR file or a pack, and samples. */
 #include <retex/pack.h>
 #include <retex/samples.h>
-#include <retex/set.h>
 #include <retex/set_file.h>
 
 #include "io/input.h"
 #include "pack/bands.h"
 #include "set/read.h"
+#include "set/set.h"
 
 static int is_pack(const RetexInput *input)
 {

@@ -10,6 +10,7 @@
 #include "io/checksum.h"
 #include "pack/combine.h"
 #include "pack/model.h"
+#include "set/set.h"
 
 static const int EFFORT = 8;                      /* of blosc's zstd */
 static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a chunk that this codec cannot encode */

@@ -10,6 +10,7 @@
 #include "compact/light.h"
 #include "compact/image_noise.h"
 #include "set/references.h"
+#include "set/set.h"
 
 #define FINE_NOISE 3     /* the step of radiance is at most this many times its noise, */
 #define FINER_MOST 4     /* but at least the quality's step divided by this; */

@@ -18,6 +18,7 @@
 #include "pack/encode.h"
 #include "pack/loss.h"
 #include "pack/zip.h"
+#include "set/set.h"
 
 /* dB by which compacting alone aims above the whole, because its errors and those of coding add up. The margin grows by
  * this factor from quality 95 to 100, where coding is finer. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "set/band.h"
+#include "set/set.h"
 
 typedef struct Corrections {
     int powers;                         /* the most factors, or -1 */

@@ -7,6 +7,7 @@
 
 #include "set/band.h"
 #include "precision/precision_rules.h"
+#include "set/set.h"
 
 /* The step of a signal's sum, as a share of what it is a part of. */
 static const double SUM_STEP = 1.0 / 128;

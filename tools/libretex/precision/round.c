@@ -4,11 +4,11 @@
 
 #include <retex/host/band_store.h>
 #include <retex/host/set_build.h>
-#include <retex/set.h>
 
 #include "base/jobs.h"
 #include "set/band.h"
 #include "precision/precision.h"
+#include "set/set.h"
 
 enum { ROWS = 4 * RETEX_PRECISION_LINES }; /* that are in memory at once */
 

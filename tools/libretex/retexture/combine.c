@@ -16,6 +16,7 @@
 #include "retexture/combine_rows.h"
 #include "base/value_check.h"
 #include "retexture/polynomial_bands.h"
+#include "set/set.h"
 
 #define SPAN_PIXELS 512 /* the sum and one span of each image fit the first two levels of cache */
 

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "set/set.h"
+
 /* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
 static const float agreement[] = {0.3f, 0.05f, 0.1f, 0.1f};
 static const float chance[] = {1, 0.3f, 1, 1};

@@ -10,6 +10,7 @@
 #include "retexture/polynomial_factors.h"
 #include "retexture/polynomial_groups.h"
 #include "retexture/polynomial_reduced.h"
+#include "set/set.h"
 
 #define MISSING 1 /* the code where the set lacks a part that a term needs */
 

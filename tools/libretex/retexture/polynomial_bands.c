@@ -6,6 +6,7 @@
 #include <retex/parallel.h>
 
 #include "base/jobs.h"
+#include "set/set.h"
 
 typedef struct BandThread {
     RetexPolynomialRow row; /* opened when the thread has its first band */

@@ -5,6 +5,8 @@
 
 #include "retexture/mixture_kernel.h"
 #include "retexture/sample_row.h"
+#include "set/samples.h"
+#include "set/set.h"
 #include "texture/pyramid.h"
 
 /* ---- what a factor is made of ---- */

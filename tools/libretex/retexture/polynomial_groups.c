@@ -10,6 +10,7 @@
 #include "retexture/enlarge.h"
 #include "base/jobs.h"
 #include "retexture/polynomial_factors.h"
+#include "set/set.h"
 
 #define ROWS_A_JOB 64 /* rows of a pack's band */
 

@@ -9,6 +9,7 @@
 
 #include "base/jobs.h"
 #include "retexture/polynomial_factors.h"
+#include "set/set.h"
 
 #define ROWS_A_JOB 64 /* a pack's band */
 

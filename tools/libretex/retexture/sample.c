@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "set/samples.h"
 #include "set/transfer.h"
 #include "retexture/sample_row.h"
 #include "retexture/textures.h"

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "set/set.h"
+
 #define SPAN_PIXELS 1024 /* pixels filtered in one call */
 
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)

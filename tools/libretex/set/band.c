@@ -6,6 +6,7 @@
 
 #include "base/jobs.h"
 #include "set/rows.h"
+#include "set/set.h"
 
 struct RetexSetBand {
     const RetexSet *whole;

@@ -2,7 +2,7 @@
 #ifndef RETEX_SET_BAND_H
 #define RETEX_SET_BAND_H
 
-#include <retex/set.h>
+#include "set/set.h"
 
 typedef struct RetexSetBand RetexSetBand;
 

@@ -2,7 +2,7 @@
 #ifndef RETEX_SET_PARTS_H
 #define RETEX_SET_PARTS_H
 
-#include <retex/set.h>
+#include "set/set.h"
 
 /* 1 if a term, footprint, mixture or target refers to the part. */
 int retex_part_is_used(const RetexSet *set, int part);

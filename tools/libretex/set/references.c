@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "set/set.h"
+
 typedef struct Visiting {
     RetexPartVisit *visit;
     void *context;

@@ -5,6 +5,7 @@
 
 #include <retex/host/band_store.h>
 
+#include "set/samples.h"
 #include "set/source.h"
 
 /* The last decoded band of an image in a band store. */

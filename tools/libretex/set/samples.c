@@ -2,9 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set/samples.h"
-#include <retex/host/band_store.h>
+#include <retex/host/set_build.h>
 
+#include "base/params.h"
+#include "set/samples.h"
 #include "set/source.h"
 
 int retex_samples_alloc(RetexSamples **result, int nimages, RetexError *err)
@@ -41,6 +42,30 @@ int retex_samples_create(RetexSamples **result, const RetexSet *set, RetexError 
         samples->footprints[i].hit = set->footprints[i].hit;
     }
     return RETEX_OK;
+}
+
+void retex_samples_get_info(const RetexSamples *samples, RetexSamplesInfo *info)
+{
+    const RetexSamplesInfo own = {.width = samples->width,
+                                  .height = samples->height,
+                                  .nfootprints = samples->nimages,
+                                  .ntargets = samples->ntargets};
+    (void)RETEX_PARAMS_RETURN(info, &own, NULL);
+}
+
+RetexImage *retex_samples_mutable_image(RetexSamples *samples, int footprint)
+{
+    return &samples->images[footprint];
+}
+
+const char *retex_samples_target(const RetexSamples *samples, int target)
+{
+    return samples->target_names[target];
+}
+
+const char *retex_samples_texture(const RetexSamples *samples, int target)
+{
+    return samples->textures[target];
 }
 
 void retex_samples_close(RetexSamples **result)

@@ -4,6 +4,31 @@
 
 #include <retex/samples.h>
 
+#include "set/set.h"
+
+/* Where the image of one footprint is, and what it belongs to. */
+typedef struct RetexSampleFootprint {
+    int target, hit;  /* of the set's footprint: checked against the set, and part of the image's name in files */
+    int store_image;  /* 0, or 1 + the number of the image in the band store */
+    int source_image; /* 0, or 1 + the number of the image in the source */
+} RetexSampleFootprint;
+
+/* Image i belongs to footprint i of the set. It is RGB of the size of the footprint's parts, or unallocated where the
+ * footprint's target keeps its original. An image with a size but without pixels is in the band store or in the source.
+ */
+struct RetexSamples {
+    int width, height; /* of the set */
+    int nimages;
+    RetexImage *images;               /* nimages */
+    RetexSampleFootprint *footprints; /* nimages */
+    int ntargets;
+    char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX];
+    char textures[RETEX_MAX_TARGETS][256]; /* by target, the texture in words, for people to read; "" = none */
+    uint32_t set_id;                       /* id of the set; 0 = unknown */
+    RetexBandStore *store;                 /* owned, or NULL */
+    RetexSetSource *source;                /* owned, or NULL */
+};
+
 enum { RETEX_SET_FOOTPRINTS_MAX = 512 }; /* of a set, and images of samples, in files */
 
 /* Create samples with nimages images, all unallocated; the rest is 0. *samples is NULL after a failure. */

@@ -5,16 +5,16 @@
 #include <string.h>
 
 #include <retex/host/aov.h>
-#include <retex/host/band_store.h>
 #include <retex/host/set_build.h>
-#include <retex/set.h>
 #include <retex/target_name.h>
 
+#include "base/params.h"
 #include "base/part_name.h"
 #include "io/checksum.h"
 #include "set/manifest.h"
 #include "set/parts.h"
 #include "set/references.h"
+#include "set/set.h"
 #include "set/source.h"
 
 int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
@@ -49,6 +49,104 @@ void retex_set_close(RetexSet **result)
         set->source->close(set->source);
     free(set);
     *result = NULL;
+}
+
+void retex_set_get_info(const RetexSet *set, RetexSetInfo *info)
+{
+    const RetexSetInfo own = {.width = set->width,
+                              .height = set->height,
+                              .layout = set->layout,
+                              .filter = set->filter,
+                              .scene = set->scene,
+                              .generator = set->generator,
+                              .orders = set->orders,
+                              .spp = set->spp,
+                              .max_depth = set->max_depth,
+                              .seed = set->seed,
+                              .id = set->id,
+                              .denoised = set->denoised,
+                              .strict_paper = set->strict_paper,
+                              .folded = set->folded,
+                              .folded_white = set->folded_white,
+                              .ntargets = set->ntargets,
+                              .nfootprints = set->nfootprints,
+                              .nmixtures = set->nmixtures,
+                              .nterms = set->nterms,
+                              .nparameters = set->nparameters,
+                              .nparts = set->nparts};
+    (void)RETEX_PARAMS_RETURN(info, &own, NULL);
+}
+
+static void copy_text(char *own, size_t size, const char *text)
+{
+    if (text != own)
+        snprintf(own, size, "%s", text);
+}
+
+int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err)
+{
+    RetexSetInfo info = retex_set_info(set);
+    const int code = RETEX_PARAMS_COPY(&info, given, err);
+    if (code)
+        return code;
+    copy_text(set->layout, sizeof set->layout, info.layout);
+    copy_text(set->filter, sizeof set->filter, info.filter);
+    copy_text(set->scene, sizeof set->scene, info.scene);
+    copy_text(set->generator, sizeof set->generator, info.generator);
+    set->orders = info.orders, set->spp = info.spp, set->max_depth = info.max_depth;
+    set->seed = info.seed;
+    set->denoised = info.denoised, set->strict_paper = info.strict_paper;
+    set->folded = info.folded, set->folded_white = info.folded_white;
+    return 0;
+}
+
+/* The element, or NULL. */
+#define ELEMENT(set, array, index) ((index) >= 0 && (index) < (set)->n##array ? &(set)->array[index] : NULL)
+
+const RetexTarget *retex_set_target(const RetexSet *set, int index)
+{
+    return ELEMENT(set, targets, index);
+}
+
+const RetexFootprint *retex_set_footprint(const RetexSet *set, int index)
+{
+    return ELEMENT(set, footprints, index);
+}
+
+const RetexMixture *retex_set_mixture(const RetexSet *set, int index)
+{
+    return ELEMENT(set, mixtures, index);
+}
+
+const RetexTerm *retex_set_term(const RetexSet *set, int index)
+{
+    return ELEMENT(set, terms, index);
+}
+
+const RetexParameter *retex_set_parameter(const RetexSet *set, int index)
+{
+    return ELEMENT(set, parameters, index);
+}
+
+const RetexPart *retex_set_part(const RetexSet *set, int index)
+{
+    return ELEMENT(set, parts, index);
+}
+
+RetexTarget *retex_set_mutable_target(RetexSet *set, int index)
+{
+    return ELEMENT(set, targets, index);
+}
+
+RetexImage *retex_set_mutable_image(RetexSet *set, int part)
+{
+    return &set->parts[part].image;
+}
+
+void retex_set_take_store(RetexSet *set, RetexBandStore *store)
+{
+    retex_band_store_close(&set->store);
+    set->store = store;
 }
 
 /* Grows an array by one element. It grows to the next power of two, so that most calls move nothing, whoever allocated
@@ -161,6 +259,16 @@ static int check_weight(const RetexSet *set, int part, const char *what, RetexEr
 {
     const int colored = part >= 0 && part < set->nparts && strlen(set->parts[part].letters) == 3;
     return check_part(set, part, colored ? 3 : 1, 0, what, err);
+}
+
+int retex_set_add_target(RetexSet *set, const RetexTarget *target, int *index, RetexError *err)
+{
+    if (set->ntargets >= RETEX_MAX_TARGETS)
+        return retex_fail(err, RETEX_ELIMIT, "a set has at most %d targets", RETEX_MAX_TARGETS);
+    if (index)
+        *index = set->ntargets;
+    set->targets[set->ntargets++] = *target;
+    return 0;
 }
 
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)

@@ -7,6 +7,8 @@
 #include <retex/color.h>
 #include <retex/host/denoise_data.h>
 
+#include "set/set.h"
+
 #define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
 
 void retex_factor_target(const RetexSet *set, RetexFactor factor, int *target, RetexFootprintKind *kind)

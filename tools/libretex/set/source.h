@@ -2,9 +2,8 @@
 #ifndef RETEX_SET_SOURCE_H
 #define RETEX_SET_SOURCE_H
 
-#include <retex/set.h>
-
 #include "base/row_span.h"
+#include "set/set.h"
 
 struct RetexSetSource {
     void (*close)(RetexSetSource *source);

@@ -3,19 +3,18 @@
 #include <string.h>
 
 #include <retex/parallel.h>
-#include <retex/set.h>
 #include <retex/set_file.h>
 
 #include "io/checksum.h"
 #include "base/half.h"
+#include "set/set.h"
 
-void retex_part_stored_row(const RetexPart *part, int y, void *samples)
+void retex_image_stored_row(const RetexImage *image, RetexPixelType type, int y, void *samples)
 {
-    const RetexImage *image = &part->image;
     const size_t count = (size_t)image->width * (size_t)image->channels;
     const float *row = image->pixels + retex_image_index(image, 0, y);
 
-    if (part->type == RETEX_HALF)
+    if (type == RETEX_HALF)
         retex_half_from_float(samples, row, count);
     else
         memcpy(samples, row, count * sizeof *row);
@@ -56,7 +55,7 @@ static void checksum_part(void *context, int index, int thread)
     job->failed[index] = !row || !plane;
     for (size_t c = 0; c < channels && !job->failed[index]; c++)
         for (int y = 0; y < part->image.height; y++) {
-            retex_part_stored_row(part, y, row);
+            retex_image_stored_row(&part->image, part->type, y, row);
             for (size_t x = 0; x < width; x++)
                 put_sample(plane + x * bytes, row, x * channels + c, bytes);
             crc = retex_crc32(crc, plane, width * bytes);
@@ -80,5 +79,24 @@ int retex_set_checksum(RetexSet *set, int nthreads, RetexError *err)
         if (job.failed[i])
             code = retex_fail(err, RETEX_ENOMEM, "no memory for checksums");
     free(job.failed);
+    return code;
+}
+
+int retex_set_picture_manifest(const RetexSet *set, const RetexImage *picture, char **json, int nthreads,
+                               RetexError *err)
+{
+    RetexSet shown = *set;
+    shown.parts = malloc((size_t)set->nparts * sizeof *shown.parts);
+    if (!shown.parts)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a manifest");
+    memcpy(shown.parts, set->parts, (size_t)set->nparts * sizeof *shown.parts);
+    shown.parts[0].image = *picture;
+    shown.parts[0].type = RETEX_FLOAT;
+    shown.nparts = 1;
+    int code = retex_set_checksum(&shown, nthreads, err);
+    shown.nparts = set->nparts;
+    if (!code)
+        code = retex_set_manifest(&shown, NULL, json, err);
+    free(shown.parts);
     return code;
 }

@@ -2,7 +2,8 @@
 #include <string.h>
 
 #include <retex/host/set_build.h>
-#include <retex/set.h>
+
+#include "set/set.h"
 
 const char *retex_footprint_kind_name(int kind)
 {

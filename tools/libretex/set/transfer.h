@@ -2,12 +2,14 @@
 #ifndef RETEX_SET_TRANSFER_H
 #define RETEX_SET_TRANSFER_H
 
+#include <retex/host/band_store.h>
+
 #include "set/rows.h"
 
 typedef struct RetexImageTransfer {
     int part, footprint; /* the part of the set, or -1; the footprint of the samples, or -1 */
     RetexImage *image;   /* destination, of the image's size: its pixels, which are 0, if it has any; */
-    int store_image;         /* else this image of the band store */
+    int store_image;     /* else this image of the band store */
 } RetexImageTransfer;
 
 /* Copy all rows of these images from wherever they are. set, samples and store may be NULL where no image needs

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "io/deflate.h"
+#include "set/set.h"
 
 typedef struct Stream {
     const RetexSet *set;

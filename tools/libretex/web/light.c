@@ -7,6 +7,7 @@
 #include <retex/color.h>
 
 #include "pack/encode.h"
+#include "set/set.h"
 
 static const double LEVEL_MOST = 255;
 /* White is at least at this level, however bright the brightest pixel; 24 times white is clipped. */

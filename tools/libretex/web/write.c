@@ -14,6 +14,7 @@
 #include "compact/compact.h"
 #include "io/checksum.h"
 #include "pack/plan.h"
+#include "set/set.h"
 #include "web/footprints.h"
 #include "web/light.h"
 

@@ -10,28 +10,29 @@
 extern "C" {
 #endif
 
-/* Where the image of one footprint is, and what it belongs to. */
-typedef struct RetexSampleFootprint {
-    int target, hit;  /* of the set's footprint: checked against the set, and part of the image's name in files */
-    int store_image;  /* 0, or 1 + the number of the image in the band store */
-    int source_image; /* 0, or 1 + the number of the image in the source */
-} RetexSampleFootprint;
+/* Samples are opaque. Sample i is the image of footprint i of the set: RGB, of the size of the footprint's parts. Where
+ * the footprint's target keeps its original there is none. */
+typedef struct RetexSamples RetexSamples;
 
-/* Image i belongs to footprint i of the set. It is RGB of the size of the footprint's parts, or unallocated where the
- * footprint's target keeps its original. An image with a size but without pixels is in the band store or in the source.
- */
-typedef struct RetexSamples {
+typedef struct RetexSamplesInfo {
+    size_t size;       /* sizeof(RetexSamplesInfo): a later version may add members at the end */
     int width, height; /* of the set */
-    int nimages;
-    RetexImage *images;               /* nimages */
-    RetexSampleFootprint *footprints; /* nimages */
-    int ntargets;
-    char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX];
-    char textures[RETEX_MAX_TARGETS][256]; /* by target, the texture in words, for people to read; "" = none */
-    uint32_t set_id;                       /* id of the set; 0 = unknown */
-    RetexBandStore *store;                 /* owned, or NULL */
-    RetexSetSource *source;                /* owned, or NULL */
-} RetexSamples;
+    int nfootprints, ntargets;
+} RetexSamplesInfo;
+
+/* Fill what info->size says that the caller knows. */
+void retex_samples_get_info(const RetexSamples *samples, RetexSamplesInfo *info);
+static inline RetexSamplesInfo retex_samples_info(const RetexSamples *samples)
+{
+    RetexSamplesInfo info;
+    info.size = sizeof info;
+    retex_samples_get_info(samples, &info);
+    return info;
+}
+/* Of a target, 0..ntargets-1: its name; its texture in words, for people to read, "" = it keeps its original. They
+ * belong to the samples. */
+const char *retex_samples_target(const RetexSamples *samples, int target);
+const char *retex_samples_texture(const RetexSamples *samples, int target);
 
 /* Create samples of a set without any image: every target keeps its original. */
 int retex_samples_create(RetexSamples **samples, const RetexSet *set, RetexError *err);

@@ -17,6 +17,7 @@
 #ifndef RETEX_SET_H
 #define RETEX_SET_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <retex/image.h>
 
@@ -25,15 +26,16 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 2   /* of the manifest, see retex-set(5) */
+#define RETEX_SET_VERSION 2 /* of the manifest, see retex-set(5) */
 #define RETEX_MAX_TARGETS 8
-#define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
-#define RETEX_MAX_HITS 12     /* hits of all targets together that a path keeps apart */
-#define RETEX_MAX_FACTORS 16  /* of a term: its hits, images and parameters */
+#define RETEX_MAX_ORDERS 6   /* hits of one target that a path keeps apart */
+#define RETEX_MAX_HITS 12    /* hits of all targets together that a path keeps apart */
+#define RETEX_MAX_FACTORS 16 /* of a term: its hits, images and parameters */
 #define RETEX_PARAMETERS_MAX 64
 #define RETEX_MIXTURES_MAX (5 * RETEX_MAX_TARGETS + 1)
 #define RETEX_SHARES_MAX 16
-#define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
+#define RETEX_NAME_MAX 128  /* bytes of a target or part name, with the final NUL */
+#define RETEX_SCENE_MAX 256 /* bytes of a scene's name, with the final NUL: longer ones are cut off */
 
 /* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or an IMAGE
  * factor refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
@@ -45,7 +47,7 @@ typedef struct RetexPart {
     char name[RETEX_NAME_MAX]; /* letters, digits, '_' and '-' */
     char letters[8];
     RetexPixelType type;
-    uint32_t crc;              /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
+    uint32_t crc;    /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
                                   the top; filled by reading and writing */
     int store_image; /* 0, or 1 + its number in the set's band store: then image has its size, but no pixels */
     RetexImage image;
@@ -53,33 +55,33 @@ typedef struct RetexPart {
 
 typedef struct RetexTarget {
     char name[RETEX_NAME_MAX];
-    char idents[512];        /* the scene's identifiers it was made of, comma-separated */
-    int periodic[2];         /* 1: the surface closes in u (or v): 0 and 1 are the same place */
+    char idents[512];            /* the scene's identifiers it was made of, comma-separated */
+    int periodic[2];             /* 1: the surface closes in u (or v): 0 and 1 are the same place */
     double uv_min[2], uv_max[2]; /* range of UV that was met */
-    float mean_albedo[3];    /* of the original, over all that was met; scene-linear */
-    int original;            /* part that holds the original texture over original_min..original_max, or -1 */
+    float mean_albedo[3];        /* of the original, over all that was met; scene-linear */
+    int original;                /* part that holds the original texture over original_min..original_max, or -1 */
     double original_min[2], original_max[2]; /* UV rectangle the original covers: an image_map's is 0,0 1,1 */
-    double uv_scale[2];      /* scene units a unit of u and of v spans on the surface, at the median; 0 = unknown */
-    double share;            /* of the picture's pixels, whose centre sees the target directly; 0..1 */
+    double uv_scale[2]; /* scene units a unit of u and of v spans on the surface, at the median; 0 = unknown */
+    double share;       /* of the picture's pixels, whose centre sees the target directly; 0..1 */
 } RetexTarget;
 
 typedef enum RetexFootprintKind {
-    RETEX_FOOTPRINT_HIT,   /* layout paper: the j-th hit of the target along the path */
-    RETEX_FOOTPRINT_SHARP, /* layout footprints: met first, seen directly, in mirrors or through glass */
-    RETEX_FOOTPRINT_BROAD, /* met first, by light scattered widely before */
-    RETEX_FOOTPRINT_INTERREFLECTION  /* hits after the first one, pooled into two */
+    RETEX_FOOTPRINT_HIT,            /* layout paper: the j-th hit of the target along the path */
+    RETEX_FOOTPRINT_SHARP,          /* layout footprints: met first, seen directly, in mirrors or through glass */
+    RETEX_FOOTPRINT_BROAD,          /* met first, by light scattered widely before */
+    RETEX_FOOTPRINT_INTERREFLECTION /* hits after the first one, pooled into two */
 } RetexFootprintKind;
 enum { RETEX_FOOTPRINT_KINDS = RETEX_FOOTPRINT_INTERREFLECTION + 1 };
 
 typedef struct RetexFootprint {
-    int target;              /* index of the target it lies on */
-    int hit;                 /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
+    int target; /* index of the target it lies on */
+    int hit;    /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
     RetexFootprintKind kind;
-    int uv;                  /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
+    int uv;     /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
                                 layout footprints that of the effective ones, (sum of weights)^2 / sum of squares;
                                 0 = this pixel has no such footprint and u, v mean nothing. float */
-    int spread;              /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
-    int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
+    int spread; /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
+    int albedo; /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;
 
 /* What a factor is. A later version may add kinds. */
@@ -153,39 +155,51 @@ typedef struct RetexMixture {
     int nshares;
     struct RetexShare {
         int footprint;
-        int weight;    /* part "R", or "RGB": colour by colour. Not negative. half */
+        int weight; /* part "R", or "RGB": colour by colour. Not negative. half */
     } shares[RETEX_SHARES_MAX];
 } RetexMixture;
 
-typedef struct RetexSetSource RetexSetSource; /* an open file */
-typedef struct RetexBandStore RetexBandStore; /* see <retex/host/band_store.h> */
+/* A set is opaque: it is read by retex_set_open and others of <retex/set_file.h>, built by <retex/host/set_build.h>,
+ * and looked at by the calls below. */
+typedef struct RetexSet RetexSet;
 
-typedef struct RetexSet {
+/* What a set says about itself as a whole. The texts belong to the set. */
+typedef struct RetexSetInfo {
+    size_t size; /* sizeof(RetexSetInfo): a later version may add members at the end */
     int width, height;
-    char layout[16];       /* "footprints", "paper", or "plain": no terms */
-    char filter[16];       /* pixel filter: "box" or "gaussian" */
-    char scene[256];       /* base name of the scene file */
-    char generator[64];    /* program and version: "retex-render 1.0" */
+    const char *layout;    /* "footprints", "paper", or "plain": no terms */
+    const char *filter;    /* pixel filter: "box" or "gaussian" */
+    const char *scene;     /* base name of the scene file */
+    const char *generator; /* program and version: "retex-render 1.0" */
     int orders, spp, max_depth;
     uint32_t seed;
-    uint32_t id;           /* tells one render's set from another's; kept by packing; 0 = unknown */
-    double folded;         /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
-    double folded_white;   /* layout footprints: the same share, were every target painted white (albedo 0.8) */
-    int denoised;          /* 1: the coefficients were filtered, see denoise.h */
-    int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
-    int ntargets;
-    RetexTarget targets[RETEX_MAX_TARGETS];
-    int nfootprints, nterms, nparts;
-    RetexFootprint *footprints;
-    RetexTerm *terms;
-    RetexPart *parts;      /* parts[0] is the beauty */
-    int nmixtures;
-    RetexMixture mixtures[RETEX_MIXTURES_MAX];
-    int nparameters;
-    RetexParameter parameters[RETEX_PARAMETERS_MAX];
-    RetexBandStore *store;     /* owned; where parts with a store_image are, or NULL */
-    RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
-} RetexSet;
+    uint32_t id;         /* tells one render's set from another's; kept by packing; 0 = unknown */
+    int denoised;        /* 1: the coefficients were filtered, see denoise.h */
+    int strict_paper;    /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
+    double folded;       /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
+    double folded_white; /* layout footprints: the same share, were every target painted white (albedo 0.8) */
+    int ntargets, nfootprints, nmixtures, nterms, nparameters, nparts;
+} RetexSetInfo;
+
+/* Fill what info->size says that the caller knows. */
+void retex_set_get_info(const RetexSet *set, RetexSetInfo *info);
+static inline RetexSetInfo retex_set_info(const RetexSet *set)
+{
+    RetexSetInfo info;
+    info.size = sizeof info;
+    retex_set_get_info(set, &info);
+    return info;
+}
+
+/* One of what a set lists; NULL where index is not 0..count-1. It belongs to the set, and stays until the set is
+ * changed or closed. A later version may add members at the end of these structs, so programs never make, copy or
+ * measure one. Part 0 is the beauty. */
+const RetexTarget *retex_set_target(const RetexSet *set, int index);
+const RetexFootprint *retex_set_footprint(const RetexSet *set, int index);
+const RetexMixture *retex_set_mixture(const RetexSet *set, int index);
+const RetexTerm *retex_set_term(const RetexSet *set, int index);
+const RetexParameter *retex_set_parameter(const RetexSet *set, int index);
+const RetexPart *retex_set_part(const RetexSet *set, int index);
 
 void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Names in the manifest: of a RetexFootprintKind "hit", "sharp", "broad" or "interreflection", also in names of parts;
@@ -225,7 +239,7 @@ int retex_term_image(const RetexTerm *term);
 int retex_set_find_parameter(const RetexSet *set, const char *name);
 /* 1: the set has a term of that role. */
 int retex_set_has_role(const RetexSet *set, RetexRole role);
-int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
+int retex_set_find_part(const RetexSet *set, const char *name); /* index or -1 */
 /* The scale of an image, 1, 2, 4 or 8: how many times smaller than the set it is; 0 where it has none of these
  * sizes. */
 int retex_set_scale(const RetexSet *set, const RetexImage *image);

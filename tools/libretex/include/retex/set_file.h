@@ -14,7 +14,10 @@ typedef struct RetexStoreParams {
     size_t size;
     int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
 } RetexStoreParams;
-#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1 }
+#define RETEX_STORE_INIT                                                                                               \
+    {                                                                                                                  \
+        sizeof(RetexStoreParams), 1                                                                                    \
+    }
 
 /* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
  * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
@@ -44,7 +47,7 @@ int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */,
 uint64_t retex_set_preload_bytes(const RetexSet *set, const int *corrected);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
- * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
+ * complete, or to "-". CRCs are computed and kept. Of a stream's set only what recombination needs is
  * written when samples are given: beauty, terms, and the footprints that have no sample. Pixels that are still in an
  * open file go through a temporary file near path. */
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
@@ -63,9 +66,9 @@ int retex_set_is_layer(const RetexSet *set, int part);
  * before the work that makes them. */
 int retex_set_write_check(const char *path, RetexError *err);
 
-/* One row of a part as retex_set_write would store it: samples of its type in the order of letters, pixel by pixel, in
- * this machine's byte order. Halves are rounded to the nearest, and finite values beyond 65504 become 65504. */
-void retex_part_stored_row(const RetexPart *part, int y, void *samples);
+/* One row of a part's image as retex_set_write would store it: samples of that type in the order of letters, pixel by
+ * pixel, in this machine's byte order. Halves are rounded to the nearest; finite values beyond 65504 become 65504. */
+void retex_image_stored_row(const RetexImage *image, RetexPixelType type, int y, void *samples);
 
 /* Compute the checksums of parts, all of which are in memory, as retex_set_write does, for rows that are stored by
  * other means with the manifest of retex_set_manifest. */
@@ -77,6 +80,9 @@ int retex_set_check(const char *path, int nthreads, RetexError *err);
 
 /* The manifest as JSON text; the caller frees it with free(). */
 int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err);
+/* The manifest of the set with another picture as part 0, of floats. The checksums of the other parts are known. */
+int retex_set_picture_manifest(const RetexSet *set, const RetexImage *picture, char **json,
+                               int nthreads /* 0 = all cores */, RetexError *err);
 
 #ifdef __cplusplus
 }

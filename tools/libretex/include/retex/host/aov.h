@@ -69,7 +69,8 @@ typedef struct RetexAovInfo {
     RetexAovShown shown;
 } RetexAovInfo;
 
-extern const RetexAovInfo retex_aovs[RETEX_AOV_COUNT];
+/* NULL where there is no such AOV. */
+const RetexAovInfo *retex_aov_info(int aov);
 
 /* The AOV of that name, or -1. */
 int retex_aov_find(const char *name);

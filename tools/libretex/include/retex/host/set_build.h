@@ -3,15 +3,19 @@
 #ifndef RETEX_HOST_SET_BUILD_H
 #define RETEX_HOST_SET_BUILD_H
 
-#include <retex/set.h>
+#include <retex/host/band_store.h>
+#include <retex/samples.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Create a set without terms, whose part 0 is a beauty of zeros. */
+/* Create a set without anything. Its first part has to be the beauty: "beauty", "RGB", RETEX_FLOAT. */
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
+/* Take over what info says of the set as a whole, but for its size, id and counts: to be changed in a copy that
+ * retex_set_info made. */
+int retex_set_describe(RetexSet *set, const RetexSetInfo *info, RetexError *err);
 /* Append a part; *index (may be NULL) receives its number. The image is allocated and zeroed; width 0 = the set's own
  * size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
@@ -20,7 +24,16 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
  * there. */
 int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                          int *index, RetexError *err);
+/* The set owns the band store from now on, and closes the one it had. */
+void retex_set_take_store(RetexSet *set, RetexBandStore *store);
+/* The image of a part, whose pixels a renderer writes, or exchanges for others of the same size. */
+RetexImage *retex_set_mutable_image(RetexSet *set, int part);
+/* The image of a footprint, whose pixels a renderer may compute by itself. */
+RetexImage *retex_samples_mutable_image(RetexSamples *samples, int footprint);
+/* A target whose UV ranges and so on become known later than its name. */
+RetexTarget *retex_set_mutable_target(RetexSet *set, int target);
 /* Append a copy; *index (may be NULL) receives its number. */
+int retex_set_add_target(RetexSet *set, const RetexTarget *target, int *index, RetexError *err);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
 int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int *index, RetexError *err);

@@ -3,6 +3,8 @@
 
 #include <retex/host/band_stats.h>
 
+#include "set/set.h"
+
 void retex_band_stats_reset(RetexBandStats *stats)
 {
     *stats = (RetexBandStats){.total = 0};

@@ -13,6 +13,7 @@
 #include "exr/chunk.h"
 #include "exr/zip.h"
 #include "io/output.h"
+#include "set/set.h"
 
 enum { LINES = RETEX_CHUNK_LINES, SHORT_NAME = 31, COMPRESSION_ZIP = 3, LONG_NAMES = 0x400, EXR_VERSION = 2 };
 
