@@ -278,9 +278,9 @@ int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *wi
 {
     int code = RETEX_OK;
     *g = (DenoiseGuides){.window = *window, .split = split};
-    for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++)
-        code = film_add_image(film, retex_features[k].name, retex_features[k].letters, retex_features[k].type,
-                              &g->guides[k], err);
+    const RetexFeatureInfo *info;
+    for (int k = 0; !code && (info = retex_feature_info(k)); k++)
+        code = film_add_image(film, info->name, info->letters, info->type, &g->guides[k], err);
     for (int t = 0; t < window->scene->ntargets && split && !code; t++) {
         char name[RETEX_NAME_MAX];
         retex_cover_part_name(name, window->scene->targets[t].name);

@@ -122,7 +122,7 @@ $ retex-combine -q s.exr --view Raw -o y.exr
 ! retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would
 
 # A killed run leaves nothing behind, at whatever moment.
-$ mkdir killed; for f in p.png p.exr p.jp2; do for t in .05 .1 .15 .2 .25 .3 .4; do rm -f killed/$f; timeout -s KILL $t retex-combine -q s.exr -o killed/$f; done; done >/dev/null 2>&1; rm -f killed/p.*; ls -A killed
+$ mkdir killed; for f in p.png p.exr p.jp2; do for t in .05 .1 .15 .2 .25 .3 .4; do rm -f killed/$f; timeout --foreground -s KILL $t retex-combine -q s.exr -o killed/$f; done; done >/dev/null 2>&1; rm -f killed/p.*; ls -A killed
 
 # Nothing came down the pipe.
 $ retex-combine -q - -o y.png </dev/null

@@ -12,7 +12,7 @@ $ for l in footprints paper; do ./render --layout $l --full-precision -o $l.exr;
 
 # Shards, and a render that was killed, at one thread and at two.
 $ ./render --shard 1/2 -o one; ./render --shard 2/2 --threads 1 -o two; ./render --merge two --merge one -o merged.exr; cmp merged.exr set.exr
-$ for k in 1 2 3 5; do timeout -s KILL 0.$k ./render --resume -o resumed.exr; done 2>/dev/null; ./render --resume --threads 1 -o resumed.exr; cmp resumed.exr set.exr
+$ for k in 1 2 3 5; do timeout --foreground -s KILL 0.$k ./render --resume -o resumed.exr; done 2>/dev/null; ./render --resume --threads 1 -o resumed.exr; cmp resumed.exr set.exr
 
 # Rows of a table, a cut-out, frames.
 $ printf 'output,Floor,Wall\na.exr,"rgb(.1,.6,.3)","rgb(.8,.3,.3)"\nb.exr,,"rgb(.2,.3,.3)"\n' >table.csv; ./render --variants table.csv; ./render --replace 'Floor=rgb(.1,.6,.3)' --replace 'Wall=rgb(.8,.3,.3)' -o a2.exr; ./render --replace 'Wall=rgb(.2,.3,.3)' -o b2.exr; cmp a.exr a2.exr; cmp b.exr b2.exr

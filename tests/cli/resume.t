@@ -7,13 +7,13 @@ $ cp -r "$SCENES/cornell-box" .; echo 'exec retex-render -q --size 64x120 --spp 
 > render
 
 # Killed at any moment.
-$ (for k in 05 1 15 2 25 3 4; do timeout -s KILL 0.$k ./render --resume -o k.exr && break; done) 2>/dev/null; ./render --resume --threads 1 -o k.exr; cmp k.exr ref.exr; ls
+$ (for k in 05 1 15 2 25 3 4; do timeout --foreground -s KILL 0.$k ./render --resume -o k.exr && break; done) 2>/dev/null; ./render --resume --threads 1 -o k.exr; cmp k.exr ref.exr; ls
 > a.exr
 > cornell-box
 > k.exr
 > ref.exr
 > render
-$ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr png; do ./render $m -o p.$e; (for k in 05 1 15 2; do timeout -s KILL 0.$k ./render $m --resume -o q.$e && break; done) 2>/dev/null; ./render $m --resume -o q.$e; cmp p.$e q.$e; done; done; ./render -o p.retex; (timeout -s KILL 0.3 ./render --resume -o q.retex; true) 2>/dev/null; ./render --resume -o q.retex; cmp p.retex q.retex; ls *.partial
+$ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr png; do ./render $m -o p.$e; (for k in 05 1 15 2; do timeout --foreground -s KILL 0.$k ./render $m --resume -o q.$e && break; done) 2>/dev/null; ./render $m --resume -o q.$e; cmp p.$e q.$e; done; done; ./render -o p.retex; (timeout --foreground -s KILL 0.3 ./render --resume -o q.retex; true) 2>/dev/null; ./render --resume -o q.retex; cmp p.retex q.retex; ls *.partial
 ! retex-render: warning: p.png holds the picture only: a set needs .exr or .retex
 ! retex-render: warning: q.png holds the picture only: a set needs .exr or .retex
 ! ls: cannot access '*.partial': No such file or directory

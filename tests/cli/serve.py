@@ -678,4 +678,8 @@ for name in sys.argv[1:]:
     finally:
         if server.poll() is None:
             server.terminate()
-        expect('exit status', server.wait(), 0)
+        try:
+            expect('exit status', server.wait(60), 0)
+        except subprocess.TimeoutExpired:
+            server.kill()
+            sys.exit('the server does not end')

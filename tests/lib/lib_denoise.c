@@ -99,13 +99,13 @@ static void fill_guides(RetexSet *set)
         if (retex_name_is_noise(set->parts[k].name))
             memset(im->pixels, 0, (size_t)im->width * (size_t)im->height * (size_t)im->channels * sizeof(float));
     }
-    fill_guide(set, retex_features[RETEX_FEATURE_NORMAL].name, facing, turned);
-    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_NORMAL].name, facing, turned);
-    fill_positions(set, retex_features[RETEX_FEATURE_POSITION].name);
-    fill_positions(set, retex_features[RETEX_FEATURE_SEEN_POSITION].name);
-    fill_guide(set, retex_features[RETEX_FEATURE_SPECULAR].name, black, black);
-    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_ALBEDO].name, white, set->ntargets ? grey : white);
-    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_MATERIAL].name, rough, rough);
+    fill_guide(set, retex_feature_info(RETEX_FEATURE_NORMAL)->name, facing, turned);
+    fill_guide(set, retex_feature_info(RETEX_FEATURE_SEEN_NORMAL)->name, facing, turned);
+    fill_positions(set, retex_feature_info(RETEX_FEATURE_POSITION)->name);
+    fill_positions(set, retex_feature_info(RETEX_FEATURE_SEEN_POSITION)->name);
+    fill_guide(set, retex_feature_info(RETEX_FEATURE_SPECULAR)->name, black, black);
+    fill_guide(set, retex_feature_info(RETEX_FEATURE_SEEN_ALBEDO)->name, white, set->ntargets ? grey : white);
+    fill_guide(set, retex_feature_info(RETEX_FEATURE_SEEN_MATERIAL)->name, rough, rough);
     for (int t = 0; t < set->ntargets; t++) {
         retex_cover_part_name(name, set->targets[t].name);
         fill_guide(set, name, t ? black : white, black);

@@ -312,7 +312,7 @@ void test_add_denoise_data(RetexSet *set)
     if (set->nterms == 0)
         add_random_part(set, RETEX_NOISE_PREFIX RETEX_SIGNAL_BEAUTY, "RGB", RETEX_HALF, -0.02, 0.02, &seed);
     for (int k = 0; k < RETEX_FEATURE_COUNT; k++) {
-        const RetexFeatureInfo *feature = &retex_features[k];
+        const RetexFeatureInfo *feature = retex_feature_info(k);
         const double low = strstr(feature->name, "position") ? -5 : strstr(feature->name, "normal") ? -1 : 0;
         add_guide(set, feature->name, feature->letters, feature->type, low, low < 0 ? -low : 1, &seed);
     }

@@ -14,8 +14,8 @@
 static int find_features(int parts[RETEX_FEATURE_COUNT], const RetexSet *set, RetexError *err)
 {
     for (int k = 0; k < RETEX_FEATURE_COUNT; k++)
-        if ((parts[k] =
-                 retex_signals_find_part(set, retex_features[k].name, (int)strlen(retex_features[k].letters), err)) < 0)
+        if ((parts[k] = retex_signals_find_part(set, retex_feature_info(k)->name,
+                                                (int)strlen(retex_feature_info(k)->letters), err)) < 0)
             return parts[k];
     return RETEX_OK;
 }

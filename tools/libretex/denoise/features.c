@@ -85,7 +85,7 @@ static void add_features(FeatureList *g, RetexFeatureHit hit)
 {
     int normal = 0;
     for (int k = 0; k < RETEX_FEATURE_COUNT; k++) {
-        const RetexFeatureInfo *info = &retex_features[k];
+        const RetexFeatureInfo *info = retex_feature_info(k);
         const int first = first_planes[k], count = (int)strlen(info->letters);
         if (info->hit != hit)
             continue;

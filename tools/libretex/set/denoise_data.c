@@ -10,7 +10,12 @@
 #define ROW(id, name, letters, type, kind, hit)                                                                        \
     [RETEX_FEATURE_##                                                                                                  \
         id] = {RETEX_FEATURE_PREFIX name, letters, type, RETEX_FEATURE_KIND_##kind, RETEX_FEATURE_HIT_##hit},
-const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABLE(ROW)};
+static const RetexFeatureInfo features[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABLE(ROW)};
+
+const RetexFeatureInfo *retex_feature_info(int feature)
+{
+    return feature >= 0 && feature < RETEX_FEATURE_COUNT ? &features[feature] : NULL;
+}
 
 void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target)
 {

@@ -102,7 +102,7 @@ static json_t *write_factor(const RetexSet *set, RetexFactor factor)
     if (factor.kind == RETEX_FACTOR_IMAGE)
         return json_pack("{s:o}", kind, part_name(set, factor.index));
     if (factor.kind == RETEX_FACTOR_PARAMETER)
-        return json_pack("{s:s}", kind, set->parameters[factor.index].name);
+        return json_pack("{s:o}", kind, text(set->parameters[factor.index].name));
     json_t *json = json_pack("{s:i}", kind, factor.index);
     if (factor.quantity != RETEX_QUANTITY_COLOR)
         retex_json_put(&json, "quantity", json_string(retex_quantity_name(factor.quantity)));

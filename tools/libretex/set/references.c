@@ -1,8 +1,6 @@
 /* See references.h. */
 #include "set/references.h"
 
-#include <string.h>
-
 #include "set/set.h"
 
 typedef struct Visiting {
@@ -38,17 +36,4 @@ void retex_set_visit_parts(RetexSet *set, RetexPartVisit *visit, void *context)
             visit_part(&v, RETEX_PART_WEIGHT, m, &set->mixtures[m].shares[k].weight);
     for (int t = 0; t < set->ntargets; t++)
         visit_part(&v, RETEX_PART_ORIGINAL, t, &set->targets[t].original);
-}
-
-static void add_use(void *context, RetexPartUse use, int user, int *part)
-{
-    unsigned *uses = context;
-    (void)user;
-    uses[*part] |= 1u << use;
-}
-
-void retex_set_part_uses(const RetexSet *set, unsigned *uses)
-{
-    memset(uses, 0, sizeof *uses * (size_t)set->nparts);
-    retex_set_visit_const_parts(set, add_use, uses);
 }

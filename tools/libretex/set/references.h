@@ -28,7 +28,4 @@ static inline void retex_set_visit_const_parts(const RetexSet *set, RetexPartVis
     retex_set_visit_parts((RetexSet *)set, visit, context);
 }
 
-/* uses[i] = bits 1 << RetexPartUse of part i; uses has set->nparts elements. */
-void retex_set_part_uses(const RetexSet *set, unsigned *uses);
-
 #endif

@@ -78,7 +78,8 @@ typedef struct RetexFeatureInfo {
     RetexFeatureHit hit;
 } RetexFeatureInfo;
 
-extern const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT];
+/* NULL where there is no such feature. */
+const RetexFeatureInfo *retex_feature_info(int feature);
 
 /* The part of a target's cover. */
 void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target);
