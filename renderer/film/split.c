@@ -104,7 +104,7 @@ int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
     if (last)
         target_node_add_light(last, d, i, rest);
     else
-        p->tree.free += rest, p->tree.free_connections++;
+        p->tree.without_hit += rest, p->tree.nwithout_hit++;
     if (folded)
         film_add_folded(s->pixel, rgb_of4(light), rgb_of4(last ? with_white_targets(last, d * rest, i * rest) : rest));
     return 1;

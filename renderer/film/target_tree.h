@@ -63,8 +63,8 @@ typedef struct TargetNode {
 typedef struct TargetTree {
     TargetNode *last; /* that was added, or NULL */
     int count;
-    Float4 free;          /* sum of contributions without a hit */
-    int free_connections; /* their number */
+    Float4 without_hit; /* sum of contributions without a hit */
+    int nwithout_hit;   /* their number */
 } TargetTree;
 
 /* Add a hit, in memory of the caller; before_d and before_i are of the hit before it. */

@@ -57,7 +57,7 @@ void connect_light(Fixture *f, Rgb light)
     if (f->hits.last)
         target_node_add_light(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
     else
-        f->hits.free += colour4(light), f->hits.free_connections++;
+        f->hits.without_hit += colour4(light), f->hits.nwithout_hit++;
     f->light = rgb_add(f->light, beauty);
 }
 

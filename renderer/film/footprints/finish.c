@@ -146,8 +146,8 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
     FootprintFilm *film = layout;
     Places places = {0};
     RetexMixture any = {0};
-    RetexTerm free_term = {.role = RETEX_ROLE_INDEP, .target = -1};
-    int code = finish_term(film, set, &free_term, film->free, err);
+    RetexTerm indep_term = {.role = RETEX_ROLE_INDEP, .target = -1};
+    int code = finish_term(film, set, &indep_term, film->indep, err);
     for (int t = 0; t < film->scene->ntargets && !code; t++) {
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_kind(film, set, t, kind, &places, err);

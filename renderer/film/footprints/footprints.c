@@ -184,17 +184,17 @@ static void finish_node(FootprintPixel *p, const TargetNode *hit, Node *node)
 }
 
 /* As end_several, of a path with one hit, as most are. */
-static void end_single(FootprintPixel *p, const TargetNode *hit, Float4 *free, Float4 *white)
+static void end_single(FootprintPixel *p, const TargetNode *hit, Float4 *indep, Float4 *white)
 {
     HitLight light;
     start_light(p->film, &light, hit->dependent);
-    *free += hit->independent;
+    *indep += hit->independent;
     *white += target_factor_white(hit->dependent, hit->independent);
     if (add_first(p, hit, &light))
         add_range(p, hit);
 }
 
-static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *free, Float4 *white)
+static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *indep, Float4 *white)
 {
     const TargetNode *hits[TARGET_NODES_MAX];
     for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
@@ -209,7 +209,7 @@ static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *free,
             gather_node(p, hits[k], &p->nodes[k], &p->nodes[hits[k]->before->number]);
     for (int k = 0; k < path->count; k++) {
         if (!hits[k]->before)
-            *free += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
+            *indep += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
         finish_node(p, hits[k], &p->nodes[k]);
     }
 }
@@ -217,13 +217,13 @@ static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *free,
 static void end_path(void *pixel, const TargetTree *path)
 {
     FootprintPixel *p = pixel;
-    Float4 free = path->free, white = path->free;
+    Float4 indep = path->without_hit, white = path->without_hit;
     if (path->count == 1)
-        end_single(p, path->last, &free, &white);
+        end_single(p, path->last, &indep, &white);
     else if (path->count)
-        end_several(p, path, &free, &white);
+        end_several(p, path, &indep, &white);
     for (int c = 0; c < 3; c++)
-        p->free[c] += (double)free[c];
+        p->indep[c] += (double)indep[c];
     p->light->total_white += luminance4(white);
 }
 
@@ -241,7 +241,7 @@ static void signal_total(double total[3], const Clusters *clusters, const Plan *
 static void sum_signals(const void *pixel, SignalTotals *totals)
 {
     const FootprintPixel *p = pixel;
-    memcpy(totals->of[0], p->free, sizeof p->free);
+    memcpy(totals->of[0], p->indep, sizeof p->indep);
     for (int t = 0; t < p->film->scene->ntargets; t++) {
         signal_total(totals->of[1 + 2 * t], &p->targets[t].sharp, &p->film->plan);
         signal_total(totals->of[2 + 2 * t], &p->targets[t].broad, &p->film->plan);

@@ -40,7 +40,7 @@ typedef struct FootprintFilm {
     FilmParams params;
     Bands *bands; /* borrowed */
     Plan plan;
-    int free; /* C0 */
+    int indep; /* C0 */
     TargetImages *targets;
 } FootprintFilm;
 

@@ -111,7 +111,7 @@ typedef struct Node {
 struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
-    double free[3];
+    double indep[3];
     TargetClusters *targets;
     Node nodes[TARGET_NODES_MAX];
     LightSums *light; /* of contributions */

@@ -120,7 +120,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts, PARTS_MAX);
-    int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->free, err);
+    int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
     for (int t = 0; t < scene->ntargets && !code; t++)
         code = add_target(film, t, err);
     return code;
@@ -189,7 +189,7 @@ static void add_white(double sum[3], const Clusters *clusters)
 /* The largest channel of the pixel as it would be with white textures, in the set's units. */
 static double white_pixel(const FootprintPixel *p)
 {
-    double sum[3] = {p->free[0], p->free[1], p->free[2]};
+    double sum[3] = {p->indep[0], p->indep[1], p->indep[2]};
     for (int t = 0; t < p->film->scene->ntargets; t++) {
         add_white(sum, &p->targets[t].sharp);
         add_white(sum, &p->targets[t].broad);
@@ -279,9 +279,9 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     FootprintFilm *film = p->film;
     p->spp = spp;
     const double unit = retex_coefficient_unit(white_pixel(p)); /* before light is reset */
-    float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
+    float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
-        c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
+        c0[c] = (float)(p->indep[c] * scale), p->indep[c] = 0;
     for (int t = 0; t < film->scene->ntargets; t++) {
         store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, &at);
         store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, &at);

@@ -272,8 +272,8 @@ static void add_path(PaperPixel *p, const TargetTree *path)
     const TargetNode *hits[TARGET_NODES_MAX], *previous = NULL;
     for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
-    if (path->free_connections && !is_black4(path->free))
-        add_term(p, term_key(0, 0, 0), path->free);
+    if (path->nwithout_hit && !is_black4(path->without_hit))
+        add_term(p, term_key(0, 0, 0), path->without_hit);
     expansion_reset(e);
     for (int k = 0; k < path->count; previous = hits[k++]) {
         const TargetNode *hit = hits[k];
