@@ -20,7 +20,7 @@ static inline Float4 load(const float *p)
     return v;
 }
 /* A colour, and 0. */
-static inline Float4 colour4(Rgb c) { return (Float4){c.r, c.g, c.b, 0}; }
+static inline Float4 color4(Rgb c) { return (Float4){c.r, c.g, c.b, 0}; }
 static inline Rgb rgb_of4(Float4 c) { return rgb(c[0], c[1], c[2]); }
 #ifdef __SSE2__
 static inline int is_black4(Float4 c) { return !(_mm_movemask_ps(_mm_cmpneq_ps(c, _mm_setzero_ps())) & 7); }

@@ -27,7 +27,7 @@ static inline Float4 factor_whole(const Factor *f)
 /* The same, in a variant. */
 static inline Float4 factor_of_variant(const Factor *f, int variant)
 {
-    return f->d * (f->albedos ? colour4(f->albedos[variant]) : f->albedo) + f->i;
+    return f->d * (f->albedos ? color4(f->albedos[variant]) : f->albedo) + f->i;
 }
 
 typedef struct Contribution {

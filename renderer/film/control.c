@@ -82,7 +82,7 @@ void control_add(ControlPixel *p, ControlPath *path, const Contribution *c, Floa
         if (v > 0) {
             l = rgb_mul(path->betas[v], c->variants ? c->variants[v] : c->light);
             for (int k = 0; k < c->nfactors; k++)
-                l = rgb_of4(colour4(l) * factor_of_variant(&c->factors[k], v));
+                l = rgb_of4(color4(l) * factor_of_variant(&c->factors[k], v));
         }
         if (!isfinite(l.r + l.g + l.b)) {
             p->dropped += v > 0;

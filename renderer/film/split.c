@@ -86,7 +86,7 @@ static Float4 with_white_targets(const TargetNode *hit, Float4 dependent, Float4
 int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
 {
     const Factor *kept[TARGET_NODES_MAX];
-    Float4 rest = p->rest * colour4(c->light), d = p->last_d, i = p->last_i;
+    Float4 rest = p->rest * color4(c->light), d = p->last_d, i = p->last_i;
     TargetCounts counts = p->counts;
     TargetNode *last = p->last;
     int count = 0, folded = p->folded;

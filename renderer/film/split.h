@@ -31,7 +31,7 @@ int split_open(SplitSink *sink, FilmPixel *pixel, size_t paths, RetexError *err)
 void split_close(SplitSink *sink);
 static inline void split_start(SplitPath *path)
 {
-    path->rest = colour4(rgb_grey(1));
+    path->rest = color4(rgb_grey(1));
     path->counts = TARGET_COUNTS_INIT, path->folded = 0;
     path->tree = (TargetTree){.last = NULL};
     path->last = path->current_hit = NULL;

@@ -38,9 +38,9 @@ static Float4 density_at(const Medium *medium, Vec3 p)
 
 static void add(MediumSums *sums, const Medium *m, Float4 density)
 {
-    const Float4 scattering = colour4(m->scattering) * density;
-    sums->extinction += colour4(m->absorption) * density + scattering * splat((float)m->extinction);
-    sums->emission += colour4(m->emission) * density;
+    const Float4 scattering = color4(m->scattering) * density;
+    sums->extinction += color4(m->absorption) * density + scattering * splat((float)m->extinction);
+    sums->emission += color4(m->emission) * density;
     sums->scattering += medium_scattering(m, density);
 }
 
@@ -58,7 +58,7 @@ void medium_set_complete(MediumSet *set)
         const Medium *m = set->media[k];
         set->varies |= m->ndensities > 0;
         set->scatters |= !rgb_is_black(m->scattering);
-        set->sums.density[k] = m->ndensities > 0 ? colour4(m->most) : splat(1);
+        set->sums.density[k] = m->ndensities > 0 ? color4(m->most) : splat(1);
         add(&set->sums, m, set->sums.density[k]);
     }
     const Float4 e = set->sums.extinction;

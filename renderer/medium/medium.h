@@ -32,11 +32,11 @@ void medium_at(const MediumSet *set, Vec3 p, float most, MediumSums *sums);
  * share counts that dims light. */
 static inline Float4 medium_scattering_of_sources(const Medium *medium, Float4 density)
 {
-    return colour4(medium->scattering) * density;
+    return color4(medium->scattering) * density;
 }
 static inline Float4 medium_scattering(const Medium *medium, Float4 density)
 {
-    return colour4(medium->scattering) * density * splat(at_most((float)medium->extinction, 1));
+    return color4(medium->scattering) * density * splat(at_most((float)medium->extinction, 1));
 }
 /* Bound of a density's values. */
 Rgb density_bound(const Pigment *density);

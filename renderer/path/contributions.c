@@ -17,7 +17,7 @@ void path_worker_close(PathWorker *w)
 Factor shading_factor(const Shading *s, Float4 d, Float4 i)
 {
     return (Factor){
-        s->surface.target, d, i, colour4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
+        s->surface.target, d, i, color4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
 }
 
 const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
@@ -34,7 +34,7 @@ const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
 void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sampler)
 {
     const PathContext *c = w->context;
-    path->beta = colour4(rgb_grey(1));
+    path->beta = color4(rgb_grey(1));
     path->wavelength = -1, path->leaving = 0;
     path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){.position = ray->origin};
     path->segments = 1, path->straight = 0, path->sharp = path->delta = 1;
@@ -55,7 +55,7 @@ int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Flo
     factor.reflects = reflects, factor.sharp = path->sharp;
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)
-        betas[v] = rgb_of4(colour4(betas[v]) * factor_of_variant(&factor, v));
+        betas[v] = rgb_of4(color4(betas[v]) * factor_of_variant(&factor, v));
     if (c->split)
         split_multiply(&w->split, &path->split, &factor);
     return path_is_alive(w, path);
@@ -64,7 +64,7 @@ int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Flo
 void path_contribute(PathWorker *w, Path *path, const Contribution *c)
 {
     const PathContext *context = w->context;
-    Float4 light = path->beta * colour4(c->light);
+    Float4 light = path->beta * color4(c->light);
     for (int k = 0; k < c->nfactors; k++)
         light *= factor_whole(&c->factors[k]);
     if (context->trace)

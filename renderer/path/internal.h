@@ -87,8 +87,8 @@ static inline int path_is_alive(const PathWorker *w, const Path *path)
 /* Multiply throughput by what no texture changes. Returns path_is_alive. */
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
-    path->beta *= colour4(by);
-    path->split.rest *= colour4(by);
+    path->beta *= color4(by);
+    path->split.rest *= color4(by);
     for (int v = 1; v < w->context->nvariants; v++)
         path->control->betas[v] = rgb_mul(path->control->betas[v], by);
     return path_is_alive(w, path);
@@ -223,7 +223,7 @@ static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s,
 {
     if (surface_is_unsplit(w->context, s) && !s->replaced)
         return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
-    return path_apply_factor(w, path, s, colour4(weight.d), colour4(weight.i), reflects);
+    return path_apply_factor(w, path, s, color4(weight.d), color4(weight.i), reflects);
 }
 /* Begin the next segment, whose direction was sampled with density pdf, of which the BSDF's own share is bsdf_pdf. */
 static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)

@@ -152,7 +152,7 @@ static void add_source_light(PathWorker *w, Path *path, const Ray *ray, const Me
     const int passed = trace_shadow_ray(w, path, NULL, &sample, factors, SHADOW_FACTORS_MAX);
     if (passed < 0)
         return;
-    value *= media_set_transmittance(w, path, set, from, ray->direction, t) * colour4(sample.light.radiance);
+    value *= media_set_transmittance(w, path, set, from, ray->direction, t) * color4(sample.light.radiance);
     path_contribute(
         w, path,
         &(Contribution){light->lamp, rgb_of4(value / splat((float)(density * probability))), factors, passed, NULL});

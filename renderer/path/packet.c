@@ -153,7 +153,7 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
         path_contribute(w, path, &light);
         return;
     }
-    factors[0] = shading_factor(&v->s, colour4(value.d), colour4(value.i));
+    factors[0] = shading_factor(&v->s, color4(value.d), color4(value.i));
     factors[0].sharp = path->sharp;
     light.nfactors = 1 + passed;
     path_contribute(w, path, &light);

@@ -92,7 +92,7 @@ static void add_surface_emission(PathWorker *w, Path *path, const Hit *hit, cons
         weight = mis_weight(path->pdf,
                             lights_emitter_pdf(w->context->lights, &path->prev_context, hit->primitive, &s->surface));
     const Split light = surface_emission(s);
-    Factor factor = shading_factor(s, colour4(light.d), colour4(light.i));
+    Factor factor = shading_factor(s, color4(light.d), color4(light.i));
     factor.sharp = path->sharp;
     path_contribute(w, path, &(Contribution){s->surface.primitive->lamp, rgb_grey(weight), &factor, 1, NULL});
 }

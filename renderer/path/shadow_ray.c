@@ -88,7 +88,7 @@ static int shadow_factor(const Shading *s, const Light *source, Factor *factor)
     }
     if (rgb_is_black(passing.d) && rgb_is_black(passing.i))
         return 0;
-    *factor = shading_factor(s, colour4(passing.d), colour4(passing.i));
+    *factor = shading_factor(s, color4(passing.d), color4(passing.i));
     return 1;
 }
 

@@ -27,7 +27,7 @@ int emitter_factors(PathWorker *w, const Path *path, int lane, LightSample *ligh
                                    &n, LIGHT_FACTORS_MAX - 1, storage + 1))
         light->radiance = rgb_grey(0);
     const Split emission = surface_emission(&s);
-    factors[n] = shading_factor(&s, colour4(emission.d), colour4(emission.i));
+    factors[n] = shading_factor(&s, color4(emission.d), color4(emission.i));
     factors[n].albedos = keep_albedos(c, storage[0], &s);
     return n + 1;
 }
@@ -128,7 +128,7 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
         sample->pdf = guided_density(v, light->direction, sample->pdf);
     sample->found = 1;
     sample->traced = 0;
-    sample->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
+    sample->factors[0] = shading_factor(s, color4(f.d), color4(f.i));
     sample->nfactors = 1 + light_factors(w, path, k, light, sample->factors + 1);
     sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
     const Vec3 direction = is_source ? light->shadow_direction : light->direction;

@@ -39,7 +39,7 @@ void end_path(Fixture *f)
 void split_hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp, Split split)
 {
     const TargetVertex hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
-    target_tree_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, colour4(f->split.d), colour4(f->split.i));
+    target_tree_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, color4(f->split.d), color4(f->split.i));
     f->split = split;
     f->value = rgb_mul(f->value, split_apply(split, albedo));
 }
@@ -55,9 +55,9 @@ void connect_light(Fixture *f, Rgb light)
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
     film_add_light(f->pixel, sum);
     if (f->hits.last)
-        target_node_add_light(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
+        target_node_add_light(f->hits.last, color4(f->split.d), color4(f->split.i), color4(light));
     else
-        f->hits.without_hit += colour4(light), f->hits.nwithout_hit++;
+        f->hits.without_hit += color4(light), f->hits.nwithout_hit++;
     f->light = rgb_add(f->light, beauty);
 }
 

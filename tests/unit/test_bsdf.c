@@ -361,7 +361,7 @@ static void mirrors_rise_by_their_falloff(void **state)
 }
 
 /* What a mirror takes does not pass, in each channel; POV-Ray does so with conserve_energy. */
-static void coloured_mirrors_let_the_other_colours_pass(void **state)
+static void colored_mirrors_let_the_other_colors_pass(void **state)
 {
     (void)state;
     Case c;
@@ -557,7 +557,7 @@ int main(void)
                                        cmocka_unit_test(losses_are_those_of_the_curves),
                                        cmocka_unit_test(brilliance_keeps_an_albedo),
                                        cmocka_unit_test(mirrors_rise_by_their_falloff),
-                                       cmocka_unit_test(coloured_mirrors_let_the_other_colours_pass),
+                                       cmocka_unit_test(colored_mirrors_let_the_other_colors_pass),
                                        cmocka_unit_test(holes_have_no_coat),
                                        cmocka_unit_test(tint_of_metals_wears_off),
                                        cmocka_unit_test(highlights_sample_as_they_evaluate),

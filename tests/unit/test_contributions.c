@@ -75,7 +75,7 @@ static void end(Fixture *f)
 /* The floor, which reflects d times its albedo of 1/2. */
 static Factor floor_factor(float d, double u)
 {
-    return (Factor){0, colour4(rgb_grey(d)), splat(0), colour4(rgb_grey(0.5f)), NULL, {u, 0.25}, 1, 0};
+    return (Factor){0, color4(rgb_grey(d)), splat(0), color4(rgb_grey(0.5f)), NULL, {u, 0.25}, 1, 0};
 }
 
 static void bounce(Fixture *f, double u)

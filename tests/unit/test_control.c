@@ -35,7 +35,7 @@ static ControlFilm *fill(int nvariants, int nhalves, float sums[HEIGHT][WIDTH])
                     float share = part ? 0.75f : 0.25f;
                     Rgb light[3] = {rgb(2 * share * value, 2 * share * value, 0), rgb(share * value, share * value, 0),
                                     rgb_grey(share * other * 0.5f)};
-                    control_add(pixel, &path, &(Contribution){.variants = light}, colour4(light[0]));
+                    control_add(pixel, &path, &(Contribution){.variants = light}, color4(light[0]));
                 }
                 control_end(pixel, &path, nhalves == 2 ? s % 2 : 0);
                 sums[y][x] += value;
@@ -78,7 +78,7 @@ static void not_finite_is_left_out(void **state)
     assert_int_equal(control_film_create(&film, 1, 1, 1, 2, 0, NULL), 0);
     assert_int_equal(control_pixel_create(&pixel, film, NULL), 0);
     control_start(&path, 2);
-    control_add(pixel, &path, &(Contribution){.variants = light}, colour4(light[0]));
+    control_add(pixel, &path, &(Contribution){.variants = light}, color4(light[0]));
     control_end(pixel, &path, 0);
     control_pixel_end(pixel, 0, 0);
     control_pixel_close(&pixel);

@@ -21,10 +21,10 @@
 #define SPP (1 << 18) /* steps of corrections are as small as those of coefficients */
 #define PICTURES 16   /* by which targets are edited: bits */
 
-static const Rgb COLOUR = {0.9f, 0.4f, 0.05f}; /* of edited targets */
-static int most_each = 3;                      /* hits of one target on a path: corrections tell no more apart */
+static const Rgb COLOR = {0.9f, 0.4f, 0.05f}; /* of edited targets */
+static int most_each = 3;                     /* hits of one target on a path: corrections tell no more apart */
 
-/* 1: sharp hits lie in the left half of a texture of two colours, COLOUR and this one; all others in the right half. */
+/* 1: sharp hits lie in the left half of a texture of two colours, COLOR and this one; all others in the right half. */
 static int by_place;
 static const Rgb OTHER = {0.1f, 0.7f, 0.95f};
 
@@ -52,7 +52,7 @@ static void add_hit(Fixture *f, Truth *truth, int target, int first, uint32_t *s
     } else {
         split_hit(f, target, test_random(seed), test_random(seed), albedo, first && test_random(seed) < 0.5, split);
     }
-    const Rgb edited = by_place && !sharp ? OTHER : COLOUR;
+    const Rgb edited = by_place && !sharp ? OTHER : COLOR;
     for (int e = 0; e < PICTURES; e++)
         truth->value[e] = rgb_mul(truth->value[e], split_apply(split, e >> target & 1 ? edited : albedo));
 }
@@ -99,7 +99,7 @@ static void make(Fixture *f, Truth *truth, const FilmLayout *layout, int ntarget
 }
 
 /* The picture with some targets in a colour, by retex_combine. */
-static void combine_with(RetexImage *picture, const RetexSet *set, int edited, Rgb colour)
+static void combine_with(RetexImage *picture, const RetexSet *set, int edited, Rgb color)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     RetexSamples *samples = NULL;
@@ -110,7 +110,7 @@ static void combine_with(RetexImage *picture, const RetexSet *set, int edited, R
             continue;
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         snprintf(spec.target, sizeof spec.target, "%s", set->targets[t].name);
-        spec.constant = 1, spec.color[0] = colour.r, spec.color[1] = colour.g, spec.color[2] = colour.b;
+        spec.constant = 1, spec.color[0] = color.r, spec.color[1] = color.g, spec.color[2] = color.b;
         spec.constant = !by_place;
         snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("halves.exr"));
         specs[count++] = spec;
@@ -123,7 +123,7 @@ static void combine_with(RetexImage *picture, const RetexSet *set, int edited, R
 
 static void combine(RetexImage *picture, const RetexSet *set, int edited)
 {
-    combine_with(picture, set, edited, COLOUR);
+    combine_with(picture, set, edited, COLOR);
 }
 
 static double largest_error(const Fixture *f, const Truth *truth, int edited)
@@ -199,7 +199,7 @@ static void corrections_know_their_kind(void **state)
     (void)state;
     test_must(retex_image_alloc(&halves, 64, 4, 3, &err), &err);
     for (int i = 0; i < 64 * 4; i++)
-        memcpy(halves.pixels + 3 * i, i % 64 < 32 ? &COLOUR : &OTHER, 3 * sizeof(float));
+        memcpy(halves.pixels + 3 * i, i % 64 < 32 ? &COLOR : &OTHER, 3 * sizeof(float));
     test_must(retex_image_write(&halves, test_in_folder("halves.exr"), NULL, 1, &err), &err);
     retex_image_free(&halves);
     by_place = 1;

@@ -469,7 +469,7 @@ static void cover_is_the_share_of_the_pixel(void **state)
 }
 
 /* Without targets, the colours are those that are shown; nothing has a cover. */
-static void plain_guides_show_all_colours(void **state)
+static void plain_guides_show_all_colors(void **state)
 {
     (void)state;
     Scene *scene;
@@ -555,7 +555,7 @@ int main(void)
         cmocka_unit_test(guides_of_the_sky),
         cmocka_unit_test(covers_count_a_target_once),
         cmocka_unit_test(cover_is_the_share_of_the_pixel),
-        cmocka_unit_test(plain_guides_show_all_colours),
+        cmocka_unit_test(plain_guides_show_all_colors),
         cmocka_unit_test(more_samples_change_no_guide),
         cmocka_unit_test(a_crop_has_the_guides_of_the_whole),
     };

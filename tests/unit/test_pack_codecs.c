@@ -90,7 +90,7 @@ static void test_jpeg_kernels_agree(void **state)
         plain->inverse(samples[0], WIDTH, coefficients, BLOCKS, steps);
         const int width = WIDTH - round % 9; /* not only whole vectors */
         const float *planes = samples[0];
-        plain->colours(values[0], planes, planes + WIDTH, planes + 2 * WIDTH, width, &levels);
+        plain->colors(values[0], planes, planes + WIDTH, planes + 2 * WIDTH, width, &levels);
         plain->greys(values[0] + MOST, planes, width, &levels);
         for (int k = 0; k <= (int)retex_cpu_level(); k++) {
             const RetexPackJpegKernels *kernel = &retex_pack_jpeg_kernels[k];
@@ -98,7 +98,7 @@ static void test_jpeg_kernels_agree(void **state)
             for (int i = 0; i < 8 * WIDTH; i++)
                 assert_true(samples[1][i] == samples[0][i]); /* zeros may have a sign */
             memset(values[1], 0, sizeof values[1]);
-            kernel->colours(values[1], planes, planes + WIDTH, planes + 2 * WIDTH, width, &levels);
+            kernel->colors(values[1], planes, planes + WIDTH, planes + 2 * WIDTH, width, &levels);
             kernel->greys(values[1] + MOST, planes, width, &levels);
             assert_memory_equal(values[1], values[0], 3 * (size_t)width * sizeof(float));
             assert_memory_equal(values[1] + MOST, values[0] + MOST, (size_t)width * sizeof(float));

@@ -403,7 +403,7 @@ static const unsigned char *find_chunk(const Bytes *png, const char *type, size_
 
 /* What went through the display transform says that it is sRGB, for old readers too by its gamma and the primaries of
  * Rec. 709; what is in a space that was named says nothing. */
-static void test_png_says_its_colours(void **state)
+static void test_png_says_its_colors(void **state)
 {
     (void)state;
     static const unsigned long xy[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
@@ -627,7 +627,7 @@ int main(void)
         cmocka_unit_test(test_exr_is_that_of_sets),
         cmocka_unit_test(test_exr_of_any_light),
         cmocka_unit_test(test_jpeg_is_plain),
-        cmocka_unit_test(test_png_says_its_colours),
+        cmocka_unit_test(test_png_says_its_colors),
         cmocka_unit_test(test_png_filters_can_be_undone),
         cmocka_unit_test(test_srgb_codes),
         cmocka_unit_test(test_given_up_or_failed),

@@ -91,7 +91,7 @@ static void rainbows_are_those_of_povray(void **state)
 }
 
 /* The place in the map varies by as much as jitter to either side. */
-static void jitter_moves_the_colour(void **state)
+static void jitter_moves_the_color(void **state)
 {
     (void)state;
     Scene *scene = parse(V37 BOW "rainbow{B jitter .2 color_map{[0 rgb x][1 rgb y]}} sphere{99,1}");
@@ -160,7 +160,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rainbows_are_those_of_povray),
-        cmocka_unit_test(jitter_moves_the_colour),
+        cmocka_unit_test(jitter_moves_the_color),
         cmocka_unit_test(some_are_not_there),
         cmocka_unit_test(sets_recombine),
         cmocka_unit_test(mirrors_show_it),

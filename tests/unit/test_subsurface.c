@@ -103,7 +103,7 @@ static void shadows_are_soft_by_the_walk(void **state)
 }
 
 /* The texture is as sharp as without: black is where the pigment is black. */
-static void colour_is_where_light_leaves_to_the_eye(void **state)
+static void color_is_where_light_leaves_to_the_eye(void **state)
 {
     (void)state;
     RetexSet *set =
@@ -156,7 +156,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace_is_white),
         cmocka_unit_test(shadows_are_soft_by_the_walk),
-        cmocka_unit_test(colour_is_where_light_leaves_to_the_eye),
+        cmocka_unit_test(color_is_where_light_leaves_to_the_eye),
         cmocka_unit_test(is_off_without_the_block),
         cmocka_unit_test(sets_recombine),
     };

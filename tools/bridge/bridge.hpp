@@ -76,7 +76,7 @@ template <typename Curve> Transform per_channel(Curve curve)
 }
 
 // What a file states of its colours.
-struct StatedColours {
+struct StatedColors {
     bool are_stated = false;     // otherwise the type of the file decides
     bool are_srgb = false;       // they are sRGB as far as 8 bits show it
     bool are_by_channel = false; // the transform takes each channel by itself
@@ -88,10 +88,10 @@ struct StatedColours {
 using Chunks = std::map<std::string, std::vector<uint8_t>>;
 // The first bytes of the chunks that say something of colours; none of other files. To be called before a decoder has
 // the file, because all copies of a descriptor share the file position.
-Chunks read_colour_chunks(const RetexBridgeFile &file);
+Chunks read_color_chunks(const RetexBridgeFile &file);
 
 // profile: the file's ICC profile, or null. is_grey: the pixels have three equal channels.
-StatedColours stated_colours(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
+StatedColors stated_colors(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
                              size_t profile_bytes, bool is_grey);
 
 // Transform all rows of an RGBA block, on OpenImageIO's threads.

@@ -121,7 +121,7 @@ colorspaces:
     aliases: [none, "Utility - Raw"]
     family: data
     bitdepth: 32f
-    description: Numbers that are no colours; nothing is done to them
+    description: Numbers that are no colors; nothing is done to them
     isdata: true
     allocation: uniform
 )yaml";

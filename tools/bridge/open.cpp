@@ -75,7 +75,7 @@ OpenPicture::OpenPicture(const RetexBridgeHost *host, const RetexBridgeFile &fil
     if (!damage.empty() && format && refused.count(format))
         throw Failure(RETEX_EFORMAT, "cannot read: " + damage);
     note(damage);
-    chunks_ = read_colour_chunks(file);
+    chunks_ = read_color_chunks(file);
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1); // avoids lossy conversions of 8-bit values
     if (file.format) {

@@ -138,11 +138,11 @@ Channels find_channels(const OIIO::ImageSpec &spec)
         found.rgba[3] = spec.alpha_channel;
     if (found.rgba[0] < 0 && found.rgba[1] < 0 && found.rgba[2] < 0) {
         int alpha = found.rgba[3];
-        int colours = n - (alpha >= 0 ? 1 : 0);
-        for (int c = 0, i = 0; c < 3 && colours > 0; c++, i++) {
+        int colors = n - (alpha >= 0 ? 1 : 0);
+        for (int c = 0, i = 0; c < 3 && colors > 0; c++, i++) {
             if (i == alpha)
                 i++;
-            found.rgba[c] = colours >= 3 ? i : alpha == 0 ? 1 : 0;
+            found.rgba[c] = colors >= 3 ? i : alpha == 0 ? 1 : 0;
         }
     } else if (n == 1) {
         int only = 0;
@@ -225,8 +225,8 @@ Decoding choose_decoding(const RetexBridgeHost *host, const RetexBridgeFile &fil
     if (!named) {
         check_configuration();
         const OIIO::ParamValue *icc = spec.find_attribute("ICCProfile");
-        StatedColours stated =
-            stated_colours(host, chunks, icc ? icc->data() : nullptr, icc ? icc->type().size() : 0, is_grey(channels));
+        StatedColors stated =
+            stated_colors(host, chunks, icc ? icc->data() : nullptr, icc ? icc->type().size() : 0, is_grey(channels));
         if (stated.are_stated && !stated.are_srgb)
             return {stated.transform, stated.are_by_channel, ""};
         if (!stated.problem.empty())
@@ -412,11 +412,11 @@ RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile 
     OpenPicture in(host, file);
     OIIO::ImageSpec spec = in->spec();
     Channels channels = find_channels(spec);
-    bool wide = spec.format == OIIO::TypeDesc::UINT16, colours = true;
+    bool wide = spec.format == OIIO::TypeDesc::UINT16, colors = true;
     for (int c = 0; c < 3; c++)
-        colours = colours && channels.rgba[c] >= 0;
+        colors = colors && channels.rgba[c] >= 0;
     bool associated = channels.rgba[3] >= 0 && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
-    if (associated || channels.cmyk || !colours || spec.nchannels > 4 ||
+    if (associated || channels.cmyk || !colors || spec.nchannels > 4 ||
         (!wide && spec.format != OIIO::TypeDesc::UINT8))
         return RetexNarrowImage{};
     Decoding decoding = choose_decoding(host, file, spec, in.chunks(), channels);

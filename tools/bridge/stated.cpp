@@ -39,11 +39,11 @@ bool is_srgb(const Transform &transform)
     return true;
 }
 
-StatedColours problem(const std::string &what)
+StatedColors problem(const std::string &what)
 {
-    StatedColours colours;
-    colours.problem = what;
-    return colours;
+    StatedColors colors;
+    colors.problem = what;
+    return colors;
 }
 
 // ---- ICC profiles ----
@@ -90,7 +90,7 @@ std::string signature_text(cmsColorSpaceSignature space)
     return plain && !text.empty() ? text : "unknown";
 }
 
-StatedColours by_profile(const void *data, size_t bytes, bool is_grey)
+StatedColors by_profile(const void *data, size_t bytes, bool is_grey)
 {
     auto icc = std::make_shared<Icc>();
     if (!icc->context)
@@ -111,13 +111,13 @@ StatedColours by_profile(const void *data, size_t bytes, bool is_grey)
                                            icc->linear, rgba, INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOCACHE);
     if (!icc->transform)
         return problem("its ICC profile is damaged");
-    StatedColours colours;
-    colours.are_stated = true;
-    colours.transform = [icc](float *pixels, long count) {
+    StatedColors colors;
+    colors.are_stated = true;
+    colors.transform = [icc](float *pixels, long count) {
         cmsDoTransform(icc->transform, pixels, pixels, cmsUInt32Number(count));
     };
-    colours.are_srgb = is_srgb(colours.transform);
-    return colours;
+    colors.are_srgb = is_srgb(colors.transform);
+    return colors;
 }
 
 // ---- PNG ----
@@ -149,18 +149,18 @@ const Primaries primaries[] = {
 };
 
 // A curve for each channel, then the matrix from these primaries; curve empty = linear.
-StatedColours by_curve(const RetexBridgeHost *host, Transform curve, const float chromaticities[8],
+StatedColors by_curve(const RetexBridgeHost *host, Transform curve, const float chromaticities[8],
                        const std::string &name)
 {
     double m[3][3];
     int converted = host->to_rec709(chromaticities, m);
-    StatedColours colours;
+    StatedColors colors;
     if (converted < 0)
         return problem(name + " has primaries that span no colour space");
-    colours.are_stated = true;
-    colours.are_by_channel = !converted;
+    colors.are_stated = true;
+    colors.are_by_channel = !converted;
     std::vector<double> matrix(&m[0][0], &m[0][0] + 9);
-    colours.transform = !converted ? curve : [curve, matrix](float *rgba, long pixels) {
+    colors.transform = !converted ? curve : [curve, matrix](float *rgba, long pixels) {
         if (curve)
             curve(rgba, pixels);
         for (float *p = rgba; p < rgba + 4 * pixels; p += 4) {
@@ -169,11 +169,11 @@ StatedColours by_curve(const RetexBridgeHost *host, Transform curve, const float
                 p[c] = float(matrix[3 * c] * r + matrix[3 * c + 1] * g + matrix[3 * c + 2] * b);
         }
     };
-    colours.are_srgb = colours.transform && is_srgb(colours.transform);
-    return colours;
+    colors.are_srgb = colors.transform && is_srgb(colors.transform);
+    return colors;
 }
 
-StatedColours by_cicp(const RetexBridgeHost *host, const std::vector<uint8_t> &data)
+StatedColors by_cicp(const RetexBridgeHost *host, const std::vector<uint8_t> &data)
 {
     if (data.size() != 4)
         return problem("its chunk cICP is damaged");
@@ -213,7 +213,7 @@ uint32_t number_at(const std::vector<uint8_t> &data, size_t at)
 }
 
 // gAMA and cHRM. Encoders write a gamma of 2.2 for sRGB.
-StatedColours by_gamma(const RetexBridgeHost *host, const Chunks &chunks)
+StatedColors by_gamma(const RetexBridgeHost *host, const Chunks &chunks)
 {
     auto gamma = chunks.find("gAMA"), primary = chunks.find("cHRM");
     float chromaticities[8], exponent = 2.2f;
@@ -238,7 +238,7 @@ StatedColours by_gamma(const RetexBridgeHost *host, const Chunks &chunks)
 
 } // namespace
 
-Chunks read_colour_chunks(const RetexBridgeFile &file)
+Chunks read_color_chunks(const RetexBridgeFile &file)
 {
     Chunks chunks;
     std::unique_ptr<FILE, int (*)(FILE *)> stream = open_file(file);
@@ -258,7 +258,7 @@ Chunks read_colour_chunks(const RetexBridgeFile &file)
     return chunks;
 }
 
-StatedColours stated_colours(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
+StatedColors stated_colors(const RetexBridgeHost *host, const Chunks &chunks, const void *profile,
                              size_t profile_bytes, bool is_grey)
 {
     if (chunks.count("cICP"))

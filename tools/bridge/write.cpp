@@ -219,8 +219,8 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
 // Channels of the file: formats without alpha, and those that have no grey.
 int stored_channels(const std::string &format, bool has_alpha, int channels)
 {
-    static const std::set<std::string> coloured = {"hdr", "webp", "gif", "heif", "iff"};
-    return (channels == 4 && !has_alpha) || (channels == 1 && coloured.count(format)) ? 3 : channels;
+    static const std::set<std::string> colored = {"hdr", "webp", "gif", "heif", "iff"};
+    return (channels == 4 && !has_alpha) || (channels == 1 && colored.count(format)) ? 3 : channels;
 }
 
 // Formats to which OpenImageIO passes unassociated colours unchanged. Others need or keep colours multiplied by alpha.

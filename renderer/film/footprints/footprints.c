@@ -71,7 +71,7 @@ static inline void add_textured(const FootprintFilm *film, HitLight *sum, const 
 {
     const Plan *plan = &film->plan;
     const int target = hit->target;
-    const Float4 original = colour4(hit->albedo);
+    const Float4 original = color4(hit->albedo);
     for (int t = 0; t < corrected_targets(film->scene); t++)
         for (int n = 0; n <= CORRECTION_POWERS; n++) {
             const Float4 all = light->edited[t][n] + (n ? splat(0) : light->c[0]);
@@ -123,7 +123,7 @@ static int add_interreflection(FootprintPixel *p, const TargetNode *hit, const N
                                      .uv = {hit->at.uv.u, hit->at.uv.v},
                                      .weight = weight,
                                      .light = (node->original - node->none) * (light->c[0] + light->original),
-                                     .albedo = colour4(hit->at.albedo)};
+                                     .albedo = color4(hit->at.albedo)};
     clusters_add_interreflection(&p->targets[further.target], &further, p->film->params.periodic[further.target]);
     return 1;
 }
@@ -139,7 +139,7 @@ static int add_first(FootprintPixel *p, const TargetNode *hit, HitLight *light)
                             .uv = {hit->at.uv.u, hit->at.uv.v},
                             .weight = weight,
                             .light = light,
-                            .albedo = colour4(hit->at.albedo)};
+                            .albedo = color4(hit->at.albedo)};
     clusters_add(&p->targets[first.target], &first, &p->film->params);
     corrections_add(p, &first);
     return 1;

@@ -31,7 +31,7 @@ typedef struct Expansion {
 static inline void expansion_reset(Expansion *e)
 {
     e->size = TARGET_COUNTS_INIT;
-    e->monomials[0] = (Monomial){colour4(rgb_grey(1)), 0};
+    e->monomials[0] = (Monomial){color4(rgb_grey(1)), 0};
 }
 
 /* What an expansion is before more hits are pushed, to return to. */

@@ -184,10 +184,10 @@ static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4
         const TargetVertex *hit = &e->hits[__builtin_ctz(left)];
         Float4 light = value;
         for (unsigned others = hits & ~(left & -left); others; others &= others - 1)
-            light *= colour4(e->hits[__builtin_ctz(others)].albedo);
+            light *= color4(e->hits[__builtin_ctz(others)].albedo);
         FootprintSums *f = &p->footprints[footprint_number(hit)];
         f->light += light;
-        f->light_albedo += light * colour4(hit->albedo);
+        f->light_albedo += light * color4(hit->albedo);
     }
 }
 
@@ -202,7 +202,7 @@ static void add_to_corrections(PaperPixel *p, const Expansion *e, unsigned hits,
             if (hit->target == t)
                 on++;
             else
-                light *= colour4(hit->albedo), others++;
+                light *= color4(hit->albedo), others++;
         }
         if (others)
             p->corrections[t][correction_power(on)] += light;
@@ -303,7 +303,7 @@ static void footprint_add(FootprintSums *f, const TargetVertex *hit, int weight)
         f->mean[k] += delta * share;
         f->m2[k] += delta * delta * before * share;
     }
-    f->albedo += colour4(hit->albedo) * splat((float)weight);
+    f->albedo += color4(hit->albedo) * splat((float)weight);
 }
 
 static void end_path(void *pixel, const TargetTree *path)

@@ -385,7 +385,7 @@ int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float 
         const float *p = decoder->planes + (size_t)y * stride;
         float *to = values + (size_t)y * (size_t)width * (size_t)channels;
         if (channels == 3)
-            decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->levels);
+            decoder->kernels->colors(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->levels);
         else
             decoder->kernels->greys(to, p, width, &decoder->levels);
     }

@@ -122,8 +122,8 @@ static inline float value_of(float level, const RetexPackLevels *levels)
     return (low + (levels->share[entry + 1] - low) * (place - (float)entry)) * levels->white;
 }
 
-static void colours_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                          const RetexPackLevels *levels)
+static void colors_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
+                         const RetexPackLevels *levels)
 {
     for (int i = 0; i < count; i++) {
         const float level = y[i] + 128;
@@ -228,8 +228,8 @@ RETEX_CPU_INLINE __m256 values_of(__m256 level, const RetexPackLevels *levels)
     return (low + (high - low) * (place - _mm256_cvtepi32_ps(entry))) * levels->white;
 }
 
-static void colours_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                         const RetexPackLevels *levels)
+static void colors_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
+                        const RetexPackLevels *levels)
 {
     const __m256i reds = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), greens = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
                   blues = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
@@ -247,7 +247,7 @@ static void colours_avx2(float *restrict values, const float *y, const float *cb
         _mm256_storeu_ps(to + 16, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x49), blue, 0x92));
     }
     _mm256_zeroupper(); /* which the compiler leaves out before a last call */
-    colours_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, levels);
+    colors_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, levels);
 }
 
 static void greys_avx2(float *restrict values, const float *y, int count, const RetexPackLevels *levels)
@@ -323,9 +323,9 @@ RETEX_CPU_END
 #endif
 
 const RetexPackJpegKernels retex_pack_jpeg_kernels[RETEX_CPU_LEVELS] = {
-    {inverse_plain, colours_plain, greys_plain},
+    {inverse_plain, colors_plain, greys_plain},
 #if RETEX_CPU_X86
-    {inverse_avx2, colours_avx2, greys_avx2},
-    {inverse_avx512, colours_avx2, greys_avx2},
+    {inverse_avx2, colors_avx2, greys_avx2},
+    {inverse_avx512, colors_avx2, greys_avx2},
 #endif
 };

@@ -26,8 +26,8 @@ typedef struct RetexPackJpegKernels {
     /* A row of blocks: 8 rows of samples, `stride` floats apart. */
     void (*inverse)(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);
     /* Planes of Y, Cb and Cr (centred on 0) to interleaved values, and of one channel. */
-    void (*colours)(float *values, const float *y, const float *cb, const float *cr, int count,
-                    const RetexPackLevels *levels);
+    void (*colors)(float *values, const float *y, const float *cb, const float *cr, int count,
+                   const RetexPackLevels *levels);
     void (*greys)(float *values, const float *y, int count, const RetexPackLevels *levels);
 } RetexPackJpegKernels;
 
