@@ -187,16 +187,16 @@ static const CliOption *long_option(Cli *cli, const char *text)
     return option;
 }
 
-/* Parse the first letter of cli->group. Its argument or more letters follow it. */
+/* Parse the first of cli->letters. Its argument or more letters follow it. */
 static const CliOption *short_option(Cli *cli)
 {
-    char letter = *cli->group++;
+    char letter = *cli->letters++;
     const CliOption *option = cli_find_option(cli, NULL, 0, letter);
     if (!option)
-        cli_unknown_option(cli, "-", cli->group - 1, 1);
-    const char *rest = *cli->group ? cli->group : NULL;
+        cli_unknown_option(cli, "-", cli->letters - 1, 1);
+    const char *rest = *cli->letters ? cli->letters : NULL;
     if (option->argument || !rest)
-        cli->group = NULL;
+        cli->letters = NULL;
     take_value(cli, option, option->argument ? rest : NULL);
     return option;
 }
@@ -253,7 +253,7 @@ const CliOption *cli_next(Cli *cli)
     for (;;) {
         const CliOption *option;
         cli->modifiers = "";
-        if (cli->group) {
+        if (cli->letters) {
             option = short_option(cli);
         } else if (cli->next >= cli->argc) {
             if (cli->access.safe && !cli->is_server)
@@ -274,7 +274,7 @@ const CliOption *cli_next(Cli *cli)
             if (word[1] == '-') {
                 option = long_option(cli, word + 2);
             } else {
-                cli->group = word + 1;
+                cli->letters = word + 1;
                 option = short_option(cli);
             }
         }

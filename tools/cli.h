@@ -44,7 +44,7 @@ typedef struct Cli {
     const char *value;       /* argument of the option last returned */
     const char *modifiers;   /* the text after `--name:`, or "" */
     char frame[24];          /* "frame 3: " in all messages while that frame is made, or "" */
-    const char *group;       /* the letters of a group such as -qv that are not parsed yet */
+    const char *letters;     /* of an argument such as -qv, those that are not parsed yet */
     FILE *answer;            /* what a tool whose output is text prints to; see cli_answer */
     char *answer_text;       /* its text, where -o names a file */
     size_t answer_bytes;

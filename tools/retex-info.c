@@ -18,7 +18,7 @@ static const CliOption options[] = {
     {0},
 };
 
-/* Uncompressed bytes of each group of parts, and the number of AOVs as the paper's supplement counts them. */
+/* Uncompressed bytes of parts by their use, and the number of AOVs as the paper's supplement counts them. */
 typedef struct Sizes {
     long long file; /* size of the file, or -1 if unknown */
     long long radiance, uv, spread, albedo, originals, other, samples;
@@ -31,7 +31,7 @@ static long long part_bytes(const RetexPart *part)
            (part->type == RETEX_HALF ? 2 : 4);
 }
 
-/* Add a part to a group. A part with several references is counted once. */
+/* Add a part to the bytes of its use. A part with several references is counted once. */
 static void count_part(const RetexSet *set, int part, char *counted, long long *bytes, int *aovs)
 {
     if (part < 0 || counted[part])
@@ -210,14 +210,14 @@ static void print_samples(FILE *out, const RetexSamples *samples)
 /* For a pack: print the sizes of its parts in the file. */
 static void print_packed(FILE *out, const RetexSet *set)
 {
-    uint64_t bytes[RETEX_PACK_GROUPS];
+    uint64_t bytes[RETEX_PACK_USES];
 
     if (!set || retex_pack_bytes(bytes, set, NULL))
         return;
     fprintf(out, "bytes in the pack\n");
-    for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+    for (int i = 0; i < RETEX_PACK_USES; i++)
         if (bytes[i] > 0)
-            fprintf(out, "  %-12s %10llu\n", retex_pack_group_names[i], (unsigned long long)bytes[i]);
+            fprintf(out, "  %-12s %10llu\n", retex_pack_use_names[i], (unsigned long long)bytes[i]);
 }
 
 static void print_text(FILE *out, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
@@ -259,11 +259,11 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
             "\"other\":%lld,\"samples\":%lld},",
             sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
             sizes->albedo, sizes->originals, sizes->other, sizes->samples);
-    uint64_t bytes[RETEX_PACK_GROUPS];
+    uint64_t bytes[RETEX_PACK_USES];
     if (set && !retex_pack_bytes(bytes, set, NULL)) {
         fprintf(out, "\"packed_bytes\":");
-        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
-            fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_group_names[i], (unsigned long long)bytes[i]);
+        for (int i = 0; i < RETEX_PACK_USES; i++)
+            fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_use_names[i], (unsigned long long)bytes[i]);
         fprintf(out, "},");
     }
     fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);

@@ -16,7 +16,7 @@ static const CliOption options[] = {
     {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90, with --web 60", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
-    {"stats", 0, "FILE.json", "write sizes by group and the loss in pictures; - is standard output", 0},
+    {"stats", 0, "FILE.json", "write sizes by use and the loss in pictures; - is standard output", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
@@ -90,7 +90,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     RetexSet *pack = NULL;
     double psnr[RETEX_PACK_LOSSES];
     RetexPackPromise promise;
-    uint64_t bytes[RETEX_PACK_GROUPS];
+    uint64_t bytes[RETEX_PACK_USES];
     char text[2048], quality[16] = "null";
     int code = retex_set_open(pack_path, &pack, NULL, job->threads, err);
     if (!code)
@@ -98,7 +98,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     if (!code) {
         double rest = pack_bytes;
         retex_pack_bytes(bytes, pack, NULL);
-        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+        for (int i = 0; i < RETEX_PACK_USES; i++)
             rest -= (double)bytes[i];
         bytes[RETEX_PACK_OTHER] += (uint64_t)rest;
         if (!job->params.lossless)
@@ -107,8 +107,8 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
                          "{\n  \"codec\": \"%s\",\n  \"quality\": %s,\n  \"set_bytes\": %.0f,\n"
                          "  \"pack_bytes\": %.0f,\n  \"bytes\": {",
                          job->params.lossless ? "lossless" : "jpeg", quality, cli_file_size(job->input), pack_bytes);
-        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
-            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_group_names[i],
+        for (int i = 0; i < RETEX_PACK_USES; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_use_names[i],
                           (unsigned long long)bytes[i]);
         n += snprintf(text + n, sizeof text - (size_t)n, "},\n  \"psnr\": {");
         for (int i = 0; i < RETEX_PACK_LOSSES; i++)

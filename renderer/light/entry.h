@@ -46,7 +46,7 @@ struct LightEntryOps {
     int (*add)(LightEntries *list, RetexError *err);
     void (*close)(LightEntry *entry); /* or NULL */
     /* Whether it shines on what is in a light group. NULL: on everything. */
-    int (*reaches)(const LightEntry *entry, const LightGroup *group);
+    int (*reaches)(const LightEntry *entry, const LightGroup *light_group);
     /* Estimate of the irradiance on a surface that faces it. NULL: its strength, everywhere. */
     float (*estimate)(const LightEntry *entry, Vec3 position);
     /* For the tree: of one of its nfaces, or of the whole, -1. NULL where all entries of this kind are infinite. */

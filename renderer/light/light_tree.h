@@ -13,7 +13,7 @@
 typedef struct LightSampleContext {
     Vec3 position;
     Vec3 normal; /* unit length, on the side that light must come from; 0 where it may come from both */
-    const struct LightGroup *group; /* of the surface, or NULL: which light sources shine on it */
+    const struct LightGroup *light_group; /* of the surface, or NULL: which light sources shine on it */
 } LightSampleContext;
 
 /* What bounds a light, in world space. Its irradiance at distance d on a surface that faces it is about

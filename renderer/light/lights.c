@@ -56,13 +56,13 @@ static void sum_infinite(Lights *lights)
     }
 }
 
-static int has_groups(const Scene *scene)
+static int has_light_groups(const Scene *scene)
 {
     for (int k = 0; k < scene->nprimitives; k++)
         if (scene->primitives[k].light_group)
             return 1;
     for (int k = 0; k < scene->nlights; k++)
-        if (scene->lights[k].group)
+        if (scene->lights[k].light_group)
             return 1;
     return 0;
 }
@@ -77,7 +77,7 @@ static int grow_tree(Lights *lights, RetexError *err)
         lights->list.entries[k].leaf = -1;
         leaves += of_entry, finite += of_entry > 0;
     }
-    if (finite == leaves && lights->list.count <= (has_groups(lights->list.scene) ? EXACT_MOST : EXACT_MAX))
+    if (finite == leaves && lights->list.count <= (has_light_groups(lights->list.scene) ? EXACT_MOST : EXACT_MAX))
         return RETEX_OK;
     LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
     lights->leaves = malloc((size_t)leaves * sizeof *lights->leaves + 1);
@@ -179,7 +179,7 @@ static inline float entry_estimate(const LightEntry *e, Vec3 position)
     return e->ops->estimate ? e->ops->estimate(e, position) : e->strength;
 }
 
-/* Probabilities of the entries at a point; their sum is 1, or 0 where none shines on the point's group. */
+/* Probabilities of the entries at a point; their sum is 1, or 0 where none shines on the point's light group. */
 static void local_shares(const Lights *lights, const LightSampleContext *point, float *shares)
 {
     const LightEntries *list = &lights->list;
@@ -187,7 +187,7 @@ static void local_shares(const Lights *lights, const LightSampleContext *point, 
     for (int k = 0; k < list->count; k++) {
         const LightEntry *e = &list->entries[k];
         shares[k] = -1;
-        if (!e->ops->reaches || e->ops->reaches(e, point->group))
+        if (!e->ops->reaches || e->ops->reaches(e, point->light_group))
             total += shares[k] = entry_estimate(e, point->position);
     }
     const float least = total > 0 ? total * CHOICE_FLOOR / (float)list->count : 1;

@@ -251,9 +251,9 @@ static int add_sources(LightEntries *list, RetexError *err)
     return code;
 }
 
-static int source_reaches(const LightEntry *e, const LightGroup *group)
+static int source_reaches(const LightEntry *e, const LightGroup *light_group)
 {
-    return light_reaches_group(&e->scene->lights[e->index], group);
+    return light_reaches(&e->scene->lights[e->index], light_group);
 }
 
 static float source_estimate(const LightEntry *e, Vec3 position)

@@ -48,7 +48,7 @@ typedef struct Builder {
 
 /* ---- lobes ---- */
 
-/* A group of a cell's photons, and the lobe that is fitted to it. */
+/* Some of a cell's photons, and the lobe that is fitted to it. */
 typedef struct Lobe {
     int first, end;
     Vec3 center, at; /* means of where they came from, and of where they landed */

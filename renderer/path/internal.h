@@ -28,7 +28,7 @@ typedef struct Path {
     uint32_t sample; /* in its half of the pixel's */
     int half;
     int specular;                /* what bent it since it left a surface that scatters widely, see SPECULAR_… */
-    const LightGroup *lit_group; /* of that surface: which light sources shine on it */
+    const LightGroup *light_group; /* of that surface: which light sources shine on it */
     float source_scale;          /* of light sources that it meets; not 1 where a medium is seen that scattered it */
     Media media;
     Float4 media_weight;         /* of what media did to throughput, the distances of scattering are chosen by it */

@@ -188,14 +188,14 @@ static void add_map(Leaves *leaves, const Point *at, const TextureTree *tree, Le
 
 /* ---- operands ---- */
 
-static int is_within(const CsgNode *node, const CsgNode *group)
+static int is_within(const CsgNode *node, const CsgNode *ancestor)
 {
-    while (node && node != group)
+    while (node && node != ancestor)
         node = node->parent;
     return node != NULL;
 }
 
-/* Whether the point is inside an operand as far as the groups around it let it be; those that contain the surface
+/* Whether the point is inside an operand as far as the compounds around it let it be; those that contain the surface
  * itself are not asked. */
 static int operand_contains(const CsgNode *node, const CsgNode *surface, Vec3 p)
 {

@@ -105,7 +105,7 @@ static Float4 source_scattering(const MediumSet *set, Vec3 p, double cosine, int
 static float source_weight(const Light *light, const Ray *ray, double most)
 {
     double begin, end;
-    if (light->passes_media || !light_reaches_group(light, NULL) || !source_lit_part(light, ray, most, &begin, &end))
+    if (light->passes_media || !light_reaches(light, NULL) || !source_lit_part(light, ray, most, &begin, &end))
         return 0;
     return source_most_irradiance(light, ray, most);
 }
@@ -238,7 +238,7 @@ static MediumEvent scatter_at(PathWorker *w, Path *path, Ray *ray, const MediumS
     *ray = (Ray){p, phase_sample(medium, before, u1, u2, &pdf), 0, INFINITY};
     path->kind = RAY_BOUNCE;
     path->prev_context = (LightSampleContext){p, {0, 0, 0}, NULL};
-    path->specular = SPECULAR_BEGINS, path->lit_group = NULL;
+    path->specular = SPECULAR_BEGINS, path->light_group = NULL;
     path->source_scale = path->sharp ? (float)(phase_source_scale(medium) / fmin(medium->extinction, 1)) : 1;
     path_next_segment(path, (float)pdf, (float)pdf);
     return MEDIUM_SCATTERED;

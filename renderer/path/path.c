@@ -169,7 +169,7 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
     const Primitive *p = v->s.surface.primitive;
     Factor factors[SHADOW_FACTORS_MAX];
     if (next->pdf > 0) {
-        path->specular = SPECULAR_BEGINS, path->lit_group = p->light_group, path->source_scale = 1;
+        path->specular = SPECULAR_BEGINS, path->light_group = p->light_group, path->source_scale = 1;
         return;
     }
     const int by = next->transmitted || v->s.surface.backside ? CAUSTICS_REFRACT : CAUSTICS_REFLECT;
@@ -178,7 +178,7 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
         const Light *light = &c->scene->lights[k];
         DirectLightSample met = {.ray = *ray};
         if (!light->caustics || (path->specular & ~light->caustics & ~SPECULAR_BEGINS) ||
-            !light_reaches_group(light, path->lit_group) || !source_meet(light, ray, &met.light))
+            !light_reaches(light, path->light_group) || !source_meet(light, ray, &met.light))
             continue;
         met.ray.tmax = met.light.shadow_distance * (1 - 1e-6);
         const int passed = trace_shadow_ray(w, path, &v->s.surface, &met, factors, SHADOW_FACTORS_MAX);

@@ -36,10 +36,10 @@ LightSampleContext light_sample_context(const Shading *s)
 {
     const Vec3 none = {0, 0, 0};
     const Bsdf *b = &s->bsdf;
-    const LightGroup *group = s->surface.primitive->light_group;
+    const LightGroup *light_group = s->surface.primitive->light_group;
     if (!bsdf_only_reflects(b))
-        return (LightSampleContext){s->surface.position, none, group};
-    return (LightSampleContext){s->surface.position, b->bumped ? b->geometric : b->normal, group};
+        return (LightSampleContext){s->surface.position, none, light_group};
+    return (LightSampleContext){s->surface.position, b->bumped ? b->geometric : b->normal, light_group};
 }
 
 /* ---- directions by the guide to caustics ---- */
@@ -118,7 +118,7 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
     if (!lights_sample(c->lights, &context, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
         return;
     const int is_source = light->source != NULL;
-    if (is_source && !light_reaches_group(light->source, s->surface.primitive->light_group))
+    if (is_source && !light_reaches(light->source, s->surface.primitive->light_group))
         return;
     const BsdfLight kind = !is_source ? BSDF_ANY_LIGHT : light->shadowless ? BSDF_SHADOWLESS : BSDF_LIGHT_SOURCE;
     Split f = bsdf_eval(&s->bsdf, light->direction, kind, &sample->pdf);

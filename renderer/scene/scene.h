@@ -26,7 +26,7 @@ typedef struct IdentList {
     const struct IdentList *next;
 } IdentList;
 
-/* Where the statements stand that a thing is from, from the inside out: those of its shape, of the groups that it is
+/* Where the statements stand that a thing is from, from the inside out: those of its shape, of the compounds that it is
  * in, of `object{Ident}`. What a macro writes stands where the macro is called. Immutable and shared, as IdentList. */
 typedef struct PlaceList {
     const char *file;
@@ -453,9 +453,9 @@ typedef struct Primitive {
 /* How a primitive may throw caustics of light sources, and a light source may shine through such primitives. */
 enum { CAUSTICS_REFRACT = 1, CAUSTICS_REFLECT = 2 };
 
-/* A light_group: its lights shine only on what is in it, without the groups within it. */
+/* A light_group: its lights shine only on what is in it, without the light groups within it. */
 typedef struct LightGroup {
-    int global_lights; /* lights of no group shine on what is in it */
+    int global_lights; /* lights of no light group shine on what is in it */
 } LightGroup;
 
 typedef struct LightOps LightOps; /* light/source.h */
@@ -477,15 +477,15 @@ typedef struct Light {
                                 shadows are those of the grid */
     int shadowless;
     const struct Csg *projected_through; /* in world space, or NULL: only light that passes it shines on */
-    const LightGroup *group; /* or NULL */
+    const LightGroup *light_group; /* or NULL */
     int caustics;            /* CAUSTICS_…; 0: shines straight through glass */
     double size;             /* with caustics: radius of the sphere as which refracted and mirrored paths meet it */
 } Light;
 
-/* Whether a light source shines on what is in a group, or in none. */
-static inline int light_reaches_group(const Light *light, const LightGroup *group)
+/* Whether a light source shines on what is in a light group, or in none. */
+static inline int light_reaches(const Light *light, const LightGroup *light_group)
 {
-    return light->group == group || (!light->group && group->global_lights);
+    return light->light_group == light_group || (!light->light_group && light_group->global_lights);
 }
 
 /* The density of points on a lens, row by row: cumulative sums that end at 1. */

@@ -182,7 +182,7 @@ static void combine_solids(CsgNode *node, const CsgNode *other, int decides)
         node->outside = decides;
 }
 
-static void bound_group(CsgNode *node)
+static void bound_compound(CsgNode *node)
 {
     const int decides = decisive(node);
 
@@ -231,7 +231,7 @@ static int prepare(Arena *arena, CsgNode *node)
     if (node->kind == CSG_LEAF)
         prepare_leaf(node);
     else
-        bound_group(node);
+        bound_compound(node);
     for (CsgNode *clip = node->clips; clip; clip = clip->next) {
         if (!prepare(arena, clip))
             return 0;

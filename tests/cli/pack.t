@@ -52,7 +52,7 @@ $ retex-pack --unpack s.retex -o x.exr --lossless
 $ retex-pack -q s.exr --quality 50 -o q50.retex; test $(stat -c %s q50.retex) -lt $(stat -c %s s.retex) && echo smaller
 > smaller
 
-# What was lost, measured: all keys, groups that add up to the file, and more decibels at more quality.
+# What was lost, measured: all keys, sizes by use that add up to the file, and more decibels at more quality.
 $ retex-pack -q s.exr -o st.retex --stats st.json; retex-pack -q s.exr -o st.retex --quality 50 --stats - >st50.json
 $ test $(grep -o '"set_bytes": [0-9]*' st.json | cut -d' ' -f2) = $(stat -c %s s.exr) && echo the size of the set
 > the size of the set

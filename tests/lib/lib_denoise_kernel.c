@@ -11,23 +11,23 @@ static void fill(float *plane, double low, double high, uint32_t *seed)
 
 Room *open_room(uint32_t seed)
 {
-    static const int counts[GROUPS] = {3, 1, 3, 2};
+    static const int counts[FEATURES] = {3, 1, 3, 2};
     Room *r = calloc(1, sizeof *r);
     int first = 0;
     for (int k = 0; k < PLANES; k++) {
         fill(r->planes[k], -1, 1, &seed);
         r->features.planes[k] = r->planes[k];
     }
-    for (int k = 0; k < GROUPS; k++) {
+    for (int k = 0; k < FEATURES; k++) {
         fill(r->scales[2 * k], 0.1, 3, &seed);
         fill(r->scales[2 * k + 1], 0.01, 0.3, &seed);
-        r->features.groups[k] = (RetexDenoiseFeatureGroup){
+        r->features.of[k] = (RetexDenoiseFeature){
             .first = first, .count = counts[k], .strict = r->scales[2 * k], .loose = r->scales[2 * k + 1]};
         first += counts[k];
     }
     for (int k = 0; k < 3; k++)
-        r->features.groups[2].normal[k] = r->planes[k];
-    r->features.ngroups = GROUPS;
+        r->features.of[2].normal[k] = r->planes[k];
+    r->features.count = FEATURES;
     r->features.valid = r->valid;
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < 3; c++)

@@ -5,11 +5,11 @@
 #include "denoise/denoise_kernel.h"
 #include "lib_test.h"
 
-enum { PLANES = 9, GROUPS = 4, IMAGES = 6 };
+enum { PLANES = 9, FEATURES = 4, IMAGES = 6 };
 
 /* The input of both kernels. */
 typedef struct Room {
-    float planes[PLANES][DENOISE_PLANE], scales[2 * GROUPS][DENOISE_PLANE], valid[DENOISE_PLANE];
+    float planes[PLANES][DENOISE_PLANE], scales[2 * FEATURES][DENOISE_PLANE], valid[DENOISE_PLANE];
     float half[2][3][DENOISE_PLANE], variance[3][DENOISE_PLANE], kind[DENOISE_PLANE], modulation[DENOISE_PLANE];
     float images[IMAGES][DENOISE_PLANE], scratch[DENOISE_SCRATCH];
     const float *image_planes[IMAGES];
@@ -24,7 +24,7 @@ typedef struct Sums {
     float *image_sums[IMAGES];
 } Sums;
 
-/* Three groups of features and one of positions. They give weights from 0 to 1. To be freed. */
+/* Three features and one of positions. They give weights from 0 to 1. To be freed. */
 Room *open_room(uint32_t seed);
 /* With all images. */
 RetexDenoiseSignal signal_of(Room *r, Sums *sums);

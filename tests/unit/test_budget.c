@@ -195,13 +195,13 @@ static void test_control_groups(void **state)
     snprintf(folder, sizeof folder, "%s/memory/c", root);
     make_folder(folder);
     put_limit(folder, "memory.limit_in_bytes", "3000\n");
-    assert_int_equal(retex_machine_group_memory("0::/a/b\n", root), 4000);
-    assert_int_equal(retex_machine_group_memory("0::/a", root), 4000);
-    assert_true(retex_machine_group_memory("0::/\n", root) == UINT64_MAX);
-    assert_true(retex_machine_group_memory("0::/../../other\n", root) == UINT64_MAX);
-    assert_int_equal(retex_machine_group_memory("12:cpu:/a\n5:memory:/c\n0::/\n", root), 3000);
-    assert_true(retex_machine_group_memory("", root) == UINT64_MAX);
-    assert_true(retex_machine_group_memory("nonsense\n::\n", root) == UINT64_MAX);
+    assert_int_equal(retex_machine_cgroup_memory("0::/a/b\n", root), 4000);
+    assert_int_equal(retex_machine_cgroup_memory("0::/a", root), 4000);
+    assert_true(retex_machine_cgroup_memory("0::/\n", root) == UINT64_MAX);
+    assert_true(retex_machine_cgroup_memory("0::/../../other\n", root) == UINT64_MAX);
+    assert_int_equal(retex_machine_cgroup_memory("12:cpu:/a\n5:memory:/c\n0::/\n", root), 3000);
+    assert_true(retex_machine_cgroup_memory("", root) == UINT64_MAX);
+    assert_true(retex_machine_cgroup_memory("nonsense\n::\n", root) == UINT64_MAX);
     assert_true(retex_machine_memory() > 1 << 20);
     static const char *const made[] = {"a/b/memory.max",
                                        "a/b",

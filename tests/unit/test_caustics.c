@@ -139,7 +139,7 @@ static void same_for_any_threads(void **state)
     scene_close(&scene);
 }
 
-/* The ball is in an instance of a group of many parts, with a texture of its own or of the instance. */
+/* The ball is in an instance of a compound of many parts, with a texture of its own or of the instance. */
 static void instances_are_casters(void **state)
 {
     (void)state;

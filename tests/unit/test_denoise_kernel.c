@@ -87,17 +87,17 @@ static double falloff(double x)
 static double alike_reference(const Room *r, size_t p, size_t q, int dx, int dy, int loose)
 {
     double largest = 0;
-    for (int g = 0; g < GROUPS; g++) {
-        const RetexDenoiseFeatureGroup *group = &r->features.groups[g];
+    for (int g = 0; g < FEATURES; g++) {
+        const RetexDenoiseFeature *feature = &r->features.of[g];
         double squares = 0, along = 0;
-        for (int k = 0; k < group->count; k++) {
-            double d = (double)r->planes[group->first + k][q] - r->planes[group->first + k][p];
+        for (int k = 0; k < feature->count; k++) {
+            double d = (double)r->planes[feature->first + k][q] - r->planes[feature->first + k][p];
             squares += d * d;
-            along += group->normal[0] ? group->normal[k][p] * d : 0;
+            along += feature->normal[0] ? feature->normal[k][p] * d : 0;
         }
-        if (group->normal[0])
+        if (feature->normal[0])
             squares = along * along / fmax(1, dx * dx + dy * dy);
-        largest = fmax(largest, squares * (loose ? group->loose : group->strict)[p]);
+        largest = fmax(largest, squares * (loose ? feature->loose : feature->strict)[p]);
     }
     return r->valid[q] * falloff(largest);
 }

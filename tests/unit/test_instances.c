@@ -1,5 +1,5 @@
-/* Copies of groups, which become instances: a scene that declares its groups once is compared with one that writes each
- * copy out by a macro, whose groups are all different. */
+/* Copies of compounds, which become instances: a scene that declares its compounds once is compared with one that
+ * writes each copy out by a macro, whose compounds are all different. */
 #include <stdio.h>
 #include <string.h>
 #include "lib_scene_text.h"

@@ -460,21 +460,21 @@ static void domes_are_left_to_paths(void **state)
 static void only_lights_of_the_group_are_chosen(void **state)
 {
     (void)state;
-    static const char *const groups[] = {
+    static const char *const light_groups[] = {
         "light_group { light_source { <5,9,5>, 1 } light_source { <1,2,-3>, 1 parallel } sphere { 0, 1 } }",
         "light_group { light_source { <5,9,5>, 1 } sphere { 0, 1 } global_lights on }",
         "light_group { sphere { 0, 1 } }"};
-    const int chosen[3][2] = {{2, 9}, {10, 9}, {0, 9}}; /* on the sphere, and on what is in no group */
+    const int chosen[3][2] = {{2, 9}, {10, 9}, {0, 9}}; /* on the sphere, and on what is in no light group */
     char text[1000];
     for (int k = 0; k < 3; k++) {
         snprintf(text, sizeof text, "%s#for(I,1,9) light_source { <I,7,-3>, 1 } #end %s sphere { 5, 1 }", HEAD,
-                 groups[k]);
+                 light_groups[k]);
         Scene *scene = test_scene(text);
         Lights *lights;
         assert_int_equal(lights_create(&lights, scene, NULL), 0);
         for (int outside = 0; outside < 2; outside++) {
             const LightSampleContext p = {.position = vec3(outside, 1, 0),
-                                          .group = scene->primitives[outside].light_group};
+                                          .light_group = scene->primitives[outside].light_group};
             double inverses = 0;
             enum { N = 4000 };
             for (int i = 0; i < N; i++) {
@@ -482,11 +482,11 @@ static void only_lights_of_the_group_are_chosen(void **state)
                 const LightPick pick = lights_pick(lights, &p, (float)(i + 0.5) / N, 0.5f);
                 if (!lights_sample(lights, &p, &pick, 0.5f, 0.5f, &s))
                     continue;
-                assert_true(light_reaches_group(s.source, p.group));
+                assert_true(light_reaches(s.source, p.light_group));
                 inverses += 1 / (double)s.pick_probability / N;
             }
             if (fabs(inverses - chosen[k][outside]) > 0.05) /* each of them once */
-                fail_msg("group %d, outside %d: %.3f lights, not %d", k, outside, inverses, chosen[k][outside]);
+                fail_msg("light group %d, outside %d: %.3f lights, not %d", k, outside, inverses, chosen[k][outside]);
         }
         lights_close(&lights);
         scene_close(&scene);

@@ -35,7 +35,7 @@ static Rgb shaded(const Case *c, const Light *light, const Surface *surface)
     for (int k = 0; k < n1 * n2; k++) {
         LightSample s;
         const float u1 = (float)((k % n1 + 0.5) / n1), u2 = (float)(((double)(k / n1) + 0.5) / n2);
-        if (!light_reaches_group(light, surface->primitive->light_group) ||
+        if (!light_reaches(light, surface->primitive->light_group) ||
             !source_sample(light, surface->position, u1, u2, &s))
             continue;
         const Ray ray = {accel_offset(surface->position, surface->geometric_normal, s.shadow_direction),

@@ -248,7 +248,7 @@ static void signals_have_the_lamp_as_rendered(void **state)
     RetexSignals signals;
     RetexError err = {0};
     int seen = 0;
-    test_must(retex_signals_group(&signals, set, &err), &err);
+    test_must(retex_signals_sort(&signals, set, &err), &err);
     for (int k = 0; k < signals.count; k++)
         for (int m = 0; m < signals.of[k].nmembers; m++) {
             const RetexTerm *term = &set->terms[signals.of[k].members[m].term];

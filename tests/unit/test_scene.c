@@ -1,4 +1,4 @@
-/* What the language builds: shapes in canonical form, the order of transforms and textures, groups, layers,
+/* What the language builds: shapes in canonical form, the order of transforms and textures, compounds, layers,
  * finishes, the working space. */
 #include "lib_scene_text.h"
 #include "pattern/patterns.h"
@@ -124,7 +124,7 @@ static void test_uv_mapping_stays(void **state)
     scene_close(&scene);
 }
 
-static void test_groups(void **state)
+static void test_compounds(void **state)
 {
     (void)state;
     Scene *scene = parse(
@@ -386,7 +386,7 @@ int main(void)
         cmocka_unit_test(test_degenerate_shapes),
         cmocka_unit_test(test_texture_order),
         cmocka_unit_test(test_uv_mapping_stays),
-        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_compounds),
         cmocka_unit_test(test_default_at_instantiation),
         cmocka_unit_test(test_overrides),
         cmocka_unit_test(test_layered_declaration),

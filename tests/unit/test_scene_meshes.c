@@ -1,4 +1,4 @@
-/* What the language builds: meshes and polygons, and refused ones; groups. */
+/* What the language builds: meshes and polygons, and refused ones; compounds. */
 #include "lib_scene_text.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
@@ -171,7 +171,7 @@ static void test_star(void **state)
     scene_close(&scene);
 }
 
-/* ---- groups ---- */
+/* ---- compounds ---- */
 
 static void test_csg(void **state)
 {

@@ -121,7 +121,7 @@ static void boxes_go_on(void **state)
     close_world(&world);
 }
 
-static void copies_of_a_group(void **state)
+static void copies_of_a_compound(void **state)
 {
     (void)state;
     char scene[2048] = "#declare G = union { #for (I, 1, 9000) box { -.1, .1 scale <1,2,1> translate I*x } #end } "
@@ -255,7 +255,7 @@ static void others_keep_theirs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_of_all_sizes), cmocka_unit_test(boxes_go_on),   cmocka_unit_test(copies_of_a_group),
+        cmocka_unit_test(boxes_of_all_sizes), cmocka_unit_test(boxes_go_on),   cmocka_unit_test(copies_of_a_compound),
         cmocka_unit_test(round_parts),        cmocka_unit_test(equally_round), cmocka_unit_test(others_keep_theirs),
         cmocka_unit_test(not_equally_round),
     };

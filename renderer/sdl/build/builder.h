@@ -156,7 +156,7 @@ typedef struct ParsedMaterial {
 
 /* ---- objects ---- */
 
-typedef enum ObjectKind { OBJECT_EMPTY, OBJECT_SHAPE, OBJECT_GROUP, OBJECT_LIGHT } ObjectKind;
+typedef enum ObjectKind { OBJECT_EMPTY, OBJECT_SHAPE, OBJECT_COMPOUND, OBJECT_LIGHT } ObjectKind;
 enum {
     OBJECT_NO_SHADOW = 1,
     OBJECT_NO_IMAGE = 2,
@@ -194,9 +194,9 @@ typedef struct Object {
     int polygon;      /* the mesh is a polygon */
     const Light *light;
     const struct Object *projector; /* of a light: what its light passes through, in its space; or NULL */
-    CsgKind csg;                /* of a group */
+    CsgKind csg;                /* of a compound */
     int difference;             /* an intersection written as one */
-    const ObjectList *children; /* of a group; of a light: what it looks like */
+    const ObjectList *children; /* of a compound; of a light: what it looks like */
     const ClipList *clips, *bounds;
     Transform transform;        /* canonical shape, or the children's space, to here */
     MovedTexture texture, interior_texture;
@@ -204,7 +204,7 @@ typedef struct Object {
     Transform interior_transform; /* what moved it since, where its media vary */
     unsigned flags;
     int uv_mapping;
-    int depth;    /* of nested groups */
+    int depth;    /* of nested compounds */
     double parts; /* objects in it, counted through identifiers */
     const IdentList *idents;
     const PlaceList *places;
@@ -272,7 +272,7 @@ typedef struct Builder {
     const FaceTextures *placed_textures, *placed_textures_from; /* the last that were placed */
     Transform placed_textures_by;
     struct Tracer *tracer; /* trace.c: objects made ready for rays */
-    struct CopiedGroups *copied; /* instance.c: groups that were placed */
+    struct CopiedCompounds *copied; /* instance.c: compounds that were placed */
     const Prototype *prototypes; /* all, the last first */
     const ParsedTexture *inherited_texture; /* stands for the instance's while a prototype is placed */
     int instance_capacity;
@@ -510,7 +510,7 @@ Csg *csg_complete(Sdl *sdl, CsgNode *root);
 void index_mesh(Sdl *sdl, const Mesh *mesh); /* once: for what is intersected in double */
 
 /* place.c, instance.c, finalize.c */
-/* What a child inherits from the groups around it. */
+/* What a child inherits from the compounds around it. */
 typedef struct Inherited {
     Transform to_world;
     const ParsedTexture *texture, *interior_texture; /* in world space */
@@ -556,7 +556,7 @@ void texture_report(Sdl *sdl, const ParsedTexture *texture);
 void complete_prototypes(Sdl *sdl);
 void complete_csgs(Sdl *sdl);
 void gather_triangles(Sdl *sdl);
-void gather_children(Sdl *sdl, Object *group);
+void gather_children(Sdl *sdl, Object *compound);
 void finalize_scene(Sdl *sdl);         /* everything that waits for the end of the scene */
 WorkingSpace working_space(Sdl *sdl);  /* as far as the scene is read */
 Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */

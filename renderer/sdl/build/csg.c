@@ -5,7 +5,7 @@
 /* Turned inside out, a union or merge is the intersection of its children turned inside out, and the reverse. */
 static CsgKind kind_of(const Object *object, int inverse)
 {
-    CsgKind kind = object->kind == OBJECT_SHAPE ? CSG_LEAF : object->kind == OBJECT_GROUP ? object->csg : CSG_UNION;
+    CsgKind kind = object->kind == OBJECT_SHAPE ? CSG_LEAF : object->kind == OBJECT_COMPOUND ? object->csg : CSG_UNION;
     if (!inverse || kind == CSG_LEAF)
         return kind;
     return kind == CSG_INTERSECTION ? CSG_MERGE : CSG_INTERSECTION;

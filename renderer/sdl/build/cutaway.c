@@ -3,7 +3,7 @@
  * While a tree of CSG with it is placed, its operands are sorted: those to be filled in, and those whose textures are
  * seen inside. POV-Ray's rules: an operand of an intersection or difference without a texture is filled in, one of a
  * union or merge has the default texture as elsewhere; of a difference the first operand alone is cut. At a point,
- * each operand with a texture counts once if the point is inside it and all groups around it. */
+ * each operand with a texture counts once if the point is inside it and all compounds around it. */
 #include "sdl/build/builder.h"
 
 void cutaway_add(Sdl *sdl, const Inherited *in, const ParsedTexture *texture)

@@ -33,11 +33,11 @@ static Bounds solid_extent(const Object *object, const Transform *outer, unsigne
     return b;
 }
 
-static Bounds group_extent(Sdl *sdl, const Object *group, const Transform *to_world, unsigned inverse)
+static Bounds compound_extent(Sdl *sdl, const Object *compound, const Transform *to_world, unsigned inverse)
 {
-    const int meets = (group->csg == CSG_INTERSECTION) != (inverse != 0);
+    const int meets = (compound->csg == CSG_INTERSECTION) != (inverse != 0);
     Bounds all = bounds_empty(), common = bounds_everywhere();
-    for (const ObjectList *list = group->children; list; list = list->next) {
+    for (const ObjectList *list = compound->children; list; list = list->next) {
         const Object *operand = list->object;
         const Bounds b = extent(sdl, operand, to_world, inverse);
         all = bounds_join(all, b);
@@ -58,7 +58,7 @@ static Bounds extent(Sdl *sdl, const Object *object, const Transform *outer, uns
     sdl_step(sdl, 1);
     if (object->kind == OBJECT_SHAPE)
         return shape_extent(object, &to_world);
-    return object->kind == OBJECT_GROUP ? group_extent(sdl, object, &to_world, inverse) : bounds_empty();
+    return object->kind == OBJECT_COMPOUND ? compound_extent(sdl, object, &to_world, inverse) : bounds_empty();
 }
 
 static double limited(double x)

@@ -69,9 +69,9 @@ static const Object *joined(Sdl *sdl, const ObjectList *first, const ObjectList 
     return object;
 }
 
-void gather_children(Sdl *sdl, Object *group)
+void gather_children(Sdl *sdl, Object *compound)
 {
-    for (ObjectList *list = (ObjectList *)group->children; list; list = list->next) {
+    for (ObjectList *list = (ObjectList *)compound->children; list; list = list->next) {
         ObjectList *end = list->next;
         int n = 1;
         if (!is_single(list->object))

@@ -1,52 +1,53 @@
-/* Copies of groups. The first copies of a group are placed as primitives of their own, which rays meet faster. Once
- * many parts are there, the group becomes a prototype, in the space of its contents, and further copies are instances
- * of it: a transform, a texture for the parts that have none, and names. */
+/* Copies of compounds. The first copies of one are placed as primitives of their own, which rays meet faster. Once many
+ * parts are there, it becomes a prototype, in the space of its contents, and further copies are instances of it: a
+ * transform, a texture for the parts that have none, and names. */
 #include <string.h>
 #include "sdl/build/builder.h"
 #include "shade/material.h"
 
-enum { SEPARATE_PARTS = 8192, PROTOTYPE_PARTS = 2000000, GROUP_BUCKETS = 1024 };
+enum { SEPARATE_PARTS = 8192, PROTOTYPE_PARTS = 2000000, COMPOUND_BUCKETS = 1024 };
 
 /* What the contents of a prototype depend on. */
-typedef struct GroupKey {
+typedef struct CompoundKey {
     const ObjectList *children;
     CsgKind csg;
     const ClipList *clips, *bounds;
     unsigned flags;
     const ParsedInterior *interior;
     const LightGroup *light_group;
-} GroupKey;
+} CompoundKey;
 
-typedef struct CopiedGroup {
-    GroupKey key;
+typedef struct CopiedCompound {
+    CompoundKey key;
     double parts;         /* placed so far */
     int is_separate;      /* its copies cannot be instances */
     Prototype *prototype; /* or NULL */
-    struct CopiedGroup *next;
-} CopiedGroup;
+    struct CopiedCompound *next;
+} CopiedCompound;
 
-struct CopiedGroups {
-    CopiedGroup *buckets[GROUP_BUCKETS];
+struct CopiedCompounds {
+    CopiedCompound *buckets[COMPOUND_BUCKETS];
 };
 
-static int same_key(const GroupKey *a, const GroupKey *b)
+static int same_key(const CompoundKey *a, const CompoundKey *b)
 {
     return a->children == b->children && a->csg == b->csg && a->clips == b->clips && a->bounds == b->bounds &&
            a->flags == b->flags && a->interior == b->interior && a->light_group == b->light_group;
 }
 
-static CopiedGroup *group_of(Sdl *sdl, const GroupKey *key)
+static CopiedCompound *compound_of(Sdl *sdl, const CompoundKey *key)
 {
     Builder *builder = builder_of(sdl);
     if (!builder->copied)
         builder->copied = sdl_alloc(sdl, sizeof *builder->copied);
-    CopiedGroup **bucket = &builder->copied->buckets[((uintptr_t)key->children >> 4) * 2654435761u % GROUP_BUCKETS];
-    for (CopiedGroup *group = *bucket; group; group = group->next)
-        if (same_key(&group->key, key))
-            return group;
-    CopiedGroup *group = sdl_alloc(sdl, sizeof *group);
-    *group = (CopiedGroup){.key = *key, .next = *bucket};
-    return *bucket = group;
+    CopiedCompound **bucket =
+        &builder->copied->buckets[((uintptr_t)key->children >> 4) * 2654435761u % COMPOUND_BUCKETS];
+    for (CopiedCompound *compound = *bucket; compound; compound = compound->next)
+        if (same_key(&compound->key, key))
+            return compound;
+    CopiedCompound *compound = sdl_alloc(sdl, sizeof *compound);
+    *compound = (CopiedCompound){.key = *key, .next = *bucket};
+    return *bucket = compound;
 }
 
 /* ---- what can be an instance ---- */
@@ -102,7 +103,7 @@ static int children_can_be_copied(Sdl *sdl, const Object *object)
 
 /* ---- prototypes ---- */
 
-static Prototype *prototype_new(Sdl *sdl, const Object *object, const GroupKey *key)
+static Prototype *prototype_new(Sdl *sdl, const Object *object, const CompoundKey *key)
 {
     Builder *builder = builder_of(sdl);
     Scene *scene = sdl_scene(sdl);
@@ -184,36 +185,36 @@ static void add_instance(Sdl *sdl, const Object *object, const Inherited *around
 
 int place_instance(Sdl *sdl, const Object *object, const Inherited *around)
 {
-    const GroupKey key = {object->children,
-                          object->csg,
-                          object->clips,
-                          object->bounds,
-                          flags_within(object, around),
-                          object->interior ? object->interior : around->interior,
-                          around->light_group};
-    if (object->kind != OBJECT_GROUP || around->csg || around->prototype || around->interior_texture ||
+    const CompoundKey key = {object->children,
+                             object->csg,
+                             object->clips,
+                             object->bounds,
+                             flags_within(object, around),
+                             object->interior ? object->interior : around->interior,
+                             around->light_group};
+    if (object->kind != OBJECT_COMPOUND || around->csg || around->prototype || around->interior_texture ||
         object->interior_texture.texture || interior_varies(key.interior) || (key.flags & OBJECT_CUTAWAY_TEXTURES) ||
         object->parts > PROTOTYPE_PARTS)
         return 0;
-    CopiedGroup *group = group_of(sdl, &key);
-    group->parts += object->parts;
-    if (group->is_separate || group->parts <= SEPARATE_PARTS || group->parts == object->parts)
+    CopiedCompound *compound = compound_of(sdl, &key);
+    compound->parts += object->parts;
+    if (compound->is_separate || compound->parts <= SEPARATE_PARTS || compound->parts == object->parts)
         return 0;
-    if (!group->prototype && !children_can_be_copied(sdl, object)) {
-        group->is_separate = 1;
+    if (!compound->prototype && !children_can_be_copied(sdl, object)) {
+        compound->is_separate = 1;
         return 0;
     }
-    if (!group->prototype)
-        group->prototype = prototype_new(sdl, object, &key);
+    if (!compound->prototype)
+        compound->prototype = prototype_new(sdl, object, &key);
     const Transform to_world = transform_then(object->transform, around->to_world);
     const ParsedTexture *texture = NULL;
-    if (group->prototype->inherits)
+    if (compound->prototype->inherits)
         texture = instance_texture(sdl, object, around, &to_world);
     /* Its finish would change the interior of parts. */
     if (may_emit(sdl, texture) ||
         (texture && !key.interior && ((const ParsedFinish *)texture->texture.finish)->ior > 0))
         return 0;
-    add_instance(sdl, object, around, group->prototype, texture, &to_world);
+    add_instance(sdl, object, around, compound->prototype, texture, &to_world);
     return 1;
 }
 

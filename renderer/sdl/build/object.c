@@ -1,10 +1,10 @@
-/* Objects: their statements, groups, identifiers, and the modifiers they share. */
+/* Objects: their statements, compounds, identifiers, and the modifiers they share. */
 #include <string.h>
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
 
-/* Through identifiers too: a group that holds itself twice, forty times over, is a short text. */
-#define MAX_GROUP_DEPTH 400
+/* Through identifiers too: a compound that holds itself twice, forty times over, is a short text. */
+#define MAX_COMPOUND_DEPTH 400
 #define MAX_PARTS 5e7
 
 Object *object_new(Sdl *sdl, ObjectKind kind)
@@ -61,8 +61,8 @@ void object_count_child(Sdl *sdl, Object *object, const Object *child)
     if (child->depth + 1 > object->depth)
         object->depth = child->depth + 1;
     object->parts += child->parts;
-    if (object->depth > MAX_GROUP_DEPTH)
-        sdl_error(sdl, "objects are nested more than %d deep", MAX_GROUP_DEPTH);
+    if (object->depth > MAX_COMPOUND_DEPTH)
+        sdl_error(sdl, "objects are nested more than %d deep", MAX_COMPOUND_DEPTH);
     if (object->parts > MAX_PARTS)
         sdl_error(sdl, "an object of more than %.0f parts", MAX_PARTS);
 }
@@ -256,14 +256,14 @@ void parse_object_modifiers(Sdl *sdl, Object *object)
             sdl_expected(sdl, "an object modifier or }");
 }
 
-/* ---- groups ---- */
+/* ---- compounds ---- */
 
 static const struct {
     const char *word;
     CsgKind csg;
     int difference;
     unsigned flags;
-} groups[] = {
+} compounds[] = {
     {"union", CSG_UNION, 0, 0},
     {"merge", CSG_MERGE, 0, 0},
     {"light_group", CSG_UNION, 0, OBJECT_LIGHT_GROUP},
@@ -278,28 +278,28 @@ static const Object *turned_inside_out(Sdl *sdl, const Object *object)
     return turned;
 }
 
-static void add_children(Sdl *sdl, Object *group)
+static void add_children(Sdl *sdl, Object *compound)
 {
-    ObjectList **end = (ObjectList **)&group->children;
+    ObjectList **end = (ObjectList **)&compound->children;
     const Object *child;
     int seen = 0;
     while ((child = accept_object(sdl))) {
         sdl_optional_comma(sdl);
-        object_count_child(sdl, group, child);
+        object_count_child(sdl, compound, child);
         *end = sdl_alloc(sdl, sizeof **end);
-        if (child->kind != OBJECT_LIGHT && seen++ > 0 && group->difference)
+        if (child->kind != OBJECT_LIGHT && seen++ > 0 && compound->difference)
             child = turned_inside_out(sdl, child);
         (*end)->object = child;
         end = &(*end)->next;
     }
 }
 
-static Object *group(Sdl *sdl, int which)
+static Object *compound(Sdl *sdl, int which)
 {
-    Object *object = object_new(sdl, OBJECT_GROUP);
-    object->csg = groups[which].csg;
-    object->difference = groups[which].difference;
-    object->flags = groups[which].flags;
+    Object *object = object_new(sdl, OBJECT_COMPOUND);
+    object->csg = compounds[which].csg;
+    object->difference = compounds[which].difference;
+    object->flags = compounds[which].flags;
     add_children(sdl, object);
     if (object->csg == CSG_UNION)
         gather_children(sdl, object);
@@ -323,7 +323,7 @@ static const Object *known_object(Sdl *sdl)
     return known ? known : accept_ident(sdl, VALUE_LIGHT);
 }
 
-/* After the keyword of a shape or group, whose braces may also hold an identifier of such an object. */
+/* After the keyword of a shape or compound, whose braces may also hold an identifier of such an object. */
 static Object *begin_block(Sdl *sdl)
 {
     sdl_expect(sdl, "{");
@@ -342,11 +342,11 @@ static Object *shape_statement(Sdl *sdl, ShapeParser *parse)
     return object;
 }
 
-static Object *group_statement(Sdl *sdl, int which)
+static Object *compound_statement(Sdl *sdl, int which)
 {
     Object *object = begin_block(sdl);
     if (!object)
-        object = group(sdl, which);
+        object = compound(sdl, which);
     parse_object_modifiers(sdl, object);
     return object;
 }
@@ -387,9 +387,9 @@ static const Object *statement(Sdl *sdl)
             return shape_statement(sdl, shapes[i].parse);
     if (accept_word(sdl, next, "object"))
         return object_statement(sdl);
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        if (accept_word(sdl, next, groups[i].word))
-            return group_statement(sdl, (int)i);
+    for (size_t i = 0; i < sizeof compounds / sizeof *compounds; i++)
+        if (accept_word(sdl, next, compounds[i].word))
+            return compound_statement(sdl, (int)i);
     if (accept_word(sdl, next, "light_source"))
         return parse_light_source(sdl);
     return NULL;

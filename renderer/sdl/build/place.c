@@ -1,6 +1,6 @@
 /* Placing: an object statement at top level becomes primitives and lights of the Scene, in world space. Children
- * inherit what they lack from their groups; an object without any texture has the default texture in force where it is
- * placed. */
+ * inherit what they lack from the compounds around them; an object without any texture has the default texture in
+ * force where it is placed. */
 #include <string.h>
 #include "light/source.h"
 #include "sdl/build/builder.h"
@@ -17,7 +17,7 @@ static size_t hash_placed(const ParsedTexture *texture, const Transform *by)
     return (hash ^ hash >> 17) % PLACED_CACHE;
 }
 
-/* Moved, the same copy for the same move where it comes again soon: a group's children mostly share one. */
+/* Moved, the same copy for the same move where it comes again soon: the children of a compound mostly share one. */
 const ParsedTexture *texture_placed(Sdl *sdl, const ParsedTexture *texture, const Transform *by)
 {
     if (!texture || transform_is_identity(by))
@@ -202,7 +202,7 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
         light->fade_power = 0;
     if (light->ops->settle)
         light->ops->settle(light);
-    light->group = here->light_group;
+    light->light_group = here->light_group;
     if (object->projector)
         light->projected_through = placed_projector(sdl, object->projector, to_world);
 }
@@ -251,7 +251,7 @@ static int begins_csg(const Object *object, unsigned flags)
     switch (object->kind) {
     case OBJECT_SHAPE:
         return object->clips || (object->bounds && !object->shape.ops->bounds);
-    case OBJECT_GROUP:
+    case OBJECT_COMPOUND:
         return object->clips || object->csg != CSG_UNION ||
                ((flags & OBJECT_INVERSE) && object->children && object->children->next);
     default:
@@ -274,7 +274,7 @@ static void place_contents(Sdl *sdl, const Object *object, const Inherited *here
     case OBJECT_SHAPE:
         place_shape(sdl, object, here);
         break;
-    case OBJECT_GROUP:
+    case OBJECT_COMPOUND:
         if (object->csg == CSG_UNION)
             place_children(sdl, object->children, here);
         else
@@ -318,10 +318,10 @@ static void place(Sdl *sdl, const Object *object, const Inherited *around)
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
     here.places = places_join(sdl, object->places, around->places);
     if (object->flags & OBJECT_LIGHT_GROUP) {
-        LightGroup *group = sdl_alloc(sdl, sizeof *group);
-        group->global_lights = around->light_group ? around->light_group->global_lights /* as POV-Ray has it */
-                                                   : (object->flags & OBJECT_GLOBAL_LIGHTS) != 0;
-        here.light_group = group;
+        LightGroup *light_group = sdl_alloc(sdl, sizeof *light_group);
+        light_group->global_lights = around->light_group ? around->light_group->global_lights /* as POV-Ray has it */
+                                                         : (object->flags & OBJECT_GLOBAL_LIGHTS) != 0;
+        here.light_group = light_group;
     }
     if (object->kind != OBJECT_LIGHT && (around->csg || begins_csg(object, here.flags)))
         here.csg = object_csg_node(sdl, object, &around->to_world, here.flags & OBJECT_INVERSE, around->csg);

@@ -75,7 +75,7 @@ void parse_text(Sdl *sdl, Object *object)
     const double thickness = sdl_float(sdl);
     sdl_optional_comma(sdl);
     const Vec3 offset = sdl_vector(sdl);
-    object->kind = OBJECT_GROUP;
+    object->kind = OBJECT_COMPOUND;
     object->csg = CSG_UNION;
     if (thickness == 0 || !isfinite(thickness)) {
         sdl_warn(sdl, "a text without thickness: it is left out");

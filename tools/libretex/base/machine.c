@@ -32,12 +32,12 @@ static uint64_t limit_of(const char *folder, const char *file)
 
 /* The lowest limit of a control group and all groups above it, up to the mount point. In a container the path may be
  * that of the host, of which only the root is visible. */
-static uint64_t lowest_limit(const char *mount, const char *group, const char *file)
+static uint64_t lowest_limit(const char *mount, const char *cgroup, const char *file)
 {
     char folder[PATH_MAX];
     uint64_t least = limit_of(mount, file);
 
-    if (snprintf(folder, sizeof folder, "%s%s", mount, group) >= (int)sizeof folder)
+    if (snprintf(folder, sizeof folder, "%s%s", mount, cgroup) >= (int)sizeof folder)
         return least;
     for (size_t top = strlen(mount); strlen(folder) > top;) {
         const uint64_t limit = limit_of(folder, file);
@@ -47,23 +47,23 @@ static uint64_t lowest_limit(const char *mount, const char *group, const char *f
     return least;
 }
 
-uint64_t retex_machine_group_memory(const char *groups, const char *root)
+uint64_t retex_machine_cgroup_memory(const char *cgroups, const char *root)
 {
     char line[PATH_MAX], mount[PATH_MAX];
     uint64_t least = UINT64_MAX;
 
-    for (const char *at = groups, *end; *at; at = *end ? end + 1 : end) {
+    for (const char *at = cgroups, *end; *at; at = *end ? end + 1 : end) {
         end = at + strcspn(at, "\n");
         snprintf(line, sizeof line, "%.*s", (int)(end - at), at);
-        char *kinds = strchr(line, ':'), *group = kinds ? strchr(kinds + 1, ':') : NULL;
-        if (!group || group[1] != '/' || strstr(group, "/../"))
+        char *kinds = strchr(line, ':'), *cgroup = kinds ? strchr(kinds + 1, ':') : NULL;
+        if (!cgroup || cgroup[1] != '/' || strstr(cgroup, "/../"))
             continue;
-        *group++ = 0;
+        *cgroup++ = 0;
         const int unified = kinds[1] == 0;
         if (!unified && strcmp(kinds + 1, "memory") != 0)
             continue;
         snprintf(mount, sizeof mount, "%.*s%s", PATH_MAX - 16, root, unified ? "" : "/memory");
-        const uint64_t limit = lowest_limit(mount, group, unified ? "memory.max" : "memory.limit_in_bytes");
+        const uint64_t limit = lowest_limit(mount, cgroup, unified ? "memory.max" : "memory.limit_in_bytes");
         least = limit < least ? limit : least;
     }
     return least;
@@ -71,11 +71,11 @@ uint64_t retex_machine_group_memory(const char *groups, const char *root)
 
 uint64_t retex_machine_memory(void)
 {
-    char groups[4096];
+    char cgroups[4096];
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : 0;
 
-    read_text("/proc/self/cgroup", groups, sizeof groups);
-    const uint64_t group = retex_machine_group_memory(groups, "/sys/fs/cgroup");
-    return group < machine ? group : machine;
+    read_text("/proc/self/cgroup", cgroups, sizeof cgroups);
+    const uint64_t cgroup = retex_machine_cgroup_memory(cgroups, "/sys/fs/cgroup");
+    return cgroup < machine ? cgroup : machine;
 }

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 /* The lowest memory limit of the process's control group and of those around it; UINT64_MAX where there is none.
- * groups: the text of /proc/self/cgroup; root: where control groups are mounted, /sys/fs/cgroup. */
-uint64_t retex_machine_group_memory(const char *groups, const char *root);
+ * cgroups: the text of /proc/self/cgroup; root: where control groups are mounted, /sys/fs/cgroup. */
+uint64_t retex_machine_cgroup_memory(const char *cgroups, const char *root);
 
 #endif

@@ -91,8 +91,8 @@ static int compare_tiles(const void *a, const void *b)
     return below ? below : (one->x > other->x) - (one->x < other->x);
 }
 
-/* Choose the tiles that represent the picture. Tiles are sorted by difficulty and divided into groups of equal sums of
- * half their share of the difficulty plus half their share of the number. The median tile represents its group. */
+/* Choose the tiles that represent the picture. Tiles are sorted by difficulty and divided into strata of equal sums of
+ * half their share of the difficulty plus half their share of the number. The median tile represents its stratum. */
 static void choose_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
 {
     double all = 0, sum = 0;
@@ -101,9 +101,9 @@ static void choose_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
     for (int i = 0; i < mosaic->count; i++)
         all += mosaic->tiles[i].difficulty;
     for (int i = 0, k = 0; i < mosaic->count && k < RETEX_COMPACT_TILES; i++) {
-        const int left = mosaic->count - 1 - i, groups = RETEX_COMPACT_TILES - 1 - k; /* still to come */
+        const int left = mosaic->count - 1 - i, strata = RETEX_COMPACT_TILES - 1 - k; /* still to come */
         sum += 0.5 / mosaic->count + (all > 0 ? 0.5 * mosaic->tiles[i].difficulty / all : 0.5 / mosaic->count);
-        if (left > groups && (k == RETEX_COMPACT_TILES - 1 || sum < (k + 1.0) / RETEX_COMPACT_TILES))
+        if (left > strata && (k == RETEX_COMPACT_TILES - 1 || sum < (k + 1.0) / RETEX_COMPACT_TILES))
             continue;
         mosaic->taken[k] = mosaic->tiles[(first + i) / 2];
         weights[k++] = i + 1 - first;

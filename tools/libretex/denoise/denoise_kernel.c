@@ -27,8 +27,8 @@ RETEX_CPU_INLINE float falloff(float x)
 
 /* ---- features ---- */
 
-RETEX_CPU_INLINE void group_distance(float *restrict strict, float *restrict loose, const RetexDenoiseFeatures *f,
-                                     const RetexDenoiseFeatureGroup *g, size_t p, ptrdiff_t o, float per_pixel)
+RETEX_CPU_INLINE void feature_distance(float *restrict strict, float *restrict loose, const RetexDenoiseFeatures *f,
+                                       const RetexDenoiseFeature *g, size_t p, ptrdiff_t o, float per_pixel)
 {
     float distance[DENOISE_TILE] = {0};
     if (g->normal[0]) {
@@ -65,8 +65,8 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
         size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE;
         float strict[DENOISE_TILE] = {0}, loose[DENOISE_TILE] = {0};
         const float *restrict valid = f->valid + p;
-        for (int g = 0; g < f->ngroups; g++)
-            group_distance(strict, loose, f, &f->groups[g], p, o, per_pixel);
+        for (int g = 0; g < f->count; g++)
+            feature_distance(strict, loose, f, &f->of[g], p, o, per_pixel);
         for (int i = 0; i < DENOISE_TILE; i++) {
             alike->valid[at + (size_t)i] = valid[i + o];
             alike->strict[at + (size_t)i] = valid[i + o] * falloff(strict[i]);

@@ -23,8 +23,8 @@ enum {
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
     DENOISE_CANDIDATES = 4, /* candidate filters */
     DENOISE_BATCH = 4,      /* displacements in one call, so that the sums stay in the cache */
-    DENOISE_FEATURES_MAX = 3 * RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS, /* planes; targets have covers */
-    DENOISE_GROUPS_MAX = RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS
+    DENOISE_FEATURE_PLANES_MAX = 3 * RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS, /* planes; targets have covers */
+    DENOISE_FEATURES_MAX = RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS
 };
 
 static inline size_t denoise_at(int x, int y)
@@ -32,20 +32,20 @@ static inline size_t denoise_at(int x, int y)
     return (size_t)(y + DENOISE_HALO) * DENOISE_PITCH + (size_t)(x + DENOISE_HALO);
 }
 
-/* Features that are compared together. The weight of a neighbour follows the group that differs most. strict and loose
- * are by pixel 1 / the squared difference at which the weight is 1/e. */
-typedef struct RetexDenoiseFeatureGroup {
+/* A feature: planes that are compared together. The weight of a neighbour follows the feature that differs most. strict
+ * and loose are by pixel 1 / the squared difference at which the weight is 1/e. */
+typedef struct RetexDenoiseFeature {
     int first, count;            /* index of the first plane; number of planes */
     const float *strict, *loose; /* scales */
     const float *normal[3];      /* or NULL; a position's difference counts along this direction only, divided by the
                                     distance in pixels */
-} RetexDenoiseFeatureGroup;
+} RetexDenoiseFeature;
 
 typedef struct RetexDenoiseFeatures {
     const float *valid; /* 1 within the picture, else 0 */
-    const float *planes[DENOISE_FEATURES_MAX];
-    int ngroups;
-    RetexDenoiseFeatureGroup groups[DENOISE_GROUPS_MAX];
+    const float *planes[DENOISE_FEATURE_PLANES_MAX];
+    int count;
+    RetexDenoiseFeature of[DENOISE_FEATURES_MAX];
 } RetexDenoiseFeatures;
 
 /* Similarity, 0..1, of each pixel to the pixel at a displacement: 1 if both are in the picture, and by both scales of

@@ -64,10 +64,10 @@ typedef struct FeatureList {
     float *planes, *scales;
 } FeatureList;
 
-static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count, float factor, RetexFeatureKind kind)
+static RetexDenoiseFeature *add_feature(FeatureList *g, int first, int count, float factor, RetexFeatureKind kind)
 {
     RetexDenoiseFeatures *f = g->features;
-    float *strict = g->scales + (size_t)(2 * f->ngroups) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
+    float *strict = g->scales + (size_t)(2 * f->count) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
     memset(strict, 0, sizeof *strict * 2 * DENOISE_PLANE);
     for (int k = 0; k < count; k++)
         add_gradient(strict, loose, g->planes + (size_t)(first + k) * DENOISE_PLANE);
@@ -75,9 +75,8 @@ static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count,
         strict[i] = 1 / (factor * fmaxf(least[kind], strict[i]));
         loose[i] = 1 / (factor * fmaxf(least[kind], loose[i]));
     }
-    f->groups[f->ngroups] =
-        (RetexDenoiseFeatureGroup){.first = first, .count = count, .strict = strict, .loose = loose};
-    return &f->groups[f->ngroups++];
+    f->of[f->count] = (RetexDenoiseFeature){.first = first, .count = count, .strict = strict, .loose = loose};
+    return &f->of[f->count++];
 }
 
 /* Adds the features of a hit. Positions are similar where they lie in one plane: in that of the hit's normal. */
@@ -92,10 +91,10 @@ static void add_features(FeatureList *g, RetexFeatureHit hit)
         if (info->kind == RETEX_FEATURE_KIND_NORMAL)
             normal = first;
         const int is_position = info->kind == RETEX_FEATURE_KIND_POSITION;
-        RetexDenoiseFeatureGroup *group =
-            add_group(g, first, count, is_position ? SLOPE * SLOPE * 0.5f : STRENGTH * STRENGTH, info->kind);
+        RetexDenoiseFeature *feature =
+            add_feature(g, first, count, is_position ? SLOPE * SLOPE * 0.5f : STRENGTH * STRENGTH, info->kind);
         for (int c = 0; is_position && c < 3; c++)
-            group->normal[c] = g->planes + (size_t)(normal + c) * DENOISE_PLANE;
+            feature->normal[c] = g->planes + (size_t)(normal + c) * DENOISE_PLANE;
     }
 }
 
@@ -121,8 +120,8 @@ static int load_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
 
 void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const RetexDenoiser *d, int x0, int y0)
 {
-    FeatureList g = {f, memory, memory + (size_t)DENOISE_FEATURES_MAX * DENOISE_PLANE};
-    float *valid = g.scales + (size_t)(2 * DENOISE_GROUPS_MAX) * DENOISE_PLANE;
+    FeatureList g = {f, memory, memory + (size_t)DENOISE_FEATURE_PLANES_MAX * DENOISE_PLANE};
+    float *valid = g.scales + (size_t)(2 * DENOISE_FEATURES_MAX) * DENOISE_PLANE;
     int n = load_planes(g.planes, d, x0, y0);
     *f = (RetexDenoiseFeatures){.valid = valid};
     for (int k = 0; k < n; k++)
@@ -131,7 +130,7 @@ void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const R
     if (!is_zero(f->planes[first_planes[RETEX_FEATURE_SPECULAR]])) /* else the first hit is the surface that is seen */
         add_features(&g, RETEX_FEATURE_HIT_FIRST);
     for (int k = COVERS; k < n; k++)
-        add_group(&g, k, 1, STRENGTH * STRENGTH, RETEX_FEATURE_KIND_SHARE);
+        add_feature(&g, k, 1, STRENGTH * STRENGTH, RETEX_FEATURE_KIND_SHARE);
     for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++)
         for (int x = -DENOISE_HALO; x < DENOISE_PITCH - DENOISE_HALO; x++)
             valid[denoise_at(x, y)] = x0 + x >= 0 && x0 + x < d->set->width && y0 + y >= 0 && y0 + y < d->set->height;

@@ -8,8 +8,8 @@
  * values that are not finite become 0. */
 void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0);
 
-/* Planes of memory for the features: the guides, two scales a group, and valid. */
-enum { DENOISE_FEATURES_SCRATCH = DENOISE_FEATURES_MAX + 2 * DENOISE_GROUPS_MAX + 1 };
+/* Planes of memory for the features: the guides, two scales a feature, and valid. */
+enum { DENOISE_FEATURES_SCRATCH = DENOISE_FEATURE_PLANES_MAX + 2 * DENOISE_FEATURES_MAX + 1 };
 
 /* Load the features into memory, which has DENOISE_FEATURES_SCRATCH planes; features points into it. */
 void retex_denoise_load_features(RetexDenoiseFeatures *features, float *memory, const RetexDenoiser *denoiser, int x0,

@@ -43,7 +43,7 @@ static void clear_pixel(const Pixel *p, const RetexFootprintImage *image)
 }
 
 /* Copies the footprints of another pixel, or of the pixel itself. */
-static void copy_footprints(const RetexPoolGroup *g, const Pixel *p, size_t from)
+static void copy_footprints(const RetexFootprintClass *g, const Pixel *p, size_t from)
 {
     for (int k = 0; k < g->count; k++) {
         const RetexFootprintImages *place = &g->of[k];
@@ -93,7 +93,7 @@ static float cluster_cover(const RetexFootprintImages *place, size_t i)
     return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < FOOTPRINT_VALUE_MAX ? uv[2] : 0;
 }
 
-static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const RetexFootprintImages *, size_t))
+static double sum_over(const RetexFootprintClass *g, size_t i, float (*value)(const RetexFootprintImages *, size_t))
 {
     double sum = 0;
     for (int k = 0; k < g->nlit; k++)
@@ -102,7 +102,7 @@ static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const R
 }
 
 /* The nearest pixel of the window that has clusters; else the pixel itself. */
-static size_t find_nearest_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t self)
+static size_t find_nearest_donor(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, size_t self)
 {
     const int width = (int)f->width, height = (int)(f->pixels / f->width);
     const int x = (int)(self % f->width), y = (int)(self / f->width), radius = f->radius;
@@ -122,8 +122,8 @@ static size_t find_nearest_donor(const RetexDenoiseFootprints *f, const RetexPoo
 
 /* The neighbour with the largest weight that has clusters. Neighbours are but a grid of the window: where none has
  * clusters, the light came from pixels between them. */
-static size_t find_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
-                         int count, size_t self)
+static size_t find_donor(const RetexDenoiseFootprints *f, const RetexFootprintClass *g,
+                         const RetexNeighbour *neighbours, int count, size_t self)
 {
     float best = 0;
     size_t donor = self;
@@ -137,7 +137,7 @@ static size_t find_donor(const RetexDenoiseFootprints *f, const RetexPoolGroup *
 
 /* Filtered interreflected light may come to a pixel that had none, so that no cluster has a share in it. Shares of 0
  * would lose that light. */
-static void repair_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
+static void repair_shares(const RetexFootprintClass *g, const Pixel *p, size_t from,
                           float (*value)(const RetexFootprintImages *, size_t), double all)
 {
     for (int k = 0; k < g->count; k++)
@@ -157,7 +157,7 @@ static float lit_coverage(const RetexFootprintImages *place, size_t i)
 /* How far the clusters' light is credible, 0..1, where its proportions differ from those of the coverage: in part the
  * brightness of a cluster is noise. The relative variance of a sum of n effective samples is 1/n; the part of the
  * squared difference beyond that is real (James and Stein 1961). */
-static double light_confidence(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t from)
+static double light_confidence(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, size_t from)
 {
     double cover = sum_over(g, from, lit_coverage), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
     if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
@@ -174,7 +174,7 @@ static double light_confidence(const RetexDenoiseFootprints *f, const RetexPoolG
 
 /* The share of a cluster in the light: for each colour by the cluster's own light, as far as that is credible, else by
  * its coverage. */
-static void share_cluster(const RetexPoolGroup *g, int k, const Pixel *p, size_t from, double belief,
+static void share_cluster(const RetexFootprintClass *g, int k, const Pixel *p, size_t from, double belief,
                           const float light[3])
 {
     double cover = sum_over(g, from, lit_coverage), by_cover = cover > 0 ? lit_coverage(&g->of[k], from) / cover : 0,
@@ -191,7 +191,7 @@ static void share_cluster(const RetexPoolGroup *g, int k, const Pixel *p, size_t
     }
 }
 
-static void keep_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+static void keep_clusters(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p,
                           const RetexNeighbour *neighbours, int count, const float light[3])
 {
     size_t from = p->at;
@@ -234,7 +234,7 @@ typedef struct Pools {
     Pool of[CLUSTERS_MOST];
 } Pools;
 
-static float read_share(const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i)
+static float read_share(const RetexFootprintClass *g, const RetexFootprintImages *place, size_t i)
 {
     const float *share = place->share.pixels + i * place->share.channels;
     if (!place->share.pixels) /* the footprint is in no mixture */
@@ -243,7 +243,8 @@ static float read_share(const RetexPoolGroup *g, const RetexFootprintImages *pla
 }
 
 /* Loads a footprint; 0 if it is not there or has no weight. */
-static int load_pool(Pool *pool, const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i, float weight)
+static int load_pool(Pool *pool, const RetexFootprintClass *g, const RetexFootprintImages *place, size_t i,
+                     float weight)
 {
     static const float dark[3];
     const float *uv = place->uv.pixels + 3 * i, *spread = place->spread.pixels + i * place->spread.channels;
@@ -313,10 +314,10 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
 }
 
 /* The clusters of the pixel itself come first, the heaviest foremost. */
-static void pool_own(Pools *pools, const RetexPoolGroup *g, int most, const RetexNeighbour *self, size_t i)
+static void pool_own(Pools *pools, const RetexFootprintClass *g, int most, const RetexNeighbour *self, size_t i)
 {
-    Pool own[POOL_GROUP_MAX];
-    int order[POOL_GROUP_MAX], count = 0;
+    Pool own[FOOTPRINT_CLASS_MAX];
+    int order[FOOTPRINT_CLASS_MAX], count = 0;
     for (int k = 0; k < g->count; k++) {
         if (!load_pool(&own[count], g, &g->of[k], i, self->weight))
             continue;
@@ -338,7 +339,7 @@ static int compare_pools(const Pool *a, const Pool *b)
 }
 
 /* Pools the clusters of all neighbours into at most `most`, ordered by their place on the texture. */
-static void pool_group(Pools *pools, const RetexDenoiseFootprints *f, const RetexPoolGroup *g, int most,
+static void pool_class(Pools *pools, const RetexDenoiseFootprints *f, const RetexFootprintClass *g, int most,
                        const RetexNeighbour *neighbours, int count)
 {
     *pools = (Pools){.capacity = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
@@ -381,12 +382,12 @@ static double effective_coverage(const Pool *pool)
     return pool->uv.weight * pool->uv.weight / pool->squares;
 }
 
-static int pool_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+static int pool_clusters(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p,
                          const RetexNeighbour *neighbours, int count, const float light[3])
 {
     Pools pools;
     double lit = 0, shared = 0, weight = 0;
-    pool_group(&pools, f, g, g->nlit < CLUSTERS_MOST ? g->nlit : CLUSTERS_MOST, neighbours, count);
+    pool_class(&pools, f, g, g->nlit < CLUSTERS_MOST ? g->nlit : CLUSTERS_MOST, neighbours, count);
     for (int k = 0; k < pools.count; k++)
         lit += pools.of[k].luminance, shared += pools.of[k].shared, weight += pools.of[k].uv.weight;
     for (int k = 0; k < g->count && pools.count; k++) {
@@ -407,7 +408,7 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoi
                                int x, int y, const RetexNeighbour *neighbours, int count, const float light[3],
                                RetexDenoisedRows *band)
 {
-    const RetexPoolGroup *g = &f->signals[signal - d->signals.of];
+    const RetexFootprintClass *g = &f->signals[signal - d->signals.of];
     const Pixel p = pixel_at(f, band, x, y);
     int pooled = g->kind == RETEX_FOOTPRINT_BROAD && g->movable && d->params.footprints && g->nlit;
     if (!pooled || !pool_clusters(f, g, &p, neighbours, count, light))
@@ -420,13 +421,13 @@ static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *
     Pools pools[RETEX_MAX_TARGETS];
     double shared = 0;
     for (int t = 0; t < f->ninterreflections; t++) {
-        const RetexPoolGroup *g = &f->interreflections[t];
-        pool_group(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
+        const RetexFootprintClass *g = &f->interreflections[t];
+        pool_class(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
         for (int k = 0; k < pools[t].count; k++)
             shared += pools[t].of[k].shared;
     }
     for (int t = 0; t < f->ninterreflections; t++) {
-        const RetexPoolGroup *g = &f->interreflections[t];
+        const RetexFootprintClass *g = &f->interreflections[t];
         if (!(shared > 0))
             copy_footprints(g, p, p->at);
         for (int k = 0; k < g->count && shared > 0; k++) {
@@ -441,12 +442,12 @@ static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *
     }
 }
 
-static void pool_hit(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p,
                      const RetexNeighbour *neighbours, int count)
 {
     Pools pools;
     double all = 0;
-    pool_group(&pools, f, g, 1, neighbours, count);
+    pool_class(&pools, f, g, 1, neighbours, count);
     for (int n = 0; n < count; n++)
         all +=
             neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX ? neighbours[n].weight : 0;

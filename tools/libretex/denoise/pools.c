@@ -62,8 +62,8 @@ static int is_own(const int *uses, const RetexFootprintImage *image)
     return image->part < 0 || uses[image->part] == 1;
 }
 
-/* Adds a footprint to a group; light -1 = none. */
-static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexPoolGroup *g, int footprint, int light)
+/* Adds a footprint to a class; light -1 = none. */
+static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexFootprintClass *g, int footprint, int light)
 {
     const RetexFootprint *from = &set->footprints[footprint];
     RetexFootprintImages *place = &g->of[g->count++];
@@ -80,10 +80,10 @@ static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexPoolG
                   is_own(f->uses, &place->albedo) && is_own(f->uses, &place->light) && is_own(f->uses, &place->share);
 }
 
-static RetexPoolGroup start_group(const RetexDenoiseFootprints *f, const RetexSet *set, int target,
-                                  RetexFootprintKind kind)
+static RetexFootprintClass start_class(const RetexDenoiseFootprints *f, const RetexSet *set, int target,
+                                       RetexFootprintKind kind)
 {
-    RetexPoolGroup g = {.kind = kind, .of = f->places + f->nplaces, .movable = 1};
+    RetexFootprintClass g = {.kind = kind, .of = f->places + f->nplaces, .movable = 1};
     if (target >= 0)
         memcpy(g.periodic, set->targets[target].periodic, sizeof g.periodic);
     return g;
@@ -98,9 +98,10 @@ static int has_cluster(const RetexSignal *signal, int footprint)
 }
 
 /* Finds the clusters of a signal; those all of whose light is interreflected come last. */
-static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const RetexSignal *signal, RetexPoolGroup *g)
+static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const RetexSignal *signal,
+                          RetexFootprintClass *g)
 {
-    *g = start_group(f, set, signal->target, signal->kind);
+    *g = start_class(f, set, signal->target, signal->kind);
     for (int k = 0; k < signal->nmembers; k++) {
         int footprint = signal->members[k].cluster;
         if (footprint < 0)
@@ -112,7 +113,8 @@ static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const 
         if (set->footprints[k].target == signal->target && set->footprints[k].kind == signal->kind &&
             !has_cluster(signal, k))
             add_place(f, set, g, k, -1);
-    g->movable &= g->count <= POOL_GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
+    g->movable &=
+        g->count <= FOOTPRINT_CLASS_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
 }
 
 /* Interreflections of all targets share their light: all are pooled, or none. */
@@ -120,13 +122,13 @@ static void find_interreflections(RetexDenoiseFootprints *f, const RetexSet *set
 {
     int movable = 1;
     for (int t = 0; t < set->ntargets; t++) {
-        RetexPoolGroup *g = &f->interreflections[f->ninterreflections];
-        *g = start_group(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
+        RetexFootprintClass *g = &f->interreflections[f->ninterreflections];
+        *g = start_class(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
         g->interreflected = interreflected;
         for (int k = 0; k < set->nfootprints; k++)
             if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 add_place(f, set, g, k, -1);
-        movable &= g->movable && g->count <= POOL_GROUP_MAX;
+        movable &= g->movable && g->count <= FOOTPRINT_CLASS_MAX;
         f->ninterreflections += g->count > 0;
     }
     f->ninterreflections = movable ? f->ninterreflections : 0;
@@ -137,8 +139,8 @@ static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
     for (int k = 0; k < set->nfootprints; k++) {
         if (set->footprints[k].kind != RETEX_FOOTPRINT_HIT || set->footprints[k].hit < 2)
             continue;
-        RetexPoolGroup *g = &f->hits[f->nhits];
-        *g = start_group(f, set, set->footprints[k].target, RETEX_FOOTPRINT_HIT);
+        RetexFootprintClass *g = &f->hits[f->nhits];
+        *g = start_class(f, set, set->footprints[k].target, RETEX_FOOTPRINT_HIT);
         add_place(f, set, g, k, -1);
         f->nhits += g->movable;
     }
@@ -238,7 +240,7 @@ static void mark(const RetexFootprintImage *image, unsigned char *written)
         written[image->part] = 1;
 }
 
-static void mark_group(const RetexPoolGroup *g, unsigned char *written)
+static void mark_class(const RetexFootprintClass *g, unsigned char *written)
 {
     for (int k = 0; k < g->count; k++) {
         mark(&g->of[k].light, written);
@@ -255,9 +257,9 @@ static void mark_group(const RetexPoolGroup *g, unsigned char *written)
 void retex_denoise_mark_written(const RetexDenoiseFootprints *f, const RetexDenoiser *d, unsigned char *written)
 {
     for (int s = 0; s < f->nsignals; s++)
-        mark_group(&f->signals[s], written);
+        mark_class(&f->signals[s], written);
     for (int k = 0; k < f->ninterreflections && d->params.footprints; k++)
-        mark_group(&f->interreflections[k], written);
+        mark_class(&f->interreflections[k], written);
     for (int k = 0; k < f->nhits && d->params.footprints; k++)
-        mark_group(&f->hits[k], written);
+        mark_class(&f->hits[k], written);
 }

@@ -8,7 +8,7 @@
 #include "denoise/footprints.h"
 
 #define FOOTPRINT_VALUE_MAX 1e12f /* larger values count as absent */
-#define POOL_GROUP_MAX RETEX_SHARES_MAX
+#define FOOTPRINT_CLASS_MAX RETEX_SHARES_MAX
 
 /* An image of the set's size; part is -1 and pixels NULL where there is none. */
 typedef struct RetexFootprintImage {
@@ -24,8 +24,8 @@ typedef struct RetexFootprintImages {
     RetexFootprintImage share; /* share in interreflected light */
 } RetexFootprintImages;
 
-/* Footprints that are distributed or pooled together. */
-typedef struct RetexPoolGroup {
+/* Footprints of one target and kind, which are distributed or pooled together. */
+typedef struct RetexFootprintClass {
     RetexFootprintKind kind;
     int periodic[2];
     int count, nlit; /* clusters with light of their own come first */
@@ -33,17 +33,17 @@ typedef struct RetexPoolGroup {
     int movable;        /* 1: all parts are there and used by no other footprint: they may be written */
     const float *interreflected; /* luminance of the interreflected light that the shares divide, by pixel; NULL =
                                     none */
-} RetexPoolGroup;
+} RetexFootprintClass;
 
 struct RetexDenoiseFootprints {
     size_t width, pixels;
     int radius; /* of the window */
     double spp;
-    RetexPoolGroup *signals;      /* by signal */
-    RetexPoolGroup *interreflections, *hits; /* interreflections by target; hits: one group for each footprint */
+    RetexFootprintClass *signals;      /* by signal */
+    RetexFootprintClass *interreflections, *hits; /* interreflections by target; hits: one class for each footprint */
     int nsignals, ninterreflections, nhits;
     float **interreflected; /* by signal, then the sum of all; NULL = none */
-    RetexFootprintImages *places; /* of all groups */
+    RetexFootprintImages *places; /* of all classes */
     int nplaces;
     int *uses; /* by part: the number of footprints, terms and shares that use it */
 };

@@ -17,36 +17,36 @@
 
 /* --- bytes --- */
 
-const char *const retex_pack_group_names[RETEX_PACK_GROUPS] = {"picture", "radiance", "gains",     "uv",   "spread",
-                                                               "weights", "albedo",   "originals", "other"};
+const char *const retex_pack_use_names[RETEX_PACK_USES] = {"picture", "radiance", "gains",     "uv",   "spread",
+                                                           "weights", "albedo",   "originals", "other"};
 
 static void assign(void *context, RetexPartUse use, int user, int *part)
 {
-    static const RetexPackGroup of_use[] = {[RETEX_PART_RADIANCE] = RETEX_PACK_RADIANCE,
-                                            [RETEX_PART_IMAGE] = RETEX_PACK_GAINS,
-                                            [RETEX_PART_UV] = RETEX_PACK_UV,
-                                            [RETEX_PART_SPREAD] = RETEX_PACK_SPREAD,
-                                            [RETEX_PART_ALBEDO] = RETEX_PACK_ALBEDO,
-                                            [RETEX_PART_WEIGHT] = RETEX_PACK_WEIGHTS,
-                                            [RETEX_PART_ORIGINAL] = RETEX_PACK_ORIGINALS};
-    RetexPackGroup *groups = context;
+    static const RetexPackUse of_use[] = {[RETEX_PART_RADIANCE] = RETEX_PACK_RADIANCE,
+                                          [RETEX_PART_IMAGE] = RETEX_PACK_GAINS,
+                                          [RETEX_PART_UV] = RETEX_PACK_UV,
+                                          [RETEX_PART_SPREAD] = RETEX_PACK_SPREAD,
+                                          [RETEX_PART_ALBEDO] = RETEX_PACK_ALBEDO,
+                                          [RETEX_PART_WEIGHT] = RETEX_PACK_WEIGHTS,
+                                          [RETEX_PART_ORIGINAL] = RETEX_PACK_ORIGINALS};
+    RetexPackUse *uses = context;
     (void)user;
     if (*part > 0)
-        groups[*part] = of_use[use];
+        uses[*part] = of_use[use];
 }
 
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, RetexError *err)
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_USES], const RetexSet *set, RetexError *err)
 {
     const RetexPack *pack = retex_pack_of(set);
-    RetexPackGroup groups[RETEX_SET_PARTS_MAX];
-    memset(bytes, 0, RETEX_PACK_GROUPS * sizeof *bytes);
+    RetexPackUse uses[RETEX_SET_PARTS_MAX];
+    memset(bytes, 0, RETEX_PACK_USES * sizeof *bytes);
     if (!pack)
         return retex_fail(err, RETEX_ENOTFOUND, "the set is not that of an open pack");
     for (int i = 0; i < set->nparts; i++)
-        groups[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
-    retex_set_visit_const_parts(set, assign, groups);
+        uses[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
+    retex_set_visit_const_parts(set, assign, uses);
     for (int i = 0; i < set->nparts; i++)
-        bytes[groups[i]] += retex_pack_part_bytes(pack, i);
+        bytes[uses[i]] += retex_pack_part_bytes(pack, i);
     return 0;
 }
 

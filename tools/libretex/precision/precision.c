@@ -122,7 +122,7 @@ int retex_precision_open(RetexPrecision **result, const RetexSet *set, double re
         return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
     }
     p->remaining = remaining, p->nfootprints = set->nfootprints, p->nmixtures = set->nmixtures;
-    int code = retex_signals_group(&p->signals, set, err);
+    int code = retex_signals_sort(&p->signals, set, err);
     if (!code)
         code = retex_edited_open(&p->edited, set, err);
     if (code) {

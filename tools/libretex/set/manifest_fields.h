@@ -6,7 +6,7 @@
 
 #include "set/manifest.h"
 
-/* State of the parser. Only the first failure is kept, so readers may go on to the end of a group of fields. */
+/* State of the parser. Only the first failure is kept, so readers may go on to the end of a row of fields. */
 typedef struct Reading {
     const char *name; /* name of the file, for messages */
     RetexError *err;

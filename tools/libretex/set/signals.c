@@ -124,7 +124,7 @@ static float member_weight(const RetexSet *set, const RetexTerm *term)
     return weight;
 }
 
-/* Groups the terms by signal. */
+/* Sorts the terms by signal. */
 static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     int used = 0;
@@ -152,7 +152,7 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
     return RETEX_OK;
 }
 
-int retex_signals_group(RetexSignals *signals, const RetexSet *set, RetexError *err)
+int retex_signals_sort(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     *signals = (RetexSignals){.of = calloc(SIGNALS_MAX, sizeof *signals->of),
@@ -172,7 +172,7 @@ int retex_signals_group(RetexSignals *signals, const RetexSet *set, RetexError *
 
 int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
-    int code = retex_signals_group(signals, set, err);
+    int code = retex_signals_sort(signals, set, err);
     if (!code)
         code = find_parts(signals, set, err);
     if (code)

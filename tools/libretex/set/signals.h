@@ -31,8 +31,8 @@ typedef struct RetexSignals {
     int covers[RETEX_MAX_TARGETS]; /* parts guide_cover_… by target; -1 where no signal is of the target */
 } RetexSignals;
 
-/* Group a set's terms by signal. Parts noise_… are found where there are any, else they are -1, as covers are. */
-int retex_signals_group(RetexSignals *signals, const RetexSet *set, RetexError *err);
+/* Sort a set's terms by signal. Parts noise_… are found where there are any, else they are -1, as covers are. */
+int retex_signals_sort(RetexSignals *signals, const RetexSet *set, RetexError *err);
 /* Find a set's signals, and their parts: RETEX_ENOTFOUND where one is missing. */
 int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err);
 void retex_signals_close(RetexSignals *signals);

@@ -3,14 +3,14 @@
  *
  * The steps for a footprint: find its mean in the image, choose the level of the pyramid, compute the ellipse over that
  * level's texels and the blocks of 4 x 4 texels that it meets (place). Footprints with about the same number of blocks
- * are then grouped, their weights computed together (weigh_*), and each sums its texels (sum_texels). Lines are rows of
- * texels, or columns where the ellipse is flat; a band is four lines. Where an ellipse is oblique, the blocks of its
- * bands follow it. */
+ * then take the lanes of one vector: their weights are computed together (weigh_*), and each sums its texels
+ * (sum_texels). Lines are rows of texels, or columns where the ellipse is flat; a band is four lines. Where an ellipse
+ * is oblique, the blocks of its bands follow it. */
 
 #define Lanes NAME(Lanes)
 #define Mask NAME(Mask)
 #define Places NAME(Places)
-#define Group NAME(Group)
+#define Footprints NAME(Footprints)
 #define Spread NAME(Spread)
 #define Ends NAME(Ends)
 #define Double NAME(Double)
@@ -150,7 +150,7 @@ RETEX_CPU_INLINE Mask NAME(whole_below)(Lanes x)
 /* ---- weights ---- */
 
 /* Footprints that are computed together, one in each lane, with about the same number of blocks. */
-typedef struct Group {
+typedef struct Footprints {
     const RetexBatchTexture *texture;
     const Places *places;
     int count;        /* lanes with a footprint of their own; further lanes repeat the last one */
@@ -163,7 +163,7 @@ typedef struct Group {
     Lanes low[2], high[2]; /* limits of the surface, in lines and texels from the mean */
     Lanes total, whole;    /* sum of weights within the limits, and of all weights */
     float sums[LANES][16]; /* sums of RGBA, one for each of four neighbouring texels */
-} Group;
+} Footprints;
 
 /* A band: the first line, each footprint's first column, and the middle of its ellipse from there, all from the
  * mean. */
@@ -175,14 +175,14 @@ typedef struct Band {
     Lanes weights[4][4 * MAX_BLOCKS]; /* weights of texels, by line and column */
 } Band;
 
-RETEX_CPU_INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
+RETEX_CPU_INLINE void NAME(begin_band)(const Footprints *f, int number, Band *band)
 {
-    band->begin = g->first + (float)(4 * number) - g->along;
-    band->lines = g->lines - 4 * number < 4 ? g->lines - 4 * number : 4;
-    band->column = NAME(whole_below)(g->across + g->lean * (band->begin + 1.5f) - g->reach) + 1;
-    band->middle = g->across - NAME(to_float)(band->column);
+    band->begin = f->first + (float)(4 * number) - f->along;
+    band->lines = f->lines - 4 * number < 4 ? f->lines - 4 * number : 4;
+    band->column = NAME(whole_below)(f->across + f->lean * (band->begin + 1.5f) - f->reach) + 1;
+    band->middle = f->across - NAME(to_float)(band->column);
     for (int j = 0; j < 4; j++) /* other weights are written before they are read */
-        for (int c = j < band->lines ? g->columns : 0; c < 4 * g->blocks; c++)
+        for (int c = j < band->lines ? f->columns : 0; c < 4 * f->blocks; c++)
             band->weights[j][c] = NAME(all)(0);
 }
 
@@ -194,7 +194,7 @@ typedef struct Chord {
 
 /* Finds the chords between `low` and the next line. The size of the ellipse is an argument, because a Gaussian has
  * two. */
-RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes inverse,
+RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Band *band, Lanes low, Lanes length, Lanes inverse,
                                         Lanes half, Chord *chords)
 {
     Lanes high = low + 1, begin = MAX(low, -length), end = MIN(high, length);
@@ -202,7 +202,7 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes 
     Mask rule = ((low < -length) & 1) + ((high > length) & 2);
     for (int k = 0; k < NODES; k++) {
         Lanes at = begin + span * LOOK_UP(batch_nodes[k], rule), u = at * inverse;
-        Lanes middle = band->middle + g->slope * at, h = half * SQRT(MAX(1 - u * u, NAME(all)(0)));
+        Lanes middle = band->middle + f->slope * at, h = half * SQRT(MAX(1 - u * u, NAME(all)(0)));
         chords[k].left = middle - h;
         chords[k].right = middle + h;
         chords[k].weight = span * LOOK_UP(batch_weights[k], rule);
@@ -212,23 +212,23 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes 
 
 /* Weights of interpolated texels: the double integral of their tents, differenced twice. Adds to the weights, or sets
  * them. */
-RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
+RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
 {
     Lanes lines[5][MAX_COLUMNS]; /* the last one is not used */
     Chord chords[NODES];
     Lanes inverse = 1 / length;
-    for (int c = 0; c <= g->columns; c++)
+    for (int c = 0; c <= f->columns; c++)
         lines[4][c] = NAME(all)(0);
     for (int i = 0; i <= band->lines; i++) {
         Lanes here[NODES], next[NODES];
         NAME(find_chords)
-        (g, band, band->begin + (float)(i - 1), length, inverse, half, chords);
+        (f, band, band->begin + (float)(i - 1), length, inverse, half, chords);
         for (int k = 0; k < NODES; k++) {
             next[k] = chords[k].weight * chords[k].share * scale;
             here[k] = chords[k].weight * scale - next[k];
         }
         Lanes *before = lines[i > 0 ? i - 1 : 4], *after = lines[i < 4 ? i : 4];
-        for (int c = 0; c <= g->columns; c++) { /* no chord goes beyond the neighbour of the last column */
+        for (int c = 0; c <= f->columns; c++) { /* no chord goes beyond the neighbour of the last column */
             Lanes at = NAME(all)((float)(c - 1)), sum = {0}, more = {0};
             for (int k = 0; k < NODES; k++) {
                 Lanes r = MAX(chords[k].right - at, NAME(all)(0)), l = MAX(chords[k].left - at, NAME(all)(0));
@@ -239,10 +239,10 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes
             before[c] += sum;
             after[c] = more;
         }
-        after[g->columns + 1] = NAME(all)(0);
+        after[f->columns + 1] = NAME(all)(0);
     }
     for (int j = 0; j < band->lines; j++)
-        for (int c = 0; c < g->columns; c++) {
+        for (int c = 0; c < f->columns; c++) {
             Lanes w = (lines[j][c] - lines[j][c + 1]) - (lines[j][c + 1] - lines[j][c + 2]);
             w = MAX(w, NAME(all)(0));
             band->weights[j][c] = is_added ? band->weights[j][c] + w : w;
@@ -250,14 +250,14 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes
 }
 
 /* Weights of texels that are averages over squares: the length of each chord in each texel. */
-RETEX_CPU_INLINE void NAME(weigh_boxes)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_boxes)(Footprints *f, Band *band)
 {
     Chord chords[NODES];
-    Lanes inverse = 1 / g->length;
+    Lanes inverse = 1 / f->length;
     for (int j = 0; j < band->lines; j++) {
         NAME(find_chords)
-        (g, band, band->begin + ((float)j - 0.5f), g->length, inverse, g->half, chords);
-        for (int c = 0; c < g->columns; c++) {
+        (f, band, band->begin + ((float)j - 0.5f), f->length, inverse, f->half, chords);
+        for (int c = 0; c < f->columns; c++) {
             Lanes begin = NAME(all)((float)c - 0.5f), end = NAME(all)((float)c + 0.5f), w = {0};
             for (int k = 0; k < NODES; k++)
                 w += chords[k].weight * MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
@@ -276,15 +276,15 @@ RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
     return p * p;
 }
 
-RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(weigh_gaussian)(Footprints *f, Band *band, int nlines, int ncolumns)
 {
     const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that the squares are the exponents */
-    Lanes down = reach / g->length, over = reach / g->half, columns[4 * MAX_BLOCKS];
+    Lanes down = reach / f->length, over = reach / f->half, columns[4 * MAX_BLOCKS];
     const Lanes most = NAME(all)(0.5f * GAUSSIAN_REACH * GAUSSIAN_REACH);
     for (int c = 0; c < ncolumns; c++)
         columns[c] = (float)c * over;
     for (int j = 0; j < nlines; j++) {
-        Lanes y = band->begin + (float)j, v = y * down, middle = (band->middle + g->slope * y) * over;
+        Lanes y = band->begin + (float)j, v = y * down, middle = (band->middle + f->slope * y) * over;
         Lanes square = v * v;
         for (int c = 0; c < ncolumns; c++) {
             Lanes u = columns[c] - middle, q = MIN(u * u + square, most);
@@ -294,106 +294,106 @@ RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band, int nlines, int
 }
 
 /* Cuts off weights beyond the limits of the surface. */
-RETEX_CPU_INLINE void NAME(cut_band)(Group *g, Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(cut_band)(Footprints *f, Band *band, int nlines, int ncolumns)
 {
     Lanes across[4 * MAX_BLOCKS];
     for (int c = 0; c < ncolumns; c++)
-        across[c] = NAME(share_within)((float)c - band->middle, g->low[1], g->high[1]);
+        across[c] = NAME(share_within)((float)c - band->middle, f->low[1], f->high[1]);
     for (int j = 0; j < nlines; j++) {
-        Lanes along = NAME(share_within)(band->begin + (float)j, g->low[0], g->high[0]);
+        Lanes along = NAME(share_within)(band->begin + (float)j, f->low[0], f->high[0]);
         for (int c = 0; c < ncolumns; c++) {
-            g->whole += band->weights[j][c];
+            f->whole += band->weights[j][c];
             band->weights[j][c] *= along * across[c];
         }
     }
 }
 
-RETEX_CPU_INLINE void NAME(add_total)(Group *g, const Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(add_total)(Footprints *f, const Band *band, int nlines, int ncolumns)
 {
     for (int j = 0; j < nlines; j++)
         for (int c = 0; c < ncolumns; c++)
-            g->total += band->weights[j][c];
+            f->total += band->weights[j][c];
 }
 
-RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_band)(Footprints *f, int number, Band *band)
 {
-    NAME(begin_band)(g, number, band);
-    if (g->texture->gaussian && g->fine) {
+    NAME(begin_band)(f, number, band);
+    if (f->texture->gaussian && f->fine) {
         /* both discs have the same weight: each chord is divided by the area of its own ellipse */
         float in = INNER_DISC / OUTER_DISC;
-        NAME(weigh_fine)(g, band, g->length * in, g->half * in, NAME(all)(1 / (in * in)), 0);
-        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 1);
-    } else if (g->texture->gaussian) {
-        NAME(weigh_gaussian)(g, band, band->lines, g->columns);
-    } else if (g->fine) {
-        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 0);
+        NAME(weigh_fine)(f, band, f->length * in, f->half * in, NAME(all)(1 / (in * in)), 0);
+        NAME(weigh_fine)(f, band, f->length, f->half, NAME(all)(1), 1);
+    } else if (f->texture->gaussian) {
+        NAME(weigh_gaussian)(f, band, band->lines, f->columns);
+    } else if (f->fine) {
+        NAME(weigh_fine)(f, band, f->length, f->half, NAME(all)(1), 0);
     } else {
-        NAME(weigh_boxes)(g, band);
+        NAME(weigh_boxes)(f, band);
     }
-    if (g->cut)
-        NAME(cut_band)(g, band, band->lines, g->columns);
-    NAME(add_total)(g, band, band->lines, g->columns);
+    if (f->cut)
+        NAME(cut_band)(f, band, band->lines, f->columns);
+    NAME(add_total)(f, band, band->lines, f->columns);
 }
 
 #include "texture/batch_sum.h"
 
-/* Loads the group's footprints. */
-RETEX_CPU_INLINE void NAME(load_group)(Group *g)
+/* Loads the footprints of the lanes. */
+RETEX_CPU_INLINE void NAME(load_footprints)(Footprints *f)
 {
-    const Places *p = g->places;
+    const Places *p = f->places;
     const void *arrays[] = {p->along, p->across, p->length, p->half,   p->slope,  p->lean,    p->reach,  p->first,
                             p->line,  p->texel,  p->level,  p->low[0], p->low[1], p->high[0], p->high[1]};
-    const int count = g->cut ? 15 : 11;
+    const int count = f->cut ? 15 : 11;
     Lanes values[15];
     Mask index;
-    LOAD(index, g->index);
+    LOAD(index, f->index);
     for (int k = 0; k < count; k++)
-        if (g->contiguous)
-            LOAD(values[k], (const float *)arrays[k] + g->index[0]);
+        if (f->contiguous)
+            LOAD(values[k], (const float *)arrays[k] + f->index[0]);
         else
             values[k] = PICK((const float *)arrays[k], index);
-    g->along = values[0];
-    g->across = values[1];
-    g->length = values[2];
-    g->half = values[3];
-    g->slope = values[4];
-    g->lean = values[5];
-    g->reach = values[6];
-    g->first = NAME(to_float)((Mask)values[7]);
-    g->line = values[8];
-    g->texel = values[9];
-    g->level = (Mask)values[10];
-    for (int k = 0; k < 2 && g->cut; k++) {
-        g->low[k] = values[11 + k];
-        g->high[k] = values[13 + k];
+    f->along = values[0];
+    f->across = values[1];
+    f->length = values[2];
+    f->half = values[3];
+    f->slope = values[4];
+    f->lean = values[5];
+    f->reach = values[6];
+    f->first = NAME(to_float)((Mask)values[7]);
+    f->line = values[8];
+    f->texel = values[9];
+    f->level = (Mask)values[10];
+    for (int k = 0; k < 2 && f->cut; k++) {
+        f->low[k] = values[11 + k];
+        f->high[k] = values[13 + k];
     }
-    g->total = g->whole = NAME(all)(0);
-    memset(g->sums, 0, sizeof g->sums);
+    f->total = f->whole = NAME(all)(0);
+    memset(f->sums, 0, sizeof f->sums);
 }
 
-/* Writes the group's colours. */
-RETEX_CPU_INLINE void NAME(store_group)(const Group *g, RetexBatch *batch)
+/* Writes the colours of the lanes. */
+RETEX_CPU_INLINE void NAME(store_footprints)(const Footprints *f, RetexBatch *batch)
 {
-    Lanes inverse = 1 / (g->total * (g->texture->texture->narrow ? NARROW_ONE : 1));
-    for (int lane = 0; lane < g->count; lane++) {
-        const float *s = g->sums[lane];
+    Lanes inverse = 1 / (f->total * (f->texture->texture->narrow ? NARROW_ONE : 1));
+    for (int lane = 0; lane < f->count; lane++) {
+        const float *s = f->sums[lane];
         RetexFloat4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
-        memcpy(batch->rgba[g->index[lane]], &sum, sizeof sum);
+        memcpy(batch->rgba[f->index[lane]], &sum, sizeof sum);
     }
-    for (int lane = 0; lane < g->count && g->cut; lane++)
-        if (!(g->total[lane] > LEAST_KEPT * g->whole[lane]))
-            batch->left[batch->nleft++] = g->index[lane];
+    for (int lane = 0; lane < f->count && f->cut; lane++)
+        if (!(f->total[lane] > LEAST_KEPT * f->whole[lane]))
+            batch->left[batch->nleft++] = f->index[lane];
 }
 
-RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
+RETEX_CPU_INLINE void NAME(filter_footprints)(Footprints *f, RetexBatch *batch)
 {
     Band band;
-    NAME(load_group)(g);
-    for (int b = 0; b < g->bands; b++) {
-        NAME(weigh_band)(g, b, &band);
-        NAME(sum_blocks)(g, b, &band);
+    NAME(load_footprints)(f);
+    for (int b = 0; b < f->bands; b++) {
+        NAME(weigh_band)(f, b, &band);
+        NAME(sum_blocks)(f, b, &band);
     }
-    NAME(store_group)(g, batch);
+    NAME(store_footprints)(f, batch);
 }
 
 /* Sorts the pending footprints of a batch by key, by counting; returns how many have one. `order`: indices by key;
@@ -414,74 +414,74 @@ RETEX_CPU_INLINE int NAME(sort)(const int *pending, int npending, const Places *
     return ends[NKEYS - 1];
 }
 
-/* Forms a group, one full vector of footprints, from `begin` of the order on: those of one key and, in the remaining
- * lanes, those of the next keys, if that saves a group at a smaller cost than it adds to this one. */
-RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
+/* Chooses footprints for one full vector, from `begin` of the order on: those of one key and, in the remaining lanes,
+ * those of the next keys, if that saves a vector at a smaller cost than it adds to this one. */
+RETEX_CPU_INLINE void NAME(choose_footprints)(Footprints *f, const int *order, const int *ends, int begin)
 {
-    const int key = g->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
-    g->cut = key / (4 * kinds);
-    g->turned = key / (2 * kinds) % 2;
-    g->fine = key / kinds % 2;
-    g->bands = key / MAX_BLOCKS % MAX_BANDS + 1;
-    g->blocks = key % MAX_BLOCKS + 1;
-    g->count = ends[key] - begin < LANES ? ends[key] - begin : LANES;
-    for (int next = key + 1; g->count < LANES && next % kinds; next++) {
+    const int key = f->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
+    f->cut = key / (4 * kinds);
+    f->turned = key / (2 * kinds) % 2;
+    f->fine = key / kinds % 2;
+    f->bands = key / MAX_BLOCKS % MAX_BANDS + 1;
+    f->blocks = key % MAX_BLOCKS + 1;
+    f->count = ends[key] - begin < LANES ? ends[key] - begin : LANES;
+    for (int next = key + 1; f->count < LANES && next % kinds; next++) {
         int bands = next / MAX_BLOCKS % MAX_BANDS + 1, blocks = next % MAX_BLOCKS + 1, own = bands * blocks;
-        int waiting = ends[next] - ends[next - 1], lanes_left = LANES - g->count,
+        int waiting = ends[next] - ends[next - 1], lanes_left = LANES - f->count,
             taken = waiting < lanes_left ? waiting : lanes_left;
         if (!waiting)
             continue;
-        bands = bands > g->bands ? bands : g->bands;
-        blocks = blocks > g->blocks ? blocks : g->blocks;
+        bands = bands > f->bands ? bands : f->bands;
+        blocks = blocks > f->blocks ? blocks : f->blocks;
         if ((waiting - taken + LANES - 1) / LANES == (waiting + LANES - 1) / LANES ||
-            bands * blocks >= g->bands * g->blocks + own)
+            bands * blocks >= f->bands * f->blocks + own)
             break;
-        g->bands = bands;
-        g->blocks = blocks;
-        g->count += taken;
+        f->bands = bands;
+        f->blocks = blocks;
+        f->count += taken;
     }
-    g->lines = g->columns = 1;
+    f->lines = f->columns = 1;
     for (int lane = 0; lane < LANES; lane++) {
-        int i = order[begin + (lane < g->count ? lane : g->count - 1)];
-        g->index[lane] = i;
-        g->lines = g->places->lines[i] > g->lines ? g->places->lines[i] : g->lines;
-        g->columns = g->places->columns[i] > g->columns ? g->places->columns[i] : g->columns;
+        int i = order[begin + (lane < f->count ? lane : f->count - 1)];
+        f->index[lane] = i;
+        f->lines = f->places->lines[i] > f->lines ? f->places->lines[i] : f->lines;
+        f->columns = f->places->columns[i] > f->columns ? f->places->columns[i] : f->columns;
     }
     /* 1 for one key, whose footprints are in the batch's order */
-    g->contiguous = begin + LANES <= ends[key] && g->index[LANES - 1] == g->index[0] + LANES - 1;
+    f->contiguous = begin + LANES <= ends[key] && f->index[LANES - 1] == f->index[0] + LANES - 1;
 }
 
-/* Forms a group of the footprints from i on, if all their windows have at most 4 x 4 texels, as many broad footprints
+/* Chooses the footprints from i on, if all their windows have at most 4 x 4 texels, as many broad footprints
  * have. */
-RETEX_CPU_INLINE int NAME(form_row)(Group *g, int count, int i)
+RETEX_CPU_INLINE int NAME(choose_row)(Footprints *f, int count, int i)
 {
     Mask key;
-    LOAD(key, g->places->key + i);
+    LOAD(key, f->places->key + i);
     const Mask larger = (key != 0) & (key != 4 * MAX_BANDS * MAX_BLOCKS);
     int others = 0;
     for (int lane = 0; lane < LANES; lane++)
         others |= larger[lane];
-    g->cut = g->texture->limited;
-    g->turned = g->fine = 0;
-    g->bands = g->blocks = g->contiguous = 1;
-    g->count = count - i < LANES ? count - i : LANES;
+    f->cut = f->texture->limited;
+    f->turned = f->fine = 0;
+    f->bands = f->blocks = f->contiguous = 1;
+    f->count = count - i < LANES ? count - i : LANES;
     for (int lane = 0; lane < LANES; lane++)
-        g->index[lane] = i + lane;
+        f->index[lane] = i + lane;
     return !others;
 }
 
-/* The weights and texels of such a group. */
-RETEX_CPU_INLINE void NAME(weigh_row)(Group *g, Blocks *blocks)
+/* The weights and texels of such footprints. */
+RETEX_CPU_INLINE void NAME(weigh_row)(Footprints *f, Blocks *blocks)
 {
     Band band;
-    g->lines = g->columns = 4;
-    NAME(load_group)(g);
-    NAME(begin_band)(g, 0, &band);
-    NAME(weigh_gaussian)(g, &band, 4, 4);
-    if (g->cut)
-        NAME(cut_band)(g, &band, 4, 4);
-    NAME(add_total)(g, &band, 4, 4);
-    NAME(find_blocks)(g, 0, &band, 0, blocks);
+    f->lines = f->columns = 4;
+    NAME(load_footprints)(f);
+    NAME(begin_band)(f, 0, &band);
+    NAME(weigh_gaussian)(f, &band, 4, 4);
+    if (f->cut)
+        NAME(cut_band)(f, &band, 4, 4);
+    NAME(add_total)(f, &band, 4, 4);
+    NAME(find_blocks)(f, 0, &band, 0, blocks);
 }
 
 /* Computes the places of all footprints, and filters broad ones in rows, each while the texels of the next one are
@@ -489,7 +489,7 @@ RETEX_CPU_INLINE void NAME(weigh_row)(Group *g, Blocks *blocks)
 RETEX_CPU_INLINE int NAME(filter_rows)(const RetexBatchTexture *texture, RetexBatch *batch, Places *places,
                                        int *pending)
 {
-    Group groups[2] = {{.texture = texture, .places = places}, {.texture = texture, .places = places}};
+    Footprints rows[2] = {{.texture = texture, .places = places}, {.texture = texture, .places = places}};
     Blocks blocks[2];
     const int in_rows = texture->broad && !texture->black[0] && !texture->black[1], narrow = texture->texture->narrow;
     int npending = 0, waiting = 0, is_row = 0;
@@ -498,20 +498,20 @@ RETEX_CPU_INLINE int NAME(filter_rows)(const RetexBatchTexture *texture, RetexBa
         is_row = 0;
         if (i < batch->count) {
             NAME(place)(texture, batch, places, i);
-            is_row = in_rows && NAME(form_row)(&groups[next], batch->count, i);
+            is_row = in_rows && NAME(choose_row)(&rows[next], batch->count, i);
             for (int k = i; k < i + LANES && k < batch->count && !is_row; k++)
                 pending[npending++] = k;
         }
         if (is_row) {
-            NAME(weigh_row)(&groups[next], &blocks[next]);
-            NAME(prefetch)(&groups[next], &blocks[next], narrow);
+            NAME(weigh_row)(&rows[next], &blocks[next]);
+            NAME(prefetch)(&rows[next], &blocks[next], narrow);
         }
         if (was_row && narrow)
-            NAME(sum_lanes)(&groups[waiting], &blocks[waiting], 0, 1);
+            NAME(sum_lanes)(&rows[waiting], &blocks[waiting], 0, 1);
         else if (was_row)
-            NAME(sum_lanes)(&groups[waiting], &blocks[waiting], 0, 0);
+            NAME(sum_lanes)(&rows[waiting], &blocks[waiting], 0, 0);
         if (was_row)
-            NAME(store_group)(&groups[waiting], batch);
+            NAME(store_footprints)(&rows[waiting], batch);
         waiting = next;
     }
     return npending;
@@ -520,7 +520,7 @@ RETEX_CPU_INLINE int NAME(filter_rows)(const RetexBatchTexture *texture, RetexBa
 static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *batch)
 {
     Places places;
-    Group group = {.texture = texture, .places = &places};
+    Footprints footprints = {.texture = texture, .places = &places};
     int ends[NKEYS + 1], order[BATCH_SIZE], pending[BATCH_SIZE], begin = 0;
     for (int i = batch->count; i % LANES; i++) { /* unused footprints that complete a vector */
         batch->u[i] = batch->v[i] = batch->su[i] = batch->sv[i] = batch->correlation[i] = 0;
@@ -531,9 +531,9 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
         return;
     NAME(leave_borders)(texture, batch->count, &places);
     const int end = NAME(sort)(pending, npending, &places, order, ends);
-    for (; begin < end; begin += group.count) {
-        NAME(form_group)(&group, order, ends, begin);
-        NAME(filter_group)(&group, batch);
+    for (; begin < end; begin += footprints.count) {
+        NAME(choose_footprints)(&footprints, order, ends, begin);
+        NAME(filter_footprints)(&footprints, batch);
     }
     while (begin < npending)
         batch->left[batch->nleft++] = order[begin++];
@@ -542,7 +542,7 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
 #undef Lanes
 #undef Mask
 #undef Places
-#undef Group
+#undef Footprints
 #undef Band
 #undef Chord
 #undef Blocks

@@ -149,7 +149,7 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     Lanes length = MAX(radius * SQRT(along), least), half = radius * SQRT(MAX(across - slope * s->xy, none));
     half = MAX(half, least);
     Lanes width = MAX(radius * SQRT(across), half);
-    /* Slightly more than the reach of texels, so that rounding does not depend on the size of a group's windows. */
+    /* Slightly more than the reach of texels, so that rounding does not depend on the windows of other lanes. */
     Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f)) + 1e-4f;
 
     far |= ~(length < 2 * MAX_BANDS) | ~(width < 8 * MAX_BLOCKS * MAX_BANDS);

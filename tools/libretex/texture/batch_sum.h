@@ -116,23 +116,23 @@ typedef struct Blocks {
     int columns[LANES], rows[LANES], levels[LANES];
 } Blocks;
 
-RETEX_CPU_INLINE void NAME(find_blocks)(const Group *g, int number, const Band *band, int turned, Blocks *blocks)
+RETEX_CPU_INLINE void NAME(find_blocks)(const Footprints *f, int number, const Band *band, int turned, Blocks *blocks)
 {
-    const RetexBatchTexture *t = g->texture;
-    Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
+    const RetexBatchTexture *t = f->texture;
+    Mask lines = (Mask)f->line + 4 * number, texels = (Mask)f->texel + band->column;
     Mask x = turned ? lines : texels, y = turned ? texels : lines;
-    Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, g->level), Mask);
-    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask) + 2 * padding;
-    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask) + 2 * padding;
-    int across = 4 * g->blocks;
+    Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, f->level), Mask);
+    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], f->level), Mask) + 2 * padding;
+    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], f->level), Mask) + 2 * padding;
+    int across = 4 * f->blocks;
     Mask column = x + padding, row = y + padding;
     Mask inside = (column >= 0) & (row >= 0) & (column <= width - (turned ? 4 : across)) &
                   (row <= height - (turned ? across : 4));
     STORE(blocks->first, ((row & inside) * width + (column & inside)) | ~inside); /* far outside would overflow */
     STORE(blocks->columns, x);
     STORE(blocks->rows, y);
-    STORE(blocks->levels, g->level);
-    for (int k = 0; k < g->blocks; k++)
+    STORE(blocks->levels, f->level);
+    for (int k = 0; k < f->blocks; k++)
         NAME(turn_weights)(band, k, blocks->weights);
 }
 
@@ -141,46 +141,46 @@ RETEX_CPU_INLINE const char *NAME(block_texels)(const RetexTextureLevel *level, 
     return (const char *)(level->padded ? level->padded : level->texels) + (size_t)first * (narrow ? 8 : 16);
 }
 
-RETEX_CPU_INLINE void NAME(sum_lanes)(Group *g, const Blocks *blocks, int turned, int narrow)
+RETEX_CPU_INLINE void NAME(sum_lanes)(Footprints *f, const Blocks *blocks, int turned, int narrow)
 {
-    for (int lane = 0; lane < g->count; lane++) {
-        const RetexTextureLevel *level = &g->texture->texture->levels[blocks->levels[lane]];
+    for (int lane = 0; lane < f->count; lane++) {
+        const RetexTextureLevel *level = &f->texture->texture->levels[blocks->levels[lane]];
         size_t stride = (size_t)(level->width + 2 * level->padding);
         const float(*own)[16] = blocks->weights[lane];
         if (blocks->first[lane] >= 0) {
             const char *texels = NAME(block_texels)(level, blocks->first[lane], narrow);
-            NAME(sum_texels)(g->sums[lane], own, g->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
+            NAME(sum_texels)(f->sums[lane], own, f->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
         } else {
-            for (int k = 0; k < g->blocks; k++) {
+            for (int k = 0; k < f->blocks; k++) {
                 char around[16 * 4 * sizeof(float)];
-                retex_texture_copy_block(g->texture->texture, level, blocks->columns[lane] + (turned ? 0 : 4 * k),
+                retex_texture_copy_block(f->texture->texture, level, blocks->columns[lane] + (turned ? 0 : 4 * k),
                                          blocks->rows[lane] + (turned ? 4 * k : 0), around);
-                NAME(sum_texels)(g->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
+                NAME(sum_texels)(f->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
             }
         }
     }
 }
 
-RETEX_CPU_INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
+RETEX_CPU_INLINE void NAME(sum_blocks)(Footprints *f, int number, const Band *band)
 {
     Blocks blocks;
-    int narrow = g->texture->texture->narrow;
-    NAME(find_blocks)(g, number, band, g->turned, &blocks);
-    if (g->turned && narrow)
-        NAME(sum_lanes)(g, &blocks, 1, 1);
-    else if (g->turned)
-        NAME(sum_lanes)(g, &blocks, 1, 0);
+    int narrow = f->texture->texture->narrow;
+    NAME(find_blocks)(f, number, band, f->turned, &blocks);
+    if (f->turned && narrow)
+        NAME(sum_lanes)(f, &blocks, 1, 1);
+    else if (f->turned)
+        NAME(sum_lanes)(f, &blocks, 1, 0);
     else if (narrow)
-        NAME(sum_lanes)(g, &blocks, 0, 1);
+        NAME(sum_lanes)(f, &blocks, 0, 1);
     else
-        NAME(sum_lanes)(g, &blocks, 0, 0);
+        NAME(sum_lanes)(f, &blocks, 0, 0);
 }
 
 /* Starts loading blocks that are summed later. */
-RETEX_CPU_INLINE void NAME(prefetch)(const Group *g, const Blocks *blocks, int narrow)
+RETEX_CPU_INLINE void NAME(prefetch)(const Footprints *f, const Blocks *blocks, int narrow)
 {
-    for (int lane = 0; lane < g->count; lane++) {
-        const RetexTextureLevel *level = &g->texture->texture->levels[blocks->levels[lane]];
+    for (int lane = 0; lane < f->count; lane++) {
+        const RetexTextureLevel *level = &f->texture->texture->levels[blocks->levels[lane]];
         const size_t stride = (size_t)(level->width + 2 * level->padding) * (narrow ? 8 : 16);
         const char *texels = NAME(block_texels)(level, blocks->first[lane] < 0 ? 0 : blocks->first[lane], narrow);
         for (int row = 0; row < 4; row++)

@@ -32,14 +32,14 @@ int retex_pack_probe(const void *data, size_t bytes);
 /* Compare the checksums inside a pack with its data. */
 int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err);
 
-/* Bytes of a pack's parts by what they are for; a zip's directory, the manifest and the like are not among them.
+/* Bytes of a pack's parts by their use; a zip's directory, the manifest and the like are not among them.
  * RETEX_ENOTFOUND where the set is not that of a pack which retex_set_open opened. */
-typedef enum RetexPackGroup {
+typedef enum RetexPackUse {
     RETEX_PACK_PICTURE, RETEX_PACK_RADIANCE, RETEX_PACK_GAINS, RETEX_PACK_UV, RETEX_PACK_SPREAD, RETEX_PACK_WEIGHTS,
-    RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_GROUPS
-} RetexPackGroup;
-extern const char *const retex_pack_group_names[RETEX_PACK_GROUPS];
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set, RetexError *err);
+    RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_USES
+} RetexPackUse;
+extern const char *const retex_pack_use_names[RETEX_PACK_USES];
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_USES], const RetexSet *set, RetexError *err);
 
 /* What a pack with losses says of them: quality, and of the worst picture of those of retex_pack_loss, when it was
  * packed, the PSNR that was promised and what it was. */
