@@ -103,8 +103,8 @@ static int make_single(const Cli *cli, Job *job, double began)
     return CLI_OK;
 }
 
-/* Keep freed memory in the process. Hundreds of bands are allocated and freed; the system would clear their memory each
- * time. */
+/* Keep freed memory in the process. Hundreds of strips are allocated and freed; the system would clear their memory
+ * each time. */
 static void keep_memory(void)
 {
 #ifdef __GLIBC__

@@ -1,10 +1,11 @@
 /* The least that recombining a set can take: post_floor SET [THREADS]
  *
  * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at
- * where all targets have new textures without alpha, and keeps nothing: no texture, no arithmetic, no picture. Bands of
- * rows are read side by side by all threads, what is smaller than the picture before the rest, as in combining. Prints
- * how many parts that were and their bytes as floats.
- */
+ * where all targets have new textures without alpha, and keeps nothing: no texture, no arithmetic, no picture. Strips
+ * of rows are read side by side by all threads, what is smaller than the picture before the rest, as in combining.
+ * Prints how many parts that were and their bytes as floats.
+ *
+ * */
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,18 +73,18 @@ static int is_chosen(const Floor *work, int part)
     return work->wanted[part] && (work->set->parts[part].image.height < work->set->height) == work->is_small;
 }
 
-static int read_band(const Floor *work, RetexRowReader *reader, int part, int band, RetexError *err)
+static int read_strip(const Floor *work, RetexRowReader *reader, int part, int strip, RetexError *err)
 {
-    const int height = work->set->parts[part].image.height, y0 = band * RETEX_PICTURE_BAND;
+    const int height = work->set->parts[part].image.height, y0 = strip * RETEX_PICTURE_STRIP;
     int code = RETEX_OK;
-    for (int y = y0; !code && y < y0 + RETEX_PICTURE_BAND && y < height; y++) {
+    for (int y = y0; !code && y < y0 + RETEX_PICTURE_STRIP && y < height; y++) {
         const float *row;
         code = retex_row_reader_get(reader, part, y, &row, err);
     }
     return code;
 }
 
-static void read_job(void *context, int band, int thread)
+static void read_job(void *context, int strip, int thread)
 {
     Floor *work = context;
     RetexRowReader **reader = &work->readers[thread];
@@ -92,16 +93,16 @@ static void read_job(void *context, int band, int thread)
     int code = *reader ? RETEX_OK : retex_row_reader_open(reader, work->set, NULL, &work->errors[thread]);
     for (int part = 0; !code && part < work->set->nparts; part++)
         if (is_chosen(work, part))
-            code = read_band(work, *reader, part, band, &work->errors[thread]);
+            code = read_strip(work, *reader, part, strip, &work->errors[thread]);
     if (code)
         atomic_store(&work->code, code);
 }
 
 static int read_all(Floor *work, int threads, RetexError *err)
 {
-    const int nbands = (work->set->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+    const int nstrips = (work->set->height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
     for (work->is_small = 1; !work->code && work->is_small >= 0; work->is_small--)
-        retex_parallel(threads, nbands, read_job, work);
+        retex_parallel(threads, nstrips, read_job, work);
     for (int i = 0; i < threads; i++) {
         retex_row_reader_close(&work->readers[i]);
         if (work->code && work->errors[i].code)

@@ -151,7 +151,7 @@ static void put_parts_right(unsigned char *index, size_t size, const RetexSet *s
     char name[RETEX_PACK_NAME_MAX];
     size_t at = 0;
     for (int i = 0; i < set->nparts; i++) {
-        const int jpeg = parts[i].codec == RETEX_PACK_JPEG ? 1 + parts[i].nbands : 0,
+        const int jpeg = parts[i].codec == RETEX_PACK_JPEG ? 1 + parts[i].nstrips : 0,
                   chunks[2] = {jpeg, parts[i].nchunks - jpeg};
         for (int planes = 0; planes < 2; planes++) {
             retex_pack_file_name(name, sizeof name, set, i, planes);

@@ -159,15 +159,15 @@ Work open_work(RetexSet *set, int footprints)
     test_must(retex_denoise_footprints_open(&w.footprints, &w.d, &err), &err);
     w.written = calloc((size_t)set->nparts, 1);
     retex_denoise_mark_written(w.footprints, &w.d, w.written);
-    w.band = (RetexDenoisedRows){.rows = set->height, .parts = calloc((size_t)set->nparts, sizeof(float *))};
+    w.out = (RetexDenoisedRows){.rows = set->height, .parts = calloc((size_t)set->nparts, sizeof(float *))};
     for (int k = 0; k < set->nparts; k++) {
         const RetexImage *im = &set->parts[k].image;
         size_t n = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
         if (!w.written[k])
             continue;
-        w.band.parts[k] = malloc(n * sizeof(float));
+        w.out.parts[k] = malloc(n * sizeof(float));
         for (size_t i = 0; i < n; i++)
-            w.band.parts[k][i] = -7;
+            w.out.parts[k][i] = -7;
     }
     return w;
 }
@@ -175,8 +175,8 @@ Work open_work(RetexSet *set, int footprints)
 void close_work(Work *w)
 {
     for (int k = 0; k < w->d.set->nparts; k++)
-        free(w->band.parts[k]);
-    free(w->band.parts);
+        free(w->out.parts[k]);
+    free(w->out.parts);
     free(w->written);
     retex_denoise_footprints_close(&w->footprints);
     assert_null(w->footprints);
@@ -198,7 +198,7 @@ void share_light(Work *w, RetexFootprintKind kind, const float *weights, int cou
     RetexNeighbour neighbours[WIDTH];
     for (int k = 0; k < count; k++)
         neighbours[k] = (RetexNeighbour){1 + k, 1, weights[k]};
-    retex_denoise_share_light(w->footprints, &w->d, find_signal(w, 0, kind), 1, 1, neighbours, count, light, &w->band);
+    retex_denoise_share_light(w->footprints, &w->d, find_signal(w, 0, kind), 1, 1, neighbours, count, light, &w->out);
 }
 
 void pool_later(Work *w, const float *weights, int count)
@@ -206,14 +206,14 @@ void pool_later(Work *w, const float *weights, int count)
     RetexNeighbour neighbours[WIDTH];
     for (int k = 0; k < count; k++)
         neighbours[k] = (RetexNeighbour){1 + k, 1, weights[k]};
-    retex_denoise_pool_interreflections(w->footprints, &w->d, 1, 1, neighbours, count, &w->band);
+    retex_denoise_pool_interreflections(w->footprints, &w->d, 1, 1, neighbours, count, &w->out);
 }
 
 const float *result(const Work *w, int part)
 {
     int channels = w->d.set->parts[part].image.channels;
-    assert_non_null(w->band.parts[part]);
-    return w->band.parts[part] + (w->d.set->width + 1) * channels;
+    assert_non_null(w->out.parts[part]);
+    return w->out.parts[part] + (w->d.set->width + 1) * channels;
 }
 
 const float *result_uv(const Work *w, int footprint)

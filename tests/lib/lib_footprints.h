@@ -7,11 +7,11 @@
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
-/* A set, and a band of all its rows. Values that have not been written are -7. */
+/* A set, and all its rows denoised. Values that have not been written are -7. */
 typedef struct Work {
     RetexDenoiser d;
     RetexDenoiseFootprints *footprints;
-    RetexDenoisedRows band;
+    RetexDenoisedRows out;
     unsigned char *written;
 } Work;
 

@@ -54,8 +54,8 @@ def test_constants():
     lines = [f'    printf("{name} %d\\n", RETEX_{name});' for name in names]
     assert compiled(lines) == [f"{code.name} {code.value}" for code in library.Code]
     assert sorted(re.findall(r"\bRETEX_(E[A-Z]+) = -", text_of_headers())) == sorted(names)
-    assert compiled(['    printf("%d %d\\n", RETEX_MAX_TARGETS, RETEX_PICTURE_BAND);']) == \
-        [f"{library.MAX_TARGETS} {library.BAND}"]
+    assert compiled(['    printf("%d %d\\n", RETEX_MAX_TARGETS, RETEX_PICTURE_STRIP);']) == \
+        [f"{library.MAX_TARGETS} {library.STRIP}"]
 
 
 def kind_of(text):

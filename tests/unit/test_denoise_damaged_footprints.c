@@ -33,8 +33,8 @@ static void denoise_all(Work *w, const float light[3])
                         neighbours[count++] = (RetexNeighbour){x + dx, y + dy, 1.0f / (float)(1 + abs(dx) + abs(dy))};
             for (int s = 0; s < w->d.signals.count; s++)
                 retex_denoise_share_light(w->footprints, &w->d, &w->d.signals.of[s], x, y, neighbours, count, light,
-                                          &w->band);
-            retex_denoise_pool_interreflections(w->footprints, &w->d, x, y, neighbours, count, &w->band);
+                                          &w->out);
+            retex_denoise_pool_interreflections(w->footprints, &w->d, x, y, neighbours, count, &w->out);
         }
 }
 
@@ -56,14 +56,14 @@ static void expect_whole(const Work *w, const float light[3])
             int count = 0;
             for (int k = 0; k < signal->nmembers; k++)
                 if (is_cluster(set, &signal->members[k]))
-                    sum += w->band.parts[signal->members[k].part][i], count++;
+                    sum += w->out.parts[signal->members[k].part][i], count++;
             if (count && !(fabsf(sum - light[i % 3]) <= 1e-5f * light[i % 3]))
                 fail_msg("signal %d has %g of %g", s, sum, light[i % 3]);
         }
     for (int k = 0; k < set->nparts; k++) {
         const RetexImage *im = &set->parts[k].image;
-        for (int i = 0; i < im->width * im->height * im->channels && w->band.parts[k]; i++)
-            assert_true(isfinite(w->band.parts[k][i]) && w->band.parts[k][i] != -7);
+        for (int i = 0; i < im->width * im->height * im->channels && w->out.parts[k]; i++)
+            assert_true(isfinite(w->out.parts[k][i]) && w->out.parts[k][i] != -7);
     }
 }
 
@@ -112,7 +112,7 @@ static void test_shares_sum_to_one(void **state)
         for (int i = 0; i < 19 * 11; i++) {
             float sum = 0;
             for (int k = 0; k < set->mixtures[m].nshares; k++)
-                sum += w.band.parts[set->mixtures[m].shares[k].weight][i];
+                sum += w.out.parts[set->mixtures[m].shares[k].weight][i];
             assert_true(fabsf(sum - 1) <= 0.5f / 256 * 2);
         }
     }
@@ -204,8 +204,8 @@ static void test_repeatable(void **state)
     denoise_all(&once, grey);
     denoise_all(&twice, grey);
     for (int k = 0; k < set->nparts; k++)
-        if (once.band.parts[k])
-            assert_memory_equal(once.band.parts[k], twice.band.parts[k],
+        if (once.out.parts[k])
+            assert_memory_equal(once.out.parts[k], twice.out.parts[k],
                                 SIDE * SIDE * (size_t)set->parts[k].image.channels * sizeof(float));
     clock_gettime(CLOCK_MONOTONIC, &start);
     denoise_all(&once, grey);

@@ -9,7 +9,7 @@
 
 #include <retex/host/uv_stats.h>
 
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "pack/plan.h"
 
 static void test_lossless_keeps_every_bit(void **state)
@@ -318,19 +318,20 @@ static int expect_row(RetexPackScratch *scratch, int part, int y, const RetexIma
     return !one;
 }
 
-/* Rows read one by one, in any order, also of parts and bands, are those of the whole; so are those of an open file. */
+/* Rows read one by one, in any order, also of parts and strips, are those of the whole; so are those of an open
+ * file. */
 static void test_rows_are_those_of_the_whole(void **state)
 {
     (void)state;
     size_t bytes;
     RetexSet *set = test_set(60, 150, 9), *open = NULL;
     int black = 0;
-    for (int i = 0; i < set->nparts; i++) { /* a band and some rows more */
+    for (int i = 0; i < set->nparts; i++) { /* a strip and some rows more */
         RetexImage *im = &set->parts[i].image;
         const size_t rows = im->height == 150 ? 70 : 0;
         memset(im->pixels, 0, rows * (size_t)im->width * (size_t)im->channels * sizeof *im->pixels);
     }
-    for (int i = 0; i < set->nfootprints; i++) { /* bands that differ in coverage and in spread */
+    for (int i = 0; i < set->nfootprints; i++) { /* strips that differ in coverage and in spread */
         const RetexImage *uv = &set->parts[set->footprints[i].uv].image;
         const RetexImage *spread = &set->parts[set->footprints[i].spread].image;
         for (int k = 0; k < uv->width * uv->height; k++) {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "pack/jpeg_kernel.h"
 #include "pack/plan.h"
 #include "pack/restore.h"
@@ -38,15 +38,15 @@ static void test_jpeg_keeps_levels(void **state)
             assert_int_equal(jpeg.nchunks, 4);
             size_t at = jpeg.chunk_bytes[0];
             double sum = 0;
-            for (int band = 0; band < 3; band++) {
-                const int rows = band < 2 ? 64 : height - 128;
-                const size_t piece = jpeg.chunk_bytes[1 + band];
+            for (int strip = 0; strip < 3; strip++) {
+                const int rows = strip < 2 ? 64 : height - 128;
+                const size_t piece = jpeg.chunk_bytes[1 + strip];
                 unsigned char *file = malloc(jpeg.chunk_bytes[0] + piece);
                 memcpy(file, jpeg.data, jpeg.chunk_bytes[0]);
                 memcpy(file + jpeg.chunk_bytes[0], jpeg.data + at, piece);
                 at += piece;
-                test_must(retex_pack_jpeg_open_band(decoder, file, jpeg.chunk_bytes[0], jpeg.chunk_bytes[0] + piece,
-                                                    width, rows, channels, &curve, &err),
+                test_must(retex_pack_jpeg_open_strip(decoder, file, jpeg.chunk_bytes[0], jpeg.chunk_bytes[0] + piece,
+                                                     width, rows, channels, &curve, &err),
                           &err);
                 free(file);
                 for (int row = 0; 8 * row < rows; row++)
@@ -55,7 +55,7 @@ static void test_jpeg_keeps_levels(void **state)
                 assert_int_not_equal(retex_pack_jpeg_decode_blocks(decoder, (rows + 7) / 8, back, &err), 0);
                 for (int i = 0; i < width * rows * channels; i++) {
                     const double off = retex_pack_curve_level(&curve, (double)back[i]) -
-                                       (double)levels[(size_t)band * (size_t)(64 * width * channels) + (size_t)i];
+                                       (double)levels[(size_t)strip * (size_t)(64 * width * channels) + (size_t)i];
                     assert_true(fabs(off) < 6);
                     sum += off * off;
                 }

@@ -9,7 +9,7 @@
 
 #include "base/half.h"
 #include "lib_folder.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "pack/format.h"
 
 static void write_lossless(const RetexSet *set, int nthreads, size_t *bytes)

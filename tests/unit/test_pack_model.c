@@ -1,4 +1,4 @@
-/* Bands of numbers, predicted and coded by a model: every number is decoded exactly, the size is as small as it should
+/* Strips of numbers, predicted and coded by a model: every number is decoded exactly, the size is as small as it should
  * be, and damaged data does no harm. */
 #include "lib_test.h"
 
@@ -12,29 +12,29 @@
 
 enum { WIDTH = 61, ROWS = 29, ALL = WIDTH * ROWS };
 
-static RetexPackModelBand make_band(int channels, int with_shifts)
+static RetexPackModelStrip make_strip(int channels, int with_shifts)
 {
-    RetexPackModelBand band;
+    RetexPackModelStrip strip;
     const RetexPackMap maps[RETEX_PACK_MODEL_CHANNELS_MAX] = {
         {.kind = with_shifts ? RETEX_PACK_MAP_LATTICE : RETEX_PACK_MAP_BITS},
         {.kind = with_shifts ? RETEX_PACK_MAP_LATTICE : RETEX_PACK_MAP_BITS}};
-    assert_true(retex_pack_model_alloc(&band, WIDTH, ROWS, channels, maps));
-    return band;
+    assert_true(retex_pack_model_alloc(&strip, WIDTH, ROWS, channels, maps));
+    return strip;
 }
 
 /* The numbers after encoding and decoding are the numbers; returns the bytes between. */
-static size_t there_and_back(const RetexPackModelBand *band)
+static size_t there_and_back(const RetexPackModelStrip *strip)
 {
-    RetexPackModelBand back = make_band(band->channels, band->shifts[0] != NULL);
+    RetexPackModelStrip back = make_strip(strip->channels, strip->shifts[0] != NULL);
     unsigned char *data;
-    const long bytes = retex_pack_model_encode(&data, band);
+    const long bytes = retex_pack_model_encode(&data, strip);
     assert_true(bytes >= 0);
-    for (int c = 0; c < band->channels; c++)
-        if (band->shifts[c])
-            memcpy(back.shifts[c], band->shifts[c], ALL);
+    for (int c = 0; c < strip->channels; c++)
+        if (strip->shifts[c])
+            memcpy(back.shifts[c], strip->shifts[c], ALL);
     assert_int_equal(retex_pack_model_decode(&back, data, (size_t)bytes), 1);
-    for (int c = 0; c < band->channels; c++)
-        assert_memory_equal(back.numbers[c], band->numbers[c], ALL * sizeof *band->numbers[c]);
+    for (int c = 0; c < strip->channels; c++)
+        assert_memory_equal(back.numbers[c], strip->numbers[c], ALL * sizeof *strip->numbers[c]);
     free(data);
     retex_pack_model_free(&back);
     return (size_t)bytes;
@@ -46,7 +46,7 @@ static void test_any_numbers_come_back(void **state)
     uint32_t seed = 1;
     for (int round = 0; round < 96; round++) {
         const int channels = 1 + round % 4, kind = round / 4 % 4, holes = round / 16 % 3, steps = round / 48;
-        RetexPackModelBand band = make_band(channels, steps);
+        RetexPackModelStrip strip = make_strip(channels, steps);
         for (int c = 0; c < channels; c++)
             for (int i = 0; i < ALL; i++) {
                 const double noise = test_random(&seed), wide = ldexp(noise - 0.5, 32);
@@ -55,28 +55,28 @@ static void test_any_numbers_come_back(void **state)
                             : kind == 1 ? smooth
                                         : 1000 * (smooth / 7) - 9000;
                 if (kind == 3 && c > 0) /* what the channel before says */
-                    n = 3 * band.numbers[c - 1][i] / 4 + 5;
+                    n = 3 * strip.numbers[c - 1][i] / 4 + 5;
                 if (holes && test_random(&seed) < (holes == 1 ? 0.2 : 0.99))
                     n = 0;
-                if (band.shifts[c]) {
-                    const int shift = band.shifts[c][i] = (unsigned char)(13 * test_random(&seed));
+                if (strip.shifts[c]) {
+                    const int shift = strip.shifts[c][i] = (unsigned char)(13 * test_random(&seed));
                     n = (int32_t)((uint32_t)(n >> shift) << shift);
                 }
-                band.numbers[c][i] = n;
+                strip.numbers[c][i] = n;
             }
-        assert_true(there_and_back(&band) > 0);
-        retex_pack_model_free(&band);
+        assert_true(there_and_back(&strip) > 0);
+        retex_pack_model_free(&strip);
     }
 }
 
 static void test_nothing_takes_no_bytes(void **state)
 {
     (void)state;
-    RetexPackModelBand band = make_band(3, 0);
+    RetexPackModelStrip strip = make_strip(3, 0);
     for (int c = 0; c < 3; c++)
-        memset(band.numbers[c], 0, ALL * sizeof *band.numbers[c]);
-    assert_int_equal(there_and_back(&band), 0);
-    retex_pack_model_free(&band);
+        memset(strip.numbers[c], 0, ALL * sizeof *strip.numbers[c]);
+    assert_int_equal(there_and_back(&strip), 0);
+    retex_pack_model_free(&strip);
 }
 
 /* Extremes, whose differences do not fit into a number. */
@@ -85,12 +85,12 @@ static void test_extremes_come_back(void **state)
     (void)state;
     uint32_t seed = 3;
     const int32_t extremes[] = {INT32_MIN, INT32_MAX, 0, -1, 1, INT32_MIN + 1};
-    RetexPackModelBand band = make_band(2, 0);
+    RetexPackModelStrip strip = make_strip(2, 0);
     for (int c = 0; c < 2; c++)
         for (int i = 0; i < ALL; i++)
-            band.numbers[c][i] = extremes[(int)(6 * test_random(&seed))];
-    there_and_back(&band);
-    retex_pack_model_free(&band);
+            strip.numbers[c][i] = extremes[(int)(6 * test_random(&seed))];
+    there_and_back(&strip);
+    retex_pack_model_free(&strip);
 }
 
 /* Noise takes its entropy; a channel that follows from the others, or from its neighbours, next to nothing; so do bits
@@ -99,23 +99,23 @@ static void test_what_can_be_predicted_is_small(void **state)
 {
     (void)state;
     uint32_t seed = 5;
-    RetexPackModelBand band = make_band(1, 0), three = make_band(3, 0);
+    RetexPackModelStrip strip = make_strip(1, 0), three = make_strip(3, 0);
     for (int i = 0; i < ALL; i++)
-        band.numbers[0][i] = 5000 + (int)(256 * test_random(&seed));
-    const size_t noise = there_and_back(&band);
+        strip.numbers[0][i] = 5000 + (int)(256 * test_random(&seed));
+    const size_t noise = there_and_back(&strip);
     assert_in_range(noise, ALL, ALL * 112 / 100);
     for (int i = 0; i < ALL; i++) {
-        three.numbers[0][i] = band.numbers[0][i];
-        three.numbers[1][i] = band.numbers[0][i] + 77;
-        three.numbers[2][i] = 2 * band.numbers[0][i] - 300;
-        band.numbers[0][i] = 7 * (i % WIDTH) - 11 * (i / WIDTH);
+        three.numbers[0][i] = strip.numbers[0][i];
+        three.numbers[1][i] = strip.numbers[0][i] + 77;
+        three.numbers[2][i] = 2 * strip.numbers[0][i] - 300;
+        strip.numbers[0][i] = 7 * (i % WIDTH) - 11 * (i / WIDTH);
     }
     assert_true(there_and_back(&three) < noise + 500);
-    assert_true(there_and_back(&band) < 300);
+    assert_true(there_and_back(&strip) < 300);
     for (int i = 0; i < ALL; i++)
-        band.numbers[0][i] = (int32_t)(32 * test_random(&seed)) << 20;
-    assert_true(there_and_back(&band) < ALL * 5 / 8 * 115 / 100);
-    retex_pack_model_free(&band);
+        strip.numbers[0][i] = (int32_t)(32 * test_random(&seed)) << 20;
+    assert_true(there_and_back(&strip) < ALL * 5 / 8 * 115 / 100);
+    retex_pack_model_free(&strip);
     retex_pack_model_free(&three);
 }
 
@@ -123,24 +123,24 @@ static void test_damaged_data_does_no_harm(void **state)
 {
     (void)state;
     uint32_t seed = 7;
-    RetexPackModelBand band = make_band(3, 0);
+    RetexPackModelStrip strip = make_strip(3, 0);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < ALL; i++)
-            band.numbers[c][i] = (int32_t)(900 * test_random(&seed) * test_random(&seed)) - 60 * c;
+            strip.numbers[c][i] = (int32_t)(900 * test_random(&seed) * test_random(&seed)) - 60 * c;
     unsigned char *data;
-    const long bytes = retex_pack_model_encode(&data, &band);
+    const long bytes = retex_pack_model_encode(&data, &strip);
     assert_true(bytes > 8);
     for (long cut = 1; cut < bytes; cut += 1 + cut / 8)
-        assert_int_equal(retex_pack_model_decode(&band, data, (size_t)(bytes - cut)), 0);
+        assert_int_equal(retex_pack_model_decode(&strip, data, (size_t)(bytes - cut)), 0);
     for (int round = 0; round < 200; round++) {
         const size_t at = (size_t)((double)bytes * test_random(&seed));
         const unsigned char was = data[at];
         data[at] = (unsigned char)(256 * test_random(&seed));
-        retex_pack_model_decode(&band, data, (size_t)bytes);
+        retex_pack_model_decode(&strip, data, (size_t)bytes);
         data[at] = was;
     }
     free(data);
-    retex_pack_model_free(&band);
+    retex_pack_model_free(&strip);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-/* Pictures written band by band: the file does not depend on the order of bands and threads, the pixels are those of
+/* Pictures written strip by strip: the file does not depend on the order of strips and threads, the pixels are those of
  * the libraries that write such files in one call, and no file remains where writing fails. */
 #include "lib_folder.h"
 #include "lib_test.h"
@@ -70,17 +70,17 @@ static void paint(RetexImage *im, int width, int height, int channels)
 typedef struct Job {
     RetexPicture *picture;
     const RetexImage *image;
-    int nbands, stride; /* bands are taken in the order 0, stride, 2 stride …, modulo their number */
+    int nstrips, stride; /* strips are taken in the order 0, stride, 2 stride …, modulo their number */
 } Job;
 
-static void write_band(void *context, int index, int thread)
+static void write_strip(void *context, int index, int thread)
 {
     const Job *job = context;
-    const int y0 = (int)((long)index * job->stride % job->nbands) * RETEX_PICTURE_BAND;
-    const int y1 = y0 + RETEX_PICTURE_BAND < job->image->height ? y0 + RETEX_PICTURE_BAND : job->image->height;
+    const int y0 = (int)((long)index * job->stride % job->nstrips) * RETEX_PICTURE_STRIP;
+    const int y1 = y0 + RETEX_PICTURE_STRIP < job->image->height ? y0 + RETEX_PICTURE_STRIP : job->image->height;
     RetexError err = {0};
     (void)thread;
-    /* in memory of its own: nothing beyond the band may be looked at */
+    /* in memory of its own: nothing beyond the strip may be looked at */
     const size_t values = retex_image_index(job->image, 0, y1) - retex_image_index(job->image, 0, y0);
     float *rows = malloc(values * sizeof *rows);
     memcpy(rows, job->image->pixels + retex_image_index(job->image, 0, y0), values * sizeof *rows);
@@ -88,13 +88,13 @@ static void write_band(void *context, int index, int thread)
     free(rows);
 }
 
-static void write_bands(const RetexImage *im, const char *path, const RetexWriteParams *params, int nthreads,
-                        int stride)
+static void write_strips(const RetexImage *im, const char *path, const RetexWriteParams *params, int nthreads,
+                         int stride)
 {
-    Job job = {NULL, im, (im->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND, stride};
+    Job job = {NULL, im, (im->height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP, stride};
     RetexError err = {0};
     test_must(retex_picture_open(&job.picture, path, im->width, im->height, im->channels, params, &err), &err);
-    retex_parallel(nthreads, job.nbands, write_band, &job);
+    retex_parallel(nthreads, job.nstrips, write_strip, &job);
     test_must(retex_picture_close(&job.picture, 1, &err), &err);
     assert_null(job.picture);
 }
@@ -153,10 +153,10 @@ static void test_any_order_and_threads(void **state)
                 snprintf(other, sizeof other, "other.%s", endings[k]);
                 paint(&im, sizes[s][0], sizes[s][1], channels);
                 test_must(retex_image_write(&im, test_in_folder(one), NULL, 1, &err), &err);
-                /* strides prime to the numbers of bands: 1, 2, 8, 18 */
+                /* strides prime to the numbers of strips: 1, 2, 8, 18 */
                 static const int orders[][2] = {{1, 1}, {1, 17}, {2, 5}, {7, 1}, {7, 7}};
                 for (int i = 0; i < 5; i++) {
-                    write_bands(&im, test_in_folder(other), NULL, orders[i][0], orders[i][1]);
+                    write_strips(&im, test_in_folder(other), NULL, orders[i][0], orders[i][1]);
                     if (strcmp(endings[k], "tif") == 0) /* it says when it was written */
                         assert_same_pixels(test_in_folder(one), test_in_folder(other));
                     else
@@ -177,7 +177,7 @@ static void test_memory_is_the_file(void **state)
     paint(&im, 150, 200, 3);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
         RetexError err = {0};
-        Job job = {.image = &im, .nbands = 4, .stride = 3};
+        Job job = {.image = &im, .nstrips = 4, .stride = 3};
         char name[64];
         void *data;
         size_t bytes;
@@ -185,8 +185,8 @@ static void test_memory_is_the_file(void **state)
         const char *path = test_in_folder(name);
         test_must(retex_image_write(&im, path, &params, 1, &err), &err);
         test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
-        for (int band = 0; band < job.nbands; band++)
-            write_band(&job, band, 0);
+        for (int strip = 0; strip < job.nstrips; strip++)
+            write_strip(&job, strip, 0);
         test_must(retex_picture_take(&job.picture, &data, &bytes, &err), &err);
         assert_null(job.picture);
         Bytes file = load(path);
@@ -197,7 +197,7 @@ static void test_memory_is_the_file(void **state)
         unlink(path);
         /* rows are missing */
         test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
-        write_band(&job, 0, 0);
+        write_strip(&job, 0, 0);
         assert_int_equal(retex_picture_take(&job.picture, &data, &bytes, &err), RETEX_EINVAL);
         assert_null(data);
         test_must(retex_picture_open_memory(&job.picture, formats[i], 150, 200, 3, &params, &err), &err);
@@ -249,7 +249,7 @@ static void test_pixels_are_those_of_one_go(void **state)
                 snprintf(theirs, sizeof theirs, "theirs.%s", ways[k].ending);
                 paint(&im, sizes[s][0], sizes[s][1], channels);
                 write_in_one_go(&im, test_in_folder(theirs), &params);
-                write_bands(&im, test_in_folder(ours), &params, 2, 1);
+                write_strips(&im, test_in_folder(ours), &params, 2, 1);
                 assert_same_pixels(test_in_folder(ours), test_in_folder(theirs));
                 retex_image_free(&im);
             }
@@ -268,8 +268,8 @@ static void test_exr_is_that_of_sets(void **state)
         test_must(retex_exr_encode(&encoding, &part, 1, 1, 1, &err), &err);
         test_must(retex_exr_write(encoding, im.width, im.height, NULL, NULL, test_in_folder("set.exr"), &err), &err);
         retex_exr_encoding_free(&encoding);
-        write_bands(&im, test_in_folder("bands.exr"), NULL, 2, 1);
-        assert_same_pixels(test_in_folder("set.exr"), test_in_folder("bands.exr"));
+        write_strips(&im, test_in_folder("strips.exr"), NULL, 2, 1);
+        assert_same_pixels(test_in_folder("set.exr"), test_in_folder("strips.exr"));
         retex_image_free(&im);
     }
 }
@@ -292,7 +292,7 @@ static void paint_light(RetexImage *im, int kind, int width, int height)
     }
 }
 
-/* OpenImageIO reads the very halves; as many bytes as a set's take, but for other bands. */
+/* OpenImageIO reads the very halves; as many bytes as a set's take, but for other strips. */
 static void test_exr_of_any_light(void **state)
 {
     (void)state;
@@ -307,7 +307,7 @@ static void test_exr_of_any_light(void **state)
         test_must(retex_exr_encode(&encoding, &part, 1, 1, 1, &err), &err);
         test_must(retex_exr_write(encoding, im.width, im.height, NULL, NULL, test_in_folder("set.exr"), &err), &err);
         retex_exr_encoding_free(&encoding);
-        write_bands(&im, test_in_folder("light.exr"), NULL, 2, 1);
+        write_strips(&im, test_in_folder("light.exr"), NULL, 2, 1);
         test_must(
             retex_bridge_read(
                 &back, &(RetexBridgeFile){test_in_folder("light.exr"), NULL, -1, "raw", 0, "", 1, NULL, NULL}, &err),
@@ -364,22 +364,22 @@ static void test_jpeg_is_plain(void **state)
     RetexImage im = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
     unsigned restart;
-    paint(&im, 19, 1000, 3); /* 16 bands: markers 0 to 7 come twice */
-    write_bands(&im, test_in_folder("p.jpg"), &params, 2, 7);
+    paint(&im, 19, 1000, 3); /* 16 strips: markers 0 to 7 come twice */
+    write_strips(&im, test_in_folder("p.jpg"), &params, 2, 7);
     assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 1000, &restart), 0);
     assert_int_equal(restart, 3 * 8);
     params.quality = 50; /* chroma at half the size: MCUs of 16 lines */
-    write_bands(&im, test_in_folder("p.jpg"), &params, 2, 1);
+    write_strips(&im, test_in_folder("p.jpg"), &params, 2, 1);
     assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 1000, &restart), 0);
     assert_int_equal(restart, 2 * 4);
     retex_image_free(&im);
     paint(&im, 19, 64, 3);
-    write_bands(&im, test_in_folder("p.jpg"), NULL, 1, 1);
+    write_strips(&im, test_in_folder("p.jpg"), NULL, 1, 1);
     assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 64, &restart), 0);
     assert_int_equal(restart, 0);
     retex_image_free(&im);
-    paint(&im, 65500, 65, 1); /* the largest there is, with the most MCUs a band */
-    write_bands(&im, test_in_folder("p.jpg"), NULL, 2, 1);
+    paint(&im, 65500, 65, 1); /* the largest there is, with the most MCUs a strip */
+    write_strips(&im, test_in_folder("p.jpg"), NULL, 2, 1);
     assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 65500, 65, &restart), 0);
     assert_int_equal(restart, 65504);
     retex_image_free(&im);
@@ -519,14 +519,14 @@ static void test_given_up_or_failed(void **state)
         test_must(retex_file_write(path, "old", 3, &err), &err);
         const int before = test_files_left();
 
-        /* given up, after some bands */
+        /* given up, after some strips */
         test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
         test_must(retex_picture_rows(picture, 0, 64, im.pixels, &err), &err);
         test_must(retex_picture_close(&picture, 0, &err), &err);
         test_must(retex_picture_close(&picture, 1, &err), &err);
         expect_old(path);
 
-        /* rows that are no band, that come twice, that are missing */
+        /* rows that are no strip, that come twice, that are missing */
         test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
         test_must(retex_picture_rows(picture, 64, 128, im.pixels, &err), &err);
         assert_int_equal(retex_picture_close(&picture, 1, &err), RETEX_EINVAL);

@@ -219,7 +219,7 @@ static int keep_rows(void *context, int y0, int y1, const float *rows, RetexErro
 {
     RetexImage *picture = context;
     (void)err;
-    assert_int_equal(y0 % RETEX_PICTURE_BAND, 0);
+    assert_int_equal(y0 % RETEX_PICTURE_STRIP, 0);
     memcpy(picture->pixels + retex_image_index(picture, 0, y0), rows,
            sizeof *rows * 3 * (size_t)picture->width * (size_t)(y1 - y0));
     return 0;

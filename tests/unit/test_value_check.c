@@ -12,7 +12,7 @@
 
 #include "base/half.h"
 #include "base/value_check.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "set/rows.h"
 
 /* ---- the kernels ---- */

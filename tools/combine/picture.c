@@ -51,7 +51,7 @@ static int write_rows(void *picture, int y0, int y1, const float *rows, RetexErr
 /* The picture of the expected error while it is written. */
 typedef struct ErrorPicture {
     RetexPicture *picture;
-    double *squares; /* sum of squares of each band */
+    double *squares; /* sum of squares of each strip */
     size_t width;
 } ErrorPicture;
 
@@ -59,7 +59,7 @@ static int write_error_rows(void *context, int y0, int y1, const float *rows, Re
 {
     ErrorPicture *error = context;
     const size_t count = 3 * error->width * (size_t)(y1 - y0);
-    double *sum = &error->squares[y0 / RETEX_PICTURE_BAND];
+    double *sum = &error->squares[y0 / RETEX_PICTURE_STRIP];
     for (size_t i = 0; i < count; i++)
         *sum += (double)rows[i] * rows[i];
     return retex_picture_rows(error->picture, y0, y1, rows, err);
@@ -70,8 +70,8 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
 {
     const RetexSetInfo info = retex_set_info(job->set);
     const int width = info.width, height = info.height;
-    const int bands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
-    ErrorPicture error = {NULL, calloc((size_t)bands, sizeof *error.squares), (size_t)width};
+    const int strips = (height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
+    ErrorPicture error = {NULL, calloc((size_t)strips, sizeof *error.squares), (size_t)width};
     double squares = 0;
     int code = error.squares ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
     if (!code)
@@ -80,7 +80,7 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
         code = retex_estimate_error(job->set, job->samples, row->textures, &job->combine, write_error_rows, &error,
                                     cli->threads, err);
     int closed = retex_picture_close(&error.picture, !code, code ? NULL : err);
-    for (int i = 0; i < bands && error.squares; i++)
+    for (int i = 0; i < strips && error.squares; i++)
         squares += error.squares[i];
     free(error.squares);
     snprintf(text, size, ", expected error %.3g rms", sqrt(squares / (3.0 * width * height)));

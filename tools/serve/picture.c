@@ -1,4 +1,4 @@
-/* See picture.h. A whole picture is encoded band by band while it is made. Of a part, or a smaller picture, rows are
+/* See picture.h. A whole picture is encoded strip by strip while it is made. Of a part, or a smaller picture, rows are
  * scaled to their width when they are made, so that never all of a large picture is in memory; then columns are scaled,
  * then it is mirrored, turned and encoded. */
 #include "picture.h"
@@ -158,11 +158,11 @@ typedef struct Encoding {
     const RetexImage *image;
 } Encoding;
 
-static void encode_band(void *context, int index, int thread)
+static void encode_strip(void *context, int index, int thread)
 {
     const Encoding *encoding = context;
     const RetexImage *image = encoding->image;
-    const int y0 = index * RETEX_PICTURE_BAND, end = y0 + RETEX_PICTURE_BAND;
+    const int y0 = index * RETEX_PICTURE_STRIP, end = y0 + RETEX_PICTURE_STRIP;
     (void)thread;
     (void)retex_picture_rows(encoding->picture, y0, end < image->height ? end : image->height,
                              image->pixels + retex_image_index(image, 0, y0), NULL); /* the picture keeps the error */
@@ -182,7 +182,8 @@ static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t 
     if (!code)
         code = open_picture(&encoding.picture, plan, image.width, image.height, err);
     if (!code)
-        retex_parallel(nthreads, (image.height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND, encode_band, &encoding);
+        retex_parallel(nthreads, (image.height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP, encode_strip,
+                       &encoding);
     code = take_picture(&encoding.picture, code, data, bytes, err);
     retex_image_free(&image);
     return code;

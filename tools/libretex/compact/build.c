@@ -9,10 +9,10 @@
 #include <retex/host/set_build.h>
 #include <retex/target_name.h>
 
-#include "compact/bands.h"
+#include "compact/strips.h"
 #include "compact/clusters.h"
 #include "compact/gains.h"
-#include "set/band.h"
+#include "set/strip.h"
 #include "set/parts.h"
 #include "set/signals.h"
 
@@ -503,7 +503,7 @@ static int end_kind(const Compaction *work, int number, RetexError *err)
     return code;
 }
 
-/* Make the clusters and gains of all kinds, band by band, because the set may be larger than memory. */
+/* Make the clusters and gains of all kinds, strip by strip, because the set may be larger than memory. */
 static int make_kinds(Compaction *work, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
@@ -511,7 +511,7 @@ static int make_kinds(Compaction *work, RetexError *err)
     for (int i = 0; i < light->nkinds && !code; i++)
         code = begin_kind(work, i, err);
     if (!code)
-        code = retex_compact_bands(light, make_rows, work, work->nthreads, err);
+        code = retex_compact_strips(light, make_rows, work, work->nthreads, err);
     for (int i = 0; i < light->nkinds && !code; i++)
         code = end_kind(work, i, err);
     return code;

@@ -37,7 +37,7 @@ typedef struct ClustersWork {
     RetexCompactClusters *clusters;
     const RetexCompactLight *light;
     const RetexCompactKind *kind;
-    int scale, first; /* first: the band's first row of blocks */
+    int scale, first; /* first: the strip's first row of blocks */
 } ClustersWork;
 
 static double merging_cost(const Pool *pool, int i, int j)

@@ -23,7 +23,7 @@ typedef struct RetexCompactClusters {
  * of its own on sharp footprints, where textures show every detail, and on broad ones where no noise may be removed. */
 int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                 const RetexCompactKind *kind, int scale, int nthreads, RetexError *err);
-/* The same in bands of rows: light->set has rows of the picture from `first` on, a multiple of the scale except at the
+/* The same in strips of rows: light->set has rows of the picture from `first` on, a multiple of the scale except at the
  * end. */
 int retex_compact_clusters_begin(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                  const RetexCompactKind *kind, int scale, RetexError *err);

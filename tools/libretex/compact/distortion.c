@@ -12,18 +12,18 @@
 #include <retex/parallel.h>
 #include <retex/samples.h>
 
-#include "compact/bands.h"
+#include "compact/strips.h"
 #include "compact/build.h"
 #include "compact/image_noise.h"
 #include "set/noise.h"
 #include "set/samples.h"
 #include "set/set.h"
 
-#define TILE RETEX_COMPACT_BAND_ROWS /* side of a tile in pixels, without margins */
-#define MARGIN 16                    /* pixels on each side: two pixels of an image of scale 8 */
-#define LENGTHS 3                    /* trials with waves, one for each wavelength; other trials have flat colours */
-#define FLAT 1                       /* variance in wavelengths at which a filtered wave is flat */
-#define PROBE 8                      /* distance in pixels of the samples by which difficulty is estimated */
+#define TILE RETEX_COMPACT_STRIP_ROWS /* side of a tile in pixels, without margins */
+#define MARGIN 16                     /* pixels on each side: two pixels of an image of scale 8 */
+#define LENGTHS 3                     /* trials with waves, one for each wavelength; other trials have flat colours */
+#define FLAT 1                        /* variance in wavelengths at which a filtered wave is flat */
+#define PROBE 8                       /* distance in pixels of the samples by which difficulty is estimated */
 
 /* ---- tiles ---- */
 
@@ -33,8 +33,8 @@ typedef struct Tile {
 } Tile;
 
 typedef struct Mosaic {
-    const RetexCompactLight *light; /* the light of a band */
-    int first, height;              /* first: the band's first row; height: of the picture */
+    const RetexCompactLight *light; /* the light of a strip */
+    int first, height;              /* first: the strip's first row; height: of the picture */
     RetexSet *result;
     int columns, count; /* tiles of the picture: in a row, and in all */
     Tile *tiles;
@@ -116,7 +116,7 @@ static int clamp(int at, int size)
     return at < 0 ? 0 : at < size ? at : size - 1;
 }
 
-/* Copy the rows of a tile that are in the band. */
+/* Copy the rows of a tile that are in the strip. */
 static void copy_tile(RetexImage *to, int row, const RetexImage *from, const Mosaic *mosaic)
 {
     const int side = TILE + 2 * MARGIN, x = mosaic->taken[row].x - MARGIN, y = mosaic->taken[row].y - MARGIN;
@@ -157,7 +157,7 @@ static int make_mosaic(RetexSet **result, const RetexCompactLight *light, Mosaic
             retex_set_add_part(tiles, part->name, part->letters, part->type, whole ? 0 : 1, whole ? 0 : 1, NULL, err);
     }
     if (!code)
-        code = retex_compact_bands(light, copy_tiles, mosaic, nthreads, err);
+        code = retex_compact_strips(light, copy_tiles, mosaic, nthreads, err);
     return code ? code : retex_compact_copy_terms(tiles, set, err);
 }
 
@@ -316,7 +316,7 @@ typedef struct Probing {
     int nthreads;
 } Probing;
 
-static int probe_band(void *context, const RetexCompactLight *light, int first, RetexError *err)
+static int probe_strip(void *context, const RetexCompactLight *light, int first, RetexError *err)
 {
     const Probing *probing = context;
     (void)err;
@@ -337,7 +337,7 @@ static int set_mosaic(RetexCompactReference *reference, const RetexCompactLight 
     mosaic.tiles = malloc((size_t)mosaic.count * sizeof *mosaic.tiles);
     if (!mosaic.tiles)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for tiles");
-    int code = retex_compact_bands(light, probe_band, &probing, nthreads, err);
+    int code = retex_compact_strips(light, probe_strip, &probing, nthreads, err);
     if (!code) {
         choose_tiles(&mosaic, reference->weights);
         code = make_mosaic(&reference->set, light, &mosaic, nthreads, err);

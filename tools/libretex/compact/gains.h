@@ -13,7 +13,7 @@ int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, co
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
                             RetexError *err);
 
-/* The same in bands: light->set has rows of the picture from `first` on; sum and gain are of the whole picture. */
+/* The same in strips: light->set has rows of the picture from `first` on; sum and gain are of the whole picture. */
 void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int first,
                             int nthreads);
 int retex_compact_gain_begin(RetexImage *gain, const RetexCompactLight *light, int scale, RetexError *err);

@@ -9,14 +9,14 @@
 #include "denoise/footprints.h"
 #include "set/set.h"
 
-/* The results of a row of tiles stay in a band of their own until no other tile reads the pixels that they replace. */
+/* The results of a row of tiles stay in rows of their own until no other tile reads the pixels that they replace. */
 typedef struct Filter {
     RetexDenoiser *denoiser;
     RetexDenoiseResult *result;
     RetexDenoiseScratch **scratch; /* by thread */
     int nthreads, tiles_x;
-    RetexDenoisedRows bands[2], *band;
-    RetexSignalSums *sums; /* by tile of the band, then signal: added up in order */
+    RetexDenoisedRows outs[2], *out;
+    RetexSignalSums *sums; /* by tile of the row, then signal: added up in order */
 } Filter;
 
 static void denoise_job(void *context, int index, int thread)
@@ -25,32 +25,32 @@ static void denoise_job(void *context, int index, int thread)
     const RetexDenoiser *d = w->denoiser;
     if (retex_budget_is_stopped(d->params.budget))
         return;
-    retex_denoise_tile(d, w->scratch[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
+    retex_denoise_tile(d, w->scratch[thread], d->roi.x0 + index * DENOISE_STEP, w->out,
                        w->sums + (size_t)index * (size_t)d->signals.count);
 }
 
-static void close_band(RetexDenoisedRows *band, int nparts)
+static void close_rows(RetexDenoisedRows *out, int nparts)
 {
-    for (int k = 0; band->parts && k < nparts; k++)
-        free(band->parts[k]);
-    free(band->parts);
-    band->parts = NULL;
+    for (int k = 0; out->parts && k < nparts; k++)
+        free(out->parts[k]);
+    free(out->parts);
+    out->parts = NULL;
 }
 
-static int open_band(RetexDenoisedRows *band, const RetexDenoiser *d, const unsigned char *written, RetexError *err)
+static int open_rows(RetexDenoisedRows *out, const RetexDenoiser *d, const unsigned char *written, RetexError *err)
 {
     const RetexSet *set = d->set;
-    band->rows = 0;
-    band->parts = calloc((size_t)set->nparts, sizeof *band->parts);
-    for (int k = 0; band->parts && k < set->nparts; k++) {
+    out->rows = 0;
+    out->parts = calloc((size_t)set->nparts, sizeof *out->parts);
+    for (int k = 0; out->parts && k < set->nparts; k++) {
         size_t floats = (size_t)DENOISE_STEP * (size_t)set->width * (size_t)set->parts[k].image.channels;
-        if (written[k] && !(band->parts[k] = malloc(floats * sizeof(float))))
+        if (written[k] && !(out->parts[k] = malloc(floats * sizeof(float))))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     }
-    return band->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    return out->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
 }
 
-static int open_bands(Filter *w, RetexError *err)
+static int open_outs(Filter *w, RetexError *err)
 {
     const RetexDenoiser *d = w->denoiser;
     unsigned char *written = w->result->written;
@@ -60,19 +60,19 @@ static int open_bands(Filter *w, RetexError *err)
             written[d->signals.of[s].members[k].part] = 1;
     retex_denoise_mark_written(d->footprints, d, written);
     for (int k = 0; k < 2 && !code; k++)
-        code = open_band(&w->bands[k], d, written, err);
+        code = open_rows(&w->outs[k], d, written, err);
     return code;
 }
 
-/* Copies the band into the set. */
-static void commit_band(const RetexDenoisedRows *band, const RetexDenoiser *d)
+/* Copies the rows into the set. */
+static void commit_rows(const RetexDenoisedRows *out, const RetexDenoiser *d)
 {
     for (int part = 0; part < d->set->nparts; part++) {
         RetexImage *im = &d->set->parts[part].image;
         size_t channels = (size_t)im->channels, row = (size_t)(d->roi.x1 - d->roi.x0) * channels;
-        for (int y = 0; band->parts[part] && y < band->rows; y++)
-            memcpy(im->pixels + retex_image_index(im, d->roi.x0, band->first + y),
-                   band->parts[part] + ((size_t)y * (size_t)im->width + (size_t)d->roi.x0) * channels,
+        for (int y = 0; out->parts[part] && y < out->rows; y++)
+            memcpy(im->pixels + retex_image_index(im, d->roi.x0, out->first + y),
+                   out->parts[part] + ((size_t)y * (size_t)im->width + (size_t)d->roi.x0) * channels,
                    row * sizeof(float));
     }
 }
@@ -101,7 +101,7 @@ static int open_filter(Filter *w, RetexError *err)
         code = retex_denoise_scratch_create(&w->scratch[k], d, err);
     if (!code)
         code = retex_denoise_footprints_open(&d->footprints, d, err);
-    return code ? code : open_bands(w, err);
+    return code ? code : open_outs(w, err);
 }
 
 static void close_filter(Filter *w)
@@ -109,7 +109,7 @@ static void close_filter(Filter *w)
     for (int k = 0; w->scratch && k < w->nthreads; k++)
         retex_denoise_scratch_close(&w->scratch[k]);
     for (int k = 0; k < 2; k++)
-        close_band(&w->bands[k], w->denoiser->set->nparts);
+        close_rows(&w->outs[k], w->denoiser->set->nparts);
     free(w->scratch);
     free(w->sums);
     retex_denoise_footprints_close(&w->denoiser->footprints);
@@ -120,22 +120,22 @@ static int run(Filter *w, RetexError *err)
     const RetexDenoiser *d = w->denoiser;
     int number = 0;
     for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_STEP, number++) {
-        w->band = &w->bands[number % 2];
-        w->band->first = y;
-        w->band->rows = d->roi.y1 - y < DENOISE_STEP ? d->roi.y1 - y : DENOISE_STEP;
+        w->out = &w->outs[number % 2];
+        w->out->first = y;
+        w->out->rows = d->roi.y1 - y < DENOISE_STEP ? d->roi.y1 - y : DENOISE_STEP;
         memset(w->sums, 0, sizeof *w->sums * (size_t)w->tiles_x * (size_t)d->signals.count);
         retex_parallel(w->nthreads, w->tiles_x, denoise_job, w);
         const int code = retex_budget_check(d->params.budget, err);
         if (code)
             return code;
         add_sums(w);
-        commit_band(&w->bands[(number + 1) % 2], d); /* no tile reads the rows of the band before any more */
-        w->bands[(number + 1) % 2].rows = 0;
+        commit_rows(&w->outs[(number + 1) % 2], d); /* no tile reads the rows before any more */
+        w->outs[(number + 1) % 2].rows = 0;
         if (d->params.progress)
             d->params.progress(d->params.progress_context, (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0));
     }
     for (int k = 0; k < 2; k++)
-        commit_band(&w->bands[k], d);
+        commit_rows(&w->outs[k], d);
     return RETEX_OK;
 }
 

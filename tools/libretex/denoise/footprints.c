@@ -18,18 +18,18 @@
 
 /* The pixel that is written, and its number in the set's images. */
 typedef struct Pixel {
-    const RetexDenoisedRows *band;
-    size_t at, place; /* in the set, in the band */
+    const RetexDenoisedRows *out;
+    size_t at, place; /* in the set, in the rows */
 } Pixel;
 
-static Pixel pixel_at(const RetexDenoiseFootprints *f, const RetexDenoisedRows *band, int x, int y)
+static Pixel pixel_at(const RetexDenoiseFootprints *f, const RetexDenoisedRows *out, int x, int y)
 {
-    return (Pixel){band, (size_t)y * f->width + (size_t)x, (size_t)(y - band->first) * f->width + (size_t)x};
+    return (Pixel){out, (size_t)y * f->width + (size_t)x, (size_t)(y - out->first) * f->width + (size_t)x};
 }
 
 static float *written(const Pixel *p, const RetexFootprintImage *image)
 {
-    return p->band->parts[image->part] + p->place * image->channels;
+    return p->out->parts[image->part] + p->place * image->channels;
 }
 
 static void copy_pixel(const Pixel *p, const RetexFootprintImage *image, size_t from)
@@ -406,10 +406,10 @@ static int pool_clusters(const RetexDenoiseFootprints *f, const RetexFootprintCl
 
 void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoiser *d, const RetexSignal *signal,
                                int x, int y, const RetexNeighbour *neighbours, int count, const float light[3],
-                               RetexDenoisedRows *band)
+                               RetexDenoisedRows *out)
 {
     const RetexFootprintClass *g = &f->signals[signal - d->signals.of];
-    const Pixel p = pixel_at(f, band, x, y);
+    const Pixel p = pixel_at(f, out, x, y);
     int pooled = g->kind == RETEX_FOOTPRINT_BROAD && g->movable && d->params.footprints && g->nlit;
     if (!pooled || !pool_clusters(f, g, &p, neighbours, count, light))
         keep_clusters(f, g, &p, neighbours, count, light);
@@ -457,9 +457,9 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass 
 }
 
 void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *f, const RetexDenoiser *d, int x, int y,
-                                         const RetexNeighbour *neighbours, int count, RetexDenoisedRows *band)
+                                         const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out)
 {
-    const Pixel p = pixel_at(f, band, x, y);
+    const Pixel p = pixel_at(f, out, x, y);
     if (!d->params.footprints)
         return;
     if (f->ninterreflections)

@@ -15,19 +15,19 @@ typedef struct RetexDenoiseFootprints RetexDenoiseFootprints;
 int retex_denoise_footprints_open(RetexDenoiseFootprints **footprints, const RetexDenoiser *denoiser, RetexError *err);
 void retex_denoise_footprints_close(RetexDenoiseFootprints **footprints);
 
-/* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into band. signal is one of
+/* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into out. signal is one of
  * denoiser->signals. Sharp clusters keep their UV and the proportions of their light; where the pixel has none, those
  * of the neighbour with the largest weight are copied, or of the nearest pixel of the window. Broad clusters are pooled
  * over neighbours if params.footprints. Shares in interreflected light are kept or pooled in the same way; where all
  * shares are 0 they become those of the light. */
 void retex_denoise_share_light(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser,
                                const RetexSignal *signal, int x, int y, const RetexNeighbour *neighbours, int count,
-                               const float light[3], RetexDenoisedRows *band);
+                               const float light[3], RetexDenoisedRows *out);
 
 /* Pool the footprints that are not clusters of a signal: interreflections of all targets; in layout paper those of
  * second and further hits. */
 void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser, int x,
-                                         int y, const RetexNeighbour *neighbours, int count, RetexDenoisedRows *band);
+                                         int y, const RetexNeighbour *neighbours, int count, RetexDenoisedRows *out);
 
 /* Set written[part] = 1 for the parts of the set that these calls write. */
 void retex_denoise_mark_written(const RetexDenoiseFootprints *footprints, const RetexDenoiser *denoiser,

@@ -10,7 +10,7 @@
 
 #include "denoise/filter.h"
 #include "base/jobs.h"
-#include "set/band.h"
+#include "set/strip.h"
 #include "set/parts.h"
 #include "set/source.h"
 
@@ -101,14 +101,14 @@ static void show_progress(const Strips *s, double done)
 }
 
 /* Filters one strip, loaded with the rows around it that the filter reads. */
-static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
+static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int end = y + STRIP < set->height ? y + STRIP : set->height;
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
     RetexDenoiser strip = *s->denoiser;
-    int code = retex_set_band_load(&strip.set, band, first, last - first, s->nthreads, err);
+    int code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     strip.params.progress = NULL;
     if (!code)
@@ -121,13 +121,13 @@ static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
 static int filter_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
-    RetexSetBand *band;
-    int code = retex_set_band_open(&band, set, STRIP + 2 * DENOISE_REACH, 1, err);
+    RetexSetStrip *loaded;
+    int code = retex_set_strip_open(&loaded, set, STRIP + 2 * DENOISE_REACH, 1, err);
     for (int y = 0; y < set->height && !code; y += STRIP) {
         show_progress(s, FILTERED * y / set->height);
-        code = filter_strip(s, band, y, err);
+        code = filter_strip(s, loaded, y, err);
     }
-    retex_set_band_close(&band);
+    retex_set_strip_close(&loaded);
     return code;
 }
 
@@ -150,12 +150,12 @@ static int open_filtered(Strips *s, RetexError *err)
     return RETEX_OK;
 }
 
-static int finish_rows(Strips *s, RetexSetBand *band, int y, RetexError *err)
+static int finish_rows(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int count = set->height - y < FINISHED ? set->height - y : FINISHED;
     RetexDenoiser rows = *s->denoiser;
-    int code = retex_set_band_load(&rows.set, band, y, count, s->nthreads, err);
+    int code = retex_set_strip_load(&rows.set, loaded, y, count, s->nthreads, err);
     rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
     if (!code)
         code = retex_denoise_finish(&rows, &s->result, s->nthreads, err);
@@ -166,19 +166,19 @@ static int finish_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     unsigned char *wanted = calloc((size_t)set->nparts + 1, 1);
-    RetexSetBand *band = NULL;
+    RetexSetStrip *loaded = NULL;
     int code = wanted ? open_filtered(s, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < set->nparts && !code; k++)
         wanted[k] = is_whole(set, k) && !retex_part_is_denoise_data(set, k);
     if (!code)
         code = open_store(&s->stores[1], s->images[1], s->denoiser, wanted, 0, err);
     if (!code)
-        code = retex_set_band_open(&band, &s->filtered, FINISHED, 1, err);
+        code = retex_set_strip_open(&loaded, &s->filtered, FINISHED, 1, err);
     for (int y = 0; y < set->height && !code; y += FINISHED) {
         show_progress(s, FILTERED + (1 - FILTERED) * y / set->height);
-        code = finish_rows(s, band, y, err);
+        code = finish_rows(s, loaded, y, err);
     }
-    retex_set_band_close(&band);
+    retex_set_strip_close(&loaded);
     free(wanted);
     return code;
 }

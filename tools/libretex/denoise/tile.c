@@ -431,7 +431,7 @@ static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const fl
 }
 
 static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
-                          const TilePixel *at, RetexDenoisedRows *band, RetexSignalSums *sums)
+                          const TilePixel *at, RetexDenoisedRows *out, RetexSignalSums *sums)
 {
     float total[3], members[3], light[3];
     int image = r->nclusters > 0;
@@ -446,7 +446,7 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
         const RetexSignalMember *m = &signal->members[k];
         if (m->cluster >= 0)
             continue;
-        float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
+        float *to = out->parts[m->part] + 3 * ((size_t)(at->y - out->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
             to[c] = m->corrects ? correction_value(r, at, image, c)
                                 : image_value(r, at, image, c, total[c], members[c], m->weight);
@@ -455,19 +455,19 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     if (r->nclusters) {
         RetexNeighbour neighbours[NEIGHBOURS_MAX];
         int count = find_neighbours(neighbours, d, r->neighbours, at);
-        retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
+        retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, out);
     }
 }
 
-static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *work, const TilePixel *at,
-                         RetexDenoisedRows *band, RetexSignalSums *sums)
+static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *work, const TilePixel *at, RetexDenoisedRows *out,
+                         RetexSignalSums *sums)
 {
     for (int s = 0; s < d->signals.count; s++)
-        finish_signal(&work->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
+        finish_signal(&work->signals[s], d, &d->signals.of[s], at, out, &sums[s]);
     if (d->params.footprints && d->set->nfootprints) {
         RetexNeighbour neighbours[NEIGHBOURS_MAX];
         int count = find_neighbours(neighbours, d, work->neighbours, at);
-        retex_denoise_pool_interreflections(d->footprints, d, at->x, at->y, neighbours, count, band);
+        retex_denoise_pool_interreflections(d->footprints, d, at->x, at->y, neighbours, count, out);
     }
 }
 
@@ -506,10 +506,10 @@ static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *work, con
         }
 }
 
-void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *band,
+void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *out,
                         RetexSignalSums *sums)
 {
-    int x0 = left - DENOISE_MARGIN, y0 = band->first - DENOISE_MARGIN;
+    int x0 = left - DENOISE_MARGIN, y0 = out->first - DENOISE_MARGIN;
     RetexDenoiseFeatures features;
     RetexDenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
     retex_denoise_load_features(&features, work->features, d, x0, y0);
@@ -523,9 +523,9 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
     search_window(d, work, &features, signals);
     for (int s = 0; s < d->signals.count; s++)
         choose(&work->signals[s], work, signals[s].epsilon);
-    for (int y = band->first; y < band->first + band->rows; y++)
+    for (int y = out->first; y < out->first + out->rows; y++)
         for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
             TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
-            finish_pixel(d, work, &at, band, sums);
+            finish_pixel(d, work, &at, out, sums);
         }
 }

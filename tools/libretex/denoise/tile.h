@@ -33,9 +33,9 @@ typedef struct RetexDenoiseScratch RetexDenoiseScratch;
 int retex_denoise_scratch_create(RetexDenoiseScratch **work, const RetexDenoiser *denoiser, RetexError *err);
 void retex_denoise_scratch_close(RetexDenoiseScratch **work);
 
-/* Filter DENOISE_STEP x DENOISE_STEP pixels from (x0, band->first) on, as far as they are in the band and the region,
- * into band. sums has an entry for each signal. */
-void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *band,
+/* Filter DENOISE_STEP x DENOISE_STEP pixels from (x0, out->first) on, as far as they are in out's rows and the region,
+ * into out. sums has an entry for each signal. */
+void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *out,
                         RetexSignalSums *sums);
 
 #endif

@@ -12,7 +12,7 @@
 
 #include "exr/io.h"
 #include "io/input.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "set/set.h"
 
 struct RetexLayers {

@@ -4,7 +4,7 @@
 #include <retex/set_file.h>
 
 #include "io/input.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "set/read.h"
 #include "set/set.h"
 

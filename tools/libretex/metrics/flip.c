@@ -6,7 +6,7 @@
  * features increase the colour difference (4.3).
  *
  * All filters are sums of separable ones, so that one horizontal and one vertical pass suffice. The picture is
- * processed in bands of rows with a margin; a band's result does not depend on the others. */
+ * processed in strips of rows with a margin; a strip's result does not depend on the others. */
 #include "metrics/flip.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 #include <retex/parallel.h>
 
-enum { RADIUS = 10, TAPS = 2 * RADIUS + 1, BAND = 32, ROWS = BAND + 2 * RADIUS };
+enum { RADIUS = 10, TAPS = 2 * RADIUS + 1, STRIP = 32, ROWS = STRIP + 2 * RADIUS };
 
 #define PIXELS_PER_DEGREE 67.0
 #define FEATURE_WIDTH 0.082 /* degrees: of the edges and points the eye is most sensitive to */
@@ -23,9 +23,9 @@ enum { RADIUS = 10, TAPS = 2 * RADIUS + 1, BAND = 32, ROWS = BAND + 2 * RADIUS }
 #define COLOR_KNEE 0.4f     /* p_c: below this share of the largest difference ... */
 #define COLOR_KNEE_AT 0.95f /* p_t: ... values map to 0 .. p_t */
 
-/* Horizontally filtered planes of a band with margin; all but the last three serve the colour pipeline. */
+/* Horizontally filtered planes of a strip with margin; all but the last three serve the colour pipeline. */
 enum { H_Y, H_CX, H_CZ1, H_CZ2, H_EDGE, H_POINT, H_SMOOTH, H_PLANES };
-/* Planes that are compared, for a band. */
+/* Planes that are compared, for a strip. */
 enum { F_L, F_A, F_B, F_EDGE, F_POINT, F_PLANES };
 
 typedef struct Filters {
@@ -168,7 +168,7 @@ static void convolve(float *restrict dst, const float *restrict src, size_t stri
             dst[x] += taps[k] * src[(size_t)k * stride + (size_t)x];
 }
 
-/* --- one band --- */
+/* --- one strip --- */
 
 /* The row of a picture in YCxCz, three padded rows one after the other; edge pixels repeat outwards. Samples that are
  * not finite here or in `other` are 0. */
@@ -220,12 +220,12 @@ static void filter_rows(float *planes, float *padded, const RetexImage *im, cons
     }
 }
 
-/* Vertical filters of row r of the band, then colour and features. column: 5 rows of scratch. */
+/* Vertical filters of row r of the strip, then colour and features. column: 5 rows of scratch. */
 static void finish_row(float *features, const float *planes, float *column, const Filters *f, int r, int width)
 {
     size_t w = (size_t)width;
 #define PLANE(p) (planes + ((size_t)(p)*ROWS + (size_t)r) * w)
-#define FEATURE(p) (features + ((size_t)(p)*BAND + (size_t)r) * w)
+#define FEATURE(p) (features + ((size_t)(p)*STRIP + (size_t)r) * w)
     float *y = column, *cx = column + w, *cz1 = column + 2 * w, *cz2 = column + 3 * w;
     convolve(y, PLANE(H_Y), w, f->y, width);
     convolve(cx, PLANE(H_CX), w, f->cx, width);
@@ -265,15 +265,15 @@ static float pixel_error(const float a[F_PLANES], const float b[F_PLANES], float
     return fminf(powf(fminf(color, 1), fmaxf(1 - feature, 0)), 1);
 }
 
-static void flip_band(void *context, int index, int thread)
+static void flip_strip(void *context, int index, int thread)
 {
     FlipJob *job = context;
     const RetexImage *pictures[2] = {job->image, job->reference};
     size_t width = (size_t)job->map->width;
-    int y0 = index * BAND, rows = job->map->height - y0 < BAND ? job->map->height - y0 : BAND;
+    int y0 = index * STRIP, rows = job->map->height - y0 < STRIP ? job->map->height - y0 : STRIP;
     float *padded = job->scratch + (size_t)thread * job->scratch_size;
     float *planes = padded + 3 * (width + 2 * RADIUS), *column = planes + H_PLANES * ROWS * width;
-    float *features[2] = {column + 4 * width, column + (4 + F_PLANES * BAND) * width};
+    float *features[2] = {column + 4 * width, column + (4 + F_PLANES * STRIP) * width};
 
     for (int i = 0; i < 2; i++) {
         filter_rows(planes, padded, pictures[i], pictures[1 - i], &job->filters, y0, rows);
@@ -284,8 +284,8 @@ static void flip_band(void *context, int index, int thread)
         for (size_t x = 0; x < width; x++) {
             float a[F_PLANES], b[F_PLANES];
             for (size_t p = 0; p < F_PLANES; p++) {
-                a[p] = features[0][(p * BAND + (size_t)r) * width + x];
-                b[p] = features[1][(p * BAND + (size_t)r) * width + x];
+                a[p] = features[0][(p * STRIP + (size_t)r) * width + x];
+                b[p] = features[1][(p * STRIP + (size_t)r) * width + x];
             }
             job->map->pixels[(size_t)(y0 + r) * width + x] = pixel_error(a, b, job->filters.color_max);
         }
@@ -301,14 +301,14 @@ int retex_flip_map(RetexImage *map, const RetexImage *image, const RetexImage *r
         return code;
     size_t width = (size_t)image->width;
     FlipJob job = {.image = image, .reference = reference, .map = map};
-    job.scratch_size = 3 * (width + 2 * RADIUS) + (H_PLANES * ROWS + 4 + 2 * F_PLANES * BAND) * width;
+    job.scratch_size = 3 * (width + 2 * RADIUS) + (H_PLANES * ROWS + 4 + 2 * F_PLANES * STRIP) * width;
     job.scratch = malloc((size_t)retex_threads(nthreads) * job.scratch_size * sizeof(float));
     if (!job.scratch) {
         retex_image_free(map);
         return retex_fail(err, RETEX_ENOMEM, "no memory for FLIP of %d x %d pixels", image->width, image->height);
     }
     make_filters(&job.filters);
-    retex_parallel(nthreads, (image->height + BAND - 1) / BAND, flip_band, &job);
+    retex_parallel(nthreads, (image->height + STRIP - 1) / STRIP, flip_strip, &job);
     free(job.scratch);
     return 0;
 }

@@ -98,23 +98,23 @@ typedef struct Recombined {
     int32_t *numbers;
 } Recombined;
 
-static int recombine(Recombined *r, const RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err)
+static int recombine(Recombined *r, const RetexPackModelStrip *strip, const RetexSet *set, int y0, RetexError *err)
 {
-    const size_t pixels = (size_t)band->width * (size_t)band->rows;
+    const size_t pixels = (size_t)strip->width * (size_t)strip->rows;
     *r = (Recombined){malloc(3 * pixels * sizeof *r->rows), malloc(pixels * sizeof *r->numbers)};
-    return r->rows && r->numbers ? retex_combine_original_rows(r->rows, set, y0, y0 + band->rows, err)
+    return r->rows && r->numbers ? retex_combine_original_rows(r->rows, set, y0, y0 + strip->rows, err)
                                  : retex_fail(err, RETEX_ENOMEM, "no memory for the picture of a pack");
 }
 
-/* Add their numbers to the band's, or take them from these; they may wrap. */
-static void apply(RetexPackModelBand *band, const Recombined *r, RetexPixelType type, uint32_t sign)
+/* Add their numbers to the strip's, or take them from these; they may wrap. */
+static void apply(RetexPackModelStrip *strip, const Recombined *r, RetexPixelType type, uint32_t sign)
 {
     const RetexPackMap bits = {.kind = RETEX_PACK_MAP_BITS};
-    const size_t pixels = (size_t)band->width * (size_t)band->rows;
+    const size_t pixels = (size_t)strip->width * (size_t)strip->rows;
     for (int c = 0; c < 3; c++) {
         retex_pack_map_numbers(r->numbers, r->rows + c, 3, pixels, &bits, type);
         for (size_t i = 0; i < pixels; i++)
-            band->numbers[c][i] = (int32_t)((uint32_t)band->numbers[c][i] + sign * (uint32_t)r->numbers[i]);
+            strip->numbers[c][i] = (int32_t)((uint32_t)strip->numbers[c][i] + sign * (uint32_t)r->numbers[i]);
     }
 }
 
@@ -124,24 +124,24 @@ static void recombined_free(Recombined *r)
     free(r->numbers);
 }
 
-int retex_pack_combine_subtract(RetexPackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err)
+int retex_pack_combine_subtract(RetexPackModelStrip *strip, const RetexSet *set, int y0, int *finite, RetexError *err)
 {
     Recombined r;
-    int code = recombine(&r, band, set, y0, err);
-    for (size_t i = 0; !code && i < 3 * (size_t)band->width * (size_t)band->rows; i++)
+    int code = recombine(&r, strip, set, y0, err);
+    for (size_t i = 0; !code && i < 3 * (size_t)strip->width * (size_t)strip->rows; i++)
         *finite = *finite && isfinite(r.rows[i]);
     if (!code)
-        apply(band, &r, set->parts[0].type, UINT32_MAX);
+        apply(strip, &r, set->parts[0].type, UINT32_MAX);
     recombined_free(&r);
     return code;
 }
 
-int retex_pack_combine_add(RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err)
+int retex_pack_combine_add(RetexPackModelStrip *strip, const RetexSet *set, int y0, RetexError *err)
 {
     Recombined r;
-    int code = recombine(&r, band, set, y0, err);
+    int code = recombine(&r, strip, set, y0, err);
     if (!code)
-        apply(band, &r, set->parts[0].type, 1);
+        apply(strip, &r, set->parts[0].type, 1);
     recombined_free(&r);
     return code;
 }

@@ -14,10 +14,10 @@ int retex_pack_combine_fits(const RetexSet *set, RetexError *err);
 /* 1: the halves among what terms need, all of it in memory, are what will be read back: they have been rounded. */
 int retex_pack_combine_is_stored(const RetexSet *set, int nthreads);
 
-/* Take the numbers of the recombined picture from those of part 0, whose rows from y0 on the band has. *finite is
+/* Take the numbers of the recombined picture from those of part 0, whose rows from y0 on the strip has. *finite is
  * cleared where a value of the picture is infinite or not a number. */
-int retex_pack_combine_subtract(RetexPackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err);
+int retex_pack_combine_subtract(RetexPackModelStrip *strip, const RetexSet *set, int y0, int *finite, RetexError *err);
 /* And back. Rows of the terms' parts come from memory, or else from the set's source. */
-int retex_pack_combine_add(RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err);
+int retex_pack_combine_add(RetexPackModelStrip *strip, const RetexSet *set, int y0, RetexError *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* See encode.h. plan.c chooses the codecs; then all threads encode bands in parallel. */
+/* See encode.h. plan.c chooses the codecs; then all threads encode strips in parallel. */
 #include "pack/encode.h"
 
 #include <math.h>
@@ -62,12 +62,12 @@ static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, doubl
     return levels;
 }
 
-/* Encode a band of the mask as a chunk: a plane of bytes, each with 8 pixels. */
-static int encode_mask_band(RetexPackItem *item, int band, RetexError *err)
+/* Encode a strip of the mask as a chunk: a plane of bytes, each with 8 pixels. */
+static int encode_mask_strip(RetexPackItem *item, int strip, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
     RetexPackPart *p = item->packed;
-    const int rows = retex_pack_band_rows(p, band), width = retex_pack_mask_width(p), k = 1 + p->nbands + band;
+    const int rows = retex_pack_strip_rows(p, strip), width = retex_pack_mask_width(p), k = 1 + p->nstrips + strip;
     RetexPackPlane plane = {
         .width = width, .rows = rows, .bits = 8, .numbers = calloc((size_t)(width * rows), sizeof(int32_t))};
     const size_t bound = retex_pack_plane_bound(&plane);
@@ -77,7 +77,7 @@ static int encode_mask_band(RetexPackItem *item, int band, RetexError *err)
     if (plane.numbers && scratch && item->chunks[k]) {
         for (int y = 0; y < rows; y++)
             for (int x = 0; x < im->width; x++)
-                if (is_black(im->pixels + retex_image_index(im, x, band * RETEX_PACK_BAND_ROWS + y),
+                if (is_black(im->pixels + retex_image_index(im, x, strip * RETEX_PACK_STRIP_ROWS + y),
                              (size_t)im->channels))
                     plane.numbers[y * width + x / 8] |= 1 << (x % 8);
         bytes = retex_pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
@@ -113,72 +113,72 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
         code = retex_pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
     free(levels);
     unsigned char *at = item->jpeg.data;
-    for (int k = 0; !code && k < 1 + p->nbands; k++) {
+    for (int k = 0; !code && k < 1 + p->nstrips; k++) {
         item->chunks[k] = at;
         p->bytes[k] = (uint32_t)item->jpeg.chunk_bytes[k];
         at += item->jpeg.chunk_bytes[k];
     }
-    for (int band = 0; !code && p->masked && band < p->nbands; band++)
-        code = encode_mask_band(item, band, err);
+    for (int strip = 0; !code && p->masked && strip < p->nstrips; strip++)
+        code = encode_mask_strip(item, strip, err);
     return code;
 }
 
 /* --- planes --- */
 
-/* Scratch memory for encoding a band's planes. */
-typedef struct Band {
+/* Scratch memory for encoding a strip's planes. */
+typedef struct Strip {
     size_t pixels;
     unsigned char *present, *shift, *scratch;
     int32_t *numbers, *codes;
-} Band;
+} Strip;
 
-static void band_free(Band *band)
+static void strip_free(Strip *strip)
 {
-    free(band->present);
-    free(band->shift);
-    free(band->scratch);
-    free(band->numbers);
-    free(band->codes);
+    free(strip->present);
+    free(strip->shift);
+    free(strip->scratch);
+    free(strip->numbers);
+    free(strip->codes);
 }
 
-static int band_alloc(Band *band, const RetexPackPart *p, int index)
+static int strip_alloc(Strip *strip, const RetexPackPart *p, int index)
 {
-    const RetexPackPlane plane = {.width = p->width, .rows = retex_pack_band_rows(p, index)};
-    band->pixels = (size_t)plane.width * (size_t)plane.rows;
-    band->present = malloc(band->pixels);
-    band->shift = malloc(band->pixels);
-    band->scratch = malloc(2 * retex_pack_plane_bound(&plane));
-    band->numbers = malloc(band->pixels * sizeof *band->numbers);
-    band->codes = malloc(band->pixels * sizeof *band->codes);
-    return band->present && band->shift && band->scratch && band->numbers && band->codes;
+    const RetexPackPlane plane = {.width = p->width, .rows = retex_pack_strip_rows(p, index)};
+    strip->pixels = (size_t)plane.width * (size_t)plane.rows;
+    strip->present = malloc(strip->pixels);
+    strip->shift = malloc(strip->pixels);
+    strip->scratch = malloc(2 * retex_pack_plane_bound(&plane));
+    strip->numbers = malloc(strip->pixels * sizeof *strip->numbers);
+    strip->codes = malloc(strip->pixels * sizeof *strip->codes);
+    return strip->present && strip->shift && strip->scratch && strip->numbers && strip->codes;
 }
 
-/* The numbers of a part's channel in band `index`. */
+/* The numbers of a part's channel in strip `index`. */
 static void numbers_of(int32_t *numbers, const RetexPackEncoded *w, int part, int channel, int index, size_t pixels)
 {
     const RetexImage *im = &w->items[part].part->image;
-    retex_pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * RETEX_PACK_BAND_ROWS) + channel,
+    retex_pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * RETEX_PACK_STRIP_ROWS) + channel,
                            (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
 }
 
-static void fill_shift(Band *band, const RetexPackEncoded *w, const RetexPackPart *p, int channel, int index)
+static void fill_shift(Strip *strip, const RetexPackEncoded *w, const RetexPackPart *p, int channel, int index)
 {
     const int per_octave = w->packed[p->sigma].maps[channel].per_octave;
-    numbers_of(band->codes, w, p->sigma, channel, index, band->pixels);
-    for (size_t i = 0; i < band->pixels; i++)
-        band->shift[i] = (unsigned char)retex_pack_lattice_shift(p, band->codes[i], per_octave);
+    numbers_of(strip->codes, w, p->sigma, channel, index, strip->pixels);
+    for (size_t i = 0; i < strip->pixels; i++)
+        strip->shift[i] = (unsigned char)retex_pack_lattice_shift(p, strip->codes[i], per_octave);
 }
 
-static int encode_band(const RetexPackEncoded *w, int part, int index)
+static int encode_strip(const RetexPackEncoded *w, int part, int index)
 {
     RetexPackItem *item = &w->items[part];
     RetexPackPart *p = item->packed;
-    Band band = {0};
-    int ok = band_alloc(&band, p, index);
+    Strip strip = {0};
+    int ok = strip_alloc(&strip, p, index);
     if (ok && p->present >= 0) {
-        numbers_of(band.codes, w, p->present, 2, index, band.pixels);
-        for (size_t i = 0; i < band.pixels; i++)
-            band.present[i] = band.codes[i] != 0;
+        numbers_of(strip.codes, w, p->present, 2, index, strip.pixels);
+        for (size_t i = 0; i < strip.pixels; i++)
+            strip.present[i] = strip.codes[i] != 0;
     }
     for (int c = 0; ok && c < p->channels; c++) {
         const RetexPackMap *map = &p->maps[c];
@@ -189,51 +189,51 @@ static int encode_band(const RetexPackEncoded *w, int part, int index)
                                                                                      : 32;
         const int k = index * p->channels + c;
         if (lattice)
-            fill_shift(&band, w, p, c, index);
-        numbers_of(band.numbers, w, part, c, index, band.pixels);
+            fill_shift(&strip, w, p, c, index);
+        numbers_of(strip.numbers, w, part, c, index, strip.pixels);
         const RetexPackPlane plane = {.width = p->width,
-                                      .rows = retex_pack_band_rows(p, index),
+                                      .rows = retex_pack_strip_rows(p, index),
                                       .bits = bits,
-                                      .present = partial ? band.present : NULL,
-                                      .shift = lattice ? band.shift : NULL,
-                                      .numbers = band.numbers};
+                                      .present = partial ? strip.present : NULL,
+                                      .shift = lattice ? strip.shift : NULL,
+                                      .numbers = strip.numbers};
         unsigned char *data = malloc(retex_pack_plane_bound(&plane));
-        const long bytes = data ? retex_pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
+        const long bytes = data ? retex_pack_plane_encode(data, &plane, strip.scratch, EFFORT) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
         item->chunks[k] = fitted ? fitted : data;
         p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
         ok = bytes >= 0;
     }
-    band_free(&band);
+    strip_free(&strip);
     return ok;
 }
 
-/* --- lossless bands --- */
+/* --- lossless strips --- */
 
 /* Compute the shifts of means from their standard deviations. */
-static void fill_mean_shifts(RetexPackModelBand *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
+static void fill_mean_shifts(RetexPackModelStrip *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
 {
     const RetexImage *sigma = &w->set->parts[p->sigma].image;
-    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * RETEX_PACK_BAND_ROWS);
+    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * RETEX_PACK_STRIP_ROWS);
     for (int c = 0; c < p->channels; c++)
         for (size_t i = 0; model->shifts[c] && i < (size_t)model->width * (size_t)model->rows; i++)
             model->shifts[c][i] = (unsigned char)retex_pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
 }
 
-static int encode_model_band(const RetexPackEncoded *w, int part, int index)
+static int encode_model_strip(const RetexPackEncoded *w, int part, int index)
 {
     RetexPackItem *item = &w->items[part];
     RetexPackPart *p = item->packed;
-    RetexPackModelBand model;
+    RetexPackModelStrip model;
     int finite = 1;
     long bytes = -1;
-    if (retex_pack_model_alloc(&model, p->width, retex_pack_band_rows(p, index), p->channels, p->maps)) {
+    if (retex_pack_model_alloc(&model, p->width, retex_pack_strip_rows(p, index), p->channels, p->maps)) {
         for (int c = 0; c < p->channels; c++)
             numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
         if (p->sigma >= 0)
             fill_mean_shifts(&model, w, p, index);
         int code = p->codec == RETEX_PACK_COMBINED
-                       ? retex_pack_combine_subtract(&model, w->set, index * RETEX_PACK_BAND_ROWS, &finite, NULL)
+                       ? retex_pack_combine_subtract(&model, w->set, index * RETEX_PACK_STRIP_ROWS, &finite, NULL)
                        : 0;
         bytes = code ? -1 : retex_pack_model_encode(&item->chunks[index], &model);
     }
@@ -281,10 +281,10 @@ static void choose_picture(RetexPackEncoded *w)
 
 /* --- all parts --- */
 
-/* Number of bands that are jobs of their own: 0 for JPEGs, which are encoded whole. */
-static int bands_to_encode(const RetexPackPart *packed)
+/* Number of strips that are jobs of their own: 0 for JPEGs, which are encoded whole. */
+static int strips_to_encode(const RetexPackPart *packed)
 {
-    return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nbands : 0;
+    return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nstrips : 0;
 }
 
 static void encode_whole(void *context, int index, int thread)
@@ -295,7 +295,7 @@ static void encode_whole(void *context, int index, int thread)
     item->code = retex_pack_samples_crc(&item->crc, item->part, &item->err);
     if (!item->code && item->packed->codec == RETEX_PACK_JPEG)
         item->code = encode_jpeg(item, index == 0, &item->err);
-    if (item->code || !bands_to_encode(item->packed))
+    if (item->code || !strips_to_encode(item->packed))
         return;
     item->code = retex_pack_part_chunks(item->packed, &item->err);
     item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
@@ -307,32 +307,32 @@ static void encode_job(void *context, int index, int thread)
 {
     RetexPackEncoded *w = context;
     (void)thread;
-    const int part = w->jobs[2 * index], band = w->jobs[2 * index + 1];
+    const int part = w->jobs[2 * index], strip = w->jobs[2 * index + 1];
     const int ok =
-        retex_pack_is_modelled(&w->packed[part]) ? encode_model_band(w, part, band) : encode_band(w, part, band);
+        retex_pack_is_modelled(&w->packed[part]) ? encode_model_strip(w, part, strip) : encode_strip(w, part, strip);
     w->codes[index] = ok ? 0 : RETEX_ENOMEM;
 }
 
 static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
     const int count = w->nitems;
-    int code = 0, bands = 0;
+    int code = 0, strips = 0;
     retex_parallel(nthreads, count, encode_whole, w);
     for (int i = 0; i < count; i++) {
         if (!code && w->items[i].code)
             code = retex_fail(err, w->items[i].code, "%s", w->items[i].err.message);
-        bands += w->packed[i].nbands;
+        strips += w->packed[i].nstrips;
     }
-    w->jobs = malloc(((size_t)bands + 1) * 2 * sizeof *w->jobs);
-    w->codes = calloc((size_t)bands + 1, sizeof *w->codes);
+    w->jobs = malloc(((size_t)strips + 1) * 2 * sizeof *w->jobs);
+    w->codes = calloc((size_t)strips + 1, sizeof *w->codes);
     if (!code && (!w->jobs || !w->codes))
         code = no_memory(err);
     if (code)
         return code;
     for (int i = 0; i < count; i++)
-        for (int band = 0; band < bands_to_encode(&w->packed[i]); band++) {
+        for (int strip = 0; strip < strips_to_encode(&w->packed[i]); strip++) {
             w->jobs[2 * w->njobs] = i;
-            w->jobs[2 * w->njobs++ + 1] = band;
+            w->jobs[2 * w->njobs++ + 1] = strip;
         }
     retex_parallel(nthreads, w->njobs, encode_job, w);
     for (int i = 0; i < w->njobs; i++)
@@ -368,7 +368,7 @@ void retex_pack_encoded_free(RetexPackEncoded *w)
 {
     for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
         const RetexPackPart *p = &w->packed[i];
-        for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
+        for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0; w->items[i].chunks && k < p->nchunks; k++)
             free(w->items[i].chunks[k]);
         free(w->items[i].chunks);
         retex_pack_jpeg_free(&w->items[i].jpeg);

@@ -21,7 +21,7 @@ typedef struct RetexPackEncoded {
     RetexPackItem *items;
     int nitems;            /* one for each part; one more if part 0 is also tried alone, not as RETEX_PACK_COMBINED */
     RetexPackJpeg picture; /* for viewers, if the pack is lossless */
-    int *jobs;             /* pairs: part and band */
+    int *jobs;             /* pairs: part and strip */
     int njobs;
     int *codes; /* by job: error code */
 } RetexPackEncoded;

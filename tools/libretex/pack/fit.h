@@ -1,5 +1,5 @@
 /* Linear prediction: a number is predicted as a weighted sum of numbers that are coded before it. Weights are fitted to
- * the band by least squares. Private to libretex; retex-pack(5) lists the neighbours used. */
+ * the strip by least squares. Private to libretex; retex-pack(5) lists the neighbours used. */
 #ifndef RETEX_PACK_FIT_H
 #define RETEX_PACK_FIT_H
 
@@ -14,7 +14,7 @@ enum {
     RETEX_PACK_FIT_SHIFT = 12 /* weights are fixed-point: units of 1/4096 */
 };
 
-/* A channel of a band while it is coded. Rows have margins, so that all neighbours exist. */
+/* A channel of a strip while it is coded. Rows have margins, so that all neighbours exist. */
 typedef struct RetexPackFitChannel {
     int width, rows;
     int32_t *numbers;     /* holes have the last number before them */

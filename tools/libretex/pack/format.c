@@ -22,16 +22,16 @@ void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part)
     packed->height = part->image.height;
     packed->channels = (int)strlen(part->letters);
     packed->type = part->type;
-    packed->nbands = (part->image.height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS;
+    packed->nstrips = (part->image.height + RETEX_PACK_STRIP_ROWS - 1) / RETEX_PACK_STRIP_ROWS;
     packed->present = packed->sigma = -1;
 }
 
 int retex_pack_part_chunks(RetexPackPart *packed, RetexError *err)
 {
     packed->nchunks = packed->codec == RETEX_PACK_ZERO     ? 0
-                      : packed->codec == RETEX_PACK_PLANES ? packed->nbands * packed->channels
-                      : retex_pack_is_modelled(packed)     ? packed->nbands
-                                                           : 1 + packed->nbands * (1 + packed->masked);
+                      : packed->codec == RETEX_PACK_PLANES ? packed->nstrips * packed->channels
+                      : retex_pack_is_modelled(packed)     ? packed->nstrips
+                                                           : 1 + packed->nstrips * (1 + packed->masked);
     packed->bytes = calloc((size_t)packed->nchunks + 1, sizeof *packed->bytes);
     packed->crcs = calloc((size_t)packed->nchunks + 1, sizeof *packed->crcs);
     return packed->bytes && packed->crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory for a pack's index");
@@ -51,10 +51,10 @@ int retex_pack_is_modelled(const RetexPackPart *packed)
     return packed->codec == RETEX_PACK_MODEL || packed->codec == RETEX_PACK_COMBINED;
 }
 
-int retex_pack_band_rows(const RetexPackPart *packed, int band)
+int retex_pack_strip_rows(const RetexPackPart *packed, int strip)
 {
-    const int left = packed->height - band * RETEX_PACK_BAND_ROWS;
-    return left < RETEX_PACK_BAND_ROWS ? left : RETEX_PACK_BAND_ROWS;
+    const int left = packed->height - strip * RETEX_PACK_STRIP_ROWS;
+    return left < RETEX_PACK_STRIP_ROWS ? left : RETEX_PACK_STRIP_ROWS;
 }
 
 int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octave)

@@ -19,10 +19,10 @@ enum {
 
 typedef enum RetexPackCodec {
     RETEX_PACK_ZERO,     /* every sample is +0: no data */
-    RETEX_PACK_PLANES,   /* planes/NAME.blk: one chunk for each band and channel */
-    RETEX_PACK_MODEL,    /* planes/NAME.blk: one chunk for each band, lossless */
+    RETEX_PACK_PLANES,   /* planes/NAME.blk: one chunk for each strip and channel */
+    RETEX_PACK_MODEL,    /* planes/NAME.blk: one chunk for each strip, lossless */
     RETEX_PACK_COMBINED, /* part 0 minus the recombination of the set's terms, coded as RETEX_PACK_MODEL */
-    RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, one chunk for each band; planes/NAME.blk: the mask's bands */
+    RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, one chunk for each strip; planes/NAME.blk: the mask's strips */
     RETEX_PACK_CODECS
 } RetexPackCodec;
 
@@ -31,7 +31,7 @@ extern const char *const retex_pack_codec_names[RETEX_PACK_CODECS];
 /* Codec, quantizer and chunks of a part. */
 typedef struct RetexPackPart {
     RetexPackCodec codec;
-    int width, height, channels, nbands;
+    int width, height, channels, nstrips;
     RetexPixelType type;
     RetexPackMap maps[RETEX_PACK_CHANNELS_MAX]; /* planes */
     int present;          /* planes: the part whose third channel (coverage) is 0 where pixels are absent, or -1 */
@@ -51,14 +51,14 @@ void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part);
 int retex_pack_part_chunks(RetexPackPart *packed, RetexError *err);
 void retex_pack_part_free(RetexPackPart *packed);
 
-int retex_pack_band_rows(const RetexPackPart *packed, int band); /* 64, or fewer in the last one */
+int retex_pack_strip_rows(const RetexPackPart *packed, int strip); /* 64, or fewer in the last one */
 /* The lattice's shift for a mean whose standard deviation has this code. */
 int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octave);
 /* The shift to which the renderer rounds a mean with this standard deviation. */
 int retex_pack_mean_shift(float sigma);
 /* Bytes of a mask's row. */
 int retex_pack_mask_width(const RetexPackPart *packed);
-/* 1: RETEX_PACK_MODEL or RETEX_PACK_COMBINED, one lossless chunk for each band. */
+/* 1: RETEX_PACK_MODEL or RETEX_PACK_COMBINED, one lossless chunk for each strip. */
 int retex_pack_is_modelled(const RetexPackPart *packed);
 /* The name of the ZIP entry with a part's chunks. planes: 0 = of its JPEG, 1 = of its planes. */
 void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part, int planes);

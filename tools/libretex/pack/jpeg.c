@@ -172,10 +172,10 @@ static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_pt
         }
 }
 
-static int find_chunks(RetexPackJpeg *jpeg, int bands)
+static int find_chunks(RetexPackJpeg *jpeg, int strips)
 {
     const unsigned char *p = jpeg->data;
-    jpeg->chunk_bytes = calloc((size_t)bands + 1, sizeof *jpeg->chunk_bytes);
+    jpeg->chunk_bytes = calloc((size_t)strips + 1, sizeof *jpeg->chunk_bytes);
     if (!jpeg->chunk_bytes)
         return 0;
     size_t at = 2, begin = 0;
@@ -183,12 +183,12 @@ static int find_chunks(RetexPackJpeg *jpeg, int bands)
         at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
     at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
     jpeg->chunk_bytes[jpeg->nchunks++] = at;
-    for (begin = at; at + 1 < jpeg->bytes && jpeg->nchunks <= bands; at++)
+    for (begin = at; at + 1 < jpeg->bytes && jpeg->nchunks <= strips; at++)
         if (p[at] == 0xff && p[at + 1] != 0) {
             jpeg->chunk_bytes[jpeg->nchunks++] = at + 2 - begin;
             begin = at + 2;
         }
-    return begin == jpeg->bytes && jpeg->nchunks == bands + 1;
+    return begin == jpeg->bytes && jpeg->nchunks == strips + 1;
 }
 
 static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, float *plane, int width, int height,
@@ -209,7 +209,7 @@ static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, f
         arrays[c] = jpeg->mem->request_virt_barray((j_common_ptr)jpeg, JPOOL_IMAGE, TRUE, blocks, rows, 1);
     }
     jpeg->optimize_coding = TRUE;
-    jpeg->restart_in_rows = RETEX_PACK_BAND_ROWS / 8;
+    jpeg->restart_in_rows = RETEX_PACK_STRIP_ROWS / 8;
     jpeg_write_coefficients(jpeg, arrays);
     fill_coefficients(jpeg, arrays, levels, plane, width, height, steps);
     jpeg_finish_compress(jpeg);
@@ -245,7 +245,7 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
     free(plane);
     result->data = data;
     result->bytes = bytes;
-    if (find_chunks(result, (height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS))
+    if (find_chunks(result, (height + RETEX_PACK_STRIP_ROWS - 1) / RETEX_PACK_STRIP_ROWS))
         return 0;
     retex_pack_jpeg_free(result);
     return retex_fail(err, RETEX_EINTERNAL, "cannot take a JPEG apart");
@@ -257,7 +257,7 @@ struct RetexPackJpegDecoder {
     struct jpeg_decompress_struct jpeg;
     JpegErrors errors;
     const RetexPackJpegKernels *kernels;
-    jvirt_barray_ptr *arrays; /* coefficients of the open band, or NULL */
+    jvirt_barray_ptr *arrays; /* coefficients of the open strip, or NULL */
     int width, rows, channels;
     RetexPackLevels levels;
     float *planes; /* one row of blocks: three components of 8 rows */
@@ -291,8 +291,8 @@ void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder)
     *decoder = NULL;
 }
 
-/* Turn header and chunk into a JPEG file of one band: set its height, and replace the final restart marker by EOI. The
- * restart interval is set to 0 if the band has no restart inside, because libjpeg then decodes faster. */
+/* Turn header and chunk into a JPEG file of one strip: set its height, and replace the final restart marker by EOI. The
+ * restart interval is set to 0 if the strip has no restart inside, because libjpeg then decodes faster. */
 static int patch(unsigned char *file, size_t header, size_t bytes, int width, int rows)
 {
     const int blocks = (width + 7) / 8 * ((rows + 7) / 8);
@@ -312,7 +312,7 @@ static int patch(unsigned char *file, size_t header, size_t bytes, int width, in
     return sized;
 }
 
-static void close_band(RetexPackJpegDecoder *decoder)
+static void close_strip(RetexPackJpegDecoder *decoder)
 {
     jpeg_abort_decompress(&decoder->jpeg);
     decoder->arrays = NULL;
@@ -330,11 +330,11 @@ static int reserve(RetexPackJpegDecoder *decoder, int width)
     return 1;
 }
 
-int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
-                              int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err)
+int retex_pack_jpeg_open_strip(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
+                               int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err)
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
-    close_band(decoder);
+    close_strip(decoder);
     if (!patch(file, header, bytes, width, rows))
         return retex_fail(err, RETEX_EFORMAT, "its JPEG has no proper header");
     if (!reserve(decoder, width))
@@ -344,7 +344,7 @@ int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file
     decoder->channels = channels;
     decoder->levels = levels_of(curve);
     if (setjmp(decoder->errors.failed)) {
-        close_band(decoder);
+        close_strip(decoder);
         return fail_decoding(&decoder->errors, err);
     }
     jpeg_mem_src(jpeg, file, bytes);
@@ -358,7 +358,7 @@ int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file
         ok = jpeg->comp_info[c].quant_table != NULL;
     if (ok)
         return 0;
-    close_band(decoder);
+    close_strip(decoder);
     return retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");
 }
 
@@ -371,7 +371,7 @@ int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float 
     if (!decoder->arrays || row < 0 || 8 * row >= decoder->rows)
         return retex_fail(err, RETEX_EINTERNAL, "no such blocks of a JPEG");
     if (setjmp(decoder->errors.failed)) {
-        close_band(decoder);
+        close_strip(decoder);
         return fail_decoding(&decoder->errors, err);
     }
     for (int c = 0; c < channels; c++) {

@@ -1,5 +1,5 @@
-/* Radiance as JPEG, band by band. An image is one baseline JPEG file, 4:4:4 or grey. Its restart interval is the rows
- * of one band, so each band's chunk, put after the file's header, can be decoded alone.
+/* Radiance as JPEG, strip by strip. An image is one baseline JPEG file, 4:4:4 or grey. Its restart interval is the rows
+ * of one strip, so each strip's chunk, put after the file's header, can be decoded alone.
  *
  * libretex has its own DCT, in floating point, for encoding and decoding. So decoded values are not rounded to 8 bits,
  * and values above white are kept; other viewers round and clip them. Private to libretex; described in
@@ -12,9 +12,9 @@
 #include <retex/error.h>
 
 enum {
-    RETEX_PACK_BAND_ROWS = 64,
+    RETEX_PACK_STRIP_ROWS = 64,
     RETEX_PACK_BLOCK_ROWS = 8,        /* rows of a DCT block */
-    RETEX_PACK_JPEG_SIDE_MAX = 65500, /* pixels: libjpeg's limit; a band's blocks fit in a restart interval */
+    RETEX_PACK_JPEG_SIDE_MAX = 65500, /* pixels: libjpeg's limit; a strip's blocks fit in a restart interval */
     RETEX_PACK_JPEG_STEP_MAX = 255
 };
 
@@ -32,7 +32,7 @@ typedef struct RetexPackCurve {
 double retex_pack_curve_level(const RetexPackCurve *curve, double value);
 double retex_pack_curve_value(const RetexPackCurve *curve, double level);
 
-/* A JPEG file and the sizes of its chunks: chunk_bytes[0] is the header, the others are the bands, each with the
+/* A JPEG file and the sizes of its chunks: chunk_bytes[0] is the header, the others are the strips, each with the
  * marker that ends it. */
 typedef struct RetexPackJpeg {
     unsigned char *data; /* malloc'ed */
@@ -48,17 +48,17 @@ void retex_pack_jpeg_free(RetexPackJpeg *jpeg);
 int retex_pack_jpeg_encode(RetexPackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
                            RetexError *err);
 
-/* Decodes one JPEG band at a time. Each thread needs its own. */
+/* Decodes one JPEG strip at a time. Each thread needs its own. */
 typedef struct RetexPackJpegDecoder RetexPackJpegDecoder;
 int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **decoder, RetexError *err);
 void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
 
-/* Open one band, in place of the one that was open. file: the header followed by the band's chunk; it is modified, and
- * may be freed after the call. RETEX_EFORMAT if libjpeg gives an error or warning, or if the size differs. */
-int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
-                              int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err);
+/* Open one strip, in place of the one that was open. file: the header followed by the strip's chunk; it is modified,
+ * and may be freed after the call. RETEX_EFORMAT if libjpeg gives an error or warning, or if the size differs. */
+int retex_pack_jpeg_open_strip(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
+                               int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err);
 
-/* Decode one row of blocks of the open band: 8 rows of pixels, or fewer at its end. */
+/* Decode one row of blocks of the open strip: 8 rows of pixels, or fewer at its end. */
 int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float *values, RetexError *err);
 
 #endif

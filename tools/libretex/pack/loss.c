@@ -10,7 +10,7 @@
 
 #include "retexture/combine_rows.h"
 #include "set/manifest.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "picture/srgb_codes.h"
 #include "set/noise.h"
 #include "set/references.h"
@@ -63,8 +63,8 @@ static const double PSNR_MAX = 120;
 typedef struct PictureWork {
     const RetexSet *set;
     uint16_t *codes;   /* of all of it: to be filled in, or, with squares, to compare with */
-    uint64_t *squares; /* by band; NULL: nothing to compare with */
-    uint64_t *noise;   /* by band, of the set's own; NULL: not wanted */
+    uint64_t *squares; /* by strip; NULL: nothing to compare with */
+    uint64_t *noise;   /* by strip, of the set's own; NULL: not wanted */
 } PictureWork;
 
 static void fill_trial_texture(RetexImage *image, int picture)
@@ -97,7 +97,7 @@ static int process_rows(void *context, int y0, int y1, const float *rows, RetexE
     const PictureWork *work = context;
     const size_t first = 3 * (size_t)work->set->width * (size_t)y0;
     const size_t count = 3 * (size_t)work->set->width * (size_t)(y1 - y0);
-    const int band = y0 / RETEX_PICTURE_BAND;
+    const int strip = y0 / RETEX_PICTURE_STRIP;
     if (!work->squares)
         retex_srgb_codes_16(work->codes + first, rows, count);
     if (!work->squares && !work->noise)
@@ -112,7 +112,7 @@ static int process_rows(void *context, int y0, int y1, const float *rows, RetexE
     if (!code)
         retex_srgb_codes_16(codes, noisy ? noisy : rows, count);
     if (!code)
-        (noisy ? work->noise : work->squares)[band] = squared_error(codes, work->codes + first, count);
+        (noisy ? work->noise : work->squares)[strip] = squared_error(codes, work->codes + first, count);
     free(codes);
     free(noisy);
     return code;
@@ -144,16 +144,16 @@ static int measure_picture(const PictureWork *work, int picture, int nthreads, R
     return code;
 }
 
-static int bands_of(const RetexSet *set)
+static int strips_of(const RetexSet *set)
 {
-    return (set->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+    return (set->height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
 }
 
 /* Mean square, of display values of 0 to 1. */
 static double mean_of(const uint64_t *squares, const RetexSet *set)
 {
     uint64_t sum = 0;
-    for (int i = 0; i < bands_of(set); i++)
+    for (int i = 0; i < strips_of(set); i++)
         sum += squares[i];
     return (double)sum / (3.0 * set->width * set->height) / (CODE_MAX * CODE_MAX);
 }
@@ -177,7 +177,7 @@ int retex_pack_reference_open(RetexPackReference *reference, const RetexSet *set
     const size_t count = 3 * (size_t)set->width * (size_t)set->height;
     int code = RETEX_OK;
     *reference =
-        (RetexPackReference){.set = set, .squares = calloc((size_t)bands_of(set) + 1, sizeof *reference->squares)};
+        (RetexPackReference){.set = set, .squares = calloc((size_t)strips_of(set) + 1, sizeof *reference->squares)};
     if (!reference->squares)
         return retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
     for (int k = 0; k < RETEX_PACK_LOSSES && !code; k++) {

@@ -13,7 +13,7 @@ typedef struct RetexPackReference {
     double noise;                       /* of the set's picture, mean square of display values, by what denoising
                                            reads; 0 where that is not there, or was used up */
     uint16_t *codes[RETEX_PACK_LOSSES]; /* sRGB-encoded, width x height x 3; NULL: not made */
-    uint64_t *squares;                  /* scratch: sums of squared errors by band */
+    uint64_t *squares;                  /* scratch: sums of squared errors by strip */
 } RetexPackReference;
 
 /* Which pictures are made: bits 1 << RETEX_PACK_LOSS_*. Those that are promised take half of the time of all; waves

@@ -1,4 +1,4 @@
-/* Lossless coding of a band of integers: linear prediction and adaptive binary range coding. See model.h.
+/* Lossless coding of a strip of integers: linear prediction and adaptive binary range coding. See model.h.
  *
  * Channels are coded one after the other. Each number is predicted from its neighbours that are coded already, and from
  * the same pixel of up to two earlier channels. Zeros are holes: a flag tells them apart from other numbers. Where a
@@ -22,14 +22,14 @@ enum {
     LARGEST_SIZE = 1 << 24 /* most size of a residual in contexts: larger ones are clamped */
 };
 
-/* Adaptive probabilities, updated while a band is coded. */
+/* Adaptive probabilities, updated while a strip is coded. */
 typedef struct Models {
     RetexBitModel hole[16];
     RetexBitModel token[CLASSES][TOKENS];
     RetexBitModel same_gap, gap[TOKENS];
 } Models;
 
-/* The two streams of a band, written or read: range-coded bits, and plain bits that are not modelled. */
+/* The two streams of a strip, written or read: range-coded bits, and plain bits that are not modelled. */
 typedef struct Stream {
     RetexRangeEncoder to;
     RetexRangeDecoder from;
@@ -38,7 +38,7 @@ typedef struct Stream {
 } Stream;
 
 typedef struct Coding {
-    const RetexPackModelBand *band;
+    const RetexPackModelStrip *strip;
     Stream stream;
     Models *models;
     RetexPackFitChannel channels[RETEX_PACK_MODEL_CHANNELS_MAX];
@@ -205,7 +205,7 @@ static inline int32_t in_steps(int64_t number, int shift)
 ALWAYS_INLINE static inline void code_numbers(Coding *c, int index, int nweights, int reading)
 {
     RetexPackFitChannel *channel = &c->channels[index];
-    const unsigned char *shifts = c->band->shifts[index];
+    const unsigned char *shifts = c->strip->shifts[index];
     int32_t last = channel->mean;
     for (int y = 0; y < channel->rows; y++) {
         retex_pack_fit_begin_row(channel, y);
@@ -242,11 +242,11 @@ static inline void code_channel(Coding *c, int index, int reading)
         code_numbers(c, index, RETEX_PACK_FIT_WEIGHTS, reading);
 }
 
-/* --- a band --- */
+/* --- a strip --- */
 
 static void coding_free(Coding *c)
 {
-    for (int i = 0; i < c->band->channels; i++) {
+    for (int i = 0; i < c->strip->channels; i++) {
         free(c->channels[i].numbers);
         free(c->channels[i].sizes);
         free(c->channels[i].holes);
@@ -255,15 +255,16 @@ static void coding_free(Coding *c)
     free(c->ranks);
 }
 
-static int coding_alloc(Coding *c, const RetexPackModelBand *band)
+static int coding_alloc(Coding *c, const RetexPackModelStrip *strip)
 {
-    const size_t capacity = (size_t)(band->width + RETEX_PACK_FIT_MARGIN) * (size_t)band->rows + RETEX_PACK_FIT_MARGIN;
+    const size_t capacity =
+        (size_t)(strip->width + RETEX_PACK_FIT_MARGIN) * (size_t)strip->rows + RETEX_PACK_FIT_MARGIN;
     int ok = 1;
-    c->band = band;
-    for (int i = 0; i < band->channels; i++) {
+    c->strip = strip;
+    for (int i = 0; i < strip->channels; i++) {
         RetexPackFitChannel *channel = &c->channels[i];
-        channel->width = band->width;
-        channel->rows = band->rows;
+        channel->width = strip->width;
+        channel->rows = strip->rows;
         channel->numbers = calloc(capacity, sizeof *channel->numbers);
         channel->sizes = calloc(capacity, sizeof *channel->sizes);
         channel->holes = calloc(capacity, 1);
@@ -286,10 +287,10 @@ static int coding_alloc(Coding *c, const RetexPackModelBand *band)
 static void load_channel(Coding *c, int index, int32_t *scratch)
 {
     RetexPackFitChannel *channel = &c->channels[index];
-    const int32_t *numbers = c->band->numbers[index];
+    const int32_t *numbers = c->strip->numbers[index];
     const size_t count = (size_t)channel->width * (size_t)channel->rows;
     c->nranks = 0;
-    if (!c->band->shifts[index])
+    if (!c->strip->shifts[index])
         find_ranks(c, numbers, count, scratch);
     const int positive = first_positive(c);
     double sum = 0;
@@ -313,7 +314,7 @@ static void load_channel(Coding *c, int index, int32_t *scratch)
 static void unload_channel(const Coding *c, int index)
 {
     const RetexPackFitChannel *channel = &c->channels[index];
-    int32_t *numbers = c->band->numbers[index];
+    int32_t *numbers = c->strip->numbers[index];
     const int positive = first_positive(c);
     for (int y = 0; y < channel->rows; y++)
         for (int x = 0; x < channel->width; x++) {
@@ -327,61 +328,61 @@ static void unload_channel(const Coding *c, int index)
         }
 }
 
-int retex_pack_model_alloc(RetexPackModelBand *band, int width, int rows, int channels, const RetexPackMap *maps)
+int retex_pack_model_alloc(RetexPackModelStrip *strip, int width, int rows, int channels, const RetexPackMap *maps)
 {
     const size_t count = (size_t)width * (size_t)rows;
     int ok = 1;
-    *band = (RetexPackModelBand){.width = width, .rows = rows, .channels = channels};
+    *strip = (RetexPackModelStrip){.width = width, .rows = rows, .channels = channels};
     for (int c = 0; c < channels; c++) {
         const int lattice = maps[c].kind == RETEX_PACK_MAP_LATTICE;
-        band->numbers[c] = malloc(count * sizeof *band->numbers[c]);
-        band->shifts[c] = lattice ? malloc(count) : NULL;
-        ok = ok && band->numbers[c] && (!lattice || band->shifts[c]);
+        strip->numbers[c] = malloc(count * sizeof *strip->numbers[c]);
+        strip->shifts[c] = lattice ? malloc(count) : NULL;
+        ok = ok && strip->numbers[c] && (!lattice || strip->shifts[c]);
     }
     return ok;
 }
 
-void retex_pack_model_free(RetexPackModelBand *band)
+void retex_pack_model_free(RetexPackModelStrip *strip)
 {
-    for (int c = 0; c < band->channels; c++) {
-        free(band->numbers[c]);
-        free(band->shifts[c]);
+    for (int c = 0; c < strip->channels; c++) {
+        free(strip->numbers[c]);
+        free(strip->shifts[c]);
     }
 }
 
-static int any_number(const RetexPackModelBand *band)
+static int any_number(const RetexPackModelStrip *strip)
 {
-    for (int c = 0; c < band->channels; c++)
-        for (size_t i = 0; i < (size_t)band->width * (size_t)band->rows; i++)
-            if (band->numbers[c][i])
+    for (int c = 0; c < strip->channels; c++)
+        for (size_t i = 0; i < (size_t)strip->width * (size_t)strip->rows; i++)
+            if (strip->numbers[c][i])
                 return 1;
     return 0;
 }
 
 /* Upper bound on the bytes of each of the two streams. */
-static size_t stream_bound(const RetexPackModelBand *band)
+static size_t stream_bound(const RetexPackModelStrip *strip)
 {
-    const size_t numbers = ((size_t)band->width * (size_t)band->rows + RANKS_MAX) * (size_t)band->channels;
+    const size_t numbers = ((size_t)strip->width * (size_t)strip->rows + RANKS_MAX) * (size_t)strip->channels;
     return 12 * numbers + 4096;
 }
 
-long retex_pack_model_encode(unsigned char **data, const RetexPackModelBand *band)
+long retex_pack_model_encode(unsigned char **data, const RetexPackModelStrip *strip)
 {
-    const size_t count = (size_t)band->width * (size_t)band->rows, capacity = stream_bound(band);
+    const size_t count = (size_t)strip->width * (size_t)strip->rows, capacity = stream_bound(strip);
     Coding c = {0};
     *data = NULL;
-    if (!any_number(band))
+    if (!any_number(strip))
         return 0;
-    int ok = coding_alloc(&c, band);
+    int ok = coding_alloc(&c, strip);
     int32_t *scratch = malloc(count * sizeof *scratch);
     unsigned char *modelled = malloc(4 + 2 * capacity), *plain = modelled ? modelled + 4 + capacity : NULL;
     long bytes = -1;
     if (ok && scratch && modelled) {
         range_encoder_begin(&c.stream.to, modelled + 4);
         c.stream.plain_to = (BitWriter){0, 0, plain, plain};
-        for (int i = 0; i < band->channels; i++) {
+        for (int i = 0; i < strip->channels; i++) {
             load_channel(&c, i, scratch);
-            retex_pack_fit(&c.channels[i], band->shifts[i]);
+            retex_pack_fit(&c.channels[i], strip->shifts[i]);
             code_description(&c, i, 0);
             code_channel(&c, i, 0);
         }
@@ -400,23 +401,23 @@ long retex_pack_model_encode(unsigned char **data, const RetexPackModelBand *ban
     return bytes;
 }
 
-int retex_pack_model_decode(const RetexPackModelBand *band, const unsigned char *data, size_t bytes)
+int retex_pack_model_decode(const RetexPackModelStrip *strip, const unsigned char *data, size_t bytes)
 {
-    const size_t count = (size_t)band->width * (size_t)band->rows;
+    const size_t count = (size_t)strip->width * (size_t)strip->rows;
     if (bytes == 0) {
-        for (int i = 0; i < band->channels; i++)
-            memset(band->numbers[i], 0, count * sizeof *band->numbers[i]);
+        for (int i = 0; i < strip->channels; i++)
+            memset(strip->numbers[i], 0, count * sizeof *strip->numbers[i]);
         return 1;
     }
     const size_t first = bytes < 4 ? 0 : data[0] | (size_t)data[1] << 8 | (size_t)data[2] << 16 | (size_t)data[3] << 24;
     if (bytes < 4 || first > bytes - 4)
         return 0;
     Coding c = {0};
-    int ok = coding_alloc(&c, band) ? 1 : -1;
+    int ok = coding_alloc(&c, strip) ? 1 : -1;
     const unsigned char *plain = data + 4 + first;
     range_decoder_begin(&c.stream.from, data + 4, plain);
     c.stream.plain_from = (BitReader){0, 0, plain, data + bytes, 0};
-    for (int i = 0; ok == 1 && i < band->channels; i++) {
+    for (int i = 0; ok == 1 && i < strip->channels; i++) {
         ok = code_description(&c, i, 1);
         if (ok == 1) {
             code_channel(&c, i, 1);

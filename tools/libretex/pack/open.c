@@ -94,7 +94,7 @@ static int read_index(RetexPack *pack, RetexError *err)
             p->bytes[k] = little(index + at);
             p->crcs[k] = little(index + at + 4);
         }
-        const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0;
+        const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0;
         if (!code && jpeg)
             code = place_chunks(pack, i, 0, 0, jpeg, &used, err);
         if (!code && p->nchunks > jpeg)
@@ -108,7 +108,7 @@ static int read_index(RetexPack *pack, RetexError *err)
     return code;
 }
 
-/* What the parts will need in memory, and what could be behind that at most: a chunk of a few bytes holds a band. */
+/* What the parts will need in memory, and what could be behind that at most: a chunk of a few bytes holds a strip. */
 static int check_sizes(const RetexPack *pack, RetexError *err)
 {
     uint64_t memory = 0, chunks = 0;

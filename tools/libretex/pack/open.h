@@ -2,7 +2,7 @@
 #ifndef RETEX_PACK_OPEN_H
 #define RETEX_PACK_OPEN_H
 
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "pack/format.h"
 #include "pack/zip.h"
 #include "set/source.h"

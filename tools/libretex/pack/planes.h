@@ -1,4 +1,4 @@
-/* Coding of planes: a plane is one channel of one band as integers, which are predicted from their neighbours and
+/* Coding of planes: a plane is one channel of one strip as integers, which are predicted from their neighbours and
  * compressed. Maps turn samples into integers and back. Private to libretex; described in retex-pack(5). */
 #ifndef RETEX_PACK_PLANES_H
 #define RETEX_PACK_PLANES_H
@@ -49,8 +49,8 @@ void retex_pack_map_codes(float *samples, size_t stride, const unsigned char *co
 
 /* The runs of pixels that are present in a plane, row by row. */
 typedef struct RetexPackRuns {
-    size_t pixels;                       /* that are present */
-    int first[RETEX_PACK_BAND_ROWS + 1]; /* runs of row y: run[first[y]] to run[first[y + 1] - 1] */
+    size_t pixels;                        /* that are present */
+    int first[RETEX_PACK_STRIP_ROWS + 1]; /* runs of row y: run[first[y]] to run[first[y + 1] - 1] */
     RetexRowSpan *run;
 } RetexPackRuns;
 
@@ -60,7 +60,7 @@ static inline size_t retex_pack_runs_bound(int width, int rows)
     return (size_t)(width / 2 + 1) * (size_t)rows;
 }
 
-/* A plane of numbers: width x rows, of which there are at most RETEX_PACK_BAND_ROWS. */
+/* A plane of numbers: width x rows, of which there are at most RETEX_PACK_STRIP_ROWS. */
 typedef struct RetexPackPlane {
     int width, rows;
     int bits;                     /* of a number: 8, 16 or 32; arithmetic wraps around */

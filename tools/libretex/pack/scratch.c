@@ -8,12 +8,12 @@
 
 int retex_pack_scratch_reserve(RetexPackScratch *s, const RetexPackPart *p, RetexError *err)
 {
-    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_STRIP_ROWS;
     if (pixels <= s->pixels)
         return 0;
     free(s->residuals);
     free(s->shift);
-    const RetexPackPlane plane = {.width = p->width, .rows = RETEX_PACK_BAND_ROWS};
+    const RetexPackPlane plane = {.width = p->width, .rows = RETEX_PACK_STRIP_ROWS};
     s->residuals = malloc(retex_pack_plane_bound(&plane));
     s->shift = malloc(pixels);
     s->pixels = s->residuals && s->shift ? pixels : 0;

@@ -14,7 +14,7 @@
 #include "compact/build.h"
 #include "compact/compact.h"
 #include "io/output.h"
-#include "pack/bands.h"
+#include "pack/strips.h"
 #include "pack/encode.h"
 #include "pack/loss.h"
 #include "pack/zip.h"
@@ -105,7 +105,7 @@ static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPac
     for (int planes = 0; planes < 2; planes++)
         for (int i = 0; !code && i < w->set->nparts; i++) {
             const RetexPackPart *p = &w->packed[i];
-            const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0;
+            const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0;
             if (planes ? p->nchunks > jpeg : jpeg)
                 code = write_chunks(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nchunks - jpeg : jpeg,
                                     written, err);

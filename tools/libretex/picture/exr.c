@@ -12,9 +12,9 @@ enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line and its 
 typedef struct ExrState {
     RetexImage shape; /* no pixels */
     RetexExrPart part;
-    RetexColorTag color;        /* colours of part; known when the first band is encoded */
+    RetexColorTag color;        /* colours of part; known when the first strip is encoded */
     RetexExrEncoding *encoding; /* for outputs that are not files; or NULL, and: */
-    unsigned char *header;      /* everything before the table; made with the first band */
+    unsigned char *header;      /* everything before the table; made with the first strip */
     size_t header_bytes;
     uint64_t *chunks; /* bytes of each */
     int nchunks;
@@ -52,7 +52,7 @@ static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
         strcpy(tag->interop, stored->interop);
 }
 
-/* Makes the header when the first band comes, because that waits for the bridge's plan. */
+/* Makes the header when the first strip comes, because that waits for the bridge's plan. */
 static int make_header(RetexPicture *picture, RetexError *err)
 {
     ExrState *state = picture->state;
@@ -93,7 +93,7 @@ static void put_little(unsigned char *to, uint64_t value, int bytes)
         to[i] = (unsigned char)(value >> 8 * i);
 }
 
-/* Encodes the chunks of a band one after another. Returns their bytes, or 0 where memory is short. */
+/* Encodes the chunks of a strip one after another. Returns their bytes, or 0 where memory is short. */
 static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, const float *rows)
 {
     RetexChunkScratch scratch = {.raw = NULL};
@@ -117,8 +117,8 @@ static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, co
     return at;
 }
 
-/* Encodes a band: its chunks, for the first band preceded by the header and the reserved table. */
-static unsigned char *encode_band(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
+/* Encodes a strip: its chunks, for the first strip preceded by the header and the reserved table. */
+static unsigned char *encode_strip(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
 {
     const RetexChunkShape shape = {state->part.letters, RETEX_HALF, state->shape.width, y1 - y0};
     const size_t before = y0 == 0 ? state->header_bytes + ENTRY * (size_t)state->nchunks : 0;
@@ -141,16 +141,16 @@ static unsigned char *encode_band(ExrState *state, int y0, int y1, const float *
     return less ? less : encoded;
 }
 
-static int exr_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+static int exr_strip(RetexPicture *picture, int strip, const float *rows, RetexError *err)
 {
     ExrState *state = picture->state;
-    const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
+    const int y0 = strip * RETEX_PICTURE_STRIP, lines = retex_picture_strip_lines(picture, strip);
     float *converted = NULL;
     unsigned char *encoded = NULL;
     size_t bytes = 0;
 
     int status = picture->bridged ? retex_picture_plan(picture, err) : 0;
-    if (!status && band == 0)
+    if (!status && strip == 0)
         status = make_header(picture, err);
     if (!status)
         status = convert(picture, &converted, rows, lines, err);
@@ -161,10 +161,10 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
     rows = converted ? converted : rows;
     if (state->encoding)
         status = retex_exr_encode_rows(state->encoding, y0, y0 + lines, rows, err);
-    else if (!(encoded = encode_band(state, y0, y0 + lines, rows, &bytes)))
+    else if (!(encoded = encode_strip(state, y0, y0 + lines, rows, &bytes)))
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(converted);
-    return status ? status : retex_picture_submit_band(picture, band, encoded, bytes, err);
+    return status ? status : retex_picture_submit_strip(picture, strip, encoded, bytes, err);
 }
 
 /* Writes the table of chunk offsets. */
@@ -204,4 +204,4 @@ static void exr_end(RetexPicture *picture)
     free(state);
 }
 
-const RetexPictureFormat retex_picture_exr = {exr_begin, exr_band, exr_finish, exr_end};
+const RetexPictureFormat retex_picture_exr = {exr_begin, exr_strip, exr_finish, exr_end};

@@ -18,11 +18,11 @@ int retex_picture_plan(RetexPicture *picture, RetexError *err)
     return picture->plan ? 0 : picture->plan_error.code;
 }
 
-int retex_picture_band_lines(const RetexPicture *picture, int band)
+int retex_picture_strip_lines(const RetexPicture *picture, int strip)
 {
-    const int left = picture->height - band * RETEX_PICTURE_BAND;
+    const int left = picture->height - strip * RETEX_PICTURE_STRIP;
 
-    return left < RETEX_PICTURE_BAND ? left : RETEX_PICTURE_BAND;
+    return left < RETEX_PICTURE_STRIP ? left : RETEX_PICTURE_STRIP;
 }
 
 int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, RetexError *err)
@@ -32,14 +32,14 @@ int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, 
     return status ? status : retex_output_write(picture->output, data, bytes, err);
 }
 
-int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err)
+int retex_picture_submit_strip(RetexPicture *picture, int strip, unsigned char *data, size_t bytes, RetexError *err)
 {
     int status = 0;
 
     pthread_mutex_lock(&picture->lock);
-    picture->bands[band] = (RetexEncodedBand){data, bytes, RETEX_BAND_ENCODED};
-    while (!status && picture->next < picture->nbands && picture->bands[picture->next].state == RETEX_BAND_ENCODED) {
-        RetexEncodedBand *encoded = &picture->bands[picture->next++];
+    picture->strips[strip] = (RetexEncodedStrip){data, bytes, RETEX_STRIP_ENCODED};
+    while (!status && picture->next < picture->nstrips && picture->strips[picture->next].state == RETEX_STRIP_ENCODED) {
+        RetexEncodedStrip *encoded = &picture->strips[picture->next++];
         if (encoded->data)
             status = retex_picture_append(picture, encoded->data, encoded->bytes, err);
         free(encoded->data);

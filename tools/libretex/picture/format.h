@@ -1,8 +1,8 @@
 /* Picture formats: the table of operations of a format, and the state of a picture that is being written; see
  * <retex/picture.h>.
  *
- * A file that is written band by band is the encoded bands one after the other. Any thread may submit any band at any
- * time. */
+ * A file that is written strip by strip is the encoded strips one after the other. Any thread may submit any strip at
+ * any time. */
 #ifndef RETEX_PICTURE_FORMAT_H
 #define RETEX_PICTURE_FORMAT_H
 
@@ -16,23 +16,23 @@
 
 typedef struct RetexPictureFormat {
     int (*begin)(RetexPicture *picture, RetexError *err);
-    /* Encode the lines of a band, scene-linear floats; from any thread. */
-    int (*band)(RetexPicture *picture, int band, const float *rows, RetexError *err);
-    /* Complete the file after all bands; picture->output may be open already. */
+    /* Encode the lines of a strip, scene-linear floats; from any thread. */
+    int (*strip)(RetexPicture *picture, int strip, const float *rows, RetexError *err);
+    /* Complete the file after all strips; picture->output may be open already. */
     int (*finish)(RetexPicture *picture, RetexError *err);
     void (*end)(RetexPicture *picture); /* free the state, after success or failure; may be NULL */
 } RetexPictureFormat;
 
 extern const RetexPictureFormat retex_picture_jpeg, retex_picture_png, retex_picture_exr, retex_picture_stored;
 
-typedef enum RetexBandState { RETEX_BAND_ABSENT, RETEX_BAND_SUBMITTED, RETEX_BAND_ENCODED } RetexBandState;
+typedef enum RetexStripState { RETEX_STRIP_ABSENT, RETEX_STRIP_SUBMITTED, RETEX_STRIP_ENCODED } RetexStripState;
 
-/* The bytes of a band in the file; without data once they are written. */
-typedef struct RetexEncodedBand {
+/* The bytes of a strip in the file; without data once they are written. */
+typedef struct RetexEncodedStrip {
     unsigned char *data;
     size_t bytes;
-    RetexBandState state;
-} RetexEncodedBand;
+    RetexStripState state;
+} RetexEncodedStrip;
 
 struct RetexPicture {
     char *path;
@@ -41,11 +41,11 @@ struct RetexPicture {
     const RetexPictureFormat *format;
     void *state; /* state of the format between its calls */
 
-    pthread_mutex_t lock;    /* protects all members below */
-    RetexError error;        /* the first error of any thread */
-    RetexEncodedBand *bands; /* one a band */
-    int nbands, next;        /* next: the first band that is not in the file */
-    RetexOutput *output;     /* NULL until the first bytes are there */
+    pthread_mutex_t lock;      /* protects all members below */
+    RetexError error;          /* the first error of any thread */
+    RetexEncodedStrip *strips; /* one a strip */
+    int nstrips, next;         /* next: the first strip that is not in the file */
+    RetexOutput *output;       /* NULL until the first bytes are there */
 
     /* Only if OpenImageIO or OpenColorIO is used: */
     int bridged;
@@ -56,10 +56,10 @@ struct RetexPicture {
     RetexError plan_error;
 };
 
-int retex_picture_band_lines(const RetexPicture *picture, int band);
+int retex_picture_strip_lines(const RetexPicture *picture, int strip);
 
-/* Submit the encoded bytes of a band, which are freed later; they are written when all bands before them are. */
-int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err);
+/* Submit the encoded bytes of a strip, which are freed later; they are written when all strips before them are. */
+int retex_picture_submit_strip(RetexPicture *picture, int strip, unsigned char *data, size_t bytes, RetexError *err);
 /* Append to the file; only while no other thread uses it. */
 int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, RetexError *err);
 

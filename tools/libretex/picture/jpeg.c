@@ -1,6 +1,7 @@
-/* JPEG, band by band. Each band is compressed separately, as if it were a picture. Quantisation and Huffman tables do
- * not depend on the content, so that of all bands but the first only the entropy-coded data are used, joined by restart
- * markers, at which decoders start again anyway. The pixels are the same as when the picture is compressed at once. */
+/* JPEG, strip by strip. Each strip is compressed separately, as if it were a picture. Quantisation and Huffman tables
+ * do not depend on the content, so that of all strips but the first only the entropy-coded data are used, joined by
+ * restart markers, at which decoders start again anyway. The pixels are the same as when the picture is compressed at
+ * once. */
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,9 +11,9 @@
 
 #include "picture/format.h"
 
-/* A band is a whole number of MCUs, which have 8 or 16 lines; no restart interval is too long for its 16 bits. */
-_Static_assert(RETEX_PICTURE_BAND % 16 == 0, "a band ends where MCUs do");
-_Static_assert((JPEG_MAX_DIMENSION + 7) / 8 * (RETEX_PICTURE_BAND / 8) <= 65535, "a band has too many MCUs");
+/* A strip is a whole number of MCUs, which have 8 or 16 lines; no restart interval is too long for its 16 bits. */
+_Static_assert(RETEX_PICTURE_STRIP % 16 == 0, "a strip ends where MCUs do");
+_Static_assert((JPEG_MAX_DIMENSION + 7) / 8 * (RETEX_PICTURE_STRIP / 8) <= 65535, "a strip has too many MCUs");
 
 enum { QUALITY_OF_FULL_COLOR = 90, INITIAL_CAPACITY = 1 << 16, MARKER_BYTES = 2 };
 
@@ -103,14 +104,14 @@ static void begin_file(Compressor *c, const RetexPicture *picture, int lines)
     if (picture->params.quality >= QUALITY_OF_FULL_COLOR)
         for (int i = 0; i < jpeg->num_components; i++)
             jpeg->comp_info[i].h_samp_factor = jpeg->comp_info[i].v_samp_factor = 1;
-    if (picture->nbands > 1)
-        jpeg->restart_in_rows = RETEX_PICTURE_BAND / (DCTSIZE * jpeg->comp_info[0].v_samp_factor);
+    if (picture->nstrips > 1)
+        jpeg->restart_in_rows = RETEX_PICTURE_STRIP / (DCTSIZE * jpeg->comp_info[0].v_samp_factor);
     jpeg_start_compress(jpeg, TRUE);
     write_exif(jpeg, !picture->params.colorspace);
     jpeg_write_scanlines(jpeg, NULL, 0); /* writes the tables */
 }
 
-/* Compresses a band; *head is the number of bytes before the coded data. */
+/* Compresses a strip; *head is the number of bytes before the coded data. */
 static int compress(Compressor *c, const RetexPicture *picture, const uint8_t *codes, int lines, size_t *head)
 {
     const size_t row = (size_t)picture->width * (picture->channels == 1 ? 1 : 3);
@@ -155,25 +156,25 @@ static int run_compressor(unsigned char **data, size_t *head, size_t *bytes, con
     return 0;
 }
 
-/* Encodes a band: the header or a restart marker, the coded data, and the end marker after the last band. */
-static int encode_band(RetexPicture *picture, int band, const uint8_t *codes, RetexError *err)
+/* Encodes a strip: the header or a restart marker, the coded data, and the end marker after the last strip. */
+static int encode_strip(RetexPicture *picture, int strip, const uint8_t *codes, RetexError *err)
 {
     unsigned char *data, *whole = NULL;
     size_t head, bytes, start = MARKER_BYTES, unused;
-    int status = run_compressor(&data, &head, &bytes, picture, codes, retex_picture_band_lines(picture, band), err);
+    int status = run_compressor(&data, &head, &bytes, picture, codes, retex_picture_strip_lines(picture, strip), err);
 
     if (status)
         return status;
-    if (band + 1 < picture->nbands)
+    if (strip + 1 < picture->nstrips)
         bytes -= MARKER_BYTES;
-    if (band == 0) {
+    if (strip == 0) {
         status = run_compressor(&whole, &start, &unused, picture, NULL, 0, err);
     } else {
         data[head - 2] = 0xff;
-        data[head - 1] = (unsigned char)(JPEG_RST0 + (band - 1) % 8);
+        data[head - 1] = (unsigned char)(JPEG_RST0 + (strip - 1) % 8);
     }
-    if (!status && band == 0) {
-        /* the header of the picture is as long as that of a band: only the height differs */
+    if (!status && strip == 0) {
+        /* the header of the picture is as long as that of a strip: only the height differs */
         if (start == head)
             memcpy(data, whole, head);
         else
@@ -184,9 +185,9 @@ static int encode_band(RetexPicture *picture, int band, const uint8_t *codes, Re
         free(data);
         return status;
     }
-    const size_t skip = band == 0 ? 0 : head - MARKER_BYTES;
+    const size_t skip = strip == 0 ? 0 : head - MARKER_BYTES;
     memmove(data, data + skip, bytes - skip);
-    return retex_picture_submit_band(picture, band, data, bytes - skip, err);
+    return retex_picture_submit_strip(picture, strip, data, bytes - skip, err);
 }
 
 static int jpeg_begin(RetexPicture *picture, RetexError *err)
@@ -197,16 +198,16 @@ static int jpeg_begin(RetexPicture *picture, RetexError *err)
     return 0;
 }
 
-static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+static int jpeg_strip(RetexPicture *picture, int strip, const float *rows, RetexError *err)
 {
-    const int lines = retex_picture_band_lines(picture, band), channels = picture->channels == 1 ? 1 : 3;
+    const int lines = retex_picture_strip_lines(picture, strip), channels = picture->channels == 1 ? 1 : 3;
     uint8_t *codes = malloc((size_t)picture->width * (size_t)(lines * channels));
     int status = codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 
     if (!status)
         status = retex_picture_codes(picture, codes, 8, channels, rows, lines, err);
     if (!status)
-        status = encode_band(picture, band, codes, err);
+        status = encode_strip(picture, strip, codes, err);
     free(codes);
     return status;
 }
@@ -214,7 +215,7 @@ static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexEr
 static int jpeg_finish(RetexPicture *picture, RetexError *err)
 {
     (void)picture, (void)err;
-    return 0; /* the last band contains the end marker */
+    return 0; /* the last strip contains the end marker */
 }
 
-const RetexPictureFormat retex_picture_jpeg = {jpeg_begin, jpeg_band, jpeg_finish, NULL};
+const RetexPictureFormat retex_picture_jpeg = {jpeg_begin, jpeg_strip, jpeg_finish, NULL};

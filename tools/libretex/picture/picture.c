@@ -1,4 +1,4 @@
-/* Pictures that are written band by band: choice of the format, and bands from any thread. See <retex/picture.h>;
+/* Pictures that are written strip by strip: choice of the format, and strips from any thread. See <retex/picture.h>;
  * formats are in files of their own, see format.h. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,9 +122,9 @@ static void free_picture(RetexPicture *picture)
         picture->format->end(picture);
     retex_bridge_plan_free(&picture->plan);
     retex_output_abandon(&picture->output);
-    for (int i = 0; picture->bands && i < picture->nbands; i++)
-        free(picture->bands[i].data);
-    free(picture->bands);
+    for (int i = 0; picture->strips && i < picture->nstrips; i++)
+        free(picture->strips[i].data);
+    free(picture->strips);
     free((char *)picture->params.display);
     free((char *)picture->params.view);
     free((char *)picture->params.colorspace);
@@ -144,14 +144,14 @@ static RetexPicture *new_picture(const char *path, int width, int height, int ch
     picture->width = width;
     picture->height = height;
     picture->channels = channels;
-    picture->nbands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
-    picture->bands = calloc((size_t)picture->nbands, sizeof *picture->bands);
+    picture->nstrips = (height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
+    picture->strips = calloc((size_t)picture->nstrips, sizeof *picture->strips);
     picture->params = *params;
     picture->params.display = copy_text(params->display, &failed);
     picture->params.view = copy_text(params->view, &failed);
     picture->params.colorspace = copy_text(params->colorspace, &failed);
     picture->path = strdup(path);
-    if (picture->bands && picture->path && !failed)
+    if (picture->strips && picture->path && !failed)
         return picture;
     free_picture(picture);
     return NULL;
@@ -220,37 +220,37 @@ int retex_picture_open_memory(RetexPicture **result, const char *format, int wid
     return status ? status : open_picture(result, name, output, width, height, channels, &params, err);
 }
 
-/* --- bands --- */
+/* --- strips --- */
 
-/* Claims a band for this thread: it must be a whole band that no other thread has claimed. After a failure all calls
+/* Claims a strip for this thread: it must be a whole strip that no other thread has claimed. After a failure all calls
  * fail. */
-static int claim_band(RetexPicture *picture, int y0, int y1, RetexError *err)
+static int claim_strip(RetexPicture *picture, int y0, int y1, RetexError *err)
 {
-    const int band = y0 / RETEX_PICTURE_BAND;
-    int is_band = y0 >= 0 && y0 < picture->height && y0 % RETEX_PICTURE_BAND == 0 &&
-                  y1 - y0 == retex_picture_band_lines(picture, band);
+    const int strip = y0 / RETEX_PICTURE_STRIP;
+    int is_strip = y0 >= 0 && y0 < picture->height && y0 % RETEX_PICTURE_STRIP == 0 &&
+                   y1 - y0 == retex_picture_strip_lines(picture, strip);
 
     pthread_mutex_lock(&picture->lock);
     *err = picture->error;
-    if (is_band && picture->bands[band].state == RETEX_BAND_ABSENT)
-        picture->bands[band].state = RETEX_BAND_SUBMITTED;
+    if (is_strip && picture->strips[strip].state == RETEX_STRIP_ABSENT)
+        picture->strips[strip].state = RETEX_STRIP_SUBMITTED;
     else
-        is_band = 0;
+        is_strip = 0;
     pthread_mutex_unlock(&picture->lock);
     if (err->code)
         return err->code;
-    return is_band ? 0
-                   : retex_fail(err, RETEX_EINVAL, "rows %d to %d are no band of %s, or given twice", y0, y1,
-                                picture->path);
+    return is_strip ? 0
+                    : retex_fail(err, RETEX_EINVAL, "rows %d to %d are no strip of %s, or given twice", y0, y1,
+                                 picture->path);
 }
 
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err)
 {
     RetexError error = {0};
-    int status = claim_band(picture, y0, y1, &error);
+    int status = claim_strip(picture, y0, y1, &error);
 
     if (!status)
-        status = picture->format->band(picture, y0 / RETEX_PICTURE_BAND, rows, &error);
+        status = picture->format->strip(picture, y0 / RETEX_PICTURE_STRIP, rows, &error);
     if (!status)
         return 0;
     pthread_mutex_lock(&picture->lock);
@@ -262,7 +262,7 @@ int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows,
     return status;
 }
 
-/* Writes what follows the bands. */
+/* Writes what follows the strips. */
 static int finish_format(RetexPicture *picture, RetexError *err)
 {
     if (picture->error.code) {
@@ -270,9 +270,9 @@ static int finish_format(RetexPicture *picture, RetexError *err)
             *err = picture->error;
         return picture->error.code;
     }
-    if (picture->next < picture->nbands)
+    if (picture->next < picture->nstrips)
         return retex_fail(err, RETEX_EINVAL, "%s is not complete: rows from %d on are missing", picture->path,
-                          picture->next * RETEX_PICTURE_BAND);
+                          picture->next * RETEX_PICTURE_STRIP);
     return picture->format->finish(picture, err);
 }
 
@@ -315,10 +315,10 @@ typedef struct WholeImage {
     const RetexImage *image;
 } WholeImage;
 
-static void write_band(void *context, int index, int thread)
+static void write_strip(void *context, int index, int thread)
 {
     const WholeImage *whole = context;
-    const int y0 = index * RETEX_PICTURE_BAND, y1 = y0 + retex_picture_band_lines(whole->picture, index);
+    const int y0 = index * RETEX_PICTURE_STRIP, y1 = y0 + retex_picture_strip_lines(whole->picture, index);
 
     (void)thread;
     (void)retex_picture_rows(whole->picture, y0, y1, whole->image->pixels + retex_image_index(whole->image, 0, y0),
@@ -335,6 +335,6 @@ int retex_image_write(const RetexImage *src, const char *path, const RetexWriteP
     const int status = retex_picture_open(&whole.picture, path, src->width, src->height, src->channels, params, err);
     if (status)
         return status;
-    retex_parallel(nthreads, whole.picture->nbands, write_band, &whole);
+    retex_parallel(nthreads, whole.picture->nstrips, write_strip, &whole);
     return retex_picture_close(&whole.picture, 1, err);
 }

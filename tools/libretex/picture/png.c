@@ -1,6 +1,6 @@
-/* PNG of 8 or 16 bits, band by band. Each band is filtered and deflated separately, as a part of one zlib stream: it
+/* PNG of 8 or 16 bits, strip by strip. Each strip is filtered and deflated separately, as a part of one zlib stream: it
  * begins and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of the stream is
- * combined from those of the bands. Renders have noise in their low bits, where filters leave little to compress: with
+ * combined from those of the strips. Renders have noise in their low bits, where filters leave little to compress: with
  * the best of all filters ISA-L's fast level gives files as small as zlib's level 6, in much less time. */
 #include <stdlib.h>
 #include <string.h>
@@ -94,7 +94,7 @@ static void order_bytes(unsigned char *codes, size_t count)
     }
 }
 
-/* Filters lines; the first line of a band must not use the line above, which is in another band. */
+/* Filters lines; the first line of a strip must not use the line above, which is in another strip. */
 static int filter_lines(unsigned char *filtered, const RetexPicture *picture, const uint8_t *codes, int lines)
 {
     const size_t bytes = line_bytes(picture);
@@ -123,14 +123,14 @@ static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes,
     return NULL;
 }
 
-/* Encodes a band: an IDAT chunk, for the first band preceded by the header. */
-static unsigned char *encode_band(const RetexPicture *picture, int band, const unsigned char *filtered, size_t bytes,
-                                  size_t *encoded_bytes)
+/* Encodes a strip: an IDAT chunk, for the first strip preceded by the header. */
+static unsigned char *encode_strip(const RetexPicture *picture, int strip, const unsigned char *filtered, size_t bytes,
+                                   size_t *encoded_bytes)
 {
     unsigned char header[HEADER_ROOM];
-    const size_t before = band == 0 ? write_header(header, picture) : 0, prefix = band == 0 ? ZLIB_HEAD : 0;
+    const size_t before = strip == 0 ? write_header(header, picture) : 0, prefix = strip == 0 ? ZLIB_HEAD : 0;
     size_t packed_bytes;
-    unsigned char *data = deflate_lines(filtered, bytes, band + 1 == picture->nbands, before + CHUNK_HEAD + prefix,
+    unsigned char *data = deflate_lines(filtered, bytes, strip + 1 == picture->nstrips, before + CHUNK_HEAD + prefix,
                                         CHUNK_TAIL, &packed_bytes);
 
     if (!data)
@@ -145,13 +145,13 @@ static unsigned char *encode_band(const RetexPicture *picture, int band, const u
 
 static int png_begin(RetexPicture *picture, RetexError *err)
 {
-    picture->state = calloc((size_t)picture->nbands, sizeof(Sum));
+    picture->state = calloc((size_t)picture->nstrips, sizeof(Sum));
     return picture->state ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 }
 
-static int png_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+static int png_strip(RetexPicture *picture, int strip, const float *rows, RetexError *err)
 {
-    const int lines = retex_picture_band_lines(picture, band);
+    const int lines = retex_picture_strip_lines(picture, strip);
     const size_t bytes = (line_bytes(picture) + 1) * (size_t)lines;
     uint8_t *codes = malloc(line_bytes(picture) * (size_t)lines);
     unsigned char *filtered = malloc(bytes), *encoded = NULL;
@@ -166,9 +166,9 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
             status = RETEX_ENOMEM;
     }
     if (!status) {
-        ((Sum *)picture->state)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
-        encoded = encode_band(picture, band, filtered, bytes, &encoded_bytes);
-        status = encoded ? retex_picture_submit_band(picture, band, encoded, encoded_bytes, err) : RETEX_ENOMEM;
+        ((Sum *)picture->state)[strip] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
+        encoded = encode_strip(picture, strip, filtered, bytes, &encoded_bytes);
+        status = encoded ? retex_picture_submit_strip(picture, strip, encoded, encoded_bytes, err) : RETEX_ENOMEM;
     }
     free(codes);
     free(filtered);
@@ -182,8 +182,8 @@ static int png_finish(RetexPicture *picture, RetexError *err)
     unsigned char end[2 * (CHUNK_HEAD + CHUNK_TAIL) + 4], number[4];
     uLong adler = ADLER32_OF_NONE;
 
-    for (int band = 0; band < picture->nbands; band++)
-        adler = adler32_combine(adler, sums[band].adler, (z_off_t)sums[band].bytes);
+    for (int strip = 0; strip < picture->nstrips; strip++)
+        adler = adler32_combine(adler, sums[strip].adler, (z_off_t)sums[strip].bytes);
     put_32(number, (uint32_t)adler);
     const size_t at = add_chunk(end, "IDAT", number, sizeof number);
     return retex_picture_append(picture, end, at + add_chunk(end + at, "IEND", NULL, 0), err);
@@ -194,4 +194,4 @@ static void png_end(RetexPicture *picture)
     free(picture->state);
 }
 
-const RetexPictureFormat retex_picture_png = {png_begin, png_band, png_finish, png_end};
+const RetexPictureFormat retex_picture_png = {png_begin, png_strip, png_finish, png_end};

@@ -37,21 +37,21 @@ static int stored_begin(RetexPicture *picture, RetexError *err)
     return 0;
 }
 
-static int stored_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+static int stored_strip(RetexPicture *picture, int strip, const float *rows, RetexError *err)
 {
-    const int lines = retex_picture_band_lines(picture, band);
+    const int lines = retex_picture_strip_lines(picture, strip);
     int status = need_samples(picture, err);
 
     if (status)
         return status;
-    const size_t row = row_samples(picture), first = row * (size_t)band * RETEX_PICTURE_BAND;
+    const size_t row = row_samples(picture), first = row * (size_t)strip * RETEX_PICTURE_STRIP;
     unsigned char *samples = (unsigned char *)picture->state + first * (size_t)(picture->stored.bits / 8);
     if (picture->stored.bits <= 16)
         status =
             retex_picture_codes(picture, samples, picture->stored.bits, picture->stored.channels, rows, lines, err);
     else
         status = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
-    return status ? status : retex_picture_submit_band(picture, band, NULL, 0, err);
+    return status ? status : retex_picture_submit_strip(picture, strip, NULL, 0, err);
 }
 
 static int append(void *picture, const void *data, size_t bytes, RetexError *err)
@@ -69,4 +69,4 @@ static void stored_end(RetexPicture *picture)
     free(picture->state);
 }
 
-const RetexPictureFormat retex_picture_stored = {stored_begin, stored_band, stored_finish, stored_end};
+const RetexPictureFormat retex_picture_stored = {stored_begin, stored_strip, stored_finish, stored_end};

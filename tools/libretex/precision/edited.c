@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set/band.h"
+#include "set/strip.h"
 #include "set/set.h"
 
 typedef struct Corrections {

@@ -12,7 +12,7 @@
 #include <retex/host/uv_stats.h>
 
 #include "base/jobs.h"
-#include "set/band.h"
+#include "set/strip.h"
 #include "precision/edited.h"
 #include "precision/precision_light.h"
 #include "set/parts.h"

@@ -5,7 +5,7 @@
 
 #include <retex/host/rounding.h>
 
-#include "set/band.h"
+#include "set/strip.h"
 #include "precision/precision_rules.h"
 #include "set/set.h"
 

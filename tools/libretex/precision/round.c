@@ -6,7 +6,7 @@
 #include <retex/host/set_build.h>
 
 #include "base/jobs.h"
-#include "set/band.h"
+#include "set/strip.h"
 #include "precision/precision.h"
 #include "set/set.h"
 
@@ -46,12 +46,12 @@ static int store_part(void *context, int part, int thread, RetexError *err)
     return code;
 }
 
-static int round_rows(const RetexPrecision *precision, RoundedStore *s, RetexSetBand *band, int y, int nthreads,
+static int round_rows(const RetexPrecision *precision, RoundedStore *s, RetexSetStrip *strip, int y, int nthreads,
                       RetexError *err)
 {
     RetexSet *rows;
     const int left = s->set->height - y;
-    int code = retex_set_band_load(&rows, band, y, left < ROWS ? left : ROWS, nthreads, err);
+    int code = retex_set_strip_load(&rows, strip, y, left < ROWS ? left : ROWS, nthreads, err);
     if (!code)
         code = retex_precision_round(precision, rows, NULL, nthreads, err);
     s->rows = rows, s->y = y;
@@ -62,17 +62,17 @@ int retex_set_round(RetexSet *set, const char *near, int nthreads, RetexError *e
 {
     RoundedStore s = {.set = set};
     RetexPrecision *precision = NULL;
-    RetexSetBand *band = NULL;
+    RetexSetStrip *strip = NULL;
     if (!set->nterms)
         return RETEX_OK;
     int code = retex_precision_open(&precision, set, 1, err);
     if (!code && set->store)
         code = open_store(&s, near, err);
     if (!code)
-        code = retex_set_band_open(&band, set, ROWS, 0, err);
+        code = retex_set_strip_open(&strip, set, ROWS, 0, err);
     for (int y = 0; y < set->height && !code; y += ROWS)
-        code = round_rows(precision, &s, band, y, nthreads, err);
-    retex_set_band_close(&band);
+        code = round_rows(precision, &s, strip, y, nthreads, err);
+    retex_set_strip_close(&strip);
     retex_precision_close(&precision);
     for (int k = 0; k < set->nparts && !code && s.store; k++)
         if (set->parts[k].store_image)

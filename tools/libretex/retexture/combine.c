@@ -15,7 +15,7 @@
 #include "retexture/combine_kernel.h"
 #include "retexture/combine_rows.h"
 #include "base/value_check.h"
-#include "retexture/polynomial_bands.h"
+#include "retexture/polynomial_strips.h"
 #include "set/set.h"
 
 #define SPAN_PIXELS 512 /* the sum and one span of each image fit the first two levels of cache */
@@ -78,7 +78,7 @@ static int copy_picture(RetexPolynomialRow *row, int y, float *out, RetexError *
     return code;
 }
 
-static int combine_band(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int combine_strip(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const int width = row->polynomial->set->width;
     int code = RETEX_OK;
@@ -99,7 +99,7 @@ static int combine_band(const void *context, RetexPolynomialRow *row, int y0, in
 static int combine(const RetexPolynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
                    RetexError *err)
 {
-    return retex_polynomial_bands(polynomial, y0, y1, combine_band, NULL, sink, context, nthreads, err);
+    return retex_polynomial_strips(polynomial, y0, y1, combine_strip, NULL, sink, context, nthreads, err);
 }
 
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
@@ -147,7 +147,7 @@ int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1,
     if (!code)
         code = retex_polynomial_row_open(&row, &polynomial, err);
     if (!code)
-        code = combine_band(NULL, &row, y0, y1, out, err);
+        code = combine_strip(NULL, &row, y0, y1, out, err);
     retex_polynomial_row_close(&row);
     retex_polynomial_close(&polynomial);
     return code;

@@ -19,7 +19,7 @@
 
 #include "base/params.h"
 #include "retexture/estimate_row.h"
-#include "retexture/polynomial_bands.h"
+#include "retexture/polynomial_strips.h"
 #include "retexture/sample_row.h"
 #include "set/parts.h"
 #include "texture/pyramid.h"
@@ -82,7 +82,7 @@ static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRo
     return RETEX_OK;
 }
 
-static int estimate_band(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int estimate_strip(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const RetexSet *set = row->polynomial->set;
     Scatter scatter;
@@ -112,8 +112,8 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);
     if (!code)
-        code =
-            retex_polynomial_bands(&polynomial, 0, set->height, estimate_band, &estimate, sink, context, nthreads, err);
+        code = retex_polynomial_strips(&polynomial, 0, set->height, estimate_strip, &estimate, sink, context, nthreads,
+                                       err);
     retex_textures_close(estimate.squares);
     retex_polynomial_close(&polynomial);
     return code;

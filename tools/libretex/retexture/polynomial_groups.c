@@ -12,7 +12,7 @@
 #include "retexture/polynomial_factors.h"
 #include "set/set.h"
 
-#define ROWS_A_JOB 64 /* rows of a pack's band */
+#define ROWS_A_JOB 64 /* rows of a pack's strip */
 
 /* 1 of parameters, which have no size. */
 static int factor_scale(const RetexPolynomial *p, RetexFactor factor)

@@ -11,7 +11,7 @@
 #include "retexture/polynomial_factors.h"
 #include "set/set.h"
 
-#define ROWS_A_JOB 64 /* a pack's band */
+#define ROWS_A_JOB 64 /* a pack's strip */
 
 typedef struct ReducedWork {
     const RetexPolynomial *polynomial;

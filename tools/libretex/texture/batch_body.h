@@ -4,8 +4,8 @@
  * The steps for a footprint: find its mean in the image, choose the level of the pyramid, compute the ellipse over that
  * level's texels and the blocks of 4 x 4 texels that it meets (place). Footprints with about the same number of blocks
  * then take the lanes of one vector: their weights are computed together (weigh_*), and each sums its texels
- * (sum_texels). Lines are rows of texels, or columns where the ellipse is flat; a band is four lines. Where an ellipse
- * is oblique, the blocks of its bands follow it. */
+ * (sum_texels). Lines are rows of texels, or columns where the ellipse is flat; a strip is four lines. Where an ellipse
+ * is oblique, the blocks of its strips follow it. */
 
 #define Lanes NAME(Lanes)
 #define Mask NAME(Mask)
@@ -27,10 +27,10 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 
 #ifndef TEXTURE_BATCH_CONSTANTS
 #define TEXTURE_BATCH_CONSTANTS
-#define MAX_BANDS 36
-#define MAX_BLOCKS 4 /* blocks across in a band */
+#define MAX_STRIPS 36
+#define MAX_BLOCKS 4 /* blocks across in a strip */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
-#define NKEYS (8 * MAX_BANDS * MAX_BLOCKS)
+#define NKEYS (8 * MAX_STRIPS * MAX_BLOCKS)
 #define NODES 2 /* chords between two lines */
 #define BATCH_BOX_VARIANCE (1.0f / 12)
 #define BATCH_TENT_VARIANCE (1.0f / 6)
@@ -156,7 +156,7 @@ typedef struct Footprints {
     int count;        /* lanes with a footprint of their own; further lanes repeat the last one */
     int index[LANES]; /* index in the batch */
     int contiguous;   /* 1: consecutive in the batch */
-    int turned, fine, bands, blocks, lines, columns;
+    int turned, fine, strips, blocks, lines, columns;
     Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three are whole numbers */
     Mask level;
     int cut;               /* 1: the surface ends within the windows */
@@ -165,25 +165,25 @@ typedef struct Footprints {
     float sums[LANES][16]; /* sums of RGBA, one for each of four neighbouring texels */
 } Footprints;
 
-/* A band: the first line, each footprint's first column, and the middle of its ellipse from there, all from the
+/* A strip: the first line, each footprint's first column, and the middle of its ellipse from there, all from the
  * mean. */
-#define Band NAME(Band)
-typedef struct Band {
+#define Strip NAME(Strip)
+typedef struct Strip {
     int lines;
     Lanes begin, middle;
     Mask column;
     Lanes weights[4][4 * MAX_BLOCKS]; /* weights of texels, by line and column */
-} Band;
+} Strip;
 
-RETEX_CPU_INLINE void NAME(begin_band)(const Footprints *f, int number, Band *band)
+RETEX_CPU_INLINE void NAME(begin_strip)(const Footprints *f, int number, Strip *strip)
 {
-    band->begin = f->first + (float)(4 * number) - f->along;
-    band->lines = f->lines - 4 * number < 4 ? f->lines - 4 * number : 4;
-    band->column = NAME(whole_below)(f->across + f->lean * (band->begin + 1.5f) - f->reach) + 1;
-    band->middle = f->across - NAME(to_float)(band->column);
+    strip->begin = f->first + (float)(4 * number) - f->along;
+    strip->lines = f->lines - 4 * number < 4 ? f->lines - 4 * number : 4;
+    strip->column = NAME(whole_below)(f->across + f->lean * (strip->begin + 1.5f) - f->reach) + 1;
+    strip->middle = f->across - NAME(to_float)(strip->column);
     for (int j = 0; j < 4; j++) /* other weights are written before they are read */
-        for (int c = j < band->lines ? f->columns : 0; c < 4 * f->blocks; c++)
-            band->weights[j][c] = NAME(all)(0);
+        for (int c = j < strip->lines ? f->columns : 0; c < 4 * f->blocks; c++)
+            strip->weights[j][c] = NAME(all)(0);
 }
 
 /* The ends of a chord, and its weight in the quadrature. */
@@ -194,7 +194,7 @@ typedef struct Chord {
 
 /* Finds the chords between `low` and the next line. The size of the ellipse is an argument, because a Gaussian has
  * two. */
-RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Band *band, Lanes low, Lanes length, Lanes inverse,
+RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Strip *strip, Lanes low, Lanes length, Lanes inverse,
                                         Lanes half, Chord *chords)
 {
     Lanes high = low + 1, begin = MAX(low, -length), end = MIN(high, length);
@@ -202,7 +202,7 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Band *band, L
     Mask rule = ((low < -length) & 1) + ((high > length) & 2);
     for (int k = 0; k < NODES; k++) {
         Lanes at = begin + span * LOOK_UP(batch_nodes[k], rule), u = at * inverse;
-        Lanes middle = band->middle + f->slope * at, h = half * SQRT(MAX(1 - u * u, NAME(all)(0)));
+        Lanes middle = strip->middle + f->slope * at, h = half * SQRT(MAX(1 - u * u, NAME(all)(0)));
         chords[k].left = middle - h;
         chords[k].right = middle + h;
         chords[k].weight = span * LOOK_UP(batch_weights[k], rule);
@@ -212,17 +212,17 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Band *band, L
 
 /* Weights of interpolated texels: the double integral of their tents, differenced twice. Adds to the weights, or sets
  * them. */
-RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
+RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Strip *strip, Lanes length, Lanes half, Lanes scale, int is_added)
 {
     Lanes lines[5][MAX_COLUMNS]; /* the last one is not used */
     Chord chords[NODES];
     Lanes inverse = 1 / length;
     for (int c = 0; c <= f->columns; c++)
         lines[4][c] = NAME(all)(0);
-    for (int i = 0; i <= band->lines; i++) {
+    for (int i = 0; i <= strip->lines; i++) {
         Lanes here[NODES], next[NODES];
         NAME(find_chords)
-        (f, band, band->begin + (float)(i - 1), length, inverse, half, chords);
+        (f, strip, strip->begin + (float)(i - 1), length, inverse, half, chords);
         for (int k = 0; k < NODES; k++) {
             next[k] = chords[k].weight * chords[k].share * scale;
             here[k] = chords[k].weight * scale - next[k];
@@ -241,27 +241,27 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Band *band, Lanes length, 
         }
         after[f->columns + 1] = NAME(all)(0);
     }
-    for (int j = 0; j < band->lines; j++)
+    for (int j = 0; j < strip->lines; j++)
         for (int c = 0; c < f->columns; c++) {
             Lanes w = (lines[j][c] - lines[j][c + 1]) - (lines[j][c + 1] - lines[j][c + 2]);
             w = MAX(w, NAME(all)(0));
-            band->weights[j][c] = is_added ? band->weights[j][c] + w : w;
+            strip->weights[j][c] = is_added ? strip->weights[j][c] + w : w;
         }
 }
 
 /* Weights of texels that are averages over squares: the length of each chord in each texel. */
-RETEX_CPU_INLINE void NAME(weigh_boxes)(Footprints *f, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_boxes)(Footprints *f, Strip *strip)
 {
     Chord chords[NODES];
     Lanes inverse = 1 / f->length;
-    for (int j = 0; j < band->lines; j++) {
+    for (int j = 0; j < strip->lines; j++) {
         NAME(find_chords)
-        (f, band, band->begin + ((float)j - 0.5f), f->length, inverse, f->half, chords);
+        (f, strip, strip->begin + ((float)j - 0.5f), f->length, inverse, f->half, chords);
         for (int c = 0; c < f->columns; c++) {
             Lanes begin = NAME(all)((float)c - 0.5f), end = NAME(all)((float)c + 0.5f), w = {0};
             for (int k = 0; k < NODES; k++)
                 w += chords[k].weight * MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
-            band->weights[j][c] = w;
+            strip->weights[j][c] = w;
         }
     }
 }
@@ -276,7 +276,7 @@ RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
     return p * p;
 }
 
-RETEX_CPU_INLINE void NAME(weigh_gaussian)(Footprints *f, Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(weigh_gaussian)(Footprints *f, Strip *strip, int nlines, int ncolumns)
 {
     const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that the squares are the exponents */
     Lanes down = reach / f->length, over = reach / f->half, columns[4 * MAX_BLOCKS];
@@ -284,55 +284,55 @@ RETEX_CPU_INLINE void NAME(weigh_gaussian)(Footprints *f, Band *band, int nlines
     for (int c = 0; c < ncolumns; c++)
         columns[c] = (float)c * over;
     for (int j = 0; j < nlines; j++) {
-        Lanes y = band->begin + (float)j, v = y * down, middle = (band->middle + f->slope * y) * over;
+        Lanes y = strip->begin + (float)j, v = y * down, middle = (strip->middle + f->slope * y) * over;
         Lanes square = v * v;
         for (int c = 0; c < ncolumns; c++) {
             Lanes u = columns[c] - middle, q = MIN(u * u + square, most);
-            band->weights[j][c] = MAX(NAME(exp_minus)(q) - GAUSSIAN_EDGE, NAME(all)(0));
+            strip->weights[j][c] = MAX(NAME(exp_minus)(q) - GAUSSIAN_EDGE, NAME(all)(0));
         }
     }
 }
 
 /* Cuts off weights beyond the limits of the surface. */
-RETEX_CPU_INLINE void NAME(cut_band)(Footprints *f, Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(cut_strip)(Footprints *f, Strip *strip, int nlines, int ncolumns)
 {
     Lanes across[4 * MAX_BLOCKS];
     for (int c = 0; c < ncolumns; c++)
-        across[c] = NAME(share_within)((float)c - band->middle, f->low[1], f->high[1]);
+        across[c] = NAME(share_within)((float)c - strip->middle, f->low[1], f->high[1]);
     for (int j = 0; j < nlines; j++) {
-        Lanes along = NAME(share_within)(band->begin + (float)j, f->low[0], f->high[0]);
+        Lanes along = NAME(share_within)(strip->begin + (float)j, f->low[0], f->high[0]);
         for (int c = 0; c < ncolumns; c++) {
-            f->whole += band->weights[j][c];
-            band->weights[j][c] *= along * across[c];
+            f->whole += strip->weights[j][c];
+            strip->weights[j][c] *= along * across[c];
         }
     }
 }
 
-RETEX_CPU_INLINE void NAME(add_total)(Footprints *f, const Band *band, int nlines, int ncolumns)
+RETEX_CPU_INLINE void NAME(add_total)(Footprints *f, const Strip *strip, int nlines, int ncolumns)
 {
     for (int j = 0; j < nlines; j++)
         for (int c = 0; c < ncolumns; c++)
-            f->total += band->weights[j][c];
+            f->total += strip->weights[j][c];
 }
 
-RETEX_CPU_INLINE void NAME(weigh_band)(Footprints *f, int number, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_strip)(Footprints *f, int number, Strip *strip)
 {
-    NAME(begin_band)(f, number, band);
+    NAME(begin_strip)(f, number, strip);
     if (f->texture->gaussian && f->fine) {
         /* both discs have the same weight: each chord is divided by the area of its own ellipse */
         float in = INNER_DISC / OUTER_DISC;
-        NAME(weigh_fine)(f, band, f->length * in, f->half * in, NAME(all)(1 / (in * in)), 0);
-        NAME(weigh_fine)(f, band, f->length, f->half, NAME(all)(1), 1);
+        NAME(weigh_fine)(f, strip, f->length * in, f->half * in, NAME(all)(1 / (in * in)), 0);
+        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 1);
     } else if (f->texture->gaussian) {
-        NAME(weigh_gaussian)(f, band, band->lines, f->columns);
+        NAME(weigh_gaussian)(f, strip, strip->lines, f->columns);
     } else if (f->fine) {
-        NAME(weigh_fine)(f, band, f->length, f->half, NAME(all)(1), 0);
+        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 0);
     } else {
-        NAME(weigh_boxes)(f, band);
+        NAME(weigh_boxes)(f, strip);
     }
     if (f->cut)
-        NAME(cut_band)(f, band, band->lines, f->columns);
-    NAME(add_total)(f, band, band->lines, f->columns);
+        NAME(cut_strip)(f, strip, strip->lines, f->columns);
+    NAME(add_total)(f, strip, strip->lines, f->columns);
 }
 
 #include "texture/batch_sum.h"
@@ -387,11 +387,11 @@ RETEX_CPU_INLINE void NAME(store_footprints)(const Footprints *f, RetexBatch *ba
 
 RETEX_CPU_INLINE void NAME(filter_footprints)(Footprints *f, RetexBatch *batch)
 {
-    Band band;
+    Strip strip;
     NAME(load_footprints)(f);
-    for (int b = 0; b < f->bands; b++) {
-        NAME(weigh_band)(f, b, &band);
-        NAME(sum_blocks)(f, b, &band);
+    for (int b = 0; b < f->strips; b++) {
+        NAME(weigh_strip)(f, b, &strip);
+        NAME(sum_blocks)(f, b, &strip);
     }
     NAME(store_footprints)(f, batch);
 }
@@ -418,25 +418,25 @@ RETEX_CPU_INLINE int NAME(sort)(const int *pending, int npending, const Places *
  * those of the next keys, if that saves a vector at a smaller cost than it adds to this one. */
 RETEX_CPU_INLINE void NAME(choose_footprints)(Footprints *f, const int *order, const int *ends, int begin)
 {
-    const int key = f->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
+    const int key = f->places->key[order[begin]], kinds = MAX_STRIPS * MAX_BLOCKS;
     f->cut = key / (4 * kinds);
     f->turned = key / (2 * kinds) % 2;
     f->fine = key / kinds % 2;
-    f->bands = key / MAX_BLOCKS % MAX_BANDS + 1;
+    f->strips = key / MAX_BLOCKS % MAX_STRIPS + 1;
     f->blocks = key % MAX_BLOCKS + 1;
     f->count = ends[key] - begin < LANES ? ends[key] - begin : LANES;
     for (int next = key + 1; f->count < LANES && next % kinds; next++) {
-        int bands = next / MAX_BLOCKS % MAX_BANDS + 1, blocks = next % MAX_BLOCKS + 1, own = bands * blocks;
+        int strips = next / MAX_BLOCKS % MAX_STRIPS + 1, blocks = next % MAX_BLOCKS + 1, own = strips * blocks;
         int waiting = ends[next] - ends[next - 1], lanes_left = LANES - f->count,
             taken = waiting < lanes_left ? waiting : lanes_left;
         if (!waiting)
             continue;
-        bands = bands > f->bands ? bands : f->bands;
+        strips = strips > f->strips ? strips : f->strips;
         blocks = blocks > f->blocks ? blocks : f->blocks;
         if ((waiting - taken + LANES - 1) / LANES == (waiting + LANES - 1) / LANES ||
-            bands * blocks >= f->bands * f->blocks + own)
+            strips * blocks >= f->strips * f->blocks + own)
             break;
-        f->bands = bands;
+        f->strips = strips;
         f->blocks = blocks;
         f->count += taken;
     }
@@ -457,13 +457,13 @@ RETEX_CPU_INLINE int NAME(choose_row)(Footprints *f, int count, int i)
 {
     Mask key;
     LOAD(key, f->places->key + i);
-    const Mask larger = (key != 0) & (key != 4 * MAX_BANDS * MAX_BLOCKS);
+    const Mask larger = (key != 0) & (key != 4 * MAX_STRIPS * MAX_BLOCKS);
     int others = 0;
     for (int lane = 0; lane < LANES; lane++)
         others |= larger[lane];
     f->cut = f->texture->limited;
     f->turned = f->fine = 0;
-    f->bands = f->blocks = f->contiguous = 1;
+    f->strips = f->blocks = f->contiguous = 1;
     f->count = count - i < LANES ? count - i : LANES;
     for (int lane = 0; lane < LANES; lane++)
         f->index[lane] = i + lane;
@@ -473,15 +473,15 @@ RETEX_CPU_INLINE int NAME(choose_row)(Footprints *f, int count, int i)
 /* The weights and texels of such footprints. */
 RETEX_CPU_INLINE void NAME(weigh_row)(Footprints *f, Blocks *blocks)
 {
-    Band band;
+    Strip strip;
     f->lines = f->columns = 4;
     NAME(load_footprints)(f);
-    NAME(begin_band)(f, 0, &band);
-    NAME(weigh_gaussian)(f, &band, 4, 4);
+    NAME(begin_strip)(f, 0, &strip);
+    NAME(weigh_gaussian)(f, &strip, 4, 4);
     if (f->cut)
-        NAME(cut_band)(f, &band, 4, 4);
-    NAME(add_total)(f, &band, 4, 4);
-    NAME(find_blocks)(f, 0, &band, 0, blocks);
+        NAME(cut_strip)(f, &strip, 4, 4);
+    NAME(add_total)(f, &strip, 4, 4);
+    NAME(find_blocks)(f, 0, &strip, 0, blocks);
 }
 
 /* Computes the places of all footprints, and filters broad ones in rows, each while the texels of the next one are
@@ -543,7 +543,7 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
 #undef Mask
 #undef Places
 #undef Footprints
-#undef Band
+#undef Strip
 #undef Chord
 #undef Blocks
 #undef MIN

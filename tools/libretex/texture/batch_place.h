@@ -152,7 +152,7 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     /* Slightly more than the reach of texels, so that rounding does not depend on the windows of other lanes. */
     Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f)) + 1e-4f;
 
-    far |= ~(length < 2 * MAX_BANDS) | ~(width < 8 * MAX_BLOCKS * MAX_BANDS);
+    far |= ~(length < 2 * MAX_STRIPS) | ~(width < 8 * MAX_BLOCKS * MAX_STRIPS);
     length = SELECT(far, least, length);
     half = SELECT(far, least, half);
     width = SELECT(far, least, width);
@@ -164,13 +164,13 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     Mask narrow = __builtin_convertvector(2 * leaning, Mask) + 1;
     Mask leans = ((narrow + 3) >> 2) < ((columns + 3) >> 2);
     columns = (leans & narrow) | (~leans & columns);
-    far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS);
-    Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) +
+    far |= (lines > 4 * MAX_STRIPS) | (columns > 4 * MAX_BLOCKS);
+    Mask key = (turned & (2 * MAX_STRIPS * MAX_BLOCKS)) + (fine & (MAX_STRIPS * MAX_BLOCKS)) +
                ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
     Mask cut = {0};
     if (t->limited)
         cut = NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
-    key += cut & (4 * MAX_BANDS * MAX_BLOCKS);
+    key += cut & (4 * MAX_STRIPS * MAX_BLOCKS);
     key = ((key - MAX_BLOCKS - 1) & ~far) | (NKEYS & far);
 
     STORE(p->line + i, first + SELECT_INT(turned, column, row));

@@ -1,11 +1,11 @@
-/* A part of batch_body.h: the sums of texels times weights, when the weights of a band are known. */
+/* A part of batch_body.h: the sums of texels times weights, when the weights of a strip are known. */
 
 /* Transposes a block's weights, so that those of each footprint are together. */
-RETEX_CPU_INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
+RETEX_CPU_INLINE void NAME(turn_weights)(const Strip *strip, int block, float out[LANES][MAX_BLOCKS][16])
 {
     const Lanes *w[4];
     for (int j = 0; j < 4; j++)
-        w[j] = &band->weights[j][4 * block];
+        w[j] = &strip->weights[j][4 * block];
 #if LANES == 16
     __m512 a[16], b[16];
     for (int i = 0; i < 16; i += 4) {
@@ -50,7 +50,7 @@ RETEX_CPU_INLINE void NAME(turn_weights)(const Band *band, int block, float out[
 #endif
 }
 
-/* Adds a band's texels to four sums, one for every fourth column. Weights are by lines, which may be columns. Blocks
+/* Adds a strip's texels to four sums, one for every fourth column. Weights are by lines, which may be columns. Blocks
  * are `step` texels apart. */
 RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
                                        const char *texels, size_t stride, size_t step)
@@ -108,7 +108,7 @@ RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16]
 #endif
 }
 
-/* The blocks of a band: weights and places, by lane. */
+/* The blocks of a strip: weights and places, by lane. */
 #define Blocks NAME(Blocks)
 typedef struct Blocks {
     float weights[LANES][MAX_BLOCKS][16];
@@ -116,10 +116,10 @@ typedef struct Blocks {
     int columns[LANES], rows[LANES], levels[LANES];
 } Blocks;
 
-RETEX_CPU_INLINE void NAME(find_blocks)(const Footprints *f, int number, const Band *band, int turned, Blocks *blocks)
+RETEX_CPU_INLINE void NAME(find_blocks)(const Footprints *f, int number, const Strip *strip, int turned, Blocks *blocks)
 {
     const RetexBatchTexture *t = f->texture;
-    Mask lines = (Mask)f->line + 4 * number, texels = (Mask)f->texel + band->column;
+    Mask lines = (Mask)f->line + 4 * number, texels = (Mask)f->texel + strip->column;
     Mask x = turned ? lines : texels, y = turned ? texels : lines;
     Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, f->level), Mask);
     Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], f->level), Mask) + 2 * padding;
@@ -133,7 +133,7 @@ RETEX_CPU_INLINE void NAME(find_blocks)(const Footprints *f, int number, const B
     STORE(blocks->rows, y);
     STORE(blocks->levels, f->level);
     for (int k = 0; k < f->blocks; k++)
-        NAME(turn_weights)(band, k, blocks->weights);
+        NAME(turn_weights)(strip, k, blocks->weights);
 }
 
 RETEX_CPU_INLINE const char *NAME(block_texels)(const RetexTextureLevel *level, int first, int narrow)
@@ -161,11 +161,11 @@ RETEX_CPU_INLINE void NAME(sum_lanes)(Footprints *f, const Blocks *blocks, int t
     }
 }
 
-RETEX_CPU_INLINE void NAME(sum_blocks)(Footprints *f, int number, const Band *band)
+RETEX_CPU_INLINE void NAME(sum_blocks)(Footprints *f, int number, const Strip *strip)
 {
     Blocks blocks;
     int narrow = f->texture->texture->narrow;
-    NAME(find_blocks)(f, number, band, f->turned, &blocks);
+    NAME(find_blocks)(f, number, strip, f->turned, &blocks);
     if (f->turned && narrow)
         NAME(sum_lanes)(f, &blocks, 1, 1);
     else if (f->turned)

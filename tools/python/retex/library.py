@@ -12,7 +12,7 @@ from ctypes import c_void_p
 from typing import Any, Dict, List, Optional, Tuple
 
 MAX_TARGETS = 8
-BAND = 64  # rows of a picture that are submitted at once
+STRIP = 64  # rows of a picture that are submitted at once
 NAME = "libretex.so.2"
 
 

@@ -8,7 +8,7 @@ from typing import Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from .library import BAND, RetexImage, RetexReadParams, RetexWriteParams, call, free, lib, pass_warnings
+from .library import STRIP, RetexImage, RetexReadParams, RetexWriteParams, call, free, lib, pass_warnings
 from .library import path_bytes, text_bytes, threads_of, warn
 
 #: Rows from the top, pixels, channels; scene-linear.
@@ -85,8 +85,8 @@ def encode(picture: npt.ArrayLike, format: str = "png", *, quality: int = 95,  #
     call("retex_picture_open_memory", byref(handle), text_bytes(format), image.width, image.height, image.channels,
          byref(params))
     try:
-        for row in range(0, image.height, BAND):
-            rows = pixels[row:row + BAND]
+        for row in range(0, image.height, STRIP):
+            rows = pixels[row:row + STRIP]
             call("retex_picture_rows", handle, row, row + rows.shape[0], rows.ctypes.data)
         call("retex_picture_take", byref(handle), byref(data), byref(size))
         return ctypes.string_at(data, size.value)

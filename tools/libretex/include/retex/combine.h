@@ -44,7 +44,7 @@ int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, con
                          const RetexTextureSpec *spec, RetexError *err);
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
 
-/* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or
+/* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_STRIP, y1 the next one or
  * the picture's height; where only some rows are made, also the first and the last of these. Called from several
  * threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
@@ -52,8 +52,8 @@ typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, Retex
 /* A RetexRowSink that keeps the rows: context is a RetexImage, RGB of the picture's size. */
 int retex_image_keep_rows(void *image, int y0, int y1, const float *rows, RetexError *err);
 
-/* Sampling and recombination in one pass, band by band. The rows are those that retex_sample, retex_samples_merge into
- * samples (which may be NULL) and retex_combine would give. */
+/* Sampling and recombination in one pass, strip by strip. The rows are those that retex_sample, retex_samples_merge
+ * into samples (which may be NULL) and retex_combine would give. */
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);

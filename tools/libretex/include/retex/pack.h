@@ -1,5 +1,5 @@
 /* Packing: a set as one small file, `.retex`: a zip with the manifest, light and albedo as JPEG, and footprints rounded
- * to far below what can be seen, all of it in bands of rows that can be read alone. See retex-pack(5). */
+ * to far below what can be seen, all of it in strips of rows that can be read alone. See retex-pack(5). */
 #ifndef RETEX_PACK_H
 #define RETEX_PACK_H
 

@@ -1,5 +1,5 @@
-/* Pictures that are written while they are computed: rows are submitted as bands from any thread, in any order, and are
- * converted and compressed in the calling thread. The whole picture is never in memory as floats. */
+/* Pictures that are written while they are computed: rows are submitted as strips from any thread, in any order, and
+ * are converted and compressed in the calling thread. The whole picture is never in memory as floats. */
 #ifndef RETEX_PICTURE_H
 #define RETEX_PICTURE_H
 
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Rows of a band; the last band of a picture may have fewer. */
-#define RETEX_PICTURE_BAND 64
+/* Rows of a strip; the last strip of a picture may have fewer. */
+#define RETEX_PICTURE_STRIP 64
 
 typedef struct RetexPicture RetexPicture;
 
@@ -22,8 +22,8 @@ typedef struct RetexPicture RetexPicture;
 int retex_picture_open(RetexPicture **picture, const char *path, int width, int height, int channels,
                        const RetexWriteParams *params /* NULL = defaults; not needed afterwards */, RetexError *err);
 
-/* Submit rows y0 <= y < y1: y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or the height. Rows are
- * scene-linear, interleaved, and not needed afterwards. From any thread, each band once; after a failure every call
+/* Submit rows y0 <= y < y1: y0 is a multiple of RETEX_PICTURE_STRIP, y1 the next one or the height. Rows are
+ * scene-linear, interleaved, and not needed afterwards. From any thread, each strip once; after a failure every call
  * fails with the same error. The file is the same to the byte whatever the order and the threads. */
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err);
 

@@ -1,18 +1,18 @@
-/* Bands of planes: their numbers, channel by channel, and rows of samples from these. See scratch.h. */
+/* Strips of planes: their numbers, channel by channel, and rows of samples from these. See scratch.h. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "pack/restore.h"
 #include "pack/scratch.h"
 
-void retex_pack_plane_band_init(RetexPackPlaneBand *planes)
+void retex_pack_plane_strip_init(RetexPackPlaneStrip *planes)
 {
     for (int c = 0; c < RETEX_PACK_CHANNELS_MAX; c++)
-        planes->band[c] = -1;
-    planes->line = planes->runs_band = -1;
+        planes->strip[c] = -1;
+    planes->line = planes->runs_strip = -1;
 }
 
-void retex_pack_plane_band_free(RetexPackPlaneBand *planes)
+void retex_pack_plane_strip_free(RetexPackPlaneStrip *planes)
 {
     for (int c = 0; c < RETEX_PACK_CHANNELS_MAX; c++)
         free(planes->numbers[c]);
@@ -27,44 +27,44 @@ static int no_memory(RetexError *err)
 
 /* ---- numbers ---- */
 
-static int reserve_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err);
+static int reserve_numbers(int part, int strip, int c, RetexPackScratch *s, RetexError *err);
 
 /* Know where the numbers matter of the parts that this one says it of. */
-static int reserve_runs(int part, int band, RetexPackScratch *s, RetexError *err)
+static int reserve_runs(int part, int strip, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackPlaneBand *own = &s->cached[part].planes;
-    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
-    if (own->runs_band == band)
+    RetexPackPlaneStrip *own = &s->cached[part].planes;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_STRIP_ROWS;
+    if (own->runs_strip == strip)
         return 0;
-    own->runs_band = -1;
+    own->runs_strip = -1;
     if (!own->present)
         own->present = malloc(pixels);
     if (!own->runs.run)
-        own->runs.run = malloc(retex_pack_runs_bound(p->width, RETEX_PACK_BAND_ROWS) * sizeof *own->runs.run);
+        own->runs.run = malloc(retex_pack_runs_bound(p->width, RETEX_PACK_STRIP_ROWS) * sizeof *own->runs.run);
     if (!own->present || !own->runs.run)
         return no_memory(err);
-    int code = reserve_numbers(part, band, 2, s, err);
-    const int rows = retex_pack_band_rows(p, band);
+    int code = reserve_numbers(part, strip, 2, s, err);
+    const int rows = retex_pack_strip_rows(p, strip);
     if (code)
         return code;
     retex_pack_find_present(own->present, own->numbers[2], (size_t)p->width * (size_t)rows);
     retex_pack_find_runs(&own->runs, own->present, p->width, rows);
-    own->runs_band = band;
+    own->runs_strip = strip;
     return 0;
 }
 
 /* What multiples the means of channel c are, into s->shift. */
-static int reserve_shift(int part, int band, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
+static int reserve_shift(int part, int strip, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     const int per_octave = s->pack->parts[p->sigma].maps[c].per_octave;
     unsigned char shift[RETEX_PACK_CODES];
     for (int i = 0; i < RETEX_PACK_CODES; i++)
         shift[i] = (unsigned char)retex_pack_lattice_shift(p, i, per_octave);
-    int code = reserve_numbers(p->sigma, band, c, s, err);
+    int code = reserve_numbers(p->sigma, strip, c, s, err);
     const unsigned char *codes = s->cached[p->sigma].planes.numbers[c];
-    for (int y = 0; !code && y < retex_pack_band_rows(p, band); y++)
+    for (int y = 0; !code && y < retex_pack_strip_rows(p, strip); y++)
         for (int k = runs->first[y]; k < runs->first[y + 1]; k++) {
             const size_t row = (size_t)y * (size_t)p->width;
             for (size_t i = row + (size_t)runs->run[k].begin; i < row + (size_t)runs->run[k].end; i++)
@@ -74,69 +74,69 @@ static int reserve_shift(int part, int band, int c, const RetexPackRuns *runs, R
 }
 
 /* Have those of one channel. */
-static int reserve_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err)
+static int reserve_numbers(int part, int strip, int c, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackPlaneBand *own = &s->cached[part].planes;
+    RetexPackPlaneStrip *own = &s->cached[part].planes;
     const RetexPackMap *map = &p->maps[c];
-    const int is_coded = retex_pack_map_is_coded(map), k = band * p->channels + c;
-    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
-    RetexPackPlane plane = {.width = p->width, .rows = retex_pack_band_rows(p, band)};
+    const int is_coded = retex_pack_map_is_coded(map), k = strip * p->channels + c;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_STRIP_ROWS;
+    RetexPackPlane plane = {.width = p->width, .rows = retex_pack_strip_rows(p, strip)};
     plane.bits = is_coded ? 8 : map->kind == RETEX_PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
-    if (own->band[c] == band)
+    if (own->strip[c] == strip)
         return 0;
-    own->band[c] = -1;
+    own->strip[c] = -1;
     if (!own->numbers[c] && !(own->numbers[c] = calloc(pixels, is_coded ? 1 : sizeof *plane.numbers)))
         return no_memory(err);
     plane.codes = is_coded ? own->numbers[c] : NULL;
     plane.numbers = is_coded ? NULL : own->numbers[c];
     int code = retex_pack_scratch_reserve(s, p, err);
     if (!code && p->present >= 0 && (p->present != part || c != 2)) {
-        code = reserve_runs(p->present, band, s, err);
+        code = reserve_runs(p->present, strip, s, err);
         plane.present = s->cached[p->present].planes.present;
         plane.runs = &s->cached[p->present].planes.runs;
     }
     if (!code && map->kind == RETEX_PACK_MAP_LATTICE) {
-        code = reserve_shift(part, band, c, plane.runs, s, err);
+        code = reserve_shift(part, strip, c, plane.runs, s, err);
         plane.shift = s->shift;
     }
     if (!code)
         code = retex_pack_read_chunk(part, k, 0, s, err);
     if (!code && !retex_pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
-    own->band[c] = code ? -1 : band;
+    own->strip[c] = code ? -1 : strip;
     return code;
 }
 
 /* The rows of a channel, all of which matters, that are not all 0. */
-static uint64_t find_nonzero(const RetexPackPart *p, int band, int c, const void *numbers)
+static uint64_t find_nonzero(const RetexPackPart *p, int strip, int c, const void *numbers)
 {
     const size_t row = (size_t)p->width * (retex_pack_map_is_coded(&p->maps[c]) ? 1 : sizeof(int32_t));
     const int32_t none = 0;
     float of_none;
     retex_pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
     uint64_t lit = 0;
-    for (int y = 0; y < retex_pack_band_rows(p, band); y++)
+    for (int y = 0; y < retex_pack_strip_rows(p, strip); y++)
         if (retex_pack_any_nonzero(&of_none, sizeof of_none) ||
             retex_pack_any_nonzero((const char *)numbers + (size_t)y * row, row))
             lit |= (uint64_t)1 << y;
     return lit;
 }
 
-int retex_pack_plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, RetexError *err)
+int retex_pack_plane_strip_decode(int part, int strip, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackPlaneBand *own = &s->cached[part].planes;
-    int code = p->present >= 0 ? reserve_runs(p->present, band, s, err) : 0;
+    RetexPackPlaneStrip *own = &s->cached[part].planes;
+    int code = p->present >= 0 ? reserve_runs(p->present, strip, s, err) : 0;
     const RetexPackRuns *runs = p->present >= 0 ? &s->cached[p->present].planes.runs : NULL;
     own->line = -1;
     *lit = 0;
-    for (int y = 0; !code && runs && y < retex_pack_band_rows(p, band); y++)
+    for (int y = 0; !code && runs && y < retex_pack_strip_rows(p, strip); y++)
         *lit |= (uint64_t)(runs->first[y] < runs->first[y + 1]) << y;
     for (int c = 0; !code && (*lit || !runs) && c < p->channels; c++) {
-        code = reserve_numbers(part, band, c, s, err);
+        code = reserve_numbers(part, strip, c, s, err);
         if (!code && !runs)
-            *lit |= find_nonzero(p, band, c, own->numbers[c]);
+            *lit |= find_nonzero(p, strip, c, own->numbers[c]);
     }
     return code;
 }
@@ -164,7 +164,7 @@ static RetexRowSpan find_span(const RetexPackPart *p, int c, const void *numbers
 }
 
 /* A run of a row to samples, in all channels. */
-static void map_run(const RetexPackPart *p, const RetexPackPlaneBand *own, int line, RetexRowSpan run, float *row)
+static void map_run(const RetexPackPart *p, const RetexPackPlaneStrip *own, int line, RetexRowSpan run, float *row)
 {
     const size_t channels = (size_t)p->channels, count = (size_t)(run.end - run.begin);
     const size_t at = (size_t)line * (size_t)p->width + (size_t)run.begin;
@@ -177,7 +177,7 @@ static void map_run(const RetexPackPart *p, const RetexPackPlaneBand *own, int l
 }
 
 /* What is of the row that was there becomes 0. */
-static void clear_row(const RetexPackPart *p, const RetexPackPlaneBand *own, float *row)
+static void clear_row(const RetexPackPart *p, const RetexPackPlaneStrip *own, float *row)
 {
     const size_t channels = (size_t)p->channels;
     const RetexRowSpan old = own->line < 0 ? (RetexRowSpan){0, p->width} : own->span;
@@ -185,19 +185,19 @@ static void clear_row(const RetexPackPart *p, const RetexPackPlaneBand *own, flo
         memset(row + (size_t)old.begin * channels, 0, (size_t)(old.end - old.begin) * channels * sizeof *row);
 }
 
-int retex_pack_plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span, RetexPackScratch *s,
-                              RetexError *err)
+int retex_pack_plane_strip_row(int part, int strip, int line, float *row, RetexRowSpan *span, RetexPackScratch *s,
+                               RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackPlaneBand *own = &s->cached[part].planes;
+    RetexPackPlaneStrip *own = &s->cached[part].planes;
     int code = 0;
     *span = own->span;
     if (own->line == line)
         return 0;
     for (int c = 0; !code && c < p->channels; c++) /* for other parts they may have moved on */
-        code = reserve_numbers(part, band, c, s, err);
+        code = reserve_numbers(part, strip, c, s, err);
     if (!code && p->present >= 0)
-        code = reserve_runs(p->present, band, s, err);
+        code = reserve_runs(p->present, strip, s, err);
     if (code)
         return code;
     clear_row(p, own, row);

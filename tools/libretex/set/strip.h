@@ -1,20 +1,20 @@
 /* Some rows of a set, as a set, so that not all of it must be in memory. Private to libretex. */
-#ifndef RETEX_SET_BAND_H
-#define RETEX_SET_BAND_H
+#ifndef RETEX_SET_STRIP_H
+#define RETEX_SET_STRIP_H
 
 #include "set/set.h"
 
-typedef struct RetexSetBand RetexSetBand;
+typedef struct RetexSetStrip RetexSetStrip;
 
-/* Open a band of at most most_rows rows of `whole`, which stays the caller's. copies: 1 = rows of parts in memory are
+/* Open a strip of at most most_rows rows of `whole`, which stays the caller's. copies: 1 = rows of parts in memory are
  * copied, so that they may be changed; 0 = they are shared. */
-int retex_set_band_open(RetexSetBand **band, const RetexSet *whole, int most_rows, int copies, RetexError *err);
-void retex_set_band_close(RetexSetBand **band); /* NULL and pointers to NULL are fine */
+int retex_set_strip_open(RetexSetStrip **strip, const RetexSet *whole, int most_rows, int copies, RetexError *err);
+void retex_set_strip_close(RetexSetStrip **strip); /* NULL and pointers to NULL are fine */
 
-/* Load rows first <= y < first + count: *rows is a set with count rows, owned by the band and valid until the next
+/* Load rows first <= y < first + count: *rows is a set with count rows, owned by the strip and valid until the next
  * call. It has the rows of all parts that have the size of the picture, and no pixels of others. All else is as in
  * `whole`. */
-int retex_set_band_load(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err);
+int retex_set_strip_load(RetexSet **rows, RetexSetStrip *strip, int first, int count, int nthreads, RetexError *err);
 
 /* The numbers of a part that is in memory, in its pixel number `at`. */
 static inline float *retex_pixel_at(const RetexSet *rows, int part, size_t at)

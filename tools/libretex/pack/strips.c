@@ -1,4 +1,4 @@
-/* Decoding packs band by band. Every chunk must have its checksum, and no memory is taken that its bytes could not
+/* Decoding packs strip by strip. Every chunk must have its checksum, and no memory is taken that its bytes could not
  * fill. */
 #include "pack/scratch.h"
 
@@ -8,7 +8,7 @@
 #include "pack/combine.h"
 #include "pack/model.h"
 
-static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err);
+static int cache_strip(int part, int strip, RetexPackScratch *s, RetexError *err);
 
 int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, RetexError *err)
 {
@@ -21,8 +21,8 @@ int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, 
         code = s->cached ? 0 : RETEX_ENOMEM;
     }
     for (int i = 0; !code && i < s->nparts; i++) {
-        s->cached[i].band = -1;
-        retex_pack_plane_band_init(&s->cached[i].planes);
+        s->cached[i].strip = -1;
+        retex_pack_plane_strip_init(&s->cached[i].planes);
     }
     if (!code)
         return 0;
@@ -38,7 +38,7 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     for (int i = 0; s->cached && i < s->nparts; i++) {
         free(s->cached[i].rows);
         free(s->cached[i].mask);
-        retex_pack_plane_band_free(&s->cached[i].planes);
+        retex_pack_plane_strip_free(&s->cached[i].planes);
         retex_pack_jpeg_decoder_close(&s->cached[i].jpeg);
     }
     free(s->cached);
@@ -54,23 +54,23 @@ const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch)
     return scratch->pack;
 }
 
-/* The rows of a band that are not all 0: bit y of row y. */
-static uint64_t find_nonzero(const RetexPackPart *p, int band, const float *rows)
+/* The rows of a strip that are not all 0: bit y of row y. */
+static uint64_t find_nonzero(const RetexPackPart *p, int strip, const float *rows)
 {
     const size_t row = (size_t)p->width * (size_t)p->channels;
     uint64_t lit = 0;
-    for (int y = 0; y < retex_pack_band_rows(p, band); y++)
+    for (int y = 0; y < retex_pack_strip_rows(p, strip); y++)
         lit |= (uint64_t)retex_pack_any_nonzero(rows + (size_t)y * row, row * sizeof *rows) << y;
     return lit;
 }
 
-/* Shifts of means, from the standard deviations of the band, which are decoded for it. */
-static int fill_mean_shifts(int part, int band, RetexPackModelBand *model, RetexPackScratch *s, RetexError *err)
+/* Shifts of means, from the standard deviations of the strip, which are decoded for it. */
+static int fill_mean_shifts(int part, int strip, RetexPackModelStrip *model, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part], *sigma = &s->pack->parts[p->sigma];
     const size_t pixels = (size_t)model->width * (size_t)model->rows;
-    int code = cache_band(p->sigma, band, s, err);
-    const RetexPackCachedBand *cached = &s->cached[p->sigma];
+    int code = cache_strip(p->sigma, strip, s, err);
+    const RetexPackCachedStrip *cached = &s->cached[p->sigma];
     for (int c = 0; !code && c < p->channels; c++)
         for (size_t i = 0; model->shifts[c] && i < pixels; i++) {
             const int is_black = !(cached->lit >> i / (size_t)model->width & 1);
@@ -80,24 +80,24 @@ static int fill_mean_shifts(int part, int band, RetexPackModelBand *model, Retex
     return code;
 }
 
-static int decode_model(int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+static int decode_model(int part, int strip, float *out, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackModelBand model;
-    int code = retex_pack_model_alloc(&model, p->width, retex_pack_band_rows(p, band), p->channels, p->maps)
+    RetexPackModelStrip model;
+    int code = retex_pack_model_alloc(&model, p->width, retex_pack_strip_rows(p, strip), p->channels, p->maps)
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (!code && p->sigma >= 0)
-        code = fill_mean_shifts(part, band, &model, s, err);
+        code = fill_mean_shifts(part, strip, &model, s, err);
     if (!code)
-        code = retex_pack_read_chunk(part, band, 0, s, err);
-    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->chunk, p->bytes[band]);
+        code = retex_pack_read_chunk(part, strip, 0, s, err);
+    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->chunk, p->bytes[strip]);
     if (decoded < 0)
         code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     else if (!decoded)
         code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
     if (!code && p->codec == RETEX_PACK_COMBINED)
-        code = retex_pack_combine_add(&model, s->pack->set, band * RETEX_PACK_BAND_ROWS, err);
+        code = retex_pack_combine_add(&model, s->pack->set, strip * RETEX_PACK_STRIP_ROWS, err);
     for (int c = 0; !code && c < p->channels; c++)
         retex_pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
                                &p->maps[c], p->type);
@@ -107,12 +107,12 @@ static int decode_model(int part, int band, float *out, RetexPackScratch *s, Ret
 
 /* ---- JPEGs ---- */
 
-/* Have the mask of a band, bits of bytes, and know whether it leaves any pixel. */
-static int decode_mask(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
+/* Have the mask of a strip, bits of bytes, and know whether it leaves any pixel. */
+static int decode_mask(int part, int strip, RetexPackCachedStrip *cached, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
-    const int k = 1 + p->nbands + band, rows = retex_pack_band_rows(p, band), width = retex_pack_mask_width(p);
-    int code = cached->mask || (cached->mask = malloc((size_t)width * RETEX_PACK_BAND_ROWS))
+    const int k = 1 + p->nstrips + strip, rows = retex_pack_strip_rows(p, strip), width = retex_pack_mask_width(p);
+    int code = cached->mask || (cached->mask = malloc((size_t)width * RETEX_PACK_STRIP_ROWS))
                    ? retex_pack_read_chunk(part, k, 0, s, err)
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     const RetexPackPlane plane = {.width = width, .rows = rows, .bits = 8, .codes = cached->mask};
@@ -148,8 +148,8 @@ static int jpeg_damaged(RetexError *err, int code, const RetexError *why, const 
     return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why->message);
 }
 
-/* Have the coefficients of a band. */
-static int open_jpeg(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
+/* Have the coefficients of a strip. */
+static int open_jpeg(int part, int strip, RetexPackCachedStrip *cached, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     RetexError why = {0};
@@ -160,21 +160,21 @@ static int open_jpeg(int part, int band, RetexPackCachedBand *cached, RetexPackS
     if (!code && !cached->jpeg)
         code = retex_pack_jpeg_decoder_create(&cached->jpeg, err);
     if (!code && p->masked)
-        code = decode_mask(part, band, cached, s, err);
+        code = decode_mask(part, strip, cached, s, err);
     if (code || cached->is_black) /* what the JPEG has here means nothing */
         return code;
     code = retex_pack_read_chunk(part, 0, 0, s, err);
     if (!code)
-        code = retex_pack_read_chunk(part, 1 + band, p->bytes[0], s, err);
+        code = retex_pack_read_chunk(part, 1 + strip, p->bytes[0], s, err);
     if (code)
         return code;
-    code = retex_pack_jpeg_open_band(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band],
-                                     p->width, retex_pack_band_rows(p, band), p->channels, &p->curve, &why);
+    code = retex_pack_jpeg_open_strip(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + strip],
+                                      p->width, retex_pack_strip_rows(p, strip), p->channels, &p->curve, &why);
     return code ? jpeg_damaged(err, code, &why, s, part) : 0;
 }
 
-/* Have the row of blocks that a row of the band is in. */
-static int decode_blocks(int part, int line, RetexPackCachedBand *cached, const RetexPackScratch *s, RetexError *err)
+/* Have the row of blocks that a row of the strip is in. */
+static int decode_blocks(int part, int line, RetexPackCachedStrip *cached, const RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     const int blocks = line / RETEX_PACK_BLOCK_ROWS, first = blocks * RETEX_PACK_BLOCK_ROWS;
@@ -188,7 +188,7 @@ static int decode_blocks(int part, int line, RetexPackCachedBand *cached, const 
         return jpeg_damaged(err, code, &why, s, part);
     cached->blocks = blocks;
     cached->lit = 0;
-    for (int y = 0; y < RETEX_PACK_BLOCK_ROWS && first + y < retex_pack_band_rows(p, cached->band); y++) {
+    for (int y = 0; y < RETEX_PACK_BLOCK_ROWS && first + y < retex_pack_strip_rows(p, cached->strip); y++) {
         float *values = cached->rows + (size_t)y * row;
         if (p->masked)
             apply_mask(p, values, cached->mask + (size_t)(first + y) * (size_t)retex_pack_mask_width(p));
@@ -199,35 +199,35 @@ static int decode_blocks(int part, int line, RetexPackCachedBand *cached, const 
 
 /* ---- any part ---- */
 
-/* How many rows of a part's band are kept. */
+/* How many rows of a part's strip are kept. */
 static int kept_rows(const RetexPackPart *p)
 {
     return p->codec == RETEX_PACK_JPEG     ? RETEX_PACK_BLOCK_ROWS
            : p->codec == RETEX_PACK_PLANES ? 1
-                                           : RETEX_PACK_BAND_ROWS;
+                                           : RETEX_PACK_STRIP_ROWS;
 }
 
-/* Have the band in the cache. */
-static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
+/* Have the strip in the cache. */
+static int cache_strip(int part, int strip, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     const size_t row = (size_t)p->width * (size_t)p->channels;
-    RetexPackCachedBand *cached = &s->cached[part];
+    RetexPackCachedStrip *cached = &s->cached[part];
     int code;
-    if (cached->band == band)
+    if (cached->strip == strip)
         return 0;
-    cached->band = -1;
+    cached->strip = -1;
     if (!cached->rows && !(cached->rows = malloc(row * (size_t)kept_rows(p) * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (p->codec == RETEX_PACK_JPEG) {
-        code = open_jpeg(part, band, cached, s, err);
+        code = open_jpeg(part, strip, cached, s, err);
     } else if (p->codec == RETEX_PACK_PLANES) {
-        code = retex_pack_plane_band_decode(part, band, &cached->lit, s, err);
+        code = retex_pack_plane_strip_decode(part, strip, &cached->lit, s, err);
     } else {
-        code = decode_model(part, band, cached->rows, s, err);
-        cached->lit = code ? 0 : find_nonzero(p, band, cached->rows);
+        code = decode_model(part, strip, cached->rows, s, err);
+        cached->lit = code ? 0 : find_nonzero(p, strip, cached->rows);
     }
-    cached->band = code ? -1 : band;
+    cached->strip = code ? -1 : strip;
     return code;
 }
 
@@ -237,18 +237,18 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, Rete
     if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
         return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
     const RetexPackPart *p = &s->pack->parts[part];
-    RetexPackCachedBand *cached = &s->cached[part];
-    const int band = y / RETEX_PACK_BAND_ROWS, line = y % RETEX_PACK_BAND_ROWS;
+    RetexPackCachedStrip *cached = &s->cached[part];
+    const int strip = y / RETEX_PACK_STRIP_ROWS, line = y % RETEX_PACK_STRIP_ROWS;
     *span = (RetexRowSpan){0, p->width};
     if (p->codec == RETEX_PACK_ZERO)
         return 0;
-    int code = cache_band(part, band, s, err);
+    int code = cache_strip(part, strip, s, err);
     if (!code && p->codec == RETEX_PACK_JPEG)
         code = decode_blocks(part, line, cached, s, err);
     if (code || !(cached->lit >> line & 1))
         return code;
     if (p->codec == RETEX_PACK_PLANES)
-        code = retex_pack_plane_band_row(part, band, line, cached->rows, span, s, err);
+        code = retex_pack_plane_strip_row(part, strip, line, cached->rows, span, s, err);
     if (!code)
         *row = cached->rows + (size_t)(line % kept_rows(p)) * (size_t)p->width * (size_t)p->channels;
     return code;
