@@ -131,13 +131,13 @@ static void put_number(unsigned char *at, uint32_t value)
         at[i] = (unsigned char)(value >> 8 * i);
 }
 
-/* The index's words on chunks that are an entry: the last one gets what is left, all their checksums. */
-static void put_right(unsigned char *index, const Entry *entry, int chunks)
+/* The index's words on slices that are an entry: the last one gets what is left, all their checksums. */
+static void put_right(unsigned char *index, const Entry *entry, int slices)
 {
     size_t begin = 0;
-    for (int k = 0; entry && k < chunks; k++, index += RETEX_PACK_INDEX_ENTRY_BYTES) {
+    for (int k = 0; entry && k < slices; k++, index += RETEX_PACK_INDEX_ENTRY_BYTES) {
         size_t bytes = index[0] | (size_t)index[1] << 8 | (size_t)index[2] << 16 | (size_t)index[3] << 24;
-        if (k == chunks - 1 || bytes > entry->size - begin)
+        if (k == slices - 1 || bytes > entry->size - begin)
             bytes = entry->size - begin;
         put_number(index, (uint32_t)bytes);
         put_number(index + 4, (uint32_t)crc32_z(0, entry->data + begin, bytes));
@@ -152,13 +152,13 @@ static void put_parts_right(unsigned char *index, size_t size, const RetexSet *s
     size_t at = 0;
     for (int i = 0; i < set->nparts; i++) {
         const int jpeg = parts[i].codec == RETEX_PACK_JPEG ? 1 + parts[i].nstrips : 0,
-                  chunks[2] = {jpeg, parts[i].nchunks - jpeg};
+                  slices[2] = {jpeg, parts[i].nslices - jpeg};
         for (int planes = 0; planes < 2; planes++) {
             retex_pack_file_name(name, sizeof name, set, i, planes);
-            if (size - at < (size_t)chunks[planes] * RETEX_PACK_INDEX_ENTRY_BYTES)
+            if (size - at < (size_t)slices[planes] * RETEX_PACK_INDEX_ENTRY_BYTES)
                 return;
-            put_right(index + at, find_entry(entries, count, name), chunks[planes]);
-            at += (size_t)chunks[planes] * RETEX_PACK_INDEX_ENTRY_BYTES;
+            put_right(index + at, find_entry(entries, count, name), slices[planes]);
+            at += (size_t)slices[planes] * RETEX_PACK_INDEX_ENTRY_BYTES;
         }
     }
 }

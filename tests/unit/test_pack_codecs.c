@@ -35,17 +35,17 @@ static void test_jpeg_keeps_levels(void **state)
             RetexError err = {0};
             test_must(retex_pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
             test_must(retex_pack_jpeg_decoder_create(&decoder, &err), &err);
-            assert_int_equal(jpeg.nchunks, 4);
-            size_t at = jpeg.chunk_bytes[0];
+            assert_int_equal(jpeg.nslices, 4);
+            size_t at = jpeg.slice_bytes[0];
             double sum = 0;
             for (int strip = 0; strip < 3; strip++) {
                 const int rows = strip < 2 ? 64 : height - 128;
-                const size_t piece = jpeg.chunk_bytes[1 + strip];
-                unsigned char *file = malloc(jpeg.chunk_bytes[0] + piece);
-                memcpy(file, jpeg.data, jpeg.chunk_bytes[0]);
-                memcpy(file + jpeg.chunk_bytes[0], jpeg.data + at, piece);
+                const size_t piece = jpeg.slice_bytes[1 + strip];
+                unsigned char *file = malloc(jpeg.slice_bytes[0] + piece);
+                memcpy(file, jpeg.data, jpeg.slice_bytes[0]);
+                memcpy(file + jpeg.slice_bytes[0], jpeg.data + at, piece);
                 at += piece;
-                test_must(retex_pack_jpeg_open_strip(decoder, file, jpeg.chunk_bytes[0], jpeg.chunk_bytes[0] + piece,
+                test_must(retex_pack_jpeg_open_strip(decoder, file, jpeg.slice_bytes[0], jpeg.slice_bytes[0] + piece,
                                                      width, rows, channels, &curve, &err),
                           &err);
                 free(file);

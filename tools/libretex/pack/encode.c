@@ -13,7 +13,7 @@
 #include "set/set.h"
 
 static const int EFFORT = 8;                      /* of blosc's zstd */
-static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a chunk that this codec cannot encode */
+static const uint32_t NOT_ENCODABLE = UINT32_MAX; /* 'bytes' of a slice that this codec cannot encode */
 
 static int no_memory(RetexError *err)
 {
@@ -62,7 +62,7 @@ static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, doubl
     return levels;
 }
 
-/* Encode a strip of the mask as a chunk: a plane of bytes, each with 8 pixels. */
+/* Encode a strip of the mask as a slice: a plane of bytes, each with 8 pixels. */
 static int encode_mask_strip(RetexPackItem *item, int strip, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
@@ -72,15 +72,15 @@ static int encode_mask_strip(RetexPackItem *item, int strip, RetexError *err)
         .width = width, .rows = rows, .bits = 8, .numbers = calloc((size_t)(width * rows), sizeof(int32_t))};
     const size_t bound = retex_pack_plane_bound(&plane);
     unsigned char *scratch = malloc(2 * bound);
-    item->chunks[k] = malloc(bound);
+    item->slices[k] = malloc(bound);
     long bytes = -1;
-    if (plane.numbers && scratch && item->chunks[k]) {
+    if (plane.numbers && scratch && item->slices[k]) {
         for (int y = 0; y < rows; y++)
             for (int x = 0; x < im->width; x++)
                 if (is_black(im->pixels + retex_image_index(im, x, strip * RETEX_PACK_STRIP_ROWS + y),
                              (size_t)im->channels))
                     plane.numbers[y * width + x / 8] |= 1 << (x % 8);
-        bytes = retex_pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
+        bytes = retex_pack_plane_encode(item->slices[k], &plane, scratch, EFFORT);
     }
     free(plane.numbers);
     free(scratch);
@@ -102,10 +102,10 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
     const RetexImage *im = &item->part->image;
     RetexPackPart *p = item->packed;
     p->masked = !is_picture && has_black(im);
-    int code = retex_pack_part_chunks(p, err);
-    item->chunks = calloc((size_t)p->nchunks + 1, sizeof *item->chunks);
+    int code = retex_pack_part_slices(p, err);
+    item->slices = calloc((size_t)p->nslices + 1, sizeof *item->slices);
     float *levels = levels_of(im, &p->curve, is_picture ? 255 : INFINITY);
-    if (!code && (!item->chunks || !levels))
+    if (!code && (!item->slices || !levels))
         code = no_memory(err);
     if (!code && p->masked)
         retex_pack_fill_black(levels, im);
@@ -114,9 +114,9 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
     free(levels);
     unsigned char *at = item->jpeg.data;
     for (int k = 0; !code && k < 1 + p->nstrips; k++) {
-        item->chunks[k] = at;
-        p->bytes[k] = (uint32_t)item->jpeg.chunk_bytes[k];
-        at += item->jpeg.chunk_bytes[k];
+        item->slices[k] = at;
+        p->bytes[k] = (uint32_t)item->jpeg.slice_bytes[k];
+        at += item->jpeg.slice_bytes[k];
     }
     for (int strip = 0; !code && p->masked && strip < p->nstrips; strip++)
         code = encode_mask_strip(item, strip, err);
@@ -200,7 +200,7 @@ static int encode_strip(const RetexPackEncoded *w, int part, int index)
         unsigned char *data = malloc(retex_pack_plane_bound(&plane));
         const long bytes = data ? retex_pack_plane_encode(data, &plane, strip.scratch, EFFORT) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
-        item->chunks[k] = fitted ? fitted : data;
+        item->slices[k] = fitted ? fitted : data;
         p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
         ok = bytes >= 0;
     }
@@ -235,7 +235,7 @@ static int encode_model_strip(const RetexPackEncoded *w, int part, int index)
         int code = p->codec == RETEX_PACK_COMBINED
                        ? retex_pack_combine_subtract(&model, w->set, index * RETEX_PACK_STRIP_ROWS, &finite, NULL)
                        : 0;
-        bytes = code ? -1 : retex_pack_model_encode(&item->chunks[index], &model);
+        bytes = code ? -1 : retex_pack_model_encode(&item->slices[index], &model);
     }
     retex_pack_model_free(&model);
     p->bytes[index] = !finite ? NOT_ENCODABLE : bytes > 0 ? (uint32_t)bytes : 0;
@@ -259,7 +259,7 @@ static int plan_combined(RetexPackEncoded *w, int nthreads, RetexError *err)
 static uint64_t bytes_of(const RetexPackPart *packed)
 {
     uint64_t bytes = 0;
-    for (int k = 0; k < packed->nchunks; k++)
+    for (int k = 0; k < packed->nslices; k++)
         bytes += packed->bytes[k];
     return bytes;
 }
@@ -272,11 +272,11 @@ static void choose_picture(RetexPackEncoded *w)
     if (w->nitems == w->set->nparts || bytes_of(items[0]->packed) < bytes_of(items[1]->packed))
         return;
     const RetexPackPart packed = *items[0]->packed;
-    unsigned char **chunks = items[0]->chunks;
+    unsigned char **slices = items[0]->slices;
     *items[0]->packed = *items[1]->packed;
-    items[0]->chunks = items[1]->chunks;
+    items[0]->slices = items[1]->slices;
     *items[1]->packed = packed;
-    items[1]->chunks = chunks;
+    items[1]->slices = slices;
 }
 
 /* --- all parts --- */
@@ -297,9 +297,9 @@ static void encode_whole(void *context, int index, int thread)
         item->code = encode_jpeg(item, index == 0, &item->err);
     if (item->code || !strips_to_encode(item->packed))
         return;
-    item->code = retex_pack_part_chunks(item->packed, &item->err);
-    item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
-    if (!item->code && !item->chunks)
+    item->code = retex_pack_part_slices(item->packed, &item->err);
+    item->slices = calloc((size_t)item->packed->nslices + 1, sizeof *item->slices);
+    if (!item->code && !item->slices)
         item->code = no_memory(&item->err);
 }
 
@@ -340,8 +340,8 @@ static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
             return no_memory(err);
     choose_picture(w);
     for (int i = 0; i < w->set->nparts; i++)
-        for (int k = 0; k < w->packed[i].nchunks; k++)
-            w->packed[i].crcs[k] = retex_crc32(CRC32_OF_NONE, w->items[i].chunks[k], w->packed[i].bytes[k]);
+        for (int k = 0; k < w->packed[i].nslices; k++)
+            w->packed[i].crcs[k] = retex_crc32(CRC32_OF_NONE, w->items[i].slices[k], w->packed[i].bytes[k]);
     return 0;
 }
 
@@ -368,9 +368,9 @@ void retex_pack_encoded_free(RetexPackEncoded *w)
 {
     for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
         const RetexPackPart *p = &w->packed[i];
-        for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0; w->items[i].chunks && k < p->nchunks; k++)
-            free(w->items[i].chunks[k]);
-        free(w->items[i].chunks);
+        for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0; w->items[i].slices && k < p->nslices; k++)
+            free(w->items[i].slices[k]);
+        free(w->items[i].slices);
         retex_pack_jpeg_free(&w->items[i].jpeg);
         retex_pack_part_free(&w->packed[i]);
     }

@@ -1,4 +1,4 @@
-/* Encodes all parts of a set as chunks of a pack. Private to libretex. */
+/* Encodes all parts of a set as slices of a pack. Private to libretex. */
 #ifndef RETEX_PACK_ENCODE_H
 #define RETEX_PACK_ENCODE_H
 
@@ -8,7 +8,7 @@
 typedef struct RetexPackItem {
     const RetexPart *part;
     RetexPackPart *packed;
-    unsigned char **chunks; /* malloc'ed each, except a JPEG's, which point into jpeg.data */
+    unsigned char **slices; /* malloc'ed each, except a JPEG's, which point into jpeg.data */
     RetexPackJpeg jpeg;
     uint32_t crc; /* of the part's samples */
     int code;

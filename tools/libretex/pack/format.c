@@ -26,14 +26,14 @@ void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part)
     packed->present = packed->sigma = -1;
 }
 
-int retex_pack_part_chunks(RetexPackPart *packed, RetexError *err)
+int retex_pack_part_slices(RetexPackPart *packed, RetexError *err)
 {
-    packed->nchunks = packed->codec == RETEX_PACK_ZERO     ? 0
+    packed->nslices = packed->codec == RETEX_PACK_ZERO     ? 0
                       : packed->codec == RETEX_PACK_PLANES ? packed->nstrips * packed->channels
                       : retex_pack_is_modelled(packed)     ? packed->nstrips
                                                            : 1 + packed->nstrips * (1 + packed->masked);
-    packed->bytes = calloc((size_t)packed->nchunks + 1, sizeof *packed->bytes);
-    packed->crcs = calloc((size_t)packed->nchunks + 1, sizeof *packed->crcs);
+    packed->bytes = calloc((size_t)packed->nslices + 1, sizeof *packed->bytes);
+    packed->crcs = calloc((size_t)packed->nslices + 1, sizeof *packed->crcs);
     return packed->bytes && packed->crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory for a pack's index");
 }
 
@@ -345,7 +345,7 @@ int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *man
     for (int i = 0; !code && i < set->nparts; i++)
         code = part_is_sound(i, set, packed, err);
     for (int i = 0; !code && i < set->nparts; i++)
-        code = retex_pack_part_chunks(&packed[i], err);
+        code = retex_pack_part_slices(&packed[i], err);
     json_decref(root);
     return code;
 }

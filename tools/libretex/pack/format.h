@@ -1,4 +1,4 @@
-/* The format of packs, shared by writer and readers: codecs, parts, chunks, manifest. retex-pack(5) describes it. */
+/* The format of packs, shared by writer and readers: codecs, parts, slices, manifest. retex-pack(5) describes it. */
 #ifndef RETEX_PACK_FORMAT_H
 #define RETEX_PACK_FORMAT_H
 
@@ -14,21 +14,21 @@
 #define RETEX_PACK_MANIFEST_MAX (64u << 20) /* bytes */
 enum {
     RETEX_PACK_CHANNELS_MAX = 8,
-    RETEX_PACK_INDEX_ENTRY_BYTES = 8 /* bytes: size and CRC-32 of a chunk, little-endian */
+    RETEX_PACK_INDEX_ENTRY_BYTES = 8 /* bytes: size and CRC-32 of a slice, little-endian */
 };
 
 typedef enum RetexPackCodec {
     RETEX_PACK_ZERO,     /* every sample is +0: no data */
-    RETEX_PACK_PLANES,   /* planes/NAME.blk: one chunk for each strip and channel */
-    RETEX_PACK_MODEL,    /* planes/NAME.blk: one chunk for each strip, lossless */
+    RETEX_PACK_PLANES,   /* planes/NAME.blk: one slice for each strip and channel */
+    RETEX_PACK_MODEL,    /* planes/NAME.blk: one slice for each strip, lossless */
     RETEX_PACK_COMBINED, /* part 0 minus the recombination of the set's terms, coded as RETEX_PACK_MODEL */
-    RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, one chunk for each strip; planes/NAME.blk: the mask's strips */
+    RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, one slice for each strip; planes/NAME.blk: the mask's strips */
     RETEX_PACK_CODECS
 } RetexPackCodec;
 
 extern const char *const retex_pack_codec_names[RETEX_PACK_CODECS];
 
-/* Codec, quantizer and chunks of a part. */
+/* Codec, quantizer and slices of a part. */
 typedef struct RetexPackPart {
     RetexPackCodec codec;
     int width, height, channels, nstrips;
@@ -40,15 +40,15 @@ typedef struct RetexPackPart {
     RetexPackCurve curve; /* JPEG */
     double jpeg_step;     /* when writing */
     int masked;           /* JPEG: 1 = there is a mask; a set bit means that the pixel is exactly black */
-    int nchunks;
-    uint64_t *offsets; /* of chunks in the file, when reading */
+    int nslices;
+    uint64_t *offsets; /* of slices in the file, when reading */
     uint32_t *bytes, *crcs;
 } RetexPackPart;
 
 /* Initialize with the sizes and the type of a part of the set. */
 void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part);
-/* Set nchunks by codec and size; allocate bytes and crcs. */
-int retex_pack_part_chunks(RetexPackPart *packed, RetexError *err);
+/* Set nslices by codec and size; allocate bytes and crcs. */
+int retex_pack_part_slices(RetexPackPart *packed, RetexError *err);
 void retex_pack_part_free(RetexPackPart *packed);
 
 int retex_pack_strip_rows(const RetexPackPart *packed, int strip); /* 64, or fewer in the last one */
@@ -58,9 +58,9 @@ int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octa
 int retex_pack_mean_shift(float sigma);
 /* Bytes of a mask's row. */
 int retex_pack_mask_width(const RetexPackPart *packed);
-/* 1: RETEX_PACK_MODEL or RETEX_PACK_COMBINED, one lossless chunk for each strip. */
+/* 1: RETEX_PACK_MODEL or RETEX_PACK_COMBINED, one lossless slice for each strip. */
 int retex_pack_is_modelled(const RetexPackPart *packed);
-/* The name of the ZIP entry with a part's chunks. planes: 0 = of its JPEG, 1 = of its planes. */
+/* The name of the ZIP entry with a part's slices. planes: 0 = of its JPEG, 1 = of its planes. */
 void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part, int planes);
 
 /* Fail with RETEX_EFORMAT: what is wrong, and with which part or entry of the file. */

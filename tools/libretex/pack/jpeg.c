@@ -100,7 +100,7 @@ static int fail_decoding(const JpegErrors *errors, RetexError *err)
 void retex_pack_jpeg_free(RetexPackJpeg *jpeg)
 {
     free(jpeg->data);
-    free(jpeg->chunk_bytes);
+    free(jpeg->slice_bytes);
     memset(jpeg, 0, sizeof *jpeg);
 }
 
@@ -172,23 +172,23 @@ static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_pt
         }
 }
 
-static int find_chunks(RetexPackJpeg *jpeg, int strips)
+static int find_slices(RetexPackJpeg *jpeg, int strips)
 {
     const unsigned char *p = jpeg->data;
-    jpeg->chunk_bytes = calloc((size_t)strips + 1, sizeof *jpeg->chunk_bytes);
-    if (!jpeg->chunk_bytes)
+    jpeg->slice_bytes = calloc((size_t)strips + 1, sizeof *jpeg->slice_bytes);
+    if (!jpeg->slice_bytes)
         return 0;
     size_t at = 2, begin = 0;
     while (at + 4 <= jpeg->bytes && p[at + 1] != 0xda) /* SOS */
         at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
     at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
-    jpeg->chunk_bytes[jpeg->nchunks++] = at;
-    for (begin = at; at + 1 < jpeg->bytes && jpeg->nchunks <= strips; at++)
+    jpeg->slice_bytes[jpeg->nslices++] = at;
+    for (begin = at; at + 1 < jpeg->bytes && jpeg->nslices <= strips; at++)
         if (p[at] == 0xff && p[at + 1] != 0) {
-            jpeg->chunk_bytes[jpeg->nchunks++] = at + 2 - begin;
+            jpeg->slice_bytes[jpeg->nslices++] = at + 2 - begin;
             begin = at + 2;
         }
-    return begin == jpeg->bytes && jpeg->nchunks == strips + 1;
+    return begin == jpeg->bytes && jpeg->nslices == strips + 1;
 }
 
 static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, float *plane, int width, int height,
@@ -245,7 +245,7 @@ int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width
     free(plane);
     result->data = data;
     result->bytes = bytes;
-    if (find_chunks(result, (height + RETEX_PACK_STRIP_ROWS - 1) / RETEX_PACK_STRIP_ROWS))
+    if (find_slices(result, (height + RETEX_PACK_STRIP_ROWS - 1) / RETEX_PACK_STRIP_ROWS))
         return 0;
     retex_pack_jpeg_free(result);
     return retex_fail(err, RETEX_EINTERNAL, "cannot take a JPEG apart");
@@ -291,7 +291,7 @@ void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder)
     *decoder = NULL;
 }
 
-/* Turn header and chunk into a JPEG file of one strip: set its height, and replace the final restart marker by EOI. The
+/* Turn header and slice into a JPEG file of one strip: set its height, and replace the final restart marker by EOI. The
  * restart interval is set to 0 if the strip has no restart inside, because libjpeg then decodes faster. */
 static int patch(unsigned char *file, size_t header, size_t bytes, int width, int rows)
 {

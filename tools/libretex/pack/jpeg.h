@@ -1,5 +1,5 @@
 /* Radiance as JPEG, strip by strip. An image is one baseline JPEG file, 4:4:4 or grey. Its restart interval is the rows
- * of one strip, so each strip's chunk, put after the file's header, can be decoded alone.
+ * of one strip, so each strip's slice, put after the file's header, can be decoded alone.
  *
  * libretex has its own DCT, in floating point, for encoding and decoding. So decoded values are not rounded to 8 bits,
  * and values above white are kept; other viewers round and clip them. Private to libretex; described in
@@ -32,13 +32,13 @@ typedef struct RetexPackCurve {
 double retex_pack_curve_level(const RetexPackCurve *curve, double value);
 double retex_pack_curve_value(const RetexPackCurve *curve, double level);
 
-/* A JPEG file and the sizes of its chunks: chunk_bytes[0] is the header, the others are the strips, each with the
+/* A JPEG file and the sizes of its slices: slice_bytes[0] is the header, the others are the strips, each with the
  * marker that ends it. */
 typedef struct RetexPackJpeg {
     unsigned char *data; /* malloc'ed */
     size_t bytes;
-    int nchunks;
-    size_t *chunk_bytes; /* malloc'ed */
+    int nslices;
+    size_t *slice_bytes; /* malloc'ed */
 } RetexPackJpeg;
 
 void retex_pack_jpeg_free(RetexPackJpeg *jpeg);
@@ -53,7 +53,7 @@ typedef struct RetexPackJpegDecoder RetexPackJpegDecoder;
 int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **decoder, RetexError *err);
 void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
 
-/* Open one strip, in place of the one that was open. file: the header followed by the strip's chunk; it is modified,
+/* Open one strip, in place of the one that was open. file: the header followed by the strip's slice; it is modified,
  * and may be freed after the call. RETEX_EFORMAT if libjpeg gives an error or warning, or if the size differs. */
 int retex_pack_jpeg_open_strip(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
                                int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err);

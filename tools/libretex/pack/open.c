@@ -55,8 +55,8 @@ static uint32_t little(const unsigned char *at)
     return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-/* Places of chunks first..first+count of a part, which are one entry of the zip. *used counts entries. */
-static int place_chunks(RetexPack *pack, int part, int planes, int first, int count, int *used, RetexError *err)
+/* Places of slices first..first+count of a part, which are one entry of the zip. *used counts entries. */
+static int place_slices(RetexPack *pack, int part, int planes, int first, int count, int *used, RetexError *err)
 {
     RetexPackPart *p = &pack->parts[part];
     char name[RETEX_PACK_NAME_MAX];
@@ -81,24 +81,24 @@ static int read_index(RetexPack *pack, RetexError *err)
     unsigned char *index;
     size_t bytes, expected = 0, at = 0;
     for (int i = 0; i < pack->nparts; i++)
-        expected += (size_t)pack->parts[i].nchunks * RETEX_PACK_INDEX_ENTRY_BYTES;
+        expected += (size_t)pack->parts[i].nslices * RETEX_PACK_INDEX_ENTRY_BYTES;
     int code = read_entry(pack, RETEX_PACK_INDEX_NAME, expected, &index, &bytes, err), used = 2;
     if (!code && bytes != expected)
         code = retex_pack_damaged(err, "the size is wrong of", RETEX_PACK_INDEX_NAME);
     for (int i = 0; !code && i < pack->nparts; i++) {
         RetexPackPart *p = &pack->parts[i];
-        p->offsets = calloc((size_t)p->nchunks + 1, sizeof *p->offsets);
+        p->offsets = calloc((size_t)p->nslices + 1, sizeof *p->offsets);
         if (!p->offsets)
             code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-        for (int k = 0; !code && k < p->nchunks; k++, at += RETEX_PACK_INDEX_ENTRY_BYTES) {
+        for (int k = 0; !code && k < p->nslices; k++, at += RETEX_PACK_INDEX_ENTRY_BYTES) {
             p->bytes[k] = little(index + at);
             p->crcs[k] = little(index + at + 4);
         }
         const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0;
         if (!code && jpeg)
-            code = place_chunks(pack, i, 0, 0, jpeg, &used, err);
-        if (!code && p->nchunks > jpeg)
-            code = place_chunks(pack, i, 1, jpeg, p->nchunks - jpeg, &used, err);
+            code = place_slices(pack, i, 0, 0, jpeg, &used, err);
+        if (!code && p->nslices > jpeg)
+            code = place_slices(pack, i, 1, jpeg, p->nslices - jpeg, &used, err);
     }
     free(index);
     if (!code && pack->parts[0].codec != RETEX_PACK_JPEG) /* a lossless pack's picture is for viewers only */
@@ -108,18 +108,18 @@ static int read_index(RetexPack *pack, RetexError *err)
     return code;
 }
 
-/* What the parts will need in memory, and what could be behind that at most: a chunk of a few bytes holds a strip. */
+/* What the parts will need in memory, and what could be behind that at most: a slice of a few bytes holds a strip. */
 static int check_sizes(const RetexPack *pack, RetexError *err)
 {
-    uint64_t memory = 0, chunks = 0;
+    uint64_t memory = 0, slices = 0;
     for (int i = 0; i < pack->nparts; i++) {
         const RetexPackPart *p = &pack->parts[i];
         memory += (uint64_t)p->width * (uint64_t)p->height * (uint64_t)p->channels * sizeof(float);
-        chunks += (uint64_t)p->nchunks;
+        slices += (uint64_t)p->nslices;
     }
     if (memory > RETEX_EXR_MEMORY_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the pack's images are too large");
-    if (chunks * RETEX_PACK_INDEX_ENTRY_BYTES > retex_input_size(pack->input))
+    if (slices * RETEX_PACK_INDEX_ENTRY_BYTES > retex_input_size(pack->input))
         return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it is too small for what it should hold");
     return 0;
 }
@@ -247,7 +247,7 @@ int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err)
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part)
 {
     uint64_t bytes = 0;
-    for (int i = 0; i < pack->parts[part].nchunks; i++)
+    for (int i = 0; i < pack->parts[part].nslices; i++)
         bytes += pack->parts[part].bytes[i];
     return bytes;
 }

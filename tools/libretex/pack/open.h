@@ -1,4 +1,4 @@
-/* An open pack, inside: its entries and where its chunks are. Private to what opens and decodes packs. */
+/* An open pack, inside: its entries and where its slices are. Private to what opens and decodes packs. */
 #ifndef RETEX_PACK_OPEN_H
 #define RETEX_PACK_OPEN_H
 

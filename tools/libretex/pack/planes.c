@@ -1,6 +1,6 @@
 /* Planes of integers: prediction, then compression by blosc. See planes.h.
  *
- * A chunk begins with a byte: the predictor in the low 4 bits, the bytes of a residual in the high 4 bits. Then follow
+ * A slice begins with a byte: the predictor in the low 4 bits, the bytes of a residual in the high 4 bits. Then follow
  * the residuals of the present pixels, compressed by blosc. */
 #include "pack/planes.h"
 
@@ -94,7 +94,7 @@ static int residual_bytes(uint32_t largest)
     return largest < 256 ? 1 : largest < 65536 ? 2 : 4;
 }
 
-/* Write a chunk: header byte and compressed residuals. Returns its bytes, or -1. */
+/* Write a slice: header byte and compressed residuals. Returns its bytes, or -1. */
 static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor,
                                uint32_t largest, unsigned char *scratch, int effort)
 {

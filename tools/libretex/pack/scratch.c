@@ -20,19 +20,19 @@ int retex_pack_scratch_reserve(RetexPackScratch *s, const RetexPackPart *p, Rete
     return s->pixels ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
 }
 
-int retex_pack_read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
+int retex_pack_read_slice(int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
     const size_t bytes = p->bytes[k];
-    if (before + bytes > s->chunk_capacity) {
-        unsigned char *chunk = realloc(s->chunk, before + bytes + 4096);
-        if (!chunk)
+    if (before + bytes > s->slice_capacity) {
+        unsigned char *slice = realloc(s->slice, before + bytes + 4096);
+        if (!slice)
             return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-        s->chunk = chunk;
-        s->chunk_capacity = before + bytes + 4096;
+        s->slice = slice;
+        s->slice_capacity = before + bytes + 4096;
     }
-    if (bytes && (retex_input_read(s->pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
-                  retex_crc32(CRC32_OF_NONE, s->chunk + before, bytes) != p->crcs[k]))
+    if (bytes && (retex_input_read(s->pack->input, s->slice + before, bytes, p->offsets[k]) != (int64_t)bytes ||
+                  retex_crc32(CRC32_OF_NONE, s->slice + before, bytes) != p->crcs[k]))
         return retex_input_check(
             s->pack->input, retex_pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name),
             err);

@@ -1,4 +1,4 @@
-/* What a thread decodes a pack with: memory, the chunk that was read last, the strips that were decoded. Private to
+/* What a thread decodes a pack with: memory, the slice that was read last, the strips that were decoded. Private to
  * libretex. */
 #ifndef RETEX_PACK_SCRATCH_H
 #define RETEX_PACK_SCRATCH_H
@@ -33,8 +33,8 @@ typedef struct RetexPackCachedStrip {
 
 struct RetexPackScratch {
     const RetexPack *pack;
-    unsigned char *chunk; /* as read */
-    size_t chunk_capacity;
+    unsigned char *slice; /* as read */
+    size_t slice_capacity;
     unsigned char *residuals, *shift;
     size_t pixels; /* of a strip, that there is room for in these two */
     int nparts;
@@ -43,8 +43,8 @@ struct RetexPackScratch {
 
 /* Room for the residuals and shifts of a strip of this part. */
 int retex_pack_scratch_reserve(RetexPackScratch *s, const RetexPackPart *p, RetexError *err);
-/* Chunk k of a part, behind `before` bytes that are there, its checksum compared. */
-int retex_pack_read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexError *err);
+/* Slice k of a part, behind `before` bytes that are there, its checksum compared. */
+int retex_pack_read_slice(int part, int k, size_t before, RetexPackScratch *s, RetexError *err);
 /* 1 unless all of so many bytes are 0. */
 int retex_pack_any_nonzero(const void *data, size_t bytes);
 

@@ -101,8 +101,8 @@ static int reserve_numbers(int part, int strip, int c, RetexPackScratch *s, Rete
         plane.shift = s->shift;
     }
     if (!code)
-        code = retex_pack_read_chunk(part, k, 0, s, err);
-    if (!code && !retex_pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
+        code = retex_pack_read_slice(part, k, 0, s, err);
+    if (!code && !retex_pack_plane_decode(&plane, s->slice, p->bytes[k], s->residuals))
         code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
     own->strip[c] = code ? -1 : strip;
     return code;

@@ -1,4 +1,4 @@
-/* Decoding packs strip by strip. Every chunk must have its checksum, and no memory is taken that its bytes could not
+/* Decoding packs strip by strip. Every slice must have its checksum, and no memory is taken that its bytes could not
  * fill. */
 #include "pack/scratch.h"
 
@@ -42,7 +42,7 @@ void retex_pack_scratch_close(RetexPackScratch **result)
         retex_pack_jpeg_decoder_close(&s->cached[i].jpeg);
     }
     free(s->cached);
-    free(s->chunk);
+    free(s->slice);
     free(s->residuals);
     free(s->shift);
     free(s);
@@ -90,8 +90,8 @@ static int decode_model(int part, int strip, float *out, RetexPackScratch *s, Re
     if (!code && p->sigma >= 0)
         code = fill_mean_shifts(part, strip, &model, s, err);
     if (!code)
-        code = retex_pack_read_chunk(part, strip, 0, s, err);
-    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->chunk, p->bytes[strip]);
+        code = retex_pack_read_slice(part, strip, 0, s, err);
+    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->slice, p->bytes[strip]);
     if (decoded < 0)
         code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     else if (!decoded)
@@ -113,10 +113,10 @@ static int decode_mask(int part, int strip, RetexPackCachedStrip *cached, RetexP
     const RetexPackPart *p = &s->pack->parts[part];
     const int k = 1 + p->nstrips + strip, rows = retex_pack_strip_rows(p, strip), width = retex_pack_mask_width(p);
     int code = cached->mask || (cached->mask = malloc((size_t)width * RETEX_PACK_STRIP_ROWS))
-                   ? retex_pack_read_chunk(part, k, 0, s, err)
+                   ? retex_pack_read_slice(part, k, 0, s, err)
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     const RetexPackPlane plane = {.width = width, .rows = rows, .bits = 8, .codes = cached->mask};
-    if (!code && !retex_pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
+    if (!code && !retex_pack_plane_decode(&plane, s->slice, p->bytes[k], s->residuals))
         code = retex_pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
     int every = 255; /* bits that all pixels have */
@@ -163,12 +163,12 @@ static int open_jpeg(int part, int strip, RetexPackCachedStrip *cached, RetexPac
         code = decode_mask(part, strip, cached, s, err);
     if (code || cached->is_black) /* what the JPEG has here means nothing */
         return code;
-    code = retex_pack_read_chunk(part, 0, 0, s, err);
+    code = retex_pack_read_slice(part, 0, 0, s, err);
     if (!code)
-        code = retex_pack_read_chunk(part, 1 + strip, p->bytes[0], s, err);
+        code = retex_pack_read_slice(part, 1 + strip, p->bytes[0], s, err);
     if (code)
         return code;
-    code = retex_pack_jpeg_open_strip(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + strip],
+    code = retex_pack_jpeg_open_strip(cached->jpeg, s->slice, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + strip],
                                       p->width, retex_pack_strip_rows(p, strip), p->channels, &p->curve, &why);
     return code ? jpeg_damaged(err, code, &why, s, part) : 0;
 }

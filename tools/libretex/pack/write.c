@@ -58,17 +58,17 @@ static unsigned char *make_index(const RetexPackEncoded *w, size_t *bytes)
 {
     *bytes = 0;
     for (int i = 0; i < w->set->nparts; i++)
-        *bytes += (size_t)w->packed[i].nchunks * RETEX_PACK_INDEX_ENTRY_BYTES;
+        *bytes += (size_t)w->packed[i].nslices * RETEX_PACK_INDEX_ENTRY_BYTES;
     unsigned char *index = malloc(*bytes + 1), *at = index;
     for (int i = 0; index && i < w->set->nparts; i++)
-        for (int k = 0; k < w->packed[i].nchunks; k++)
+        for (int k = 0; k < w->packed[i].nslices; k++)
             for (int b = 0; b < RETEX_PACK_INDEX_ENTRY_BYTES; b++)
                 *at++ = (unsigned char)((b < 4 ? w->packed[i].bytes[k] : w->packed[i].crcs[k]) >> 8 * (b % 4) & 255);
     return index;
 }
 
-/* Chunks first to first + count as one file of the zip; none where they are empty. */
-static int write_chunks(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, int part, int planes,
+/* Slices first to first + count as one file of the zip; none where they are empty. */
+static int write_slices(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, int part, int planes,
                         int first, int count, uint64_t *written, RetexError *err)
 {
     const RetexPackPart *p = &w->packed[part];
@@ -79,7 +79,7 @@ static int write_chunks(RetexOutput *output, RetexZipList *list, const RetexPack
         total += bytes[k] = p->bytes[first + k];
     retex_pack_file_name(name, sizeof name, w->set, part, planes);
     if (!code && total)
-        code = retex_zip_entry_write(output, list, name, (const void *const *)w->items[part].chunks + first, bytes,
+        code = retex_zip_entry_write(output, list, name, (const void *const *)w->items[part].slices + first, bytes,
                                      count, written, err);
     free(bytes);
     return code;
@@ -106,8 +106,8 @@ static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPac
         for (int i = 0; !code && i < w->set->nparts; i++) {
             const RetexPackPart *p = &w->packed[i];
             const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nstrips : 0;
-            if (planes ? p->nchunks > jpeg : jpeg)
-                code = write_chunks(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nchunks - jpeg : jpeg,
+            if (planes ? p->nslices > jpeg : jpeg)
+                code = write_slices(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nslices - jpeg : jpeg,
                                     written, err);
         }
     return code ? code : retex_zip_directory_write(output, list, written, err);

@@ -90,7 +90,7 @@ static int write_counted(RetexOutput *output, const void *data, size_t bytes, ui
     return retex_output_write(output, data, bytes, err);
 }
 
-int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *chunks,
+int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *slices,
                           const size_t *bytes, int count, uint64_t *written, RetexError *err)
 {
     unsigned char header[LOCAL_BYTES + RETEX_PACK_NAME_MAX + 20], *at = header;
@@ -100,7 +100,7 @@ int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *n
     snprintf(entry->name, sizeof entry->name, "%s", name);
     entry->crc = CRC32_OF_NONE;
     for (int i = 0; i < count; i++) {
-        entry->crc = retex_crc32(entry->crc, chunks[i], bytes[i]);
+        entry->crc = retex_crc32(entry->crc, slices[i], bytes[i]);
         entry->bytes += bytes[i];
     }
     const int wide = entry->bytes >= MOST_32;
@@ -117,7 +117,7 @@ int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *n
     entry->offset = *written + (uint64_t)(at - header);
     int code = write_counted(output, header, (size_t)(at - header), written, err);
     for (int i = 0; !code && i < count; i++)
-        code = write_counted(output, chunks[i], bytes[i], written, err);
+        code = write_counted(output, slices[i], bytes[i], written, err);
     return code;
 }
 

@@ -28,8 +28,8 @@ const RetexZipEntry *retex_zip_list_find(const RetexZipList *list, const char *n
  * are compressed or encrypted, have a NUL in their name, or share a name. */
 int retex_zip_list_read(RetexZipList *list, const RetexInput *input, RetexError *err);
 
-/* Append an entry, made of `count` chunks. After the last entry, write the directory once. *written: bytes so far. */
-int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *chunks,
+/* Append an entry, made of `count` slices. After the last entry, write the directory once. *written: bytes so far. */
+int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *slices,
                           const size_t *bytes, int count, uint64_t *written, RetexError *err);
 int retex_zip_directory_write(RetexOutput *output, const RetexZipList *list, uint64_t *written, RetexError *err);
 

@@ -137,7 +137,7 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     if (code || !from.uv || retex_span_is_empty(from.span))
         return code;
     refill(buffer, from.span);
-    const RetexFootprintRow within = retex_footprint_row_slice(&from, from.span);
+    const RetexFootprintRow within = retex_footprint_row_cut(&from, from.span);
     retex_sample_row(texture, retex_footprint_filter(set, f), &within, buffer->values + 3 * (size_t)from.span.begin);
     *row = buffer->values;
     *span = from.span;

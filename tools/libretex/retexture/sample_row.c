@@ -35,7 +35,7 @@ int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, con
     return code;
 }
 
-RetexFootprintRow retex_footprint_row_slice(const RetexFootprintRow *row, RetexRowSpan span)
+RetexFootprintRow retex_footprint_row_cut(const RetexFootprintRow *row, RetexRowSpan span)
 {
     const size_t begin = (size_t)span.begin;
     return (RetexFootprintRow){.uv = row->uv + 3 * begin,

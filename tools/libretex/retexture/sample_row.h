@@ -25,7 +25,7 @@ int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, con
                              const RetexFootprint *footprint, int y, int with_albedo, RetexError *err);
 
 /* A part of the row. */
-RetexFootprintRow retex_footprint_row_slice(const RetexFootprintRow *row, RetexRowSpan span);
+RetexFootprintRow retex_footprint_row_cut(const RetexFootprintRow *row, RetexRowSpan span);
 
 /* Filter the texture at each pixel's footprint; the original albedo shows where the texture is transparent. rgb is
  * interleaved; black where there is no footprint. */

@@ -15,7 +15,7 @@
 #define LEAST_VARIANCE 0.2
 /* The eigenvalue that should remain if the cost allows it, because the level's texels blur the ellipse's rim. */
 #define GOOD_VARIANCE 3.4
-#define TAP_BUDGET 350 /* with more texels a coarser level is used if LEAST_VARIANCE remains there */
+#define MAX_TEXELS 350 /* with more texels a coarser level is used if LEAST_VARIANCE remains there */
 /* With this variance a coarser level's texels need no interpolation, and without it the rim is sharper. */
 #define BOX_LEAST 1.0
 #define BOX_VARIANCE (1.0 / 12)
@@ -143,7 +143,7 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
         find_flat(texture, &texture->levels[level], flat);
         RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
         Ellipse e = find_ellipse(&rest, flat, &turned);
-        if (taps_of(&e) <= TAP_BUDGET || !level_variance_left(texture, level + 1, f, position, LEAST_VARIANCE))
+        if (taps_of(&e) <= MAX_TEXELS || !level_variance_left(texture, level + 1, f, position, LEAST_VARIANCE))
             break;
     }
     *box = level > 0 && level_variance_left(texture, level, f, position, BOX_LEAST);

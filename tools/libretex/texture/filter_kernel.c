@@ -22,7 +22,7 @@ typedef int Int4 __attribute__((vector_size(16)));
 #define WINDOW_REACH 3.25f
 #define WINDOW_EDGE 0.00508606923f /* exp(-3.25^2 / 2) */
 #define WINDOW_VARIANCE 0.952889f  /* of the lowered window, relative to the Gaussian it was made of */
-#define TAP_BUDGET 1150            /* texels of a look-up; longer footprints skip texels along their length */
+#define MAX_TEXELS 1150            /* texels of a look-up; longer footprints skip texels along their length */
 #define MAX_TAPS 512               /* along one axis */
 
 /* For a footprint smaller than a texel on an axis with transparent outside: the border is sharp there, as in the point
@@ -184,13 +184,13 @@ static inline void make_window(Window *restrict window, const float *restrict ta
         gaussian_window(window, shape, centre);
 }
 
-/* Limits the look-up to its budget by skipping texels along the longer axis. */
+/* Limits the look-up to MAX_TEXELS by skipping texels along the longer axis. */
 static inline void limit_taps(Shape *x, Shape *y, const RetexTextureLevel *level, const RetexTexture *texture)
 {
     float taps = (2 * x->reach + 1) * (2 * y->reach + 1);
-    if (taps <= TAP_BUDGET)
+    if (taps <= MAX_TEXELS)
         return;
-    int step = whole_above(taps / TAP_BUDGET);
+    int step = whole_above(taps / MAX_TEXELS);
     if (x->reach > y->reach)
         x->step = coprime_step(step, level->width, texture->spec.wrap[0]);
     else
