@@ -125,7 +125,7 @@ static void close_batch(Batch *batch)
         free(batch->rows[row].error);
     free(batch->rows);
     free(batch->error);
-    batch_manifest_close(&batch->manifest);
+    batch_journal_close(&batch->journal);
     batch_sources_close(&batch->sources);
     texture_table_close(&batch->table);
     batch->rows = NULL;

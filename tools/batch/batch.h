@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <retex/image_file.h>
 
-#include "batch/manifest.h"
+#include "batch/journal.h"
 #include "batch/sources.h"
 #include "batch/texture_table.h"
 
@@ -21,7 +21,7 @@
         "report", 0, "FILE.json", "write the result of each picture; - is standard output", 0                          \
     }
 
-/* The options of large batches, which share their work among processes and compare pictures with a manifest. */
+/* The options of large batches, which share their work among processes and compare pictures with a journal. */
 #define BATCH_CATALOGUE_OPTIONS                                                                                        \
     {"rows", 0, "A-B", "with --batch: only the rows A to B of the table", 0},                                          \
         {"shard", 0, "I/N", "with --batch: only the Ith of N parts of these rows", 0},                                 \
@@ -58,7 +58,7 @@ typedef enum BatchStatus { BATCH_NOT_MADE, BATCH_MADE, BATCH_FAILED, BATCH_KEPT 
 
 typedef struct BatchRow {
     BatchStatus status;
-    PictureState state; /* with a manifest: before the batch */
+    PictureState state; /* with a journal: before the batch */
     double seconds;
     char *error; /* the reason if it failed, or NULL */
 } BatchRow;
@@ -67,7 +67,7 @@ typedef struct Batch {
     /* the command line */
     const char *root, *report;
     int dry_run, keep_going, make_folders;
-    const char *manifest_path;
+    const char *journal_path;
     int resume, verify, plan;
     int rows_asked[2], shard[2]; /* 0, 0 = all */
     /* set by the functions below */
@@ -78,7 +78,7 @@ typedef struct Batch {
     int first, end; /* the rows of this process, from 0; end: after the last */
     int made, failed, kept;
     int states[PICTURE_STATES]; /* number of pictures */
-    BatchManifest manifest;
+    BatchJournal journal;
     BatchSources sources; /* set by the tool, except for the sums */
     double began;
     char root_path[PATH_MAX]; /* root with links resolved; "" = no root */
@@ -141,10 +141,10 @@ void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_t
 void batch_select(Batch *batch);
 /* --verify without --resume: nothing is made. */
 int batch_only_verifies(const Batch *batch);
-/* After a successful check: claim the rows of this process in the manifest, and find the state of each picture.
+/* After a successful check: claim the rows of this process in the journal, and find the state of each picture.
  * --verify prints those that are not good. */
 int batch_prepare(Batch *batch, RetexError *err);
-/* Append a picture that was made to the manifest, if there is one. */
+/* Append a picture that was made to the journal, if there is one. */
 int batch_record(Batch *batch, int row, double seconds, RetexError *err);
 /* Print how many pictures are good; return the exit status. */
 int batch_print_verdict(const Batch *batch);

@@ -1,5 +1,5 @@
 /* Large batches: a part of the table for each of several processes, pictures that are there already, and the comparison
- * of all pictures with the manifest. See batch.h. */
+ * of all pictures with the journal. See batch.h. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void take_pair(const Cli *cli, const CliOption *option, const char *forma
 int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option)
 {
     if (strcmp(option->name, "manifest") == 0)
-        batch->manifest_path = cli->value;
+        batch->journal_path = cli->value;
     else if (strcmp(option->name, "resume") == 0)
         batch->resume = 1;
     else if (strcmp(option->name, "verify") == 0)
@@ -44,7 +44,7 @@ int batch_catalogue_option(Batch *batch, const Cli *cli, const CliOption *option
 
 void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_table, int sources_are_piped)
 {
-    const char *given = batch->manifest_path   ? "manifest"
+    const char *given = batch->journal_path    ? "manifest"
                         : batch->resume        ? "resume"
                         : batch->verify        ? "verify"
                         : batch->plan          ? "plan"
@@ -53,9 +53,9 @@ void batch_check_catalogue_options(const Batch *batch, const Cli *cli, int has_t
                                                : NULL;
     if (given && !has_table)
         cli_die(cli, "--%s needs a table of pictures: --batch", given);
-    if (batch->manifest_path && sources_are_piped)
+    if (batch->journal_path && sources_are_piped)
         cli_die(cli, "--manifest needs the set and the samples in files, not in standard input");
-    if ((batch->resume || batch->verify) && !batch->manifest_path)
+    if ((batch->resume || batch->verify) && !batch->journal_path)
         cli_die(cli, "--%s needs the pictures' checksums: --manifest", batch->resume ? "resume" : "verify");
     if (batch->plan + batch->dry_run + (batch->verify && !batch->resume) > 1)
         cli_die(cli, "--plan, --dry-run and --verify without --resume exclude each other");
@@ -98,7 +98,7 @@ static int find_state(Batch *batch, int row, char *reason, size_t size, RetexErr
     if (!code)
         code = batch_path(batch, row, path, err);
     if (!code)
-        batch->rows[row].state = batch_manifest_state(&batch->manifest, sources, path, batch->verify, reason, size);
+        batch->rows[row].state = batch_journal_state(&batch->journal, sources, path, batch->verify, reason, size);
     free(sources);
     if (!code || code == RETEX_ENOMEM || !batch_only_verifies(batch))
         return code;
@@ -121,11 +121,11 @@ static uint32_t sum_outputs(const Batch *batch)
 static int find_states(Batch *batch, RetexError *err)
 {
     const int makes = !batch->plan && !batch->dry_run && !batch_only_verifies(batch);
-    int code = RETEX_OK, exists = makes || batch_only_verifies(batch) || access(batch->manifest_path, F_OK) == 0;
+    int code = RETEX_OK, exists = makes || batch_only_verifies(batch) || access(batch->journal_path, F_OK) == 0;
     if (exists)
-        code = batch_manifest_open(&batch->manifest, batch->manifest_path, makes, err);
+        code = batch_journal_open(&batch->journal, batch->journal_path, makes, err);
     if (!code && makes)
-        code = batch_manifest_claim(&batch->manifest, sum_outputs(batch), batch->first, batch->end - batch->first, err);
+        code = batch_journal_claim(&batch->journal, sum_outputs(batch), batch->first, batch->end - batch->first, err);
     for (int row = batch->first; row < batch->end && !code; row++) {
         char reason[512], output[PATH_MAX];
         if (batch->table.rows[row].wrong)
@@ -153,7 +153,7 @@ int batch_only_verifies(const Batch *batch)
 
 int batch_prepare(Batch *batch, RetexError *err)
 {
-    return batch->manifest_path ? find_states(batch, err) : RETEX_OK;
+    return batch->journal_path ? find_states(batch, err) : RETEX_OK;
 }
 
 int batch_is_wanted(const Batch *batch, int row)
@@ -165,13 +165,13 @@ int batch_is_wanted(const Batch *batch, int row)
 int batch_record(Batch *batch, int row, double seconds, RetexError *err)
 {
     char path[PATH_MAX], *sources = NULL;
-    if (!batch->manifest_path)
+    if (!batch->journal_path)
         return RETEX_OK;
     int code = sources_of(batch, row, &sources, err);
     if (!code)
         code = batch_path(batch, row, path, err);
     if (!code)
-        code = batch_manifest_add(&batch->manifest, sources, path, seconds, err);
+        code = batch_journal_add(&batch->journal, sources, path, seconds, err);
     free(sources);
     return code;
 }

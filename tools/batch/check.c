@@ -250,7 +250,7 @@ void batch_check(Batch *batch, const RetexWriteParams *params)
     if (!batch_only_verifies(batch)) {
         check_images(batch);
         check_rows(batch, params);
-        cli_writes(batch->cli, "--manifest", batch->manifest_path);
+        cli_writes(batch->cli, "--manifest", batch->journal_path);
     }
     if (batch->dry_run || batch->plan || batch_only_verifies(batch))
         cli_writes(batch->cli, batch->dry_run ? "--dry-run" : batch->plan ? "--plan" : "--verify", "-");

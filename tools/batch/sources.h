@@ -1,4 +1,4 @@
-/* What a picture of a batch is made from, as text: the beginning of its line in a manifest. */
+/* What a picture of a batch is made from, as text: the beginning of its line in a journal. */
 #ifndef RETEX_BATCH_SOURCES_H
 #define RETEX_BATCH_SOURCES_H
 

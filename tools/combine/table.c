@@ -100,7 +100,7 @@ static int make_row(void *context, int number, size_t *trial, RetexError *err)
     return code ? code : job_make_picture(table->cli, job, &row, path, began, err);
 }
 
-/* The options that change pictures, in words, for the manifest. */
+/* The options that change pictures, in words, for the journal. */
 static const char *describe_options(const Job *job, char *text, size_t size)
 {
     const RetexWriteParams *write = &job->write;

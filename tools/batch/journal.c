@@ -1,4 +1,4 @@
-/* See manifest.h. The keys of a line are output, version, set, samples, options, textures, bytes, crc32 and
+/* See journal.h. The keys of a line are output, version, set, samples, options, textures, bytes, crc32 and
  * seconds, in this order. Its beginning up to "version" is the key, that up to "bytes" the sources. No string can
  * contain `, "` as these separators do, because quotes in strings have a backslash. */
 #include <errno.h>
@@ -11,9 +11,9 @@
 
 #include <retex/file_sum.h>
 
-#include "batch/manifest.h"
+#include "batch/journal.h"
 
-enum { MANIFEST_BYTES_MAX = 1 << 30 };
+enum { JOURNAL_BYTES_MAX = 1 << 30 };
 #define BYTES_KEY ", \"bytes\": "
 
 const char *const picture_state_names[PICTURE_STATES] = {"good", "missing", "unknown", "stale", "damaged"};
@@ -22,125 +22,125 @@ const char *const picture_state_names[PICTURE_STATES] = {"good", "missing", "unk
 
 static int compare_lines(const void *a, const void *b)
 {
-    const ManifestLine *x = a, *y = b;
+    const JournalLine *x = a, *y = b;
     const int order = memcmp(x->text, y->text, x->key < y->key ? x->key : y->key);
     return order ? order : x->key != y->key ? (x->key < y->key ? -1 : 1) : (x->text > y->text) - (x->text < y->text);
 }
 
-static int has_same_key(const ManifestLine *a, const ManifestLine *b)
+static int has_same_key(const JournalLine *a, const JournalLine *b)
 {
     return a->key == b->key && memcmp(a->text, b->text, a->key) == 0;
 }
 
 /* Cut the text into lines, and keep those that are complete. */
-static int index_lines(BatchManifest *manifest, RetexError *err)
+static int index_lines(BatchJournal *journal, RetexError *err)
 {
     size_t capacity = 0, kept = 0;
     char *next;
-    for (char *line = manifest->text; (next = strchr(line, '\n')) != NULL; line = next + 1) {
+    for (char *line = journal->text; (next = strchr(line, '\n')) != NULL; line = next + 1) {
         *next = '\0';
         const char *version = strstr(line, ", \"version\": ");
         if (!version || !strstr(version, BYTES_KEY) || next[-1] != '}')
             continue;
-        if (manifest->nlines == capacity) {
+        if (journal->nlines == capacity) {
             capacity = capacity ? 2 * capacity : 1024;
-            ManifestLine *more = realloc(manifest->lines, capacity * sizeof *more);
+            JournalLine *more = realloc(journal->lines, capacity * sizeof *more);
             if (!more)
-                return retex_fail(err, RETEX_ENOMEM, "not enough memory for %s", manifest->path);
-            manifest->lines = more;
+                return retex_fail(err, RETEX_ENOMEM, "not enough memory for %s", journal->path);
+            journal->lines = more;
         }
-        manifest->lines[manifest->nlines++] = (ManifestLine){line, (size_t)(version - line)};
+        journal->lines[journal->nlines++] = (JournalLine){line, (size_t)(version - line)};
     }
-    if (manifest->nlines)
-        qsort(manifest->lines, manifest->nlines, sizeof *manifest->lines, compare_lines);
-    for (size_t i = 0; i < manifest->nlines; i++)
-        if (i + 1 == manifest->nlines || !has_same_key(&manifest->lines[i], &manifest->lines[i + 1]))
-            manifest->lines[kept++] = manifest->lines[i];
-    manifest->nlines = kept;
+    if (journal->nlines)
+        qsort(journal->lines, journal->nlines, sizeof *journal->lines, compare_lines);
+    for (size_t i = 0; i < journal->nlines; i++)
+        if (i + 1 == journal->nlines || !has_same_key(&journal->lines[i], &journal->lines[i + 1]))
+            journal->lines[kept++] = journal->lines[i];
+    journal->nlines = kept;
     return RETEX_OK;
 }
 
-static int read_text(BatchManifest *manifest, int descriptor, RetexError *err)
+static int read_text(BatchJournal *journal, int descriptor, RetexError *err)
 {
     struct stat info;
     size_t used = 0;
     if (fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode))
-        return retex_fail(err, RETEX_EIO, "%s is no regular file", manifest->path);
-    if (info.st_size > MANIFEST_BYTES_MAX)
-        return retex_fail(err, RETEX_ELIMIT, "%s: more than the %d MB that a manifest may have", manifest->path,
-                          MANIFEST_BYTES_MAX >> 20);
-    manifest->text = malloc((size_t)info.st_size + 1);
-    if (!manifest->text)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %s", manifest->path);
+        return retex_fail(err, RETEX_EIO, "%s is no regular file", journal->path);
+    if (info.st_size > JOURNAL_BYTES_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "%s: more than the %d MB that a manifest may have", journal->path,
+                          JOURNAL_BYTES_MAX >> 20);
+    journal->text = malloc((size_t)info.st_size + 1);
+    if (!journal->text)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %s", journal->path);
     while (used < (size_t)info.st_size) {
-        const ssize_t got = pread(descriptor, manifest->text + used, (size_t)info.st_size - used, (off_t)used);
+        const ssize_t got = pread(descriptor, journal->text + used, (size_t)info.st_size - used, (off_t)used);
         if (got < 0 && errno != EINTR)
-            return retex_fail(err, RETEX_EIO, "cannot read %s: %s", manifest->path, strerror(errno));
+            return retex_fail(err, RETEX_EIO, "cannot read %s: %s", journal->path, strerror(errno));
         if (got == 0)
             break;
         used += got > 0 ? (size_t)got : 0;
     }
-    manifest->text[used] = '\0';
-    if (used && manifest->text[0] != '{')
-        return retex_fail(err, RETEX_EFORMAT, "%s is no manifest of a batch", manifest->path);
-    return index_lines(manifest, err);
+    journal->text[used] = '\0';
+    if (used && journal->text[0] != '{')
+        return retex_fail(err, RETEX_EFORMAT, "%s is no manifest of a batch", journal->path);
+    return index_lines(journal, err);
 }
 
-int batch_manifest_open(BatchManifest *manifest, const char *path, int make, RetexError *err)
+int batch_journal_open(BatchJournal *journal, const char *path, int make, RetexError *err)
 {
-    *manifest = (BatchManifest){.path = path};
+    *journal = (BatchJournal){.path = path};
     const int descriptor = open(path, (make ? O_RDWR | O_CREAT | O_APPEND : O_RDONLY) | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor < 0)
         return retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno));
-    manifest->descriptor = descriptor + 1;
-    const int code = read_text(manifest, descriptor, err);
+    journal->descriptor = descriptor + 1;
+    const int code = read_text(journal, descriptor, err);
     if (code)
-        batch_manifest_close(manifest);
+        batch_journal_close(journal);
     return code;
 }
 
-void batch_manifest_close(BatchManifest *manifest)
+void batch_journal_close(BatchJournal *journal)
 {
-    if (manifest->descriptor)
-        close(manifest->descriptor - 1);
-    free(manifest->text);
-    free(manifest->lines);
-    *manifest = (BatchManifest){0};
+    if (journal->descriptor)
+        close(journal->descriptor - 1);
+    free(journal->text);
+    free(journal->lines);
+    *journal = (BatchJournal){0};
 }
 
 /* ---- locks ---- */
 
 /* Locks of byte ranges, which need not exist in the file: byte 0 is for appending. Row r of a table is byte r of
  * the table's range of 2^31. A claim ends with the process, also on other machines that share the file system. */
-static int lock(const BatchManifest *manifest, int command, short type, off_t start, off_t length)
+static int lock(const BatchJournal *journal, int command, short type, off_t start, off_t length)
 {
     struct flock range = {.l_type = type, .l_whence = SEEK_SET, .l_start = start, .l_len = length};
     int status;
     do
-        status = fcntl(manifest->descriptor - 1, command, &range);
+        status = fcntl(journal->descriptor - 1, command, &range);
     while (status != 0 && errno == EINTR);
     return status == 0 ? 0 : errno;
 }
 
-int batch_manifest_claim(const BatchManifest *manifest, uint32_t table, int first, int count, RetexError *err)
+int batch_journal_claim(const BatchJournal *journal, uint32_t table, int first, int count, RetexError *err)
 {
     const off_t start = (((off_t)(table >> 1) + 1) << 31) + first;
-    const int code = count ? lock(manifest, F_OFD_SETLK, F_WRLCK, start, count) : 0;
+    const int code = count ? lock(journal, F_OFD_SETLK, F_WRLCK, start, count) : 0;
     if (code == EAGAIN || code == EACCES)
-        return retex_fail(err, RETEX_EIO, "another process with %s makes some of these rows", manifest->path);
-    return code ? retex_fail(err, RETEX_EIO, "cannot lock %s: %s", manifest->path, strerror(code)) : RETEX_OK;
+        return retex_fail(err, RETEX_EIO, "another process with %s makes some of these rows", journal->path);
+    return code ? retex_fail(err, RETEX_EIO, "cannot lock %s: %s", journal->path, strerror(code)) : RETEX_OK;
 }
 
 /* ---- one picture ---- */
 
-static const char *find_line(const BatchManifest *manifest, const char *sources)
+static const char *find_line(const BatchJournal *journal, const char *sources)
 {
     const char *version = strstr(sources, ", \"version\": ");
-    const ManifestLine wanted = {sources, (size_t)(version - sources)};
-    size_t low = 0, high = manifest->nlines;
+    const JournalLine wanted = {sources, (size_t)(version - sources)};
+    size_t low = 0, high = journal->nlines;
     while (low < high) {
         const size_t middle = (low + high) / 2;
-        const ManifestLine *line = &manifest->lines[middle];
+        const JournalLine *line = &journal->lines[middle];
         if (has_same_key(line, &wanted))
             return line->text;
         const size_t shorter = line->key < wanted.key ? line->key : wanted.key;
@@ -180,10 +180,10 @@ static const char *explain(const char *line, const char *sources)
     return "its row or an image of it has changed";
 }
 
-PictureState batch_manifest_state(const BatchManifest *manifest, const char *sources, const char *path, int checksum,
+PictureState batch_journal_state(const BatchJournal *journal, const char *sources, const char *path, int checksum,
                                   char *reason, size_t size)
 {
-    const char *line = find_line(manifest, sources), *made;
+    const char *line = find_line(journal, sources), *made;
     const size_t length = strlen(sources);
     struct stat info;
     RetexFileSum sum;
@@ -226,9 +226,9 @@ static int write_all(int descriptor, const char *text, size_t bytes)
 }
 
 /* Append text. A line that a process left unfinished is ended first. */
-static int append(const BatchManifest *manifest, const char *text, size_t bytes)
+static int append(const BatchJournal *journal, const char *text, size_t bytes)
 {
-    const int descriptor = manifest->descriptor - 1;
+    const int descriptor = journal->descriptor - 1;
     struct stat info;
     char last = '\n';
     if (fstat(descriptor, &info) != 0)
@@ -239,7 +239,7 @@ static int append(const BatchManifest *manifest, const char *text, size_t bytes)
     return code ? code : write_all(descriptor, text, bytes);
 }
 
-int batch_manifest_add(const BatchManifest *manifest, const char *sources, const char *path, double seconds,
+int batch_journal_add(const BatchJournal *journal, const char *sources, const char *path, double seconds,
                        RetexError *err)
 {
     struct stat info;
@@ -253,12 +253,12 @@ int batch_manifest_add(const BatchManifest *manifest, const char *sources, const
     const int length = asprintf(&line, "%s" BYTES_KEY "%" PRIu64 ", \"crc32\": \"%08" PRIx32 "\", \"seconds\": %.4f}\n",
                                 sources, sum.bytes, sum.crc, seconds);
     if (length < 0)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a line of %s", manifest->path);
-    code = lock(manifest, F_OFD_SETLKW, F_WRLCK, 0, 1);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a line of %s", journal->path);
+    code = lock(journal, F_OFD_SETLKW, F_WRLCK, 0, 1);
     if (!code) {
-        code = append(manifest, line, (size_t)length);
-        lock(manifest, F_OFD_SETLK, F_UNLCK, 0, 1);
+        code = append(journal, line, (size_t)length);
+        lock(journal, F_OFD_SETLK, F_UNLCK, 0, 1);
     }
     free(line);
-    return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", manifest->path, strerror(code)) : RETEX_OK;
+    return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", journal->path, strerror(code)) : RETEX_OK;
 }
