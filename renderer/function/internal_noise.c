@@ -65,10 +65,10 @@ double internal_ridge(const double *p)
     return value * scale / total;
 }
 
-static double ridge_signal(Vec3 at, double offset, int generator)
+static double ridge_at(Vec3 at, double offset, int generator)
 {
-    const double signal = offset - fabs(signed_noise(at, generator));
-    return signal * signal;
+    const double ridge = offset - fabs(signed_noise(at, generator));
+    return ridge * ridge;
 }
 
 /* H, lacunarity, octaves, offset, gain, generator */
@@ -77,13 +77,13 @@ double internal_ridged_mf(const double *p)
     const int generator = generator_of(p[8]);
     const double lacunarity = p[4], octaves = octaves_of(p[5]), offset = p[6], gain = p[7];
     Vec3 at = vec3(p[0], p[1], p[2]);
-    double signal = ridge_signal(at, offset, generator), value = signal, frequency = 1;
+    double ridge = ridge_at(at, offset, generator), value = ridge, frequency = 1;
     for (int i = 1; i < octaves; i++) {
         at = vec_scale(at, lacunarity);
         frequency *= lacunarity;
-        const double weight = fmin(1, fmax(0, signal * gain));
-        signal = weight * ridge_signal(at, offset, generator);
-        value += signal * pow(frequency, -p[3]);
+        const double weight = fmin(1, fmax(0, ridge * gain));
+        ridge = weight * ridge_at(at, offset, generator);
+        value += ridge * pow(frequency, -p[3]);
     }
     return value;
 }

@@ -5,11 +5,11 @@
  * (spp / 2, rounded down) and that of the rest. Its square estimates the variance of the mean of all (Rousselle et al.
  * 2012). A signal is what is filtered with weights of its own: a picture that is the sum of terms,
  *
- *     total = sum over the terms t of the signal of  C_t / 2^(factors of t - 1)
+ *     total = sum over the terms t of the signal of  C_t L_t / 2^(hits of t - 1)
  *
- * as if each further hit had albedo 1/2. Signals are `indep`, the terms without factors; by target and kind of the
- * first factor's footprint TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no
- * terms at all.
+ * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered. Corrections do not
+ * count. Signals are `indep`, the terms without hits; by target and kind of the first hit's footprint TARGET_sharp and
+ * TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all.
  *
  * Features: guide_NAME, see the table, and guide_cover_TARGET, R, half: how much of the target is seen: share of the
  * pixel times the luminance that the mirrors and glass before it leave, 0..1.
