@@ -7,6 +7,7 @@
 #     the choice of vector instructions, the AOVs, the features of denoising
 #   - each public header compiles alone, as C11 and as C++17; its calls fail in the same way
 #   - files and functions that comments, READMEs and man pages name exist
+#   - one sense a word, by the glossary
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
 #   - shell scripts parse
@@ -165,6 +166,10 @@ $found"
 
 # What comments, READMEs and man pages name exists.
 found=$(/usr/bin/python3 tests/lib/mentions.py) || complain "named, but not there:
+$found"
+
+# The glossary has a term once, and names in the code do not use its words for something else.
+found=$(/usr/bin/python3 tests/lib/words.py) || complain "words with two senses:
 $found"
 
 for page in man/*.[1-9]; do
