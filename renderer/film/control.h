@@ -1,8 +1,6 @@
-/* Several pictures along the same paths: the same scene with different textures, and how the pictures vary together.
- * Beside the film, which knows variant 0 only.
- *
- * As a sink of contributions it has a throughput for each variant: nothing that is chosen along a path depends on a
- * texture. */
+/* Several pictures along the same paths: of the same scene with different textures, and how the pictures vary together.
+ * They are kept beside the film, which knows variant 0 only. Nothing that is chosen along a path depends on a texture,
+ * so that as a sink of contributions the control film needs a throughput for each variant, and no paths. */
 #ifndef RENDERER_FILM_CONTROL_H
 #define RENDERER_FILM_CONTROL_H
 

@@ -22,7 +22,7 @@ void film_add_light(FilmPixel *pixel, const double light[3]); /* the sum of one 
 void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
 /* Of films with a split: how many hits on one target, and on all together, a path may keep apart. */
 void film_hit_limits(const FilmPixel *pixel, int *orders, int *most_hits);
-/* End a path. hits: its hits on targets, if the set is for retexturing; within film_hit_limits, from the camera to any
+/* End a path. hits: its hits on targets, which films with a split read; within film_hit_limits, from the camera to any
  * of them. */
 void film_path_end(FilmPixel *pixel, const TargetTree *hits);
 /* Begin a tile whose pixels have another number of samples than FilmParams say. */
@@ -38,7 +38,8 @@ int film_bands_done(const Film *film);
 int film_band_is_done(const Film *film, int band);
 /* Read the bands that the band store already has. Call it after all images have been added. */
 int film_resume(Film *film, RetexError *err);
-/* Save the finished bands in a checkpoint, from which a render with the same key continues. */
+/* Save the finished bands in a checkpoint, from which a render with the same key continues. replace: as of
+ * retex_band_store_keep. */
 int film_save(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
 
 /* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */

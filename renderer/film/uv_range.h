@@ -1,4 +1,5 @@
-/* Where on the targets light was met: the range of UV. */
+/* The range of UV in which light met each target. The set tells it, so that footprints are cut off where a target
+ * ends. */
 #ifndef RENDERER_FILM_UV_RANGE_H
 #define RENDERER_FILM_UV_RANGE_H
 

@@ -27,15 +27,15 @@ typedef struct CausticsCell {
     float concentration[CAUSTICS_LOBES]; /* k */
     float at_x[CAUSTICS_LOBES], at_y[CAUSTICS_LOBES], at_z[CAUSTICS_LOBES]; /* where they landed */
     float narrow[CAUSTICS_LOBES]; /* 1 / squared distance over which its weight fades */
-    float weight[CAUSTICS_LOBES]; /* where they landed; 0 for unused lobes */
+    float weight[CAUSTICS_LOBES]; /* its weight there; 0 for unused lobes */
     int nlobes;
     float share; /* probability of sampling by the guide, 0..0.5 */
 } CausticsCell;
 
-/* Whose caustics: of light sources that have them, always; of shapes that emit, never, always, or where they are small
- * and the guide is worth its time.
- * paths: the number of paths of the picture; photons take a small share of their time. *caustics is NULL where there
- * are no caustics, or where the budget (NULL = none) stops it. The result is the same for every nthreads. */
+/* Photons start from light sources that have caustics and, unless `of` is CAUSTICS_OF_SOURCES, from shapes that emit;
+ * with CAUSTICS_OF_SMALL_EMITTERS the guide is given up where it is not worth its time. paths: the number of paths of
+ * the picture, of whose time photons take a small share. *caustics is NULL where there are no caustics, and after a
+ * failure, such as that the budget (NULL = none) stops it. The result is the same for every nthreads. */
 int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, CausticsOf of,
                     long paths, int nthreads, const RetexBudget *budget, RetexError *err);
 void caustics_close(Caustics **caustics);

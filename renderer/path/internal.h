@@ -31,7 +31,7 @@ typedef struct Path {
     const LightGroup *light_group; /* of that surface: which light sources shine on it */
     float source_scale;          /* of light sources that it meets; not 1 where a medium is seen that scattered it */
     Media media;
-    Float4 media_weight;         /* of what media did to throughput, the distances of scattering are chosen by it */
+    Float4 media_weight;         /* what media did to throughput, its mean 1: scattering is sampled by it */
     double light[3];             /* sum of its contributions */
     SplitPath split;             /* in sets */
     ControlPath *control;        /* in variants */
@@ -134,7 +134,9 @@ Rgb media_transmittance(PathWorker *worker, const Path *path, const Media *media
 
 /* ---- shadow_ray.c: visibility ---- */
 
+/* What fading interiors do to light over a distance, up to a surface or NULL. */
 Rgb media_fade(const Media *media, double distance, const Surface *met);
+/* A ray passes through a surface: it enters or leaves an interior. */
 void media_cross(Media *media, const Surface *surface);
 /* Trace the shadow ray of a direct-light sample. What dims light on it goes into the sample's radiance and, where
  * targets do it, into factors. Returns how many of these there are, or -1 where the light is not visible. */

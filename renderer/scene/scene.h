@@ -1,6 +1,6 @@
-/* The scene: what the scene language leaves and everything after it reads. Plain data, all of it in one arena, nothing
- * changed after scene_resolve_targets. Units are the scene's own; angles in radians unless said; colours scene-linear
- * Rec.709.
+/* The scene: what the scene language leaves and everything after it reads. It is plain data, all of it in one arena.
+ * Before a render begins, scene_resolve_targets and target_units_choose mark its targets, and the render sets `pixels`;
+ * then nothing changes. Units are the scene's own, angles are in radians unless said, colours scene-linear Rec.709.
  *
  * Conventions of POV-Ray hold (left-handed, row-vector matrices already turned into Transforms). Where POV-Ray and
  * physics differ, the mapping is described in retex-scene(5) and done in shade/material.c, not here: this file keeps
@@ -19,7 +19,7 @@
 typedef struct Rgbft { float r, g, b, filter, transmit; } Rgbft;
 
 /* Names #declared in the scene that a thing came through: `texture{Oak}` carries Oak, and the names Oak itself was made
- * of. How targets are found. An immutable list; lists are joined by sharing. */
+ * of. Targets are found by them. The list is immutable, so that lists can share their ends. */
 typedef struct IdentList {
     const char *name;
     int line;
@@ -70,12 +70,12 @@ typedef struct ColorMap {
 } ColorMap;
 typedef enum WaveKind { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveKind;
 
-/* An image file in the scene's memory; one for each file and interpretation. */
 /* What is done to UV after the projection. */
 typedef struct ImagePlacement {
     Vec2 repeat, offset;     /* times repeat, minus offset */
 } ImagePlacement;
 
+/* An image file in the scene's memory; one for each file and interpretation. */
 typedef struct ImageMap {
     const char *path;        /* as found on disk; NULL: the scene draws it */
     RetexTexture *texture;   /* scene-linear, alpha unassociated; owned by the scene (closed with it) */
@@ -242,7 +242,7 @@ static inline int finish_is_subsurface(const Finish *f)
 {
     return !f->retex.present && !rgb_is_black(f->mean_free_path);
 }
-/* Most surfaces: nothing but Lambert's law, on either side; or on the side that is seen. */
+/* Most surfaces scatter by Lambert's law alone, matte ones on the side that is seen only: they need less work. */
 static inline int finish_is_lambert(const Finish *f)
 {
     return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&

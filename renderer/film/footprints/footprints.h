@@ -9,7 +9,7 @@
 
 #include "film/layout.h"
 
-/* Signals of noise: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
+/* Its signals are, by target, sharp and broad clusters, with their light that meets further hits. */
 extern const FilmLayout footprints_layout;
 
 #endif

@@ -8,7 +8,7 @@
 
 #define TERMS_MAX 1280 /* with footprints, originals and AOVs below what a set may have of parts */
 
-/* Kind of term and its factors in one number: kind << 56 | hit mask (or, for RETEX_ROLE_INDEP, the hit count). */
+/* A term's role and factors in one number: role << 56 | hit mask (or, for RETEX_ROLE_INDEP, the hit count). */
 typedef uint64_t TermKey;
 #define TERM_DROPPED (~(TermKey)0)
 
@@ -26,7 +26,7 @@ typedef struct TermTable {
     int ready; /* the lock exists */
 } TermTable;
 
-/* One thread's memory of where terms are, so that the lock is taken once per term. */
+/* One thread's memory of where terms are, so that it takes the lock once a term. */
 typedef struct TermCache {
     TermKey keys[256];
     int terms[256]; /* number + 1, 0 = empty */

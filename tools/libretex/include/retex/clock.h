@@ -1,4 +1,4 @@
-/* The one clock of this house: for durations, deadlines and locks that are not waited for any longer. */
+/* The one clock of this house: for durations, deadlines and locks that are waited for only so long. */
 #ifndef RETEX_CLOCK_H
 #define RETEX_CLOCK_H
 

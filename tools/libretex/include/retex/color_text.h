@@ -1,4 +1,4 @@
-/* Colours as people write them. */
+/* Colours as people write them: one grammar for options, tables, edits and messages. */
 #ifndef RETEX_COLOR_TEXT_H
 #define RETEX_COLOR_TEXT_H
 

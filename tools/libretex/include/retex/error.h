@@ -19,11 +19,11 @@ typedef enum RetexCode {
     RETEX_EINVAL = -1,       /* an argument or option is out of its range */
     RETEX_EIO = -2,          /* the system refused: no such file, full disk */
     RETEX_EFORMAT = -3,      /* the bytes are not what they should be: truncated, damaged, foreign */
-    RETEX_ENOMEM = -4,       /* no memory, or a limit on it reached */
+    RETEX_ENOMEM = -4,       /* there is not enough memory */
     RETEX_ENOTFOUND = -5,    /* a name that nothing has: target, texture, part */
     RETEX_EUNSUPPORTED = -6, /* understood, but beyond this version */
     RETEX_EPARSE = -7,       /* a scene, option or table with an error in its text */
-    RETEX_ELIMIT = -8,       /* a budget (steps, depth, length) is used up */
+    RETEX_ELIMIT = -8,       /* a limit, of memory, time, pixels, steps, depth or length, is reached */
     RETEX_EINTERNAL = -9,    /* a broken promise of the library itself */
     RETEX_ESTOPPED = -10,    /* the caller asked for it */
     RETEX_EACCESS = -11,     /* a file that may not be read: see access.h */

@@ -27,10 +27,10 @@ typedef struct RetexReadParams {
 } RetexReadParams;
 #define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16, NULL, NULL }
 
-/* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO. path
- * "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated (1
- * where the file has none; grey is spread over R,G,B). Only the first subimage is read. nthreads: at most so many
- * decode, 0 = all cores. */
+/* Read the colours of any file that OpenImageIO reads. EXR, JPEG and PNG are read without loading it, but for rare
+ * kinds of them and for colour spaces that need OpenColorIO. path "-" is standard input (EXR only). The result has 4
+ * channels R,G,B,A, scene-linear Rec.709, alpha unassociated (1 where the file has none; grey is spread over R,G,B).
+ * Only the first subimage is read. nthreads: at most so many decode, 0 = all cores. */
 int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
                      int nthreads, RetexError *err);
 /* Check whether retex_image_read could read a file, as far as its beginning tells: it exists, may be read, and is

@@ -1,4 +1,4 @@
-/* The word most like a misspelt one, for messages. */
+/* The word most like a misspelt one: messages about unknown names say what is probably meant. */
 #ifndef RETEX_NEAREST_H
 #define RETEX_NEAREST_H
 

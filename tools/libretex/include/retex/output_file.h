@@ -1,4 +1,4 @@
-/* Output files in general: complete or not there at all. */
+/* Output files in general: one is complete or not there at all, however the process ends. */
 #ifndef RETEX_OUTPUT_FILE_H
 #define RETEX_OUTPUT_FILE_H
 

@@ -1,4 +1,4 @@
-/* Threads: one way to spread work. */
+/* Threads: how the library spreads work, for callers that would do the same. */
 #ifndef RETEX_PARALLEL_H
 #define RETEX_PARALLEL_H
 

@@ -1,4 +1,5 @@
-/* libretex: retexturing rendered pictures in image space. This header includes all others. */
+/* libretex: retexturing rendered pictures in image space. This header includes all others but
+ * those in <retex/host>, which are for renderers. */
 #ifndef RETEX_RETEX_H
 #define RETEX_RETEX_H
 

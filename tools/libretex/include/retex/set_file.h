@@ -1,4 +1,5 @@
-/* Files of sets and samples: reading, writing, checking. */
+/* Files of sets and samples. A set in a file may stay there and be read row by row, so that it need not fit into
+ * memory. */
 #ifndef RETEX_SET_FILE_H
 #define RETEX_SET_FILE_H
 

@@ -1,4 +1,4 @@
-/* Names of targets: what people type. */
+/* Names of targets, as people type them: in options, tables and URLs they mean the same. */
 #ifndef RETEX_TARGET_NAME_H
 #define RETEX_TARGET_NAME_H
 

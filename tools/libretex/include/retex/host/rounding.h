@@ -1,5 +1,5 @@
-/* To what numbers are rounded before they are stored: numbers of few bits compress. retex_set_round rounds a set as
- * retex-set(5) describes, and retex_denoise does so too. */
+/* What numbers are rounded to before they are stored: those of few bits compress better. retex_set_round rounds a set
+ * as retex-set(5) describes, and retex_denoise does so too. */
 #ifndef RETEX_HOST_ROUNDING_H
 #define RETEX_HOST_ROUNDING_H
 

@@ -1,4 +1,4 @@
-/* Clusters of weighted UVs, and the cost of merging them. */
+/* Clusters of weighted UVs, and the cost of merging them: a pixel keeps few clusters, of whatever it meets. */
 #ifndef RETEX_HOST_UV_STATS_H
 #define RETEX_HOST_UV_STATS_H
 
