@@ -209,16 +209,16 @@ void leave_surface(Vertex *vertex);
 
 /* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
 
-/* Colours at a vertex whose surface is known. */
+/* Find the colours at a vertex whose surface is known, then what scatters there. */
 void find_colors(PathWorker *worker, Path *path, Vertex *vertex, const Ray *ray, const Hit *hit,
                  const VertexSamples *numbers, int lane);
 void find_bsdf(PathWorker *worker, Path *path, Vertex *vertex, const Ray *ray, const Hit *hit);
 void observe_first_hit(PathWorker *worker, const Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
-/* Emission that the ray meets: of a surface, or of the sky. Returns 0 where the path ends. */
+/* Add the emission that the ray meets, of a surface or of the sky. Returns 0 where the path ends. */
 int add_emission(PathWorker *worker, Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
-/* Of the vertex's direct-light sample, if it has one. */
+/* Add the light of the vertex's direct-light sample, if it has one. */
 void add_direct_light(PathWorker *worker, Path *path, Vertex *vertex);
-/* Sample the BSDF: throughput, and the ray to go on with. Returns 0 where the path ends. */
+/* Sample the BSDF, multiply throughput, and make the ray to go on with. Returns 0 where the path ends. */
 int scatter(PathWorker *worker, Path *path, const Vertex *vertex, BsdfSample *next, Ray *ray);
 /* Multiply throughput by the weight of a BSDF sample. Returns path_is_alive. */
 static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight, int reflects)
@@ -236,7 +236,7 @@ static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)
     path->segments++;
 }
 int survives_roulette(PathWorker *worker, Path *path, float u);
-/* All of one path. */
+/* Trace one path from the camera to its end. */
 void trace_path(PathWorker *worker, Path *path, Ray ray);
 
 #endif

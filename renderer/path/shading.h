@@ -34,9 +34,9 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
 
-/* The BSDF, once the rest is known. */
+/* Make the BSDF, once the rest is known; below, for light of one wavelength. */
 void shading_bsdf(Shading *shading, Vec3 wo);
-/* Whether it lets light through, which it refracts by wavelength; the BSDF for light of one wavelength. */
+/* Whether it lets light through, which it refracts by wavelength. */
 static inline int shading_disperses(const Shading *s)
 {
     return interior_disperses(s->surface.primitive->interior) && !s->is_layer &&
