@@ -120,6 +120,48 @@ void test_add_lamp(RetexSet *set, const char *name)
             test_must(retex_term_add_factor(&set->terms[t], retex_factor(RETEX_FACTOR_PARAMETER, number), &err), &err);
 }
 
+/* The share of a lamp in a term's light at a pixel; the third one is what is left. */
+static double share_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp, int x, int y)
+{
+    double u = 2.0 * x / set->width, v = 1.0 * y / set->height;
+    if (term->nfactors && term->factors[0].kind == RETEX_FACTOR_FOOTPRINT) {
+        const RetexImage *uv = &set->parts[set->footprints[term->factors[0].index].uv].image;
+        u = (double)uv->pixels[retex_image_index(uv, x, y)];
+        v = (double)uv->pixels[retex_image_index(uv, x, y) + 1];
+    }
+    const double first = 0.5 + 0.45 * sin(3 * u), second = (1 - first) * (0.5 + 0.45 * cos(4 * v));
+    return lamp == 0 ? first : lamp == 1 ? second : 1 - first - second;
+}
+
+void test_divide_light(RetexSet *set)
+{
+    RetexParameter lamps[2] = {{"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}},
+                               {"Window", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}}};
+    RetexError err = {0};
+    const int nterms = set->nterms;
+    int numbers[2];
+    for (int k = 0; k < 2; k++)
+        test_must(retex_set_add_parameter(set, &lamps[k], &numbers[k], &err), &err);
+    for (int t = 0; t < nterms; t++)
+        for (int k = 0; k < 3 && retex_term_is_light(&set->terms[t]); k++) {
+            RetexTerm term = set->terms[t];
+            char name[64];
+            snprintf(name, sizeof name, "lit%d_%d", t, k);
+            const int part = k < 2 ? add_part(set, name, "RGB", RETEX_HALF) : term.radiance;
+            const RetexImage *from = &set->parts[term.radiance].image, *to = &set->parts[part].image;
+            for (int y = 0; y < set->height; y++)
+                for (int x = 0; x < set->width; x++)
+                    for (size_t c = 0, i = retex_image_index(from, x, y); c < 3; c++)
+                        to->pixels[i + c] = (float)(share_of_lamp(set, &term, k, x, y) * (double)from->pixels[i + c] /
+                                                    (k < 2 ? (double)lamps[k].value[c] : 1));
+            term.radiance = part;
+            if (k < 2) {
+                test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, numbers[k]), &err), &err);
+                test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+            }
+        }
+}
+
 static void add_term(RetexSet *set, RetexRole role, int radiance, const int *factors, int nfactors)
 {
     RetexTerm term = test_term(set, radiance, nfactors, factors);

@@ -39,6 +39,10 @@ int test_factor_number(RetexFactor factor);
 RetexTerm test_term(const RetexSet *set, int radiance, int nhits, const int *numbers);
 /* A parameter of that name: every second term of light has it as a factor. Its value as rendered is 1, 0.5, 2. */
 void test_add_lamp(RetexSet *set, const char *name);
+/* Divide all light among two lamps, 'Lamp', whose value as rendered is 1, 0.5, 2, and 'Window', of 1, 1, 1, and what
+ * has no parameter: by where its first hit is on the target or, of mixtures, by the place in the picture. The picture
+ * as rendered stays the same. */
+void test_divide_light(RetexSet *set);
 /* Give terms with hits the roles that follow from their footprints' kinds. */
 void test_renew_roles(RetexSet *set);
 

@@ -198,23 +198,43 @@ static int move_or_copy_image(RetexImage *image, const Compaction *work, RetexIm
     return RETEX_OK;
 }
 
-static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexError *err)
+/* Images in the cache; NULL: no memory. */
+static RetexImage *cached(RetexImage **images, int count, RetexError *err)
 {
-    RetexImage *kept = &work->cache->sums[number];
+    if (!*images && !(*images = calloc((size_t)count + 1, sizeof **images)))
+        retex_fail(err, RETEX_ENOMEM, "not enough memory for light");
+    return *images;
+}
+
+/* A kind's sums of light, by lamps. */
+static RetexImage *cached_sums(const Compaction *work, int number, RetexError *err)
+{
+    return cached(&work->cache->sums[number], work->light->nlamps, err);
+}
+
+static int make_sum(RetexImage *sum, const Compaction *work, int number, int lamps, RetexError *err)
+{
+    RetexImage *all = cached_sums(work, number, err), *kept = all + lamps;
     int code = RETEX_OK;
+    if (!all)
+        return RETEX_ENOMEM;
     if (!kept->pixels)
-        code = retex_compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
+        code = retex_compact_sum_light(kept, work->light, &work->light->kinds[number], lamps, work->nthreads, err);
     return code ? code : move_or_copy_image(sum, work, kept, err);
 }
 
-/* A kind's gains in the cache: [0] of single-hit light, then one for each of the kind's interreflection terms. */
+/* How many terms a kind has at most: see gains.h. */
+static int term_count(const Compaction *work, int number)
+{
+    return work->light->nlamps + work->light->kinds[number].ngains[work->scales->mixed[number]];
+}
+
+/* A kind's gains in the cache, by term. */
 static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
 {
     const RetexCompactMixed mixed = work->scales->mixed[number];
-    RetexImage **all = &work->cache->gains[number][step_of(work->scales->gains[number])][mixed];
-    if (!*all && !(*all = calloc((size_t)work->light->kinds[number].ngains[mixed] + 1, sizeof **all)))
-        retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
-    return *all;
+    return cached(&work->cache->gains[number][step_of(work->scales->gains[number])][mixed], term_count(work, number),
+                  err);
 }
 
 static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
@@ -225,7 +245,7 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
     if (!all)
         return RETEX_ENOMEM;
     if (!kept->pixels)
-        code = retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
+        code = retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place,
                                        work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
     return code ? code : move_or_copy_image(gain, work, kept, err);
 }
@@ -240,11 +260,13 @@ void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight 
         }
         for (int j = 0; j < RETEX_COMPACT_STEPS * RETEX_COMPACT_CHOICES; j++) {
             const int step = j / RETEX_COMPACT_CHOICES, mixed = j % RETEX_COMPACT_CHOICES;
-            for (int k = 0; cache->gains[i][step][mixed] && k <= light->kinds[i].ngains[mixed]; k++)
+            for (int k = 0; cache->gains[i][step][mixed] && k < light->nlamps + light->kinds[i].ngains[mixed]; k++)
                 retex_image_free(&cache->gains[i][step][mixed][k]);
             free(cache->gains[i][step][mixed]);
         }
-        retex_image_free(&cache->sums[i]);
+        for (int k = 0; cache->sums[i] && k < light->nlamps; k++)
+            retex_image_free(&cache->sums[i][k]);
+        free(cache->sums[i]);
     }
 }
 
@@ -358,8 +380,8 @@ static int add_interreflection_mixtures(Compaction *work, RetexError *err)
     return code;
 }
 
-/* The new factor of an old one: of its kind's clusters, which share interreflected light if that is wanted. */
-static RetexFactor new_factor(const Compaction *work, RetexFactor factor, int place)
+/* The new factor of an old one of interreflected light: of its kind's clusters. */
+static RetexFactor new_factor(const Compaction *work, RetexFactor factor)
 {
     int target;
     RetexFootprintKind kind;
@@ -368,8 +390,19 @@ static RetexFactor new_factor(const Compaction *work, RetexFactor factor, int pl
     retex_factor_target(work->light->set, factor, &target, &kind);
     const int number = find_kind(work->light, target, kind);
     if (kind != RETEX_FOOTPRINT_INTERREFLECTION)
-        return (place ? work->interreflected : work->factors)[number];
+        return work->interreflected[number];
     return factor.kind == RETEX_FACTOR_MIXTURE ? work->mixtures[factor.index] : work->factors[number];
+}
+
+/* Names of parts of lamps end so: _lamp and the numbers of the parameters; of others in nothing. */
+static const char *lamps_name(char name[RETEX_NAME_MAX], const RetexCompactLight *light, int lamps)
+{
+    int length = 0;
+    name[0] = '\0';
+    for (int k = 0; k < light->lamps[lamps].count; k++)
+        length += snprintf(name + length, RETEX_NAME_MAX - (size_t)length, "%s%d", k ? "-" : "_lamp",
+                           1 + light->lamps[lamps].factors[k].index);
+    return name;
 }
 
 /* Make a gain, and a factor of it, of a term that has all others. */
@@ -377,13 +410,16 @@ static int add_gain(Compaction *work, int number, int radiance, int place, Retex
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
     const char *name = retex_footprint_kind_name(kind->kind);
-    char target[RETEX_NAME_MAX];
+    const RetexCompactMixed mixed = work->scales->mixed[number];
+    const int single = place < work->light->nlamps;
+    char target[RETEX_NAME_MAX], lamps[RETEX_NAME_MAX];
     retex_target_word(target, work->set->targets[kind->target].name);
+    lamps_name(lamps, work->light, retex_compact_term_lamps(work->light, kind, mixed, place));
     RetexImage gain = {0};
     int part, code = make_gain(&gain, work, number, radiance, place, err);
     if (!code)
-        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &part, err, "gain_%s_%s%s%s", target, name,
-                          place ? "_" : "", place ? kind->gains[work->scales->mixed[number]][place - 1].name : "");
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &part, err, "gain_%s_%s%s%s%s", target, name, lamps,
+                          single ? "" : "_", single ? "" : kind->gains[mixed][place - work->light->nlamps].name);
     retex_image_free(&gain);
     return code ? code : retex_term_add_image(term, work->set, part, err);
 }
@@ -394,42 +430,48 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     RetexTerm term = {.role = kind->kind == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP : RETEX_ROLE_BROAD,
                       .target = kind->target,
                       .radiance = radiance};
-    const RetexTerm *old = place ? &kind->gains[work->scales->mixed[number]][place - 1].term : NULL;
+    const int gain = place - work->light->nlamps;
+    const RetexTerm *old = gain >= 0 ? &kind->gains[work->scales->mixed[number]][gain].term : NULL;
     int code = old ? RETEX_OK : retex_term_add_factor(&term, work->factors[number], err);
+    for (int k = 0; !old && k < work->light->lamps[place].count && !code; k++)
+        code = retex_term_add_factor(&term, work->light->lamps[place].factors[k], err);
     for (int k = 0; old && k < old->nfactors && !code; k++)
-        code = retex_term_add_factor(&term, new_factor(work, old->factors[k], place), err);
+        code = retex_term_add_factor(&term, new_factor(work, old->factors[k]), err);
     if (!code && with_gain)
         code = add_gain(work, number, radiance, place, &term, err);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
-static int has_single(const RetexCompactKind *kind)
+/* Add the terms of a kind's light of some lamps. */
+static int add_terms_of(Compaction *work, int number, int lamps, RetexError *err)
 {
-    int single = 0;
-    for (int k = 0; k < kind->count; k++)
-        single |= kind->single[k] >= 0;
-    return single;
+    const RetexCompactLight *light = work->light;
+    const RetexCompactKind *kind = &light->kinds[number];
+    const int single = retex_compact_has_single(kind, lamps), further = retex_compact_has_further(light, kind, lamps);
+    RetexImage sum = {0};
+    char target[RETEX_NAME_MAX], name[RETEX_NAME_MAX];
+    int radiance;
+    if (!single && !further)
+        return RETEX_OK;
+    retex_target_word(target, work->set->targets[kind->target].name);
+    int code = make_sum(&sum, work, number, lamps, err);
+    if (!code)
+        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s%s", target,
+                          retex_footprint_kind_name(kind->kind), lamps_name(name, light, lamps));
+    if (!code && single)
+        code = add_term(work, number, radiance, lamps, further, err);
+    for (int i = light->nlamps; i < term_count(work, number) && !code; i++)
+        if (retex_compact_term_lamps(light, kind, work->scales->mixed[number], i) == lamps)
+            code = add_term(work, number, radiance, i, 1, err);
+    retex_image_free(&sum);
+    return code;
 }
 
 static int add_terms(Compaction *work, int number, RetexError *err)
 {
-    const RetexCompactKind *kind = &work->light->kinds[number];
-    RetexImage sum = {0};
-    const int single = has_single(kind);
-    char target[RETEX_NAME_MAX];
-    int radiance;
-    if (!single && !kind->ninterreflections)
-        return RETEX_OK;
-    retex_target_word(target, work->set->targets[kind->target].name);
-    int code = make_sum(&sum, work, number, err);
-    if (!code)
-        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s", target,
-                          retex_footprint_kind_name(kind->kind));
-    if (!code && single)
-        code = add_term(work, number, radiance, 0, kind->ninterreflections > 0, err);
-    for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)
-        code = add_term(work, number, radiance, i + 1, 1, err);
-    retex_image_free(&sum);
+    int code = RETEX_OK;
+    for (int i = 0; i < work->light->nlamps && !code; i++)
+        code = add_terms_of(work, number, i, err);
     return code;
 }
 
@@ -439,7 +481,7 @@ static int copy_correction(Compaction *work, const RetexTerm *old, RetexError *e
     RetexTerm term = *old;
     int code = retex_compact_copy_part(work->set, work->light->set, old->radiance, &term.radiance, err);
     for (int k = 0; k < old->nfactors; k++)
-        term.factors[k] = new_factor(work, old->factors[k], 1);
+        term.factors[k] = new_factor(work, old->factors[k]);
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
@@ -462,14 +504,18 @@ static int begin_kind(const Compaction *work, int number, RetexError *err)
     const RetexCompactKind *kind = &light->kinds[number];
     int code =
         retex_compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number], err);
-    RetexImage *gains = cached_gains(work, number, err);
-    if (code || !gains || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
-        return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;
-    if (has_single(kind) || kind->ninterreflections)
-        code = retex_image_alloc(&work->cache->sums[number], light->set->width, light->set->height, 3, err);
-    for (int i = 0; i <= kind->ngains[work->scales->mixed[number]] && !code && kind->ninterreflections; i++)
-        if (i || has_single(kind))
+    RetexImage *gains = cached_gains(work, number, err), *sums = cached_sums(work, number, err);
+    if (code || !gains || !sums)
+        return code ? code : RETEX_ENOMEM;
+    for (int i = 0; i < term_count(work, number) && !code && kind->kind != RETEX_FOOTPRINT_INTERREFLECTION; i++) {
+        const int lamps = retex_compact_term_lamps(light, kind, work->scales->mixed[number], i);
+        const int single = retex_compact_has_single(kind, lamps),
+                  further = retex_compact_has_further(light, kind, lamps);
+        if (i == lamps && (single || further))
+            code = retex_image_alloc(&sums[i], light->set->width, light->set->height, 3, err);
+        if (!code && further && (i != lamps || single))
             code = retex_compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
+    }
     return code;
 }
 
@@ -480,14 +526,16 @@ static int make_rows(void *context, const RetexCompactLight *light, int first, R
     for (int i = 0; i < light->nkinds && !code; i++) {
         const RetexCompactKind *kind = &light->kinds[i];
         const RetexCompactMixed mixed = work->scales->mixed[i];
-        RetexImage *sum = &work->cache->sums[i], *gains = cached_gains(work, i, err);
+        RetexImage *sums = cached_sums(work, i, err), *gains = cached_gains(work, i, err);
         retex_compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
-        if (sum->pixels)
-            retex_compact_sum_rows(sum, light, kind, first, work->nthreads);
-        for (int k = 0; k <= kind->ngains[mixed] && !code; k++)
+        for (int k = 0; k < light->nlamps; k++)
+            if (sums[k].pixels)
+                retex_compact_sum_rows(&sums[k], light, kind, k, first, work->nthreads);
+        for (int k = 0; k < term_count(work, i) && !code; k++)
             if (gains[k].pixels)
-                code = retex_compact_gain_rows(&gains[k], light, kind, sum, k - 1, mixed, work->scales->gains[i], first,
-                                               work->nthreads, err);
+                code = retex_compact_gain_rows(&gains[k], light, kind,
+                                               &sums[retex_compact_term_lamps(light, kind, mixed, k)], k, mixed,
+                                               work->scales->gains[i], first, work->nthreads, err);
     }
     return code;
 }
@@ -497,7 +545,7 @@ static int end_kind(const Compaction *work, int number, RetexError *err)
     const RetexCompactKind *kind = &work->light->kinds[number];
     RetexImage *gains = cached_gains(work, number, err);
     int code = retex_compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
-    for (int k = 0; k <= kind->ngains[work->scales->mixed[number]] && !code; k++)
+    for (int k = 0; k < term_count(work, number) && !code; k++)
         if (gains[k].pixels)
             code = retex_compact_gain_end(&gains[k], err);
     return code;

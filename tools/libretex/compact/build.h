@@ -19,11 +19,11 @@ int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const
                         int nthreads, RetexError *err);
 
 /* Results that trials of the same light share: clusters by kind and scale (its logarithm), with their trial textures
- * (distortion.h); sums of light by kind; gains by kind, scale and term, 0 for single-hit light. Start with {0}. */
+ * (distortion.h); sums of light by kind and lamps; gains by kind, scale and term (gains.h). Start with {0}. */
 typedef struct RetexCompactCache {
     RetexCompactClusters clusters[RETEX_COMPACT_KINDS][RETEX_COMPACT_STEPS];
     RetexImage waves[RETEX_COMPACT_KINDS][RETEX_COMPACT_STEPS][RETEX_COMPACT_WAVES][RETEX_SHARES_MAX];
-    RetexImage sums[RETEX_COMPACT_KINDS];
+    RetexImage *sums[RETEX_COMPACT_KINDS];
     RetexImage *gains[RETEX_COMPACT_KINDS][RETEX_COMPACT_STEPS][RETEX_COMPACT_CHOICES];
 } RetexCompactCache;
 void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight *light);

@@ -218,7 +218,10 @@ static double interreflected_light(const ClustersWork *work, size_t pixel,
         if (grey == 0)
             continue;
         const float *rgb = set->parts[set->terms[i].radiance].image.pixels + 3 * pixel;
-        interreflected += retex_compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
+        const double *value = work->light->lamps[work->light->lamps_of[i]].value;
+        interreflected += retex_compact_luminance((const double[3]){value[0] * (double)(grey * rgb[0]),
+                                                                    value[1] * (double)(grey * rgb[1]),
+                                                                    value[2] * (double)(grey * rgb[2])});
     }
     for (int k = 0; k < work->kind->count; k++) {
         const int share = work->kind->share[k];
@@ -242,7 +245,7 @@ static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool,
             if (work->kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 all += interreflected_light(work, pixel, light);
             else
-                retex_compact_cluster_light(work->light, work->kind, pixel, light);
+                retex_compact_cluster_light(work->light, work->kind, RETEX_COMPACT_ALL_LAMPS, pixel, light);
             for (int k = 0; k < work->kind->count; k++)
                 gather_cluster(work, k, pixel, &light[k], pool, albedo);
         }

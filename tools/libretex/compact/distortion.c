@@ -51,7 +51,7 @@ static double probe_pixels(const RetexCompactLight *light, size_t a, size_t b)
         RetexCompactClusterLight of[RETEX_SHARES_MAX];
         if (kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
             continue;
-        retex_compact_cluster_light(light, kind, a, of);
+        retex_compact_cluster_light(light, kind, RETEX_COMPACT_ALL_LAMPS, a, of);
         for (int k = 0; k < kind->count; k++) {
             const RetexFootprint *f = &set->footprints[kind->footprints[k]];
             const float *uv = set->parts[f->uv].image.pixels, *spread = set->parts[f->spread].image.pixels;
@@ -249,21 +249,56 @@ static void encode_row(void *context, int y, int thread)
         row[i] = encoded(row[i]);
 }
 
+static int trial_count(const RetexSet *set)
+{
+    int lamps = 0;
+    for (int i = 0; i < set->nparameters; i++)
+        lamps += set->parameters[i].kind == RETEX_PARAMETER_COLOR;
+    return RETEX_COMPACT_TEXTURE_TRIALS + 2 * (lamps < RETEX_COMPACT_LAMP_PARTS ? lamps : RETEX_COMPACT_LAMP_PARTS);
+}
+
+/* A trial's texture: with lamps off, waves of the middle length, or a flat colour. */
+static int trial_texture(int trial)
+{
+    const int lamps = trial - RETEX_COMPACT_TEXTURE_TRIALS;
+    return lamps < 0 ? trial : lamps % 2 ? LENGTHS : 1;
+}
+
+/* The parameters of a trial with lamps off; those that were off already are on. Every third lamp is of one part. */
+static void switch_lamps(float values[][3], const RetexSet *set, int trial)
+{
+    const int part = (trial - RETEX_COMPACT_TEXTURE_TRIALS) / 2;
+    for (int i = 0, lamp = 0; i < set->nparameters; i++) {
+        const float *value = set->parameters[i].value;
+        const int black = value[0] == 0 && value[1] == 0 && value[2] == 0;
+        const int off = set->parameters[i].kind == RETEX_PARAMETER_COLOR && lamp++ % RETEX_COMPACT_LAMP_PARTS == part;
+        for (int c = 0; c < 3; c++)
+            values[i][c] = off ? (float)black : value[c];
+    }
+}
+
 /* Make the linear picture of one trial. waves: a cache of filtered trial textures by footprint, which is filled as
  * needed; or NULL. */
 static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *waves[][RETEX_COMPACT_WAVES], int trial,
                         int nthreads, RetexError *err)
 {
     RetexSamples *samples = NULL;
-    int code = trial < RETEX_COMPACT_WAVES ? retex_samples_create(&samples, set, err) : RETEX_OK;
-    for (int i = 0; trial < RETEX_COMPACT_WAVES && i < set->nfootprints && !code; i++) {
-        RetexImage *image = waves ? waves[i][trial] : &samples->images[i];
+    RetexCombineParams params = RETEX_COMBINE_INIT;
+    float values[RETEX_PARAMETERS_MAX][3];
+    const int texture = trial_texture(trial);
+    int code = texture < RETEX_COMPACT_WAVES ? retex_samples_create(&samples, set, err) : RETEX_OK;
+    for (int i = 0; texture < RETEX_COMPACT_WAVES && i < set->nfootprints && !code; i++) {
+        RetexImage *image = waves ? waves[i][texture] : &samples->images[i];
         if (!image->pixels)
-            code = make_waves(image, set, i, trial, nthreads, err);
+            code = make_waves(image, set, i, texture, nthreads, err);
         samples->images[i] = *image;
     }
+    if (trial >= RETEX_COMPACT_TEXTURE_TRIALS) {
+        switch_lamps(values, set, trial);
+        params.parameters = values[0];
+    }
     if (!code)
-        code = retex_combine(picture, set, samples, NULL, NULL, nthreads, err);
+        code = retex_combine(picture, set, samples, &params, NULL, nthreads, err);
     if (samples && waves) /* the cache owns them */
         memset(samples->images, 0, (size_t)set->nfootprints * sizeof *samples->images);
     retex_samples_close(&samples);
@@ -277,7 +312,7 @@ int retex_compact_trial_pictures(RetexImage pictures[RETEX_COMPACT_TRIALS], cons
     RetexSet *set;
     RetexImage *waves[RETEX_COMPACT_KINDS * RETEX_SHARES_MAX][RETEX_COMPACT_WAVES];
     int code = retex_compact_build_kind(&set, waves, light, kind, scales, cache, nthreads, err);
-    for (int i = 0; i < RETEX_COMPACT_TRIALS && !code; i++)
+    for (int i = 0; !code && i < trial_count(set); i++)
         code = make_picture(&pictures[i], set, waves, i, nthreads, err);
     retex_set_close(&set);
     return code;
@@ -351,7 +386,7 @@ int retex_compact_reference_open(RetexCompactReference *reference, const RetexCo
 {
     *reference = (RetexCompactReference){0};
     int code = set_mosaic(reference, light, nthreads, err);
-    for (int i = 0; i < RETEX_COMPACT_TRIALS && !code; i++) {
+    for (int i = 0; !code && i < trial_count(reference->set); i++) {
         RetexImage *picture = &reference->pictures[i];
         code = make_picture(picture, reference->set, NULL, i, nthreads, err);
         if (!code)
@@ -414,7 +449,8 @@ int retex_compact_distortions(const RetexCompactReference *reference, const Rete
     ReadWork work = {reference, parts, count, 0, calloc((size_t)height, sizeof(double))};
     if (!work.rows)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for sums");
-    for (work.trial = 0; work.trial < RETEX_COMPACT_TRIALS; work.trial++) {
+    memset(squares, 0, sizeof *squares * RETEX_COMPACT_TRIALS);
+    for (work.trial = 0; work.trial < trial_count(reference->set); work.trial++) {
         double sum = 0, weights = 0;
         retex_parallel(nthreads, height, read_row, &work);
         for (int y = 0; y < height; y++) {

@@ -4,8 +4,11 @@
 
 #include "compact/build.h"
 
-/* Trial pictures: with each trial texture on all targets, and with the originals. */
-#define RETEX_COMPACT_TRIALS (RETEX_COMPACT_WAVES + 1)
+/* Trial pictures: with each trial texture on all targets, and with the originals; then two for each of up to three
+ * parts of the lamps, which are off in these. Sets without lamps have only the first ones; others lose 0. */
+#define RETEX_COMPACT_TEXTURE_TRIALS (RETEX_COMPACT_WAVES + 1)
+#define RETEX_COMPACT_LAMP_PARTS 3
+#define RETEX_COMPACT_TRIALS (RETEX_COMPACT_TEXTURE_TRIALS + 2 * RETEX_COMPACT_LAMP_PARTS)
 #define RETEX_COMPACT_TILES 16
 
 /* A set, or sample tiles of a large set, with its pictures, which those of compact sets are compared with. */

@@ -19,7 +19,7 @@ typedef struct GainWork {
     const RetexCompactKind *kind;
     RetexImage *sum, *gain; /* of the whole picture */
     int first;              /* the picture's row of the light's first row */
-    int number;
+    int number;             /* of a term, or, for a sum, lamps */
     RetexCompactMixed mixed;
     int scale;
     Source *sources;
@@ -36,7 +36,7 @@ static void sum_row(void *context, int y, int thread)
         const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
         RetexCompactClusterLight of[RETEX_SHARES_MAX];
         double all[3] = {0};
-        retex_compact_cluster_light(work->light, work->kind, pixel, of);
+        retex_compact_cluster_light(work->light, work->kind, work->number, pixel, of);
         for (int k = 0; k < work->kind->count; k++)
             for (int c = 0; c < 3; c++)
                 all[c] += of[k].single[c] + of[k].interreflected[c];
@@ -45,19 +45,19 @@ static void sum_row(void *context, int y, int thread)
     }
 }
 
-void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int first,
-                            int nthreads)
+void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,
+                            int first, int nthreads)
 {
-    GainWork work = {.light = light, .kind = kind, .sum = sum, .first = first};
+    GainWork work = {.light = light, .kind = kind, .sum = sum, .first = first, .number = lamps};
     retex_parallel(nthreads, light->set->height, sum_row, &work);
 }
 
-int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int nthreads,
-                            RetexError *err)
+int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,
+                            int nthreads, RetexError *err)
 {
     int code = retex_image_alloc(sum, light->set->width, light->set->height, 3, err);
     if (!code)
-        retex_compact_sum_rows(sum, light, kind, 0, nthreads);
+        retex_compact_sum_rows(sum, light, kind, lamps, 0, nthreads);
     return code;
 }
 
@@ -67,17 +67,18 @@ static int list_sources(GainWork *work, RetexError *err)
 {
     const RetexSet *set = work->light->set;
     const RetexCompactKind *kind = work->kind;
+    const int gain = work->number - work->light->nlamps;
     work->sources = malloc((2 * (size_t)kind->ninterreflections + RETEX_SHARES_MAX) * sizeof *work->sources);
     if (!work->sources)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
-    for (int k = 0; k < kind->count && work->number < 0; k++)
-        if (kind->single[k] >= 0)
+    for (int k = 0; k < kind->count && gain < 0; k++)
+        if (kind->single[work->number][k] >= 0)
             work->sources[work->count++] =
-                (Source){set->parts[set->terms[kind->single[k]].radiance].image.pixels,
+                (Source){set->parts[set->terms[kind->single[work->number][k]].radiance].image.pixels,
                          set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
-    for (int i = 0; i < 2 * kind->ninterreflections && work->number >= 0; i++) {
+    for (int i = 0; i < 2 * kind->ninterreflections && gain >= 0; i++) {
         const RetexCompactInterreflection *part = &kind->interreflections[i / 2];
-        if (part->in[work->mixed][i % 2].gain == work->number)
+        if (part->in[work->mixed][i % 2].gain == gain)
             work->sources[work->count++] = (Source){set->parts[set->terms[part->term].radiance].image.pixels, NULL,
                                                     part->in[work->mixed][i % 2].share};
     }
@@ -88,7 +89,7 @@ static int list_sources(GainWork *work, RetexError *err)
 static void term_light(const GainWork *work, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (work->number >= 0 && !retex_compact_has_interreflections(work->light, work->kind, pixel))
+    if (work->number >= work->light->nlamps && !retex_compact_has_interreflections(work->light, work->kind, pixel))
         return;
     for (int i = 0; i < work->count; i++) {
         const Source *source = &work->sources[i];

@@ -4,18 +4,25 @@
 
 #include "compact/light.h"
 
-/* All light of a kind, interreflections on RETEX_COMPACT_GREY, as an image of the set's size. */
-int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int nthreads,
-                            RetexError *err);
+/* All light of a kind and lamps, interreflections on RETEX_COMPACT_GREY, as an image of the set's size. */
+int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,
+                            int nthreads, RetexError *err);
 
-/* The ratio of a term's light to the sum, RGB, at a scale. number: one of the kind's gains; -1: single-hit light. */
+/* A kind's terms are numbered: single-hit light by lamps, then gains. */
+static inline int retex_compact_term_lamps(const RetexCompactLight *light, const RetexCompactKind *kind,
+                                           RetexCompactMixed mixed, int number)
+{
+    return number < light->nlamps ? number : kind->gains[mixed][number - light->nlamps].lamps;
+}
+
+/* The ratio of a term's light to the sum of its lamps, RGB, at a scale. */
 int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
                             RetexError *err);
 
 /* The same in strips: light->set has rows of the picture from `first` on; sum and gain are of the whole picture. */
-void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int first,
-                            int nthreads);
+void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,
+                            int first, int nthreads);
 int retex_compact_gain_begin(RetexImage *gain, const RetexCompactLight *light, int scale, RetexError *err);
 int retex_compact_gain_rows(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int first,

@@ -39,7 +39,7 @@ static int sort_footprints(RetexCompactLight *light)
         if (kind->count == RETEX_SHARES_MAX)
             return 0;
         kind->footprints[kind->count] = i;
-        kind->single[kind->count] = kind->share[kind->count] = -1;
+        kind->share[kind->count] = -1;
         kind->count++;
     }
     return 1;
@@ -84,6 +84,8 @@ static int sort_term(RetexCompactLight *light, int number)
     for (int k = 0; k < term->nfactors; k++) {
         int target;
         RetexFootprintKind what;
+        if (!retex_factor_is_texture(term->factors[k]))
+            continue;
         retex_factor_target(light->set, term->factors[k], &target, &what);
         if (what == RETEX_FOOTPRINT_INTERREFLECTION)
             continue;
@@ -93,16 +95,17 @@ static int sort_term(RetexCompactLight *light, int number)
     }
     if (firsts != 1 || !kind)
         return 0;
-    if (term->nfactors > 1) {
+    if (retex_term_hits(term) > 1) {
         if (kind->ninterreflections && memcmp(&first, &kind->first, sizeof first) != 0)
             return 0;
         kind->first = first;
         kind->interreflections[kind->ninterreflections++].term = number;
         return 1;
     }
+    int *single = kind->single[light->lamps_of[number]];
     for (int i = 0; i < kind->count; i++)
-        if (first.kind == RETEX_FACTOR_FOOTPRINT && kind->footprints[i] == first.index && kind->single[i] < 0) {
-            kind->single[i] = number;
+        if (first.kind == RETEX_FACTOR_FOOTPRINT && kind->footprints[i] == first.index && single[i] < 0) {
+            single[i] = number;
             return 1;
         }
     return 0;
@@ -111,11 +114,55 @@ static int sort_term(RetexCompactLight *light, int number)
 /* What a term has that is not made compact; NULL: nothing. */
 static const char *unknown_factor(const RetexTerm *term)
 {
-    for (int k = 0; k < term->nfactors && retex_term_is_light(term); k++)
-        if (!retex_factor_is_texture(term->factors[k]))
-            return term->factors[k].kind == RETEX_FACTOR_PARAMETER ? "it has lamps that can be changed"
-                                                                   : "its terms have images as factors";
-    return NULL;
+    int parameters = 0;
+    for (int k = 0; k < term->nfactors && retex_term_is_light(term); k++) {
+        if (term->factors[k].kind == RETEX_FACTOR_IMAGE)
+            return "its terms have images as factors";
+        parameters += term->factors[k].kind == RETEX_FACTOR_PARAMETER;
+    }
+    return parameters > RETEX_COMPACT_PARAMETERS ? "its terms have too many parameters" : NULL;
+}
+
+void retex_compact_rendered(const RetexSet *set, const RetexTerm *term, double value[3])
+{
+    double product[3] = {1, 1, 1};
+    for (int k = 0; k < term->nfactors; k++)
+        for (int c = 0; c < 3 && term->factors[k].kind == RETEX_FACTOR_PARAMETER; c++)
+            product[c] *= (double)set->parameters[term->factors[k].index].value[c];
+    const int black = !(product[0] > 0 || product[1] > 0 || product[2] > 0);
+    for (int c = 0; c < 3; c++)
+        value[c] = black ? 1 : product[c];
+}
+
+/* The number of a term's parameters in the list, to which they are added where they are new. */
+static int find_lamps(RetexCompactLight *light, const RetexTerm *term)
+{
+    RetexCompactLamps own = {0};
+    int i = 0;
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
+            own.factors[own.count++] = term->factors[k];
+    retex_compact_rendered(light->set, term, own.value);
+    while (i < light->nlamps && memcmp(light->lamps[i].factors, own.factors, sizeof own.factors) != 0)
+        i++;
+    if (i == light->nlamps)
+        light->lamps[light->nlamps++] = own;
+    return i;
+}
+
+static int sort_lamps(RetexCompactLight *light, RetexError *err)
+{
+    for (int i = 0; i < light->set->nterms; i++)
+        if (retex_term_is_light(&light->set->terms[i]) && retex_term_hits(&light->set->terms[i]))
+            light->lamps_of[i] = find_lamps(light, &light->set->terms[i]);
+    const size_t lists = (size_t)light->nkinds * (size_t)light->nlamps;
+    light->singles = malloc((lists + 1) * sizeof *light->singles);
+    if (!light->singles)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", light->set->nterms);
+    memset(light->singles, -1, lists * sizeof *light->singles);
+    for (int i = 0; i < light->nkinds; i++)
+        light->kinds[i].single = light->singles + i * light->nlamps;
+    return RETEX_OK;
 }
 
 static void find_greys(RetexCompactLight *light)
@@ -148,17 +195,20 @@ int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, doub
         return RETEX_OK;
     light->interreflections = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->interreflections);
     light->greys = calloc((size_t)set->nterms + 1, sizeof *light->greys);
-    if (!light->interreflections || !light->greys)
+    light->lamps_of = calloc((size_t)set->nterms + 1, sizeof *light->lamps_of);
+    light->lamps = calloc((size_t)set->nterms + 1, sizeof *light->lamps);
+    if (!light->interreflections || !light->greys || !light->lamps_of || !light->lamps)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     find_greys(light);
+    int code = sort_lamps(light, err);
     for (int i = 0; i < light->nkinds; i++)
         light->kinds[i].interreflections = light->interreflections + (size_t)i * (size_t)set->nterms;
-    for (int i = 0; i < set->nterms && !*unknown; i++)
+    for (int i = 0; i < set->nterms && !*unknown && !code; i++)
         if (!sort_term(light, i))
             *unknown = "its terms are of another form than those of layout footprints";
-    int code = RETEX_OK;
     for (int i = 0; i < RETEX_COMPACT_CHOICES * light->nkinds && !*unknown && !code; i++)
-        code = retex_compact_orders_make(&light->kinds[i / RETEX_COMPACT_CHOICES], set, i % RETEX_COMPACT_CHOICES, err);
+        code =
+            retex_compact_orders_make(&light->kinds[i / RETEX_COMPACT_CHOICES], light, i % RETEX_COMPACT_CHOICES, err);
     return code;
 }
 
@@ -172,8 +222,14 @@ void retex_compact_light_close(RetexCompactLight *light)
     }
     free(light->interreflections);
     free(light->greys);
+    free(light->lamps_of);
+    free(light->lamps);
+    free(light->singles);
     light->interreflections = NULL;
     light->greys = NULL;
+    light->lamps_of = NULL;
+    light->lamps = NULL;
+    light->singles = NULL;
 }
 
 static int is_covered(const RetexSet *set, int footprint, size_t pixel)
@@ -200,7 +256,30 @@ int retex_compact_has_interreflections(const RetexCompactLight *light, const Ret
     return 0;
 }
 
-void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel,
+int retex_compact_has_single(const RetexCompactKind *kind, int lamps)
+{
+    int single = 0;
+    for (int k = 0; k < kind->count; k++)
+        single |= kind->single[lamps][k] >= 0;
+    return single;
+}
+
+int retex_compact_has_further(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps)
+{
+    int further = 0;
+    for (int i = 0; i < kind->ninterreflections; i++)
+        further |= light->lamps_of[kind->interreflections[i].term] == lamps;
+    return further;
+}
+
+/* What the light of some lamps counts. */
+static const double *value_of(const RetexCompactLight *light, int lamps, int wanted)
+{
+    static const double one[3] = {1, 1, 1}, none[3] = {0};
+    return wanted == RETEX_COMPACT_ALL_LAMPS ? light->lamps[lamps].value : lamps == wanted ? one : none;
+}
+
+void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps, size_t pixel,
                                  RetexCompactClusterLight of[RETEX_SHARES_MAX])
 {
     const RetexSet *set = light->set;
@@ -210,16 +289,20 @@ void retex_compact_cluster_light(const RetexCompactLight *light, const RetexComp
     for (int i = 0; i < kind->ninterreflections && all > 0; i++) {
         const int number = kind->interreflections[i].term;
         const float *radiance = set->parts[set->terms[number].radiance].image.pixels + 3 * pixel;
+        const double *value = value_of(light, light->lamps_of[number], lamps);
         const float grey = light->greys[number];
         for (int c = 0; c < 3; c++)
-            interreflected[c] += (double)(grey * radiance[c]);
+            interreflected[c] += value[c] * (double)(grey * radiance[c]);
     }
     for (int k = 0; k < kind->count; k++) {
-        const int shown = kind->single[k] >= 0 && is_covered(set, kind->footprints[k], pixel);
-        const float *own = shown ? set->parts[set->terms[kind->single[k]].radiance].image.pixels + 3 * pixel : NULL;
-        for (int c = 0; c < 3; c++) {
-            of[k].single[c] = own ? (double)own[c] : 0;
-            of[k].interreflected[c] = all > 0 ? interreflected[c] * shares[k] / all : 0;
+        of[k] = (RetexCompactClusterLight){0};
+        for (int c = 0; c < 3 && all > 0; c++)
+            of[k].interreflected[c] = interreflected[c] * shares[k] / all;
+        for (int i = 0; i < light->nlamps && is_covered(set, kind->footprints[k], pixel); i++) {
+            const int number = kind->single[i][k];
+            const float *own = number >= 0 ? set->parts[set->terms[number].radiance].image.pixels + 3 * pixel : NULL;
+            for (int c = 0; c < 3 && own; c++)
+                of[k].single[c] += value_of(light, i, lamps)[c] * (double)own[c];
         }
     }
 }

@@ -8,10 +8,21 @@
 /* Albedo that interreflections are assumed to meet where terms of several hits are added up. */
 #define RETEX_COMPACT_GREY 0.6f
 #define RETEX_COMPACT_KINDS (3 * RETEX_MAX_TARGETS)
+/* Parameters of a term: what a term of most hits has room for beside a gain. */
+#define RETEX_COMPACT_PARAMETERS (RETEX_MAX_FACTORS - RETEX_MAX_HITS - 1)
+
+/* The parameters of a term, mostly one lamp's colour, or none. Terms that differ in nothing else share clusters and
+ * mixtures, but light of different parameters is stored apart, so that it stays exact in them. */
+typedef struct RetexCompactLamps {
+    int count;
+    RetexFactor factors[RETEX_COMPACT_PARAMETERS];
+    double value[3]; /* the product of their values as rendered; 1 where that is black */
+} RetexCompactLamps;
 
 /* A term of the compact set: the kind's radiance times a gain. */
 typedef struct RetexCompactGain {
-    RetexTerm term; /* its factors, of the old set */
+    RetexTerm term; /* its factors, of the old set: hits, then parameters */
+    int lamps;
     char name[RETEX_NAME_MAX];
 } RetexCompactGain;
 
@@ -33,10 +44,10 @@ typedef struct RetexCompactKind {
     RetexFootprintKind kind;
     int count;
     int footprints[RETEX_SHARES_MAX];
-    int single[RETEX_SHARES_MAX]; /* the term with this footprint as only factor, or -1 */
-    int share[RETEX_SHARES_MAX];  /* the part of its weight in a mixture, or -1 */
-    RetexFactor first;            /* the first hit of terms with interreflections */
-    int ninterreflections;        /* terms whose first hit is of this kind, with more hits */
+    int (*single)[RETEX_SHARES_MAX]; /* by lamps: the term with this footprint as only hit, or -1 */
+    int share[RETEX_SHARES_MAX];     /* the part of its weight in a mixture, or -1 */
+    RetexFactor first;               /* the first hit of terms with interreflections */
+    int ninterreflections;           /* terms whose first hit is of this kind, with more hits */
     RetexCompactInterreflection *interreflections;
     int ngains[RETEX_COMPACT_CHOICES];
     RetexCompactGain *gains[RETEX_COMPACT_CHOICES];
@@ -48,6 +59,9 @@ typedef struct RetexCompactLight {
     int nkinds;
     RetexCompactKind kinds[RETEX_COMPACT_KINDS];
     RetexCompactInterreflection *interreflections; /* of all kinds */
+    int nlamps, *lamps_of;                         /* by term with hits: its number in lamps */
+    RetexCompactLamps *lamps;
+    int (*singles)[RETEX_SHARES_MAX]; /* of all kinds */
     float *greys; /* by term with interreflections: its radiance's factor if all of these meet RETEX_COMPACT_GREY; 0 of
                      other terms */
 } RetexCompactLight;
@@ -62,9 +76,16 @@ void retex_compact_light_close(RetexCompactLight *light);
 typedef struct RetexCompactClusterLight {
     double single[3], interreflected[3];
 } RetexCompactClusterLight;
-/* Light of each of a kind's clusters; not for interreflection footprints. */
-void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel,
+enum { RETEX_COMPACT_ALL_LAMPS = -1 };
+/* Light of each of a kind's clusters; not for interreflection footprints. lamps: the light that these multiply, or
+ * RETEX_COMPACT_ALL_LAMPS, all light with parameters as rendered. */
+void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps, size_t pixel,
                                  RetexCompactClusterLight of[RETEX_SHARES_MAX]);
+/* Whether a kind has light of single hits of these lamps; and of interreflections. */
+int retex_compact_has_single(const RetexCompactKind *kind, int lamps);
+int retex_compact_has_further(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps);
+/* The product of a term's parameters as rendered; 1 where that is black. */
+void retex_compact_rendered(const RetexSet *set, const RetexTerm *term, double value[3]);
 /* Whether a path with interreflections has its first hit on a footprint of this kind in the pixel. */
 int retex_compact_has_interreflections(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel);
 

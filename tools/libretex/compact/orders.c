@@ -32,8 +32,9 @@ static int is_any_target(const RetexSet *set, RetexFactor factor)
 static int is_interreflection(const RetexSet *set, RetexFactor factor)
 {
     int target;
-    RetexFootprintKind kind;
-    retex_factor_target(set, factor, &target, &kind);
+    RetexFootprintKind kind = RETEX_FOOTPRINT_HIT;
+    if (retex_factor_is_texture(factor))
+        retex_factor_target(set, factor, &target, &kind);
     return kind == RETEX_FOOTPRINT_INTERREFLECTION;
 }
 
@@ -64,9 +65,11 @@ static int same_factors(const RetexTerm *a, const RetexTerm *b)
 
 /* Find or add the gain for `order` interreflections, with the factors of term `number`, or with factor `any` if not
  * NULL. */
-static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, int number, int order,
-                     const RetexFactor *any)
+static int find_gain(RetexCompactKind *kind, const RetexCompactLight *light, RetexCompactMixed mixed, int number,
+                     int order, const RetexFactor *any)
 {
+    const RetexSet *set = light->set;
+    const RetexCompactLamps *lamps = &light->lamps[light->lamps_of[number]];
     const RetexTerm *old = &set->terms[number];
     const int old_order = retex_term_hits(old) - 1;
     RetexTerm term = *old;
@@ -77,6 +80,8 @@ static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMi
             term.factors[term.nfactors++] = old->factors[k];
     while (term.nfactors < 1 + order)
         term.factors[term.nfactors++] = any ? *any : *first_interreflection(set, old);
+    for (int k = 0; k < lamps->count; k++)
+        term.factors[term.nfactors++] = lamps->factors[k];
     int g = 0;
     while (g < kind->ngains[mixed] && !same_factors(&kind->gains[mixed][g].term, &term))
         g++;
@@ -84,9 +89,12 @@ static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMi
         return g;
     RetexCompactGain *gain = &kind->gains[mixed][kind->ngains[mixed]++];
     gain->term = term;
-    /* the gain is named after the radiance it replaces, or after its order */
+    gain->lamps = light->lamps_of[number];
+    /* the gain is named after the radiance it replaces, or after its order; with lamps it has a number */
     const char *name = set->parts[old->radiance].name, *tail = strrchr(name, '_');
-    if (any || order != old_order)
+    if (lamps->count)
+        snprintf(gain->name, sizeof gain->name, "%d", g + 1);
+    else if (any || order != old_order)
         snprintf(gain->name, sizeof gain->name, "%c%d", any ? 'm' : 'a', order);
     else
         snprintf(gain->name, sizeof gain->name, "%s", tail ? tail + 1 : name);
@@ -111,9 +119,10 @@ static double between(int order, int highest, int orders[2])
 }
 
 /* Divide a term between the gains of kept orders. */
-static void share_term(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed,
+static void share_term(RetexCompactKind *kind, const RetexCompactLight *light, RetexCompactMixed mixed,
                        RetexCompactInterreflection *part, int highest)
 {
+    const RetexSet *set = light->set;
     const RetexTerm *term = &set->terms[part->term];
     const int order = retex_term_hits(term) - 1;
     const int mixes = mixed == RETEX_COMPACT_MIXED && order >= FIRST_MIXED;
@@ -124,12 +133,14 @@ static void share_term(RetexCompactKind *kind, const RetexSet *set, RetexCompact
     for (int k = 0; k < 2; k++) {
         part->in[mixed][k].share = k ? 1 - share : share;
         part->in[mixed][k].gain =
-            part->in[mixed][k].share > 0 ? find_gain(kind, set, mixed, part->term, orders[k], any) : -1;
+            part->in[mixed][k].share > 0 ? find_gain(kind, light, mixed, part->term, orders[k], any) : -1;
     }
 }
 
-int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, RetexError *err)
+int retex_compact_orders_make(RetexCompactKind *kind, const RetexCompactLight *light, RetexCompactMixed mixed,
+                              RetexError *err)
 {
+    const RetexSet *set = light->set;
     int highest = 0;
     kind->gains[mixed] = calloc(2 * (size_t)kind->ninterreflections + 1, sizeof **kind->gains);
     if (!kind->gains[mixed])
@@ -138,6 +149,6 @@ int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, Retex
         if (retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1 > highest)
             highest = retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1;
     for (int i = 0; i < kind->ninterreflections; i++)
-        share_term(kind, set, mixed, &kind->interreflections[i], highest);
+        share_term(kind, light, mixed, &kind->interreflections[i], highest);
     return RETEX_OK;
 }

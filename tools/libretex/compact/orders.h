@@ -5,6 +5,7 @@
 #include "compact/light.h"
 
 /* List a kind's gains, and how each term is divided among them. */
-int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, RetexError *err);
+int retex_compact_orders_make(RetexCompactKind *kind, const RetexCompactLight *light, RetexCompactMixed mixed,
+                              RetexError *err);
 
 #endif

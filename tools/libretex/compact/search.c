@@ -80,7 +80,7 @@ static double numbers_of(const Search *work, const Choice *choice, int step)
         if (choice->subject == CLUSTERS)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
         else if (choice->subject == GAINS)
-            numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + 1) / (1 << (2 * step));
+            numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + work->light->nlamps) / (1 << (2 * step));
         else if (!step)
             numbers +=
                 3.0 / 16 *

@@ -60,7 +60,7 @@ typedef struct Range {
 
 typedef struct Planning {
     double white;   /* the set's white: the least value at level 255 of any radiance */
-    double *whites; /* by part of radiance: its value at level 255 */
+    double *whites; /* by part of radiance: its value at level 255, with parameters as rendered */
     RetexPackPart *packed;
     const RetexSet *set;
     const RetexPackQuantizer *quantizer;
@@ -138,6 +138,19 @@ static void find_ranges(void *context, int part, int thread)
     }
 }
 
+/* What radiance is multiplied by, with parameters as rendered: the brightest colour. */
+static double rendered_value(const RetexSet *set, int part)
+{
+    double most = 0, value[3];
+    for (int i = 0; i < set->nterms; i++) {
+        if (set->terms[i].radiance != part)
+            continue;
+        retex_compact_rendered(set, &set->terms[i], value);
+        most = fmax(most, fmax(value[0], fmax(value[1], value[2])));
+    }
+    return most > 0 ? most : 1;
+}
+
 /* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
  * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed: the mean
  * plus two standard deviations. */
@@ -145,12 +158,13 @@ static double white_of(const Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
     const RetexImage *im = &set->parts[part].image;
+    const double value = rendered_value(set, part);
     double count = 0, sum = 0, squares = 0;
     int darkened = part > 0;
     for (int i = 0; i < set->nterms; i++)
         darkened = darkened && (set->terms[i].radiance != part || retex_term_hits(&set->terms[i]) > 0);
     for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
-        const double v = (double)im->pixels[i];
+        const double v = value * (double)im->pixels[i];
         if (!(v > 0) || !isfinite(v))
             continue;
         count++, sum += v, squares += v * v;
@@ -172,7 +186,7 @@ static void find_noise(void *context, int part, int thread)
         return;
     plan->whites[part] = white_of(plan, part);
     plan->noise[part] = -1;
-    const RetexPackCurve curve = {.white = plan->whites[part], .levels = 255};
+    const RetexPackCurve curve = {.white = plan->whites[part] / rendered_value(plan->set, part), .levels = 255};
     if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
         return;
     for (size_t i = 0; i < count; i++)
@@ -370,7 +384,7 @@ static void plan_parts(Planning *plan)
         if (!zero && plan->quantizer && i == 0) /* white is 1, because viewers decode the picture as sRGB */
             plan_light(plan, i, 1, plan->quantizer->picture_step);
         else if (!zero && plan->quantizer && plan->roles[i] == ROLE_LIGHT)
-            plan_light(plan, i, plan->whites[i], light_step(plan, i));
+            plan_light(plan, i, plan->whites[i] / rendered_value(set, i), light_step(plan, i));
         else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ALBEDO)
             plan_light(plan, i, plan->white, plan->quantizer->jpeg_step);
         else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ORIGINAL)

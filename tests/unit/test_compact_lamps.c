@@ -1,0 +1,231 @@
+/* Sets with lamps that can be changed, made compact: their pictures are those of the whole set in the same colours of
+ * the lamps, as exactly as without these; footprints are shared, and lie where they lie without lamps. */
+#include "lib_compact.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <retex/metrics.h>
+
+#include "lib_folder.h"
+
+enum { PARAMETERS = 2 };
+static const float colors[][3 * PARAMETERS] = {
+    {1, 0.5f, 2, 1, 1, 1}, {0.25f, 3, 0, 1, 0, 2}, {0, 0, 0, 1, 1, 1}, {1, 0.5f, 2, 0, 0, 0}, {0, 0, 0, 0, 0, 0}};
+enum { COLORS = sizeof colors / sizeof *colors };
+
+/* The picture with one colour as a texture, or the originals, and lamps of these colours. */
+static RetexImage lit_picture(const RetexSet *set, const float *constant, const float *lamps)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    RetexCombineParams params = RETEX_COMBINE_INIT;
+    RetexSamples *samples = NULL;
+    RetexImage image = {0};
+    RetexError err = {0};
+    params.parameters = lamps;
+    for (int t = 0; t < set->ntargets && constant; t++) {
+        specs[t] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+        strcpy(specs[t].target, set->targets[t].name);
+        specs[t].constant = 1;
+        memcpy(specs[t].color, constant, sizeof specs[t].color);
+    }
+    if (constant)
+        test_must(retex_sample(&samples, set, specs, set->ntargets, 1, &err), &err);
+    test_must(retex_combine(&image, set, samples, &params, NULL, 1, &err), &err);
+    retex_samples_close(&samples);
+    return image;
+}
+
+static void expect_same_pictures(const RetexSet *a, const RetexSet *b, const float *constant)
+{
+    for (int k = 0; k < COLORS; k++) {
+        RetexImage one = lit_picture(a, constant, colors[k]), other = lit_picture(b, constant, colors[k]);
+        float most = 0;
+        for (int i = 0; i < 3 * WIDE * HIGH; i++)
+            most = fmaxf(most, one.pixels[i]);
+        assert_true(most > 0);
+        for (int i = 0; i < 3 * WIDE * HIGH; i++)
+            assert_float_equal(one.pixels[i], other.pixels[i], 1e-3f * most);
+        retex_image_free(&one);
+        retex_image_free(&other);
+    }
+}
+
+static RetexSet *lamp_set(int ntargets, int count)
+{
+    RetexSet *set = whole_set(ntargets, count);
+    test_divide_light(set);
+    return set;
+}
+
+/* What is exact of a compact set without lamps is exact with them, in all of their colours. */
+static void lamps_change_as_in_the_whole_set(void **state)
+{
+    (void)state;
+    for (int ntargets = 1; ntargets <= 2; ntargets++)
+        for (int scale = 1; scale <= 8; scale *= 2) {
+            RetexSet *set = lamp_set(ntargets, 3), *compact = compacted(set, scale, scale, scale),
+                     *whole = compacted(set, 4, 8, 1);
+            expect_same_pictures(set, compact, grey);
+            expect_same_pictures(set, whole, bright);
+            expect_same_pictures(set, whole, NULL);
+            retex_set_close(&set);
+            retex_set_close(&compact);
+            retex_set_close(&whole);
+        }
+}
+
+/* Terms read their lamps from the set alone, so that it may be packed, and packed again. */
+static void packs_hold_lamps(void **state)
+{
+    (void)state;
+    RetexSet *set = lamp_set(1, 2), *pack;
+    RetexError err = {0};
+    RetexPackParams params = RETEX_PACK_INIT;
+    for (int again = 0; again < 2; again++) {
+        test_must(retex_pack_write(set, test_in_folder("lamps.retex"), &params, NULL, 2, &err), &err);
+        test_must(retex_set_read(test_in_folder("lamps.retex"), &pack, NULL, 2, &err), &err);
+        assert_true(retex_set_find_part(pack, "dep_T0_sharp_lamp1") > 0);
+        assert_true(retex_set_find_part(pack, "gain_T0_broad_lamp2") > 0);
+        for (int k = 0; k < COLORS; k++) {
+            RetexImage one = lit_picture(set, NULL, colors[k]), other = lit_picture(pack, NULL, colors[k]);
+            RetexMetrics metrics;
+            test_must(retex_metrics(&metrics, &other, &one, 1, &err), &err);
+            assert_true(metrics.psnr > 45);
+            retex_image_free(&one);
+            retex_image_free(&other);
+        }
+        retex_set_close(&set);
+        set = pack;
+    }
+    retex_set_close(&set);
+}
+
+/* As rendered the light is that of the set without lamps, so that footprints and weights are the same, and as many. */
+static void footprints_are_those_of_all_light(void **state)
+{
+    (void)state;
+    RetexSet *set = whole_set(2, 3), *lit = lamp_set(2, 3), *one = compacted(set, 4, 8, 2),
+             *all = compacted(lit, 4, 8, 2);
+    assert_int_equal(one->nfootprints, all->nfootprints);
+    assert_int_equal(one->nmixtures, all->nmixtures);
+    int compared = 0;
+    for (int i = 1; i < one->nparts; i++) {
+        const char *name = one->parts[i].name;
+        const int part = retex_set_find_part(all, name);
+        if (strncmp(name, "uv_", 3) != 0 && strncmp(name, "weight_", 7) != 0 && strncmp(name, "albedo_", 7) != 0)
+            continue;
+        assert_true(part > 0);
+        const RetexImage *a = &one->parts[i].image, *b = &all->parts[part].image;
+        for (size_t k = 0; k < retex_image_index(a, 0, a->height); k++, compared++)
+            assert_float_equal(a->pixels[k], b->pixels[k], 1.01 / 512);
+    }
+    assert_true(compared > 0);
+    retex_set_close(&set);
+    retex_set_close(&lit);
+    retex_set_close(&one);
+    retex_set_close(&all);
+}
+
+/* Light that two lamps have in turn, so that it is even while both are on: gains of each must be whole all the same. */
+static void scales_are_for_each_lamp(void **state)
+{
+    (void)state;
+    for (int edge = 0; edge < 2; edge++) {
+        RetexSet *set = whole_set(1, 1), *compact;
+        RetexError err = {0};
+        RetexParameter lamp = {.kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 1, 1}};
+        const int nterms = set->nterms;
+        for (int t = 1; t < nterms; t++)
+            for (int k = 0; k < 2; k++) {
+                RetexTerm term = set->terms[t];
+                const int part = k ? add_part(set, "RGB", "light", t) : term.radiance;
+                int number = k;
+                strcpy(lamp.name, k ? "B" : "A");
+                if (t == 1)
+                    test_must(retex_set_add_parameter(set, &lamp, &number, &err), &err);
+                for (int y = 0; y < HIGH; y++)
+                    for (int x = 0; x < WIDE; x++) {
+                        const int on = edge ? (x / 5 + y / 5 + k) % 2 : 1, later = retex_term_hits(&term) - 1;
+                        /* the sum of a kind is even for each lamp too */
+                        const float light = later > 1 ? 0 : later ? (float)on * 0.2f : 0.3f - (float)on * 0.12f;
+                        put_rgb(set, part, x, y, light, light, light);
+                    }
+                term.radiance = part;
+                test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, number), &err), &err);
+                if (k)
+                    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+                else
+                    set->terms[t] = term;
+            }
+        for (int i = 0; i < set->nfootprints; i++)
+            for (int k = 0; k < WIDE * HIGH; k++)
+                put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
+        test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
+        const int gain = retex_set_find_part(compact, "gain_T0_sharp_lamp1");
+        assert_true(gain > 0);
+        assert_int_equal(retex_set_scale(compact, &compact->parts[gain].image), edge ? 1 : 8);
+        retex_set_close(&set);
+        retex_set_close(&compact);
+    }
+}
+
+/* Whether a term has a parameter. */
+static int has_lamp(const RetexTerm *term, int lamp)
+{
+    int has = 0;
+    for (int k = 0; k < term->nfactors; k++)
+        has |= term->factors[k].kind == RETEX_FACTOR_PARAMETER && term->factors[k].index == lamp;
+    return has;
+}
+
+/* A set of light of the first lamp, which was rendered in these values, all other light on targets being 0. */
+static RetexSet *set_of_one_lamp(float value)
+{
+    RetexSet *set = lamp_set(1, 2);
+    for (int c = 0; c < 3; c++)
+        set->parameters[0].value[c] = value;
+    for (int t = 0; t < set->nterms; t++) {
+        const float light = !has_lamp(&set->terms[t], 0) ? !retex_term_hits(&set->terms[t]) : value > 0 ? 1 / value : 1;
+        for (int i = 0; i < 3 * WIDE * HIGH; i++)
+            set->parts[set->terms[t].radiance].image.pixels[i] *= light;
+    }
+    return set;
+}
+
+/* A lamp that was off has light all the same, which somebody may turn on. One that was far brighter than others, whose
+ * radiance is so much smaller, is packed as finely, and in as many bytes. */
+static void values_as_rendered_do_not_matter(void **state)
+{
+    (void)state;
+    const float values[] = {1, 0, 4096};
+    size_t bytes[3];
+    for (int k = 0; k < 3; k++) {
+        RetexSet *set = set_of_one_lamp(values[k]), *pack;
+        RetexError err = {0};
+        RetexMetrics metrics;
+        const float on = k == 2 ? values[k] : 1, lamps[3 * PARAMETERS] = {on, on, on, 1, 1, 1};
+        test_must(retex_pack_write(set, test_in_folder("values.retex"), NULL, &bytes[k], 2, &err), &err);
+        test_must(retex_set_read(test_in_folder("values.retex"), &pack, NULL, 2, &err), &err);
+        RetexImage one = lit_picture(set, bright, lamps), other = lit_picture(pack, bright, lamps);
+        test_must(retex_metrics(&metrics, &other, &one, 1, &err), &err);
+        assert_true(metrics.psnr > 45);
+        retex_image_free(&one);
+        retex_image_free(&other);
+        retex_set_close(&pack);
+        retex_set_close(&set);
+    }
+    assert_in_range(bytes[2], 0, bytes[0] + bytes[0] / 20);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lamps_change_as_in_the_whole_set),  cmocka_unit_test(packs_hold_lamps),
+        cmocka_unit_test(footprints_are_those_of_all_light), cmocka_unit_test(scales_are_for_each_lamp),
+        cmocka_unit_test(values_as_rendered_do_not_matter),
+    };
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
+}
