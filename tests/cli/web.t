@@ -43,6 +43,10 @@ $ ln -s "$SCENES/textures" T; cp "$TESTS"/../web/*.py .
 $ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 40; near one 40 Floor=T/walnut-herringbone.jpg; near one 38 Wall=T/brick.jpg; near packed 40 Floor=T/fans.jpg Wall=T/travertine.jpg
 $ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 38 Floor=T/terrazzo.jpg Wall=T/damask.jpg; near one 40 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7; near one 38 Floor=T/walnut-herringbone.jpg:scale=3,2:rotate=30:offset=0.2,0.5
 
+# Lamps that can be changed: as rendered, and as in a set that was rendered so.
+$ make_lamps s.exr lamps.exr; make_lamps s.exr other.exr 0.25,1,0; retex-pack -q lamps.exr --web lamps; /usr/bin/python3 near.py lamps.exr lamps 38 Floor=T/walnut-herringbone.jpg
+$ /usr/bin/python3 reference.py lamps a.exr Lamp=0.25,1,0 Wall=0.8,0.1,0.1; retex-combine -q other.exr --texture Wall='rgb(0.8,0.1,0.1)' -o b.exr; retex-diff -q a.exr b.exr --fail-psnr 38
+
 # A floor to the horizon, whose UV go far; a target that is not seen; a size and samples so few that nothing spreads.
 $ printf '#declare F = texture { pigment { rgb .5 } } #declare G = texture { pigment { rgb .4 } } camera { location <0, 1, -3> look_at 0 } light_source { <-2, 4, -3> rgb 1 } plane { y, -1 texture { F } } sphere { <0, 0, -99>, 1 texture { G } }' >far.pov; retex-render -q --size 96x72 --spp 16 -t F -t G far.pov -o far.exr; retex-render -q --size 1x1 --spp 1 -t F -t G far.pov -o tiny.exr
 $ for s in far tiny; do retex-pack -q $s.exr --web web-$s; /usr/bin/python3 near.py $s.exr web-$s 36 F=T/brick.jpg:scale=.5 G=1,0,0; done; python3 -c 'import json; print(max(t["uv_max"][1] for t in json.load(open("web-far/room.json"))["targets"]) > 2048)'

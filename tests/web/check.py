@@ -114,6 +114,27 @@ def check_placing(page):
     result("brick" in said, f"what does not go together: {said}")
 
 
+def check_lamps(page):
+    """A set of lamps: the canvas after setParameter, and the picture of a set that was rendered so."""
+    for name, color in (("lamps", []), ("other", ["0.25,1,0"])):
+        subprocess.run(["make_lamps", f"{work}/room.exr", f"{work}/{name}.exr", *color], check=True)
+    subprocess.run(["retex-pack", "-q", f"{work}/lamps.exr", "--web", f"{work}/lamps"], check=True)
+    page.open(url + "lamps/")
+    page.room("complete")
+    listed = page.room("parameters")
+    result([p["name"] for p in listed] == ["Lamp", "Window"] and listed[0]["value"] == [1, 0.5, 2], f"lamps: {listed}")
+    for color, name in (("[0.25, 1, 0]", "other"), ("null", "lamps")):
+        page.room(f"setParameter('Lamp', {color})")
+        page.room("setTexture('Floor', 'rgb(0.8,0.1,0.1)')")
+        page.save(f"{work}/canvas.png")
+        subprocess.run(["retex-combine", "-q", f"{work}/{name}.exr", "--texture", "Floor=rgb(0.8,0.1,0.1)", "-o",
+                        f"{work}/combined.png"], check=True)
+        decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+        print(f"# a lamp of {color}: {decibels:.2f} dB")
+        result(decibels >= 38, f"canvas and retex-combine: a lamp of {color}")
+    page.open(url + "page.html")
+
+
 def set_slider(page, name, touch, end=0.75):
     """Drag a slider from its middle, or tap on it."""
     page.run(f"{PART}('[data-set={name}]').scrollIntoView({{block: 'nearest'}})")
@@ -455,6 +476,7 @@ def main():
         page.open(url + "page.html")
         check_pictures(page)
         check_placing(page)
+        check_lamps(page)
         page.shot("desktop")
         check_controls(page, False)
         check_keyboard(page)

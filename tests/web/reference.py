@@ -1,6 +1,6 @@
 """Makes the picture of a folder that retex-pack --web wrote, as the player's shaders do, but on the CPU with numpy.
 
-    reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]...
+    reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]... [PARAMETER=r,g,b]...
 """
 import json
 import sys
@@ -287,6 +287,8 @@ class Room:
                 for m in term["factors"]:
                     product = product * enlarge(mixtures[m], scale[m] // finest, *small)
                 factor = product if factor is None else factor + product
+            for p in group.get("parameters", []):
+                factor = factor * np.array(room["parameters"][p]["value"])
             light = self.lights[group["light"]] * enlarge(factor, finest, width, height)
             out += light if group["mixture"] < 0 else light * mixtures[group["mixture"]]
         return out
@@ -298,6 +300,9 @@ def main():
     textures = {}
     for argument in sys.argv[3:]:
         name, text = argument.split("=", 1)
+        if name not in names:
+            next(p for p in room.room["parameters"] if p["name"] == name)["value"] = [float(x) for x in text.split(",")]
+            continue
         textures[names.index(name)] = Texture(text)
     picture = room.combine(textures).astype(np.float32)
     out = oiio.ImageOutput.create(sys.argv[2])

@@ -40,6 +40,17 @@ test("a manifest as described is accepted, without reduced images too", () => {
   checkManifest(changed("lights.0.white", 1e-30));
 });
 
+test("parameters, which groups refer to", async () => {
+  const parameters = [{ name: "Lamp", value: [1, 0.5, 2] }], lit = (changes) => ({ ...manifest(), parameters, ...changes });
+  const group = (list) => ({ groups: [{ ...manifest().groups[0], parameters: list }, manifest().groups[1]] });
+  checkManifest(lit());
+  checkManifest(lit(group([0, 0])));
+  for (const wrong of [group([1]), group([-1]), group([0.5]), group(0), group(Array(17).fill(0)), { parameters: 3 }, { parameters: Array(65).fill(parameters[0]) },
+    { parameters: [{ value: [1, 1, 1] }] }, ...[[1, 1], [1, 1, 1, 1], [1, -1, 1], [1, "1", 1], 1, undefined].map((value) => ({ parameters: [{ name: "Lamp", value }] }))])
+    await fails(() => checkManifest(lit(wrong)), /damaged|undefined/, JSON.stringify(wrong));
+  await refused("groups.0.parameters", [0]);
+});
+
 test("another version is told", async () => {
   for (const value of [undefined, 0, 2, "1"])
     await fails(() => checkManifest(changed("retex_web", value)), "room.json is of another version, or no room.");
@@ -85,8 +96,8 @@ test("names of files that lead elsewhere", async () => {
 
 test("lists that are too long, or none", async () => {
   const room = manifest();
-  const longest = { targets: 8, lights: 256, "reduced.tiles": 256, classes: 24, "classes.0.footprints": 16, "classes.0.footprints.0.weights": 2,
-    mixtures: 96, groups: 64, terms: 1024, "terms.0.factors": 12 };
+  const longest = { targets: 8, lights: 256, "reduced.tiles": 2048, classes: 24, "classes.0.footprints": 16, "classes.0.footprints.0.weights": 2,
+    mixtures: 96, groups: 128, terms: 1024, "terms.0.factors": 12 };
   for (const path in longest) {
     const one = path.split(".").reduce((at, key) => at[key], room)[0] ?? 1;
     await refused(path, Array(longest[path] + 1).fill(one));

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { inflateSync } from "node:zlib";
-import { near, test } from "./tap.mjs";
+import { near, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 import { compile } from "./glsl.mjs";
 import { context, WebGLTexture } from "./webgl.mjs";
@@ -40,14 +40,14 @@ function open(name, { classes = () => true } = {}) {
   renderer.putReduced(reduced);
   lights.forEach((light, i) => renderer.putLight(i, light));
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base));
-  const draw = (textures, { split = 0, lamp = [1, 1, 1] } = {}) => {
+  const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value) } = {}) => {
     const all = room.targets.map((t, i) => {
       const { image = null, ...options } = textures[t.name] || {};
       renderer.putTexture(i, image);
       return { ...plainTexture(), ...placing(plainTexture(), options), image, put: { shifted: "" } };
     });
     const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room }).settings();
-    renderer.render(settings, split, lamp);
+    renderer.render(settings, split, lamp, colors);
     return canvas.picture;
   };
   return { room, draw };
@@ -112,6 +112,26 @@ test("tints and the light multiply linear colours", () => {
   const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4), lamp = [0.5, 0.25, 0.125];
   const plain = whole.draw({}), dim = whole.draw({}, { lamp });
   plain.values.forEach((y, i) => i % 4 < 3 && y < 0.999 && near(linear(dim.values[i]), linear(y) * lamp[i % 4], 1e-6, `value ${i}`));
+});
+
+test("lamps have their own light: the picture is that of the set with the lamp in that colour", () => {
+  const program = (...args) => tool("../tests/bin/make_lamps", ...args), colors = [[0.25, 1, 0], [1, 1, 1]];
+  program("s.exr", "lamps.exr");
+  program("s.exr", "green.exr", "0.25,1,0");
+  tool("retex-pack", "-q", "lamps.exr", "--web", "lamps");
+  const { room, draw } = open("lamps"), floor = { Floor: { image: [0.8, 0.1, 0.1] } };
+  same(room.parameters, [{ name: "Lamp", value: [1, 0.5, 2] }, { name: "Window", value: [1, 1, 1] }]);
+  for (const set of ["lamps", "green"]) tool("retex-combine", "-q", `${set}.exr`, "--texture", "Floor=rgb(0.8,0.1,0.1)", "-o", `${set}.png`);
+  const [rendered, green] = images(["lamps.png", "green.png"]);
+  least(psnr(draw(floor), rendered), 36, "as rendered");
+  least(psnr(draw(floor, { colors }), green), 36, "green");
+  tool("retex-combine", "-q", "lamps.exr", "-o", "before.png");
+  const half = draw(floor, { colors, split: 20 });
+  least(psnr(half, images(["before.png"])[0], [0, 20]), 36, "left of the split: original textures, lamps as rendered");
+  least(psnr(half, green, [20, 48]), 36, "right of it");
+  const partial = open("lamps", { classes: (c) => c.target === 0 || c.kind === "interreflection" });
+  const before = psnr(partial.draw(floor), green);
+  least(psnr(partial.draw(floor, { colors }), green), before + 2, "nearer, while not all is loaded");
 });
 
 test("a transparent part of a texture shows the original one", () => {

@@ -60,6 +60,25 @@ test("controls: size is the inverse of scale in powers of two, and a pair keeps 
     { exposure: 1.5 }, { warmth: -1 }, ["Floor", { scale: 4 }]]);
 });
 
+test("lamps are listed with their colours, and take others", async () => {
+  const { RetexRoom } = player();
+  let drawn = 0;
+  const room = element(RetexRoom, {}, { room: { parameters: [{ name: "Lamp", value: [1, 0.5, 2] }, { name: "Sky", value: [1, 1, 1] }] },
+    colors: [[1, 0.5, 2], [1, 1, 1]], update: () => drawn++ });
+  room.setParameter("Sky", [0, 0.25, 3]);
+  same(room.parameters, [{ name: "Lamp", value: [1, 0.5, 2] }, { name: "Sky", value: [0, 0.25, 3] }]);
+  room.parameters[0].value[0] = 7; // a copy
+  for (const wrong of [[1, 1], [1, 1, 1, 1], [1, -1, 1], [1, NaN, 1], [Infinity, 1, 1], ["red", 1, 1]])
+    await fails(() => room.setParameter("Lamp", wrong), "Lamp: expected three numbers of 0 or more.");
+  await fails(() => room.setParameter("lamp", [1, 1, 1]), "The room has no 'lamp'.");
+  room.setParameter("Lamp", [0, 0, 0]);
+  room.setParameter("Sky", null);
+  same(room.parameters.map((p) => p.value), [[0, 0, 0], [1, 1, 1]]);
+  same(drawn, 3);
+  same(room.room.parameters[1].value, [1, 1, 1]);
+  same(element(RetexRoom, {}, { room: {} }).parameters, []);
+});
+
 test("links have the state of this room beside others, and the state comes back", async () => {
   const location = { href: "https://x.org/p?q=1#room=%7B%7D&other%3D=1&part", hash: "" };
   const { RetexRoom, plainTexture } = player({ location });

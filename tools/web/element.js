@@ -40,6 +40,11 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     return this.room ? this.room.targets.map((t) => t.name) : [];
   }
 
+  /* What else can be changed: names of colours, such as those of lamps, and their values, linear numbers. */
+  get parameters() {
+    return (this.room?.parameters || []).map(({ name }, i) => ({ name, value: [...this.colors[i]] }));
+  }
+
   /* Resolves when all is loaded. */
   get complete() {
     return this.whenComplete;
@@ -88,6 +93,16 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     let shown = image;
     if (image?.naturalWidth && Math.max(image.naturalWidth, image.naturalHeight) > most) shown = smaller(image, most);
     renderer.putTexture(index, shifted ? shiftedRepeats(shown, repeat) : shown);
+  }
+
+  /* Three numbers of 0 or more; null: as rendered. */
+  setParameter(name, value) {
+    const index = this.parameters.findIndex((p) => p.name === name);
+    if (index < 0) throw new Error(`The room has no '${name}'.`);
+    const color = value || this.room.parameters[index].value;
+    if (color.length !== 3 || !color.every((x) => x >= 0 && x < 1e30)) throw new Error(`${name}: expected three numbers of 0 or more.`);
+    this.colors[index] = color.map(Number);
+    this.update();
   }
 
   /* Brightness in stops, warmth from -1 to 1. */
@@ -177,6 +192,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     if (signal.aborted) return;
     this.room = room;
     this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
+    if (!kept) this.colors = (room.parameters || []).map((p) => p.value);
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
     this.$(".view").style.setProperty("--ratio", room.width / room.height);
     this.refresh();
@@ -287,7 +303,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.frame = 0;
     const begin = performance.now(), { exposure, warmth } = this.light, most = 2 ** exposure;
     const split = this.comparing ? (this.$(".split").value / 100) * this.room.width : 0;
-    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)]);
+    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)], this.colors);
     this.emit("retex-draw", { milliseconds: performance.now() - begin });
   }
 

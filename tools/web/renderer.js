@@ -32,10 +32,14 @@ function checkManifest(room) {
     for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) check(isPair(t[key]));
   });
   check(room.targets.length);
+  list(room.parameters ?? [], 64, (p) => {
+    check(typeof p.name === "string" && p.value.length === 3);
+    list(p.value, 3, (x) => number(x));
+  });
   list(room.lights, 256, (l) => (file(l), levels(l), whole(l.target, -1, 8)));
   if (room.reduced) file(room.reduced);
   const tiles = room.reduced?.tiles || [];
-  list(tiles, 256, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
+  list(tiles, 2048, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
   list(room.classes, 24, (c) => {
     file(c);
     scaled(c);
@@ -57,11 +61,12 @@ function checkManifest(room) {
     check(m.every(([c]) => room.classes[c].scale === room.classes[m[0][0]].scale));
   });
   const scaleOf = (m) => room.classes[room.mixtures[m][0][0]].scale;
-  list(room.groups, 64, (g) => {
+  list(room.groups, 128, (g) => {
     inside(g.light, room.lights);
     inside(g.mixture, room.mixtures, -1);
     whole(g.target, -1, 8);
     check(g.mixture < 0 || scaleOf(g.mixture) === 1);
+    list(g.parameters ?? [], 16, (p) => inside(p, room.parameters));
   });
   list(room.terms, 1024, (t) => {
     inside(t.group, room.groups);
@@ -256,9 +261,10 @@ class Renderer {
       this.into(this.mixtures, room.mixtureLayers[mixture], c.width, c.height);
       this.draw(this.programs[0], { ...values, heads: this.smallHeads, mixture, original: original ? 1 : 0 });
     });
-    room.groups.forEach((_, group) => {
+    room.groups.forEach(({ parameters }, group) => {
+      const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * (original ? room.parameters[p].value : values.colors[p])[k]), [1, 1, 1]);
       this.into(to, group, ...this.groupSize);
-      this.draw(this.programs[1], { mixtures: this.mixtures, reduced: this.reduced, group });
+      this.draw(this.programs[1], { mixtures: this.mixtures, reduced: this.reduced, group, color });
     });
   }
 
@@ -284,10 +290,10 @@ class Renderer {
   }
 
   /* settings: by target how its texture lies, scale and tint as numbers; wrap: modes in u and v; share: of the image that
-   * one repeat takes; split: pixels from the left that stay as they were. */
-  render(settings, split, lamp) {
+   * one repeat takes; split: pixels from the left that stay as they were; colors: of the parameters. */
+  render(settings, split, lamp, colors) {
     const { gl, room } = this, count = room.targets.length;
-    const values = { records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [] };
+    const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [] };
     for (let t = 0; t < count; t++) {
       const s = settings[t], angle = s.rotate * Math.PI / 180, [c, d] = [Math.cos(angle), Math.sin(angle)];
       const [u, v] = s.share.map((share, k) => (s.flip.includes("uv"[k]) ? -share : share));

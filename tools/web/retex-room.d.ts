@@ -40,10 +40,12 @@ export interface RetexRoomEvents {
 /** The element <retex-room src="FOLDER/">. */
 export class RetexRoom extends HTMLElement {
   readonly targets: string[];
+  readonly parameters: { name: string; value: [number, number, number] }[];
   readonly complete: Promise<void>;
   readonly link: string;
   setTexture(target: string, source: Blob | string | null, options?: RetexPlacing): Promise<void>;
   place(target: string, options: RetexPlacing): void;
+  setParameter(name: string, value: [number, number, number] | null): void;
   setLight(light: Partial<RetexLight>): void;
   getState(): RetexState;
   setState(state: Partial<RetexState>): Promise<void>;

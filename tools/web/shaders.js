@@ -168,7 +168,7 @@ void main() {
 }`;
 }
 
-/* Second step: for each group the sum over its terms of gain times mixtures, at the finest of the smaller sizes. */
+/* Second step: for each group its parameters times the sum over its terms of gain times mixtures, at the finest of the smaller sizes. */
 function factorShader(room) {
   const scale = (m) => room.classes[room.mixtures[m][0][0]].scale;
   const size = (m) => [room.classes[room.mixtures[m][0][0]].width, room.classes[room.mixtures[m][0][0]].height];
@@ -190,6 +190,7 @@ function factorShader(room) {
 uniform sampler2DArray mixtures;
 uniform sampler2D reduced;
 uniform int group;
+uniform vec3 color;
 out vec4 result;
 vec3 mixed(int layer, vec2 size, float times) {
   vec2 at = clamp(gl_FragCoord.xy / times, vec2(0.5), size - 0.5);
@@ -200,7 +201,7 @@ void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec3 sum = vec3(0.0);
   ${used.length || cases.length ? cases.join("\n") : ""}
-  result = vec4(sum, 1.0);
+  result = vec4(min(sum * color, 65504.0), 1.0);
 }`;
 }
 

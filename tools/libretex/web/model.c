@@ -107,14 +107,21 @@ static int scale_of(const RetexWebModel *model, int mixture)
 
 /* The full size belongs to sharp footprints. A set whose other footprints have the picture's size is possible too: only
  * the first factor may be of that size. */
-static int group_of(RetexWebModel *model, int light, int mixture, int target, RetexError *err)
+static int group_of(RetexWebModel *model, const RetexTerm *term, int mixture, RetexError *err)
 {
-    for (int i = 0; i < model->ngroups; i++)
-        if (model->groups[i].light == light && model->groups[i].mixture == mixture)
+    RetexWebGroup group = {.light = term->radiance, .mixture = mixture, .target = term->target};
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
+            group.parameters[group.nparameters++] = term->factors[k].index;
+    for (int i = 0; i < model->ngroups; i++) {
+        group.target = model->groups[i].target; /* that of its first term */
+        if (memcmp(&model->groups[i], &group, sizeof group) == 0)
             return i;
+    }
     if (model->ngroups == RETEX_WEB_GROUPS_MAX)
         return refuse(err, "it has too many kinds of light");
-    model->groups[model->ngroups] = (RetexWebGroup){light, mixture, target};
+    group.target = term->target;
+    model->groups[model->ngroups] = group;
     return model->ngroups++;
 }
 
@@ -140,7 +147,7 @@ static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *
         if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < model->finest)
             model->finest = scale_of(model, mixture);
     }
-    to->group = group_of(model, term->radiance, full, term->target, err);
+    to->group = group_of(model, term, full, err);
     model->nterms += to->group >= 0;
     return to->group < 0 ? to->group : 0;
 }
@@ -154,9 +161,8 @@ void retex_web_model_close(RetexWebModel *model)
 int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *err)
 {
     int code = set->nterms > 0 ? 0 : refuse(err, "it has no terms");
-    for (int i = 0; i < set->nparameters && !code; i++)
-        if (set->parameters[i].kind != RETEX_PARAMETER_CORRECTION)
-            code = refuse(err, "it has lamps that can be changed");
+    if (!code && set->nterms > RETEX_WEB_TERMS_MAX)
+        code = refuse(err, "it has too many terms");
     if (code)
         return code;
     *model = (RetexWebModel){.finest = RETEX_SCALE_MAX};

@@ -10,7 +10,8 @@ enum {
     RETEX_WEB_WEIGHT_NONE = -1, /* in place of a part: 0 */
     RETEX_WEB_WEIGHT_ONE = -2,  /* 1 */
     RETEX_WEB_CLASSES_MAX = 3 * RETEX_MAX_TARGETS,
-    RETEX_WEB_GROUPS_MAX = 1 + 6 * RETEX_MAX_TARGETS
+    RETEX_WEB_GROUPS_MAX = 128, /* what shaders have room for */
+    RETEX_WEB_TERMS_MAX = 1024
 };
 
 /* The footprints of one target and kind. */
@@ -35,11 +36,12 @@ typedef struct RetexWebTerm {
     int nfactors, factors[RETEX_MAX_FACTORS]; /* mixtures that are smaller than the picture */
 } RetexWebTerm;
 
-/* Terms of the same light and mixture of the picture's size: light times mixture times the sum over terms of gain times
- * factors. */
+/* Terms of the same light, parameters and mixture of the picture's size: light times parameters times mixture times the
+ * sum over terms of gain times factors. */
 typedef struct RetexWebGroup {
-    int light, mixture; /* part; index, or -1 */
-    int target;         /* of its first factor, or -1 */
+    int light, mixture;                             /* part; index, or -1 */
+    int target;                                     /* of its first factor, or -1 */
+    int nparameters, parameters[RETEX_MAX_FACTORS]; /* of the set */
 } RetexWebGroup;
 
 typedef struct RetexWebModel {

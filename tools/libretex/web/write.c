@@ -275,6 +275,30 @@ static json_t *describe_targets(const RetexSet *set)
     return list;
 }
 
+/* The number of a colour in the manifest's list of parameters. */
+static int number_of(const RetexSet *set, int parameter)
+{
+    int number = 0;
+    for (int i = 0; i < parameter; i++)
+        number += set->parameters[i].kind == RETEX_PARAMETER_COLOR;
+    return number;
+}
+
+/* The colours that can be changed; NULL: none. */
+static json_t *describe_parameters(const RetexSet *set)
+{
+    json_t *list = NULL;
+    for (int i = 0; i < set->nparameters; i++) {
+        const RetexParameter *p = &set->parameters[i];
+        if (p->kind != RETEX_PARAMETER_COLOR)
+            continue;
+        list = list ? list : json_array();
+        retex_json_add(&list, json_pack("{s:o,s:[f,f,f]}", "name", text(p->name), "value", (double)p->value[0],
+                                        (double)p->value[1], (double)p->value[2]));
+    }
+    return list;
+}
+
 /* The target that light belongs to, or -1: of all. */
 static int target_of_light(const Web *web, int part)
 {
@@ -350,8 +374,14 @@ static void describe_terms(json_t **object, const Web *web)
     }
     for (int i = 0; i < web->model.ngroups; i++) {
         const RetexWebGroup *g = &web->model.groups[i];
-        retex_json_add(&groups, json_pack("{s:i,s:i,s:i}", "light", is_light(web, g->light), "mixture", g->mixture,
-                                          "target", g->target));
+        json_t *group =
+            json_pack("{s:i,s:i,s:i}", "light", is_light(web, g->light), "mixture", g->mixture, "target", g->target);
+        json_t *parameters = g->nparameters ? json_array() : NULL;
+        for (int k = 0; k < g->nparameters; k++)
+            retex_json_add(&parameters, json_integer(number_of(web->set, g->parameters[k])));
+        if (g->nparameters)
+            retex_json_put(&group, "parameters", parameters);
+        retex_json_add(&groups, group);
     }
     for (int i = 0; i < web->model.nterms; i++) {
         const RetexWebTerm *t = &web->model.terms[i];
@@ -376,6 +406,8 @@ static char *describe(const Web *web, RetexError *err)
                   text(set->scene), "id", id, "width", set->width, "height", set->height, "filter", set->filter,
                   "finest", web->model.finest, "picture", describe_file(&web->picture), "targets",
                   describe_targets(set), "lights", describe_lights(web), "classes", describe_classes(web));
+    if (number_of(set, set->nparameters))
+        retex_json_put(&object, "parameters", describe_parameters(set));
     retex_json_put(&object, "reduced", web->ntiles ? describe_atlas(web) : json_null());
     if (object)
         describe_terms(&object, web);
