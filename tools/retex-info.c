@@ -212,12 +212,12 @@ static void print_packed(FILE *out, const RetexSet *set)
 {
     uint64_t bytes[RETEX_PACK_USES];
 
-    if (!set || retex_pack_bytes(bytes, set, NULL))
+    if (!set || retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL))
         return;
     fprintf(out, "bytes in the pack\n");
     for (int i = 0; i < RETEX_PACK_USES; i++)
         if (bytes[i] > 0)
-            fprintf(out, "  %-12s %10llu\n", retex_pack_use_names[i], (unsigned long long)bytes[i]);
+            fprintf(out, "  %-12s %10llu\n", retex_pack_use_name(i), (unsigned long long)bytes[i]);
 }
 
 static void print_text(FILE *out, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
@@ -260,10 +260,10 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
             sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
             sizes->albedo, sizes->originals, sizes->other, sizes->samples);
     uint64_t bytes[RETEX_PACK_USES];
-    if (set && !retex_pack_bytes(bytes, set, NULL)) {
+    if (set && !retex_pack_bytes(bytes, RETEX_PACK_USES, set, NULL)) {
         fprintf(out, "\"packed_bytes\":");
         for (int i = 0; i < RETEX_PACK_USES; i++)
-            fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_use_names[i], (unsigned long long)bytes[i]);
+            fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_use_name(i), (unsigned long long)bytes[i]);
         fprintf(out, "},");
     }
     fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);

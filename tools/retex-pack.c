@@ -94,10 +94,10 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     char text[2048], quality[16] = "null";
     int code = retex_set_open(pack_path, &pack, NULL, job->threads, err);
     if (!code)
-        code = retex_pack_loss(psnr, pack, set, job->threads, err);
+        code = retex_pack_loss(psnr, RETEX_PACK_LOSSES, pack, set, job->threads, err);
     if (!code) {
         double rest = pack_bytes;
-        retex_pack_bytes(bytes, pack, NULL);
+        retex_pack_bytes(bytes, RETEX_PACK_USES, pack, NULL);
         for (int i = 0; i < RETEX_PACK_USES; i++)
             rest -= (double)bytes[i];
         bytes[RETEX_PACK_OTHER] += (uint64_t)rest;
@@ -108,7 +108,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
                          "  \"pack_bytes\": %.0f,\n  \"bytes\": {",
                          job->params.lossless ? "lossless" : "jpeg", quality, cli_file_size(job->input), pack_bytes);
         for (int i = 0; i < RETEX_PACK_USES; i++)
-            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_use_names[i],
+            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_use_name(i),
                           (unsigned long long)bytes[i]);
         n += snprintf(text + n, sizeof text - (size_t)n, "},\n  \"psnr\": {");
         for (int i = 0; i < RETEX_PACK_LOSSES; i++)

@@ -146,7 +146,7 @@ static void promises_are_kept(void **state)
             assert_int_equal(promise.quality, qualities[i]);
             assert_float_equal(promise.promised, retex_pack_promised_psnr(qualities[i], 32, 0), 1e-9);
             assert_true(promise.measured >= promise.promised);
-            test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
+            test_must(retex_pack_loss(psnr, RETEX_PACK_LOSSES, pack, set, 1, &err), &err);
             assert_float_equal(fmin(fmin(psnr[0], psnr[1]), psnr[RETEX_PACK_LOSS_SQUARES]), promise.measured, 1e-9);
             for (int k = 0; k < PATTERNS; k++)
                 assert_true(untried(pack, set, k) >= promise.promised - SLACK);
@@ -172,7 +172,7 @@ static double psnr_of_tiles(int quality)
                     put_rgb(set, set->terms[t].radiance, x + k % 9, y + k / 9, light * red, light, light * (1 - red));
             }
     RetexSet *pack = packed(set, quality, 1, NULL);
-    test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
+    test_must(retex_pack_loss(psnr, RETEX_PACK_LOSSES, pack, set, 1, &err), &err);
     retex_set_close(&pack);
     retex_set_close(&set);
     return psnr[RETEX_PACK_LOSS_WHITE];
@@ -200,7 +200,7 @@ static void all_targets_are_tried(void **state)
                 }
             }
         }
-        test_must(retex_pack_loss(psnr, sets[1], sets[0], 1, &err), &err);
+        test_must(retex_pack_loss(psnr, RETEX_PACK_LOSSES, sets[1], sets[0], 1, &err), &err);
         /* red: with white textures .5 and .75, with the originals .125 and .1875 */
         const double white = retex_srgb_encode(0.75) - retex_srgb_encode(0.5),
                      original = retex_srgb_encode(0.1875) - retex_srgb_encode(0.125);

@@ -202,7 +202,7 @@ static int check_pack(Room *room, int nthreads, RetexError *err)
 static int compare_pack(Room *room, int nthreads, RetexError *err)
 {
     double psnr[RETEX_PACK_LOSSES];
-    return retex_pack_loss(psnr, room->set, room->set, nthreads, err);
+    return retex_pack_loss(psnr, RETEX_PACK_LOSSES, room->set, room->set, nthreads, err);
 }
 
 static int sample(Room *room, int nthreads, RetexError *err)

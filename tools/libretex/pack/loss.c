@@ -17,8 +17,12 @@
 
 /* --- bytes --- */
 
-const char *const retex_pack_use_names[RETEX_PACK_USES] = {"picture", "radiance", "gains",     "uv",   "spread",
-                                                           "weights", "albedo",   "originals", "other"};
+const char *retex_pack_use_name(int use)
+{
+    static const char *const names[RETEX_PACK_USES] = {"picture", "radiance", "gains",     "uv",   "spread",
+                                                       "weights", "albedo",   "originals", "other"};
+    return use >= 0 && use < RETEX_PACK_USES ? names[use] : NULL;
+}
 
 static void assign(void *context, RetexPartUse use, int user, int *part)
 {
@@ -35,18 +39,19 @@ static void assign(void *context, RetexPartUse use, int user, int *part)
         uses[*part] = of_use[use];
 }
 
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_USES], const RetexSet *set, RetexError *err)
+int retex_pack_bytes(uint64_t *bytes, int nuses, const RetexSet *set, RetexError *err)
 {
     const RetexPack *pack = retex_pack_of(set);
     RetexPackUse uses[RETEX_SET_PARTS_MAX];
-    memset(bytes, 0, RETEX_PACK_USES * sizeof *bytes);
+    memset(bytes, 0, (size_t)nuses * sizeof *bytes);
     if (!pack)
         return retex_fail(err, RETEX_ENOTFOUND, "the set is not that of an open pack");
     for (int i = 0; i < set->nparts; i++)
         uses[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
     retex_set_visit_const_parts(set, assign, uses);
     for (int i = 0; i < set->nparts; i++)
-        bytes[uses[i]] += retex_pack_part_bytes(pack, i);
+        if ((int)uses[i] < nuses)
+            bytes[uses[i]] += retex_pack_part_bytes(pack, i);
     return 0;
 }
 
@@ -232,13 +237,16 @@ double retex_pack_promised_psnr(int quality, int spp, double noise)
     return psnr_of(fmax(pow(10, -psnr / 10), (100 - quality) / 100.0 * noise));
 }
 
-int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const RetexSet *set, int nthreads,
+int retex_pack_loss(double *psnr, int npictures, const RetexSet *pack, const RetexSet *set, int nthreads,
                     RetexError *err)
 {
     RetexPackReference reference;
+    double all[RETEX_PACK_LOSSES];
     int code = retex_pack_reference_open(&reference, set, RETEX_PACK_ALL_PICTURES, nthreads, err);
     if (!code)
-        code = retex_pack_reference_psnr(psnr, &reference, pack, nthreads, err);
+        code = retex_pack_reference_psnr(all, &reference, pack, nthreads, err);
+    for (int i = 0; i < npictures && i < RETEX_PACK_LOSSES && !code; i++)
+        psnr[i] = all[i];
     retex_pack_reference_close(&reference);
     return code;
 }

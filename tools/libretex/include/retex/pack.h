@@ -32,14 +32,16 @@ int retex_pack_probe(const void *data, size_t bytes);
 /* Compare the checksums inside a pack with its data. */
 int retex_pack_check(const void *data, size_t bytes, int nthreads, RetexError *err);
 
-/* Bytes of a pack's parts by their use; a zip's directory, the manifest and the like are not among them.
- * RETEX_ENOTFOUND where the set is not that of a pack which retex_set_open opened. */
+/* What a pack's parts are for. A later version may add uses. */
 typedef enum RetexPackUse {
     RETEX_PACK_PICTURE, RETEX_PACK_RADIANCE, RETEX_PACK_GAINS, RETEX_PACK_UV, RETEX_PACK_SPREAD, RETEX_PACK_WEIGHTS,
     RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_USES
 } RetexPackUse;
-extern const char *const retex_pack_use_names[RETEX_PACK_USES];
-int retex_pack_bytes(uint64_t bytes[RETEX_PACK_USES], const RetexSet *set, RetexError *err);
+/* "picture", "radiance" and so on; NULL where there is no such use. */
+const char *retex_pack_use_name(int use);
+/* Bytes of the pack's parts by their use, of the first nuses: RETEX_PACK_USES. A zip's directory, the manifest and the
+ * like are not among them. RETEX_ENOTFOUND where the set is not that of a pack which retex_set_open opened. */
+int retex_pack_bytes(uint64_t *bytes, int nuses, const RetexSet *set, RetexError *err);
 
 /* What a pack with losses says of them: quality, and of the worst picture of those of retex_pack_loss, when it was
  * packed, the PSNR that was promised and what it was. */
@@ -51,11 +53,12 @@ typedef struct RetexPackPromise {
 int retex_pack_promise(RetexPackPromise *promise, const RetexSet *set, RetexError *err);
 
 /* PSNR (see metrics.h), to 16 bits, of pictures made from a pack against those from the set it was made of: with the
- * original textures, and with all targets white, of smooth waves, and of a black and white chequerboard. */
+ * original textures, and with all targets white, of smooth waves, and of a black and white chequerboard: of the first
+ * npictures of these, RETEX_PACK_LOSSES. A later version may add pictures. */
 enum {
     RETEX_PACK_LOSS_ORIGINAL, RETEX_PACK_LOSS_WHITE, RETEX_PACK_LOSS_WAVES, RETEX_PACK_LOSS_SQUARES, RETEX_PACK_LOSSES
 };
-int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const RetexSet *set, int nthreads,
+int retex_pack_loss(double *psnr, int npictures, const RetexSet *pack, const RetexSet *set, int nthreads,
                     RetexError *err);
 
 #ifdef __cplusplus
