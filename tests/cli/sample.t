@@ -8,6 +8,9 @@ $ retex-info s.exr | grep share; retex-info --json s.exr | grep -o '"share":[0-9
 >   share        40.00% of the picture
 > "share":0.40000000000000002
 > "share":0.40000000000000002
+$ make_set lamp.exr 48 32 "lamp:$(printf 'La\033mp')"; retex-info lamp.exr | grep -A1 ^parameter; rm lamp.exr
+> parameter La?mp
+>   as rendered  1 0.5 2
 $ make_set big.exr 320 240; retex-info --json big.exr | grep -o '"radiance":[0-9]\+' | tr -d 'a-z":' | awk '{ printf "%.2f MB\n", $1 / 1e6 }' >json; retex-info big.exr | awk '$1 == "radiance" { print $2, $3 }' | cmp - json; rm big.exr json
 $ retex-sample -q - --texture floor=brick.jpg <s.exr >stream.exr; retex-info stream.exr | head -n 1
 > layout         paper
