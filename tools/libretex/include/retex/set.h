@@ -192,8 +192,8 @@ static inline RetexSetInfo retex_set_info(const RetexSet *set)
 }
 
 /* One of what a set lists; NULL where index is not 0..count-1. It belongs to the set, and stays until the set is
- * changed or closed. A later version may add members at the end of these structs, so programs never make, copy or
- * measure one. Part 0 is the beauty. */
+ * changed or closed. A later version may add members at the end of these structs, so programs neither copy them nor put
+ * them into arrays. Renderers, which make them, depend on the version of <retex/host/>. Part 0 is the beauty. */
 const RetexTarget *retex_set_target(const RetexSet *set, int index);
 const RetexFootprint *retex_set_footprint(const RetexSet *set, int index);
 const RetexMixture *retex_set_mixture(const RetexSet *set, int index);
