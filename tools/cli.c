@@ -476,7 +476,7 @@ static void write_answer(const Cli *cli)
 {
     RetexError err = {0};
     int failed = ferror(cli->answer);
-    if (fclose(cli->answer) != 0 || failed)
+    if (fclose(cli->answer) != 0 || failed || !cli->answer_text) /* glibc returns 0 where it gets no memory */
         cli_die(cli, "not enough memory for the answer");
     failed = retex_file_write(cli->output, cli->answer_text, cli->answer_bytes, &err);
     free(cli->answer_text);

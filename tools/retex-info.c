@@ -42,7 +42,7 @@ static void count_part(const RetexSet *set, int part, char *counted, long long *
         ++*aovs;
 }
 
-static int measure_set(const RetexSet *set, Sizes *sizes)
+static void measure_set(const Cli *cli, const RetexSet *set, Sizes *sizes)
 {
     const RetexSetInfo info = retex_set_info(set);
     const RetexTerm *term;
@@ -50,7 +50,7 @@ static int measure_set(const RetexSet *set, Sizes *sizes)
     char *counted = calloc((size_t)info.nparts + 1, 1);
 
     if (!counted)
-        return 0;
+        cli_die(cli, "not enough memory to count parts");
     for (int i = 0; (term = retex_set_term(set, i)); i++)
         if (term->role != RETEX_ROLE_PICTURE)
             count_part(set, term->radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
@@ -64,10 +64,9 @@ static int measure_set(const RetexSet *set, Sizes *sizes)
     for (int i = 0; i < info.nparts; i++)
         count_part(set, i, counted, &sizes->other, NULL);
     free(counted);
-    return 1;
 }
 
-static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *samples)
+static Sizes measure(const Cli *cli, const char *path, const RetexSet *set, const RetexSamples *samples)
 {
     Sizes sizes = {.file = -1};
     struct stat status;
@@ -75,7 +74,7 @@ static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *
     if (strcmp(path, "-") != 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode))
         sizes.file = status.st_size;
     if (set)
-        measure_set(set, &sizes);
+        measure_set(cli, set, &sizes);
     const RetexSamplesInfo info = samples ? retex_samples_info(samples) : (RetexSamplesInfo){.width = 0};
     for (int i = 0; i < info.nfootprints; i++)
         if (retex_samples_have(samples, i))
@@ -281,7 +280,7 @@ static int print_info(const Cli *cli, const char *path, int json)
     if (retex_set_open(path, &set, &samples, cli->threads, &error))
         cli_fail(cli, &error);
     cli_check_pixels(cli, set, path);
-    const Sizes sizes = measure(path, set, samples);
+    const Sizes sizes = measure(cli, path, set, samples);
     if (json) {
         status = print_json(cli, set, samples, &sizes);
     } else {

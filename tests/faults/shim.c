@@ -21,6 +21,7 @@
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdio_ext.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -366,8 +367,9 @@ int fputs(const char *text, FILE *file)
 int fflush(FILE *file)
 {
     REAL(fflush);
+    const int pending = file && __fpending(file) > 0; /* without, nothing is written that could fail */
     int code = real(file);
-    return file && file != stderr && fails(WRITE, "fflush", CALLER) ? full(file) : code;
+    return pending && file != stderr && fails(WRITE, "fflush", CALLER) ? full(file) : code;
 }
 
 int fclose(FILE *file)

@@ -171,6 +171,21 @@ static void two_targets_are_named_by_their_hits(void **state)
     end_film(&f);
 }
 
+/* A term is of the target of its first factor. */
+static void terms_are_of_their_first_target(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 2);
+    one_path(&f, "aba");
+    for (int k = 0; k < f.set->nterms; k++) {
+        const RetexTerm *term = &f.set->terms[k];
+        if (term->role != RETEX_ROLE_CORRECTION)
+            assert_int_equal(term->target, term->nfactors ? f.set->footprints[term->factors[0].index].target : -1);
+    }
+    end_film(&f);
+}
+
 /* The term of a random subset of the hits of a random path. */
 static TermKey random_key(unsigned *seed, int ntargets, int orders)
 {
@@ -247,6 +262,7 @@ int main(void)
                                        cmocka_unit_test(two_hits_have_the_supplements_cross_terms),
                                        cmocka_unit_test(three_hits_have_them_in_the_supplements_order),
                                        cmocka_unit_test(two_targets_are_named_by_their_hits),
+                                       cmocka_unit_test(terms_are_of_their_first_target),
                                        cmocka_unit_test(terms_are_found_again_by_the_names_of_their_images),
                                        cmocka_unit_test(no_terms_have_other_names)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,12 +22,8 @@ static int find_features(int parts[RETEX_FEATURE_COUNT], const RetexSet *set, Re
 
 int retex_denoise_has_data(const RetexSet *set)
 {
-    RetexSignals signals;
     int features[RETEX_FEATURE_COUNT];
-    if (find_features(features, set, NULL) || retex_signals_open(&signals, set, NULL))
-        return 0;
-    retex_signals_close(&signals);
-    return 1;
+    return !find_features(features, set, NULL) && retex_signals_are_there(set);
 }
 
 void retex_denoise_drop_data(RetexSet *set)

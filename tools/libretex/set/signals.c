@@ -86,22 +86,30 @@ static RetexSignal *signal_of(RetexSignals *signals, const RetexTerm *term)
     return signal;
 }
 
-static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *err)
+/* The parts of the signal of a target and kind. */
+static int find_parts_of(RetexSignal *signal, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
-    for (int k = 0; k < signals->count; k++) {
+    noise_name(set, signal->target, signal->kind, name);
+    if ((signal->noise = retex_signals_find_part(set, name, 3, err)) < 0)
+        return signal->noise;
+    if (signal->target < 0)
+        return RETEX_OK;
+    retex_cover_part_name(name, set->targets[signal->target].name);
+    signal->cover = retex_signals_find_part(set, name, 1, err);
+    return signal->cover < 0 ? signal->cover : RETEX_OK;
+}
+
+static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < signals->count && !code; k++) {
         RetexSignal *signal = &signals->of[k];
-        noise_name(set, signal->target, signal->kind, name);
-        if ((signal->noise = retex_signals_find_part(set, name, 3, err)) < 0)
-            return signal->noise;
-        if (signal->target < 0)
-            continue;
-        retex_cover_part_name(name, set->targets[signal->target].name);
-        if ((signal->cover = retex_signals_find_part(set, name, 1, err)) < 0)
-            return signal->cover;
-        signals->covers[signal->target] = signal->cover;
+        code = find_parts_of(signal, set, err);
+        if (!code && signal->target >= 0)
+            signals->covers[signal->target] = signal->cover;
     }
-    return RETEX_OK;
+    return code;
 }
 
 /* The light of all terms is in signals, and their corrections. */
@@ -178,6 +186,18 @@ int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *e
     if (code)
         retex_signals_close(signals);
     return code;
+}
+
+int retex_signals_are_there(const RetexSet *set)
+{
+    int there = 1;
+    for (int t = 0; t < (set->nterms ? set->nterms : 1) && there; t++) {
+        const RetexTerm *term = set->nterms ? &set->terms[t] : NULL;
+        RetexSignal signal;
+        find_first_target(term, &signal.target, &signal.kind);
+        there = (term && !is_member(term)) || !find_parts_of(&signal, set, NULL);
+    }
+    return there;
 }
 
 void retex_signals_close(RetexSignals *signals)

@@ -36,6 +36,8 @@ int retex_signals_sort(RetexSignals *signals, const RetexSet *set, RetexError *e
 /* Find a set's signals, and their parts: RETEX_ENOTFOUND where one is missing. */
 int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err);
 void retex_signals_close(RetexSignals *signals);
+/* 1 where retex_signals_open finds all parts; needs no memory. */
+int retex_signals_are_there(const RetexSet *set);
 
 /* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
 int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
