@@ -269,6 +269,33 @@ static void folded_light_is_counted_as_white(void **state)
     end_film(&f);
 }
 
+/* Light of one tile is not counted again with the next one that the same thread renders. */
+static void light_of_a_tile_is_counted_once(void **state)
+{
+    (void)state;
+    Fixture f;
+    RetexError err = {0};
+    begin_film(&f, 1, 1, 2, 2, 1);
+    f.params.height = 32, f.params.ntiles = 2;
+    create_film(&f);
+    for (int tile = 0; tile < 2; tile++) {
+        film_tile_begin(f.pixel, 1);
+        begin_path(&f);
+        connect_light(&f, rgb_grey(2));
+        if (tile == 0)
+            film_add_folded(f.pixel, rgb_grey(1), rgb_grey(1));
+        end_path(&f);
+        film_pixel_end(f.pixel, 0, 16 * tile);
+        film_tile_end(f.pixel, tile);
+    }
+    film_pixel_close(&f.pixel);
+    test_must(retex_set_create(&f.set, 2, 32, &err), &err);
+    test_must(retex_set_add_part(f.set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
+    test_must(film_finish(f.film, f.set, &err), &err);
+    assert_float_equal(f.set->folded, 1.0 / (2 + 2), 1e-6);
+    end_film(&f);
+}
+
 /* A shadow ray may pass targets behind a hit that the path goes on from elsewhere: hits are a tree. */
 static void hits_are_a_tree(void **state)
 {
@@ -327,6 +354,7 @@ int main(void)
         cmocka_unit_test(shares_add_up),
         cmocka_unit_test(a_black_target_hides_no_other),
         cmocka_unit_test(folded_light_is_counted_as_white),
+        cmocka_unit_test(light_of_a_tile_is_counted_once),
         cmocka_unit_test(a_plain_film_keeps_the_beauty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -156,6 +156,36 @@ static void promises_are_kept(void **state)
     }
 }
 
+static void count_warning(void *context, const char *text)
+{
+    (void)text;
+    ++*(int *)context;
+}
+
+/* Why a set stays as it is, it is told once, however many attempts the promise takes: here several. */
+static void attempts_warn_once(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/test_promise_XXXXXX";
+    RetexPackParams params = RETEX_PACK_INIT;
+    RetexError err = {0};
+    RetexSet *set = make_set(1);
+    int told = 0;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    for (int k = 0; k < 4; k++) { /* more than a compact set has room for */
+        test_add_lamp(set, (const char *const[]){"A", "B", "C", "D"}[k]);
+        for (int c = 0; c < 3; c++)
+            set->parameters[k].value[c] = 1;
+    }
+    params.quality = 100, params.warn = count_warning, params.warn_context = &told;
+    test_must(retex_pack_write(set, path, &params, NULL, 1, &err), &err);
+    unlink(path);
+    assert_int_equal(told, 1);
+    retex_set_close(&set);
+}
+
 /* Denoised light of tiles that differ, without any noise: pictures have so many dB against those of the set. */
 static double psnr_of_tiles(int quality)
 {
@@ -317,10 +347,15 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(promises_rise_with_quality), cmocka_unit_test(promises_are_kept),
-        cmocka_unit_test(all_targets_are_tried),      cmocka_unit_test(noise_counts_as_it_shows),
-        cmocka_unit_test(clean_light_stays_clean),    cmocka_unit_test(bits_are_kept_where_nothing_else_does),
-        cmocka_unit_test(noise_lowers_the_promise),   cmocka_unit_test(others_promise_nothing),
+        cmocka_unit_test(promises_rise_with_quality),
+        cmocka_unit_test(promises_are_kept),
+        cmocka_unit_test(attempts_warn_once),
+        cmocka_unit_test(all_targets_are_tried),
+        cmocka_unit_test(noise_counts_as_it_shows),
+        cmocka_unit_test(clean_light_stays_clean),
+        cmocka_unit_test(bits_are_kept_where_nothing_else_does),
+        cmocka_unit_test(noise_lowers_the_promise),
+        cmocka_unit_test(others_promise_nothing),
         cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -232,7 +232,6 @@ static void what_is_not_made_compact_is_said(void **state)
     expect_formula(compact, set, RENDERED, NULL, 1e-5);
     retex_set_close(&compact);
     told[0] = 0;
-    packing.quality = 100; /* which takes several attempts */
     test_must(retex_pack_write(set, test_in_folder("told.retex"), &packing, NULL, 1, &err), &err);
     assert_string_equal(told, many);
     assert_int_equal(retex_web_write(set, test_in_folder(""), &web, NULL, 1, &err), RETEX_EUNSUPPORTED);
