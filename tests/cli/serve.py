@@ -455,12 +455,12 @@ def can_ask(server, path, source='127.0.0.1'):
         return False
 
 
-def wait_for(condition, seconds=20):
+def wait_for(condition, seconds=20, pause=.02):
     until = time.time() + seconds
     while not condition():
         if time.time() > until:
             return False
-        time.sleep(.02)
+        time.sleep(pause)
     return True
 
 
@@ -533,8 +533,7 @@ def decoders(server):
     threads = [threading.Thread(target=lambda n=n: refused.append(send(server, bombs['long.png'] + bytes([n])).status))
                for n in range(3)]
     [thread.start() for thread in threads]
-    while not metric(server, 'decoding'):
-        time.sleep(.01)
+    expect('decoding', wait_for(lambda: metric(server, 'decoding')), True)
     pictures = [ask(server, f'/v1/small/Floor=oak/64x.png?Floor.scale=1,{n}').status for n in range(1, 6)]
     expect('meanwhile', (pictures, len(refused)), (5 * [200], 0))
     [thread.join() for thread in threads]
@@ -544,8 +543,7 @@ def decoders(server):
     shutil.copy('long.png', 'strange/' + name)
     slow = threading.Thread(target=lambda: refused.append(ask(server, f'/v1/small/Floor={name}/64x.png').status))
     slow.start()
-    while not metric(server, 'decoding'):
-        time.sleep(.01)
+    expect('decoding', wait_for(lambda: metric(server, 'decoding')), True)
     pictures = [ask(server, f'/v1/small/Floor=oak/64x.png?Floor.scale=2,{n}').status for n in range(1, 6)]
     expect('meanwhile', (pictures, len(refused)), (5 * [200], 3))
     slow.join()
@@ -649,8 +647,8 @@ def end(server):
     threads = [threading.Thread(target=lambda n=n: answers.append(ask(server, f'/v1/raw/Floor=rgb(0,0,.{n})/full.png')))
                for n in range(10, 20)]
     [thread.start() for thread in threads]
-    while metric(server, 'queue_length') + metric(server, 'working') + len(answers) < 10:
-        time.sleep(.001)
+    asked = lambda: metric(server, 'queue_length') + metric(server, 'working') + len(answers) >= 10
+    expect('all are there', wait_for(asked, pause=.001), True)
     server.send_signal(signal.SIGTERM)
     [thread.join() for thread in threads]
     expect('answers', [answer.status for answer in answers], 10 * [200])
