@@ -62,8 +62,12 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
         code = film_finish(pass.film, found, err);
     if (!code)
         code = first_hit_add_aov(set, RETEX_AOV_IRRADIANCE, &part, err);
-    for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
-        retex_set_mutable_image(set, part)->pixels[i] = (float)PI * retex_set_part(found, 0)->image.pixels[i];
+    if (!code) {
+        float *irradiance = retex_set_mutable_image(set, part)->pixels;
+        const float *radiance = retex_set_part(found, 0)->image.pixels;
+        for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3; i++)
+            irradiance[i] = (float)PI * radiance[i];
+    }
     render_close_films(&pass);
     retex_set_close(&found);
     return code;
