@@ -108,9 +108,8 @@ RetexImage picture(const RetexSet *set, const float *constant)
     return image;
 }
 
-void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *constant)
+void expect_same_image(RetexImage one, RetexImage other)
 {
-    RetexImage one = picture(a, constant), other = picture(b, constant);
     float most = 0;
     for (int i = 0; i < 3 * WIDE * HIGH; i++)
         most = fmaxf(most, one.pixels[i]);
@@ -119,6 +118,11 @@ void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *cons
         assert_float_equal(one.pixels[i], other.pixels[i], 1e-3f * most);
     retex_image_free(&one);
     retex_image_free(&other);
+}
+
+void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *constant)
+{
+    expect_same_image(picture(a, constant), picture(b, constant));
 }
 
 RetexSet *start_sharp_set(void)

@@ -20,7 +20,10 @@ RetexSet *compacted(const RetexSet *set, int broad, int later, int gain);
 /* The set's picture with constant textures, or the originals. */
 RetexImage picture(const RetexSet *set, const float *constant);
 
-/* Equal within a thousandth of the brightest value. */
+/* Equal within a thousandth of the brightest value. Frees both. */
+void expect_same_image(RetexImage one, RetexImage other);
+
+/* As equal, with the same constant textures. */
 void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *constant);
 
 /* The albedo that further hits have in a compact set where its gains are reduced: see retex-set(5). */
