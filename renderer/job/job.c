@@ -28,15 +28,16 @@ int job_check_size(const Scene *scene, const RenderParams *r, RetexError *err)
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
     const uint64_t left = retex_budget_left(r->budget);
-    double memory = (double)(left == UINT64_MAX ? retex_machine_memory() : left);
+    const int is_limited = left != UINT64_MAX;
+    double memory = (double)(is_limited ? left : retex_machine_memory());
     const long pixels = retex_budget_pixels(r->budget);
     if (pixels > 0 && width * height > (double)pixels)
         return retex_fail(err, RETEX_ELIMIT, "%.0fx%.0f pixels are more than the %ld of --max-pixels", width, height,
                           pixels);
     double bytes = render_bytes(scene, r, (int)width, (int)height);
     if (memory > 0 && bytes > memory)
-        return retex_fail(err, RETEX_ENOMEM,
+        return retex_fail(err, is_limited ? RETEX_ELIMIT : RETEX_ENOMEM,
                           "%.0fx%.0f pixels need %.1f GB of memory, there are %.1f: render parts with --crop%s", width,
-                          height, bytes / 1e9, memory / 1e9, left == UINT64_MAX ? "" : ", or raise --max-memory");
+                          height, bytes / 1e9, memory / 1e9, is_limited ? ", or raise --max-memory" : "");
     return RETEX_OK;
 }

@@ -34,8 +34,8 @@ int job_target_is_empty(const Scene *scene, int t);
 /* Warn, through the message callback of sdl, if the scene has no emitter or no object. */
 void job_warn_dark(const Scene *scene, const SdlOptions *sdl);
 
-/* RETEX_ENOMEM if the images of a render take more memory than its budget has left, or than the machine has;
- * RETEX_ELIMIT if it has more pixels than the budget allows. */
+/* RETEX_ELIMIT if a render has more pixels than its budget allows, or its images take more memory than that has left;
+ * RETEX_ENOMEM if no limit is set, and they take more than the machine has. */
 int job_check_size(const Scene *scene, const RenderParams *render, RetexError *err);
 
 #endif

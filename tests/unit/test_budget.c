@@ -17,6 +17,7 @@
 
 #include "accel/accel.h"
 #include "base/machine.h"
+#include "job/job.h"
 #include "sdl/sdl.h"
 #include "io/pending_files.h"
 
@@ -263,6 +264,33 @@ static void test_scene_is_charged(void **state)
     retex_budget_close(&budget);
 }
 
+/* What is too large to be rendered is refused beforehand: by the limit, or where there is none by the machine. */
+static void test_size_is_checked(void **state)
+{
+    (void)state;
+    RetexError err = {0};
+    RetexBudget *budget = NULL;
+    Scene scene = {.width = 2000, .height = 1000};
+    RenderParams params = RENDER_PARAMS_INIT;
+    params.plain = 1;
+    test_must(job_check_size(&scene, &params, &err), &err);
+    assert_int_equal(retex_budget_create(&budget, &err), 0);
+    params.budget = budget;
+    test_must(job_check_size(&scene, &params, &err), &err);
+    retex_budget_set_memory(budget, 1 << 20);
+    assert_int_equal(job_check_size(&scene, &params, &err), RETEX_ELIMIT);
+    assert_non_null(strstr(err.message, "--max-memory"));
+    retex_budget_set_memory(budget, 0);
+    retex_budget_set_pixels(budget, 1999999);
+    assert_int_equal(job_check_size(&scene, &params, &err), RETEX_ELIMIT);
+    assert_non_null(strstr(err.message, "--max-pixels"));
+    retex_budget_set_pixels(budget, 0);
+    params.width = params.height = 50000000;
+    assert_int_equal(job_check_size(&scene, &params, &err), RETEX_ENOMEM);
+    assert_null(strstr(err.message, "--max-memory"));
+    retex_budget_close(&budget);
+}
+
 static void touch(const char *path)
 {
     close(open(path, O_WRONLY | O_CREAT, 0666));
@@ -312,6 +340,7 @@ int main(void)
         cmocka_unit_test(test_safe),
         cmocka_unit_test(test_control_groups),
         cmocka_unit_test(test_scene_is_charged),
+        cmocka_unit_test(test_size_is_checked),
         cmocka_unit_test(test_unfinished_files_go),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
