@@ -17,7 +17,7 @@ import zlib
 import numpy as np
 import OpenImageIO as oiio
 
-from stored import GROUPS, exr_parts, groups
+from stored import USES, exr_parts, uses
 
 
 def read(path):
@@ -91,9 +91,9 @@ def through_jpeg(pixels, quality, path):
 def main(path, out, method, level):
     told = subprocess.run(["retex-info", "--json", path], check=True, stdout=subprocess.PIPE).stdout
     manifest = json.loads(told)
-    names, group_of = [part["name"] for part in manifest["parts"]], groups(manifest)
+    names, use_of = [part["name"] for part in manifest["parts"]], uses(manifest)
     parts, sizes = read(path), exr_parts(path)
-    is_light = [group_of[name] == "radiance" for name in names]
+    is_light = [use_of[name] == "radiance" for name in names]
     other = os.path.getsize(path) - sum(sizes)
     if method == "jpeg":
         for k, (spec, pixels) in enumerate(parts):
@@ -108,11 +108,11 @@ def main(path, out, method, level):
         other = os.path.getsize(out) - sum(sizes)
     sign(parts)
     write(out, parts, ["zip"] * len(parts))
-    total = dict.fromkeys(GROUPS, 0)
+    total = dict.fromkeys(USES, 0)
     for name, size in zip(names, sizes):
-        total[group_of[name]] += size
+        total[use_of[name]] += size
     total["other"] += other
-    print(json.dumps({"bytes": sum(total.values()), "groups": total}))
+    print(json.dumps({"bytes": sum(total.values()), "uses": total}))
 
 
 main(*sys.argv[1:])

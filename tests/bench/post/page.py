@@ -7,7 +7,7 @@ import json
 import sys
 from statistics import median
 
-from stored import GROUPS
+from stored import USES
 
 PAPER_SECONDS = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096x3840": 10.88}
 # Megabytes of tables 4 and 5: one object, two objects.
@@ -127,7 +127,7 @@ def read(path):
                 cases[key].agreement[r["what"]] = r["run"]["psnr"]
             else:
                 of = stored.setdefault((r["scene"], r.get("layout"), r.get("edit")), {})
-                of[r["what"]] = r.get("run") or {"bytes": int(r["bytes"]), "groups": {}}
+                of[r["what"]] = r.get("run") or {"bytes": int(r["bytes"]), "uses": {}}
     return cases, stored
 
 
@@ -275,13 +275,13 @@ def sizes(stored, size, spp, control_spp):
         files = {**files, **stored.get((scene, None, None), {})}
         number = EDITS.index(edit)
         print(f"\n### {SCENES[scene]}: {edit} target{'s' if number else ''}, layout {layout}\n")
-        print("| file | MB | paper | of EXR, zip | " + " | ".join(GROUPS) + " |\n|---|---|---|---|" +
-              "---|" * len(GROUPS))
+        print("| file | MB | paper | of EXR, zip | " + " | ".join(USES) + " |\n|---|---|---|---|" +
+              "---|" * len(USES))
         for what, name in STORED.items():
             if what not in files:
                 continue
             paper = PAPER_SIZES.get(what)
-            parts = [f"{files[what]['groups'][g] / 1e6:.2f}" if files[what]["groups"] else "" for g in GROUPS]
+            parts = [f"{files[what]['uses'][use] / 1e6:.2f}" if files[what]["uses"] else "" for use in USES]
             share = of_exr(files, what)
             print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"
                   f" {f'{100 * share:.1f} %' if share else ''} | {' | '.join(parts)} |")
@@ -309,8 +309,8 @@ def write_csv(path, cases, stored, size):
             for what, of in files.items():
                 about = {"kind": "size", "scene": scene, "targets": edit or "", "layout": layout or "", "size": size}
                 out.writerow({**about, "what": what, "file_bytes": of["bytes"]})
-                out.writerows({**about, "what": f"{what}: {group}", "file_bytes": bytes_}
-                              for group, bytes_ in of["groups"].items())
+                out.writerows({**about, "what": f"{what}: {use}", "file_bytes": bytes_}
+                              for use, bytes_ in of["uses"].items())
 
 
 def main(records, table, head, size, spp, control_spp):

@@ -88,7 +88,7 @@ for scene in $scenes; do
     targets=none
     for mode in biased unbiased; do
         rendered "$work/$scene-$mode-$size-$spp.exr" --plain --control-data $mode
-        printf '{"bytes": %s, "groups": {}}\n' "$(stat -c %s "$work/$scene-$mode-$size-$spp.exr")" >"$work/sizes.json"
+        printf '{"bytes": %s, "uses": {}}\n' "$(stat -c %s "$work/$scene-$mode-$size-$spp.exr")" >"$work/sizes.json"
         record "control-$mode" null
     done
 done

@@ -40,10 +40,10 @@ COLUMNS = ["scene", "targets", "what", "bytes", "psnr"]
 
 def counted(what, stored):
     """Of the paper's form its AOVs, of all else the file without originals."""
-    groups = stored["groups"]
+    uses = stored["uses"]
     if what.startswith(("strict", "jpeg")):
-        return groups["radiance"] + groups["UV"] + groups["spread"]
-    return stored["bytes"] - groups.get("originals", 0)
+        return uses["radiance"] + uses["UV"] + uses["spread"]
+    return stored["bytes"] - uses.get("originals", 0)
 
 
 def main(records, table, head, size, spp):

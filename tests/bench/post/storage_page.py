@@ -74,7 +74,7 @@ def noise_moved(record):
 
 def figures(key, records, pixels):
     stored = records[0]["stored"]
-    without = stored["bytes"] - stored["groups"]["originals"]
+    without = stored["bytes"] - stored["uses"]["originals"]
     psnrs = [r["psnr"] for r in records if r["psnr"] is not None]
     against = [r for r in records if None not in (r["truth"], r["set_truth"], r["psnr"])]
     losses = [r["set_truth"] - r["truth"] for r in against]

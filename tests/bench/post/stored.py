@@ -1,6 +1,6 @@
 """What a set or a pack takes on the disk, by what its parts are for: stored.py FILE SET
 
-Prints JSON: bytes of the file, and of each group of parts, compressed as they are. Of an OpenEXR file these are the
+Prints JSON: bytes of the file, and of the parts of each use, compressed as they are. Of an OpenEXR file these are the
 chunks of the parts, of a pack the entries of the zip that are named after them. SET, often FILE itself, has the same
 parts and is one that retex-info reads.
 """
@@ -11,16 +11,16 @@ import subprocess
 import sys
 import zipfile
 
-GROUPS = ["radiance", "UV", "spread", "albedo", "shares", "originals", "denoising data", "picture", "other"]
+USES = ["radiance", "UV", "spread", "albedo", "shares", "originals", "denoising data", "picture", "other"]
 
 
-def groups(manifest):
-    """Of each part its group: the first that refers to it."""
+def uses(manifest):
+    """Of each part its use: the first that refers to it."""
     found = {}
 
-    def put(name, group):
+    def put(name, use):
         if name:
-            found.setdefault(name, group)
+            found.setdefault(name, use)
     for term in manifest["terms"]:
         put(term["radiance"] if term["role"] != "picture" else None, "radiance")
         for factor in term["factors"]:
@@ -90,12 +90,12 @@ def main(path, manifest_of):
     manifest = json.loads(told)
     names = [part["name"] for part in manifest["parts"]]
     sizes = pack_parts(path, names) if zipfile.is_zipfile(path) else dict(zip(names, exr_parts(path)))
-    group_of, total = groups(manifest), dict.fromkeys(GROUPS, 0)
+    use_of, total = uses(manifest), dict.fromkeys(USES, 0)
     for name, size in sizes.items():
-        total[group_of.get(name, "other")] += size
+        total[use_of.get(name, "other")] += size
     whole = os.path.getsize(path)
     total["other"] += whole - sum(total.values())   # headers and directories
-    print(json.dumps({"bytes": whole, "groups": total}))
+    print(json.dumps({"bytes": whole, "uses": total}))
 
 
 if __name__ == "__main__":
