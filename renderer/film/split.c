@@ -101,10 +101,13 @@ int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
         last = k == 0 ? find_current_hit(s, p, kept[0]) : add_hit(s, p, kept[k], last, d, i);
         d = kept[k]->d, i = kept[k]->i;
     }
-    if (last)
-        target_node_add_light(last, d, i, rest);
-    else
+    const int lamp = c->lamp != 0;
+    if (last) {
+        target_node_add_light(last, lamp, d, i, rest);
+    } else {
         p->tree.without_hit += rest, p->tree.nwithout_hit++;
+        p->tree.lamps_without_hit[lamp] += rest;
+    }
     if (folded)
         film_add_folded(s->pixel, rgb_of4(light), rgb_of4(last ? with_white_targets(last, d * rest, i * rest) : rest));
     return 1;

@@ -10,11 +10,13 @@
 #ifndef RENDERER_FILM_TARGET_TREE_H
 #define RENDERER_FILM_TARGET_TREE_H
 
+#include <string.h>
 #include <retex/set.h>
 #include "base/color4.h"
 
 #define TARGET_NODES_MAX 64  /* of one path, those of its shadow rays too */
 #define MONOMIALS_MAX 256 /* of a path multiplied out: eight hits with both parts; of diffuse targets each has one */
+#define TREE_LAMPS 2 /* lamp 0 of the scene, and all other light */
 #define WHITE_ALBEDO 0.8f /* of white paint, for what there would be with white targets */
 
 /* A vertex on a target. */
@@ -53,6 +55,7 @@ static inline void target_counts_add(TargetCounts *counts, int target, int both_
 typedef struct TargetNode {
     Float4 dependent, independent; /* D, I */
     Float4 before_d, before_i;     /* d, i: what the hit before this one does to light that comes from here */
+    Float4 lamps[TREE_LAMPS][2];   /* D and I of each lamp */
     TargetVertex at;
     struct TargetNode *before,
         *earlier;    /* the next hit towards the camera; the one that was added last before it. Or NULL */
@@ -64,6 +67,7 @@ typedef struct TargetTree {
     TargetNode *last; /* that was added, or NULL */
     int count;
     Float4 without_hit; /* sum of contributions without a hit */
+    Float4 lamps_without_hit[TREE_LAMPS]; /* the same of each lamp */
     int nwithout_hit;   /* their number */
 } TargetTree;
 
@@ -72,6 +76,7 @@ static inline TargetNode *target_tree_add(TargetTree *hits, TargetNode *hit, con
                                      Float4 before_d, Float4 before_i)
 {
     hit->dependent = hit->independent = splat(0);
+    memset(hit->lamps, 0, sizeof hit->lamps);
     hit->before_d = before_d, hit->before_i = before_i;
     hit->at = *at;
     hit->before = before, hit->earlier = hits->last;
@@ -79,11 +84,11 @@ static inline TargetNode *target_tree_add(TargetTree *hits, TargetNode *hit, con
     return hits->last = hit;
 }
 
-/* Add light that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */
-static inline void target_node_add_light(TargetNode *hit, Float4 d, Float4 i, Float4 light)
+/* Add light of a lamp that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */
+static inline void target_node_add_light(TargetNode *hit, int lamp, Float4 d, Float4 i, Float4 light)
 {
-    hit->dependent += d * light;
-    hit->independent += i * light;
+    hit->dependent += d * light, hit->lamps[lamp][0] += d * light;
+    hit->independent += i * light, hit->lamps[lamp][1] += i * light;
     hit->connections++;
 }
 

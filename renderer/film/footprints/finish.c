@@ -1,5 +1,7 @@
 /* From the images of layout `footprints` to the parts, footprints, mixtures and terms of a set: all that a pixel may
  * have. What none has, retex_set_prune leaves out. */
+#include <stdio.h>
+
 #include <retex/host/set_build.h>
 
 #include "film/footprints/images.h"
@@ -19,8 +21,11 @@ static int finish_footprint(FootprintFilm *film, RetexSet *set, const FootprintI
 /* A term of the factors that it has already. */
 static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int image, RetexError *err)
 {
-    int code = bands_move_part(film->bands, image, set, &term->radiance, err);
-    return code ? code : retex_set_add_term(set, term, NULL, err);
+    RetexTerm own = *term;
+    int code = bands_move_part(film->bands, image, set, &own.radiance, err);
+    if (!code && film->parameter >= 0)
+        code = retex_term_add_factor(&own, retex_factor(RETEX_FACTOR_PARAMETER, film->parameter), err);
+    return code ? code : retex_set_add_term(set, &own, NULL, err);
 }
 
 /* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
@@ -68,7 +73,8 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
             break;
         RetexTerm term = {.role = role_of(kind), .target = t};
         add_factors(&term, retex_factor(RETEX_FACTOR_FOOTPRINT, index), 1);
-        code = finish_term(film, set, &term, images->light, err);
+        for (FootprintFilm *lamp = film; lamp && !code; lamp = lamp->next)
+            code = finish_term(lamp, set, &term, lamp->targets[t].kinds[kind].of[k].light, err);
         if (code || film->plan.count == 1)
             continue;
         code = bands_move_part(film->bands, images->share, set, &weight, err);
@@ -124,7 +130,11 @@ static int finish_correction(FootprintFilm *film, RetexSet *set, int t, int kind
         add_factors(&term, kind < 2 ? places->kinds[t][kind] : places->interreflections[t], 1);
         add_factors(&term, places->interreflections[t], n - 1);
     }
-    int code = bands_move_part(film->bands, n ? images->with[kind][n - 1] : images->without, set, &term.radiance, err);
+    int code = RETEX_OK;
+    if (film->parameter >= 0)
+        code = retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, film->parameter), err);
+    if (!code)
+        code = bands_move_part(film->bands, n ? images->with[kind][n - 1] : images->without, set, &term.radiance, err);
     return code ? code : retex_set_add_correction(set, &term, NULL, err);
 }
 
@@ -141,13 +151,26 @@ static int finish_corrections(FootprintFilm *film, RetexSet *set, const Places *
     return code;
 }
 
+static int finish_parameter(FootprintFilm *film, RetexSet *set, RetexError *err)
+{
+    RetexParameter lamp = {.kind = RETEX_PARAMETER_COLOR, .target = -1, .value = {1, 1, 1}};
+    if (!film->lamp)
+        return RETEX_OK;
+    snprintf(lamp.name, sizeof lamp.name, "%s", film->lamp);
+    return retex_set_add_parameter(set, &lamp, &film->parameter, err);
+}
+
 int footprints_finish(void *layout, RetexSet *set, RetexError *err)
 {
     FootprintFilm *film = layout;
     Places places = {0};
     RetexMixture any = {0};
     RetexTerm indep_term = {.role = RETEX_ROLE_INDEP, .target = -1};
-    int code = finish_term(film, set, &indep_term, film->indep, err);
+    int code = RETEX_OK;
+    for (FootprintFilm *lamp = film; lamp && !code; lamp = lamp->next) {
+        code = finish_parameter(lamp, set, err);
+        code = code ? code : finish_term(lamp, set, &indep_term, lamp->indep, err);
+    }
     for (int t = 0; t < film->scene->ntargets && !code; t++) {
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_kind(film, set, t, kind, &places, err);
@@ -158,6 +181,9 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
         code = finish_mixture(set, &any, &places.any, err);
     for (int t = 0; t < film->scene->ntargets; t++)
         for (int kind = 0; kind < 2 && !code; kind++)
-            code = finish_interreflected(film, set, t, kind, &places, err);
-    return code ? code : finish_corrections(film, set, &places, err);
+            for (FootprintFilm *lamp = film; lamp && !code; lamp = lamp->next)
+                code = finish_interreflected(lamp, set, t, kind, &places, err);
+    for (; film && !code; film = film->next)
+        code = finish_corrections(film, set, &places, err);
+    return code;
 }

@@ -248,6 +248,139 @@ static void sum_signals(const void *pixel, SignalTotals *totals)
     }
 }
 
+/* ---- lamps: the clusters are common, the light is of each ---- */
+
+static const char *const lamp_names[TREE_LAMPS] = {"Lamp", NULL};
+
+/* The first lamp that has a film: where nothing is numbered as a lamp, all light is of the last. */
+static int first_lamp(const Scene *scene)
+{
+    return scene->nlamps ? 0 : TREE_LAMPS - 1;
+}
+
+/* The film of light without a lamp is the first; that of lamp l is films[l]. */
+static void films_by_lamp(FootprintFilm *films[TREE_LAMPS], FootprintFilm *first)
+{
+    films[TREE_LAMPS - 1] = first;
+    for (int l = first_lamp(first->scene); l < TREE_LAMPS - 1; l++)
+        films[l] = first = first->next;
+}
+
+static void close_films(void **out)
+{
+    for (void *film = *out; film;) {
+        void *next = ((FootprintFilm *)film)->next;
+        footprints_close(&film);
+        film = next;
+    }
+    *out = NULL;
+}
+
+static int create_films(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
+{
+    int code = footprints_create(out, scene, params, bands, err);
+    FootprintFilm *film = *out;
+    for (int l = first_lamp(scene); l < TREE_LAMPS - 1 && !code; l++, film = film->next)
+        code = footprints_create_lamp(&film->next, *out, lamp_names[l], err);
+    return code;
+}
+
+typedef struct LampPixels {
+    void *all, *of[TREE_LAMPS]; /* clusters of all light; sums of each lamp's light, in one cluster of each kind */
+    FootprintFilm sums[TREE_LAMPS], images[TREE_LAMPS];
+    LightSums light;
+    UvRange range;
+} LampPixels;
+
+static void close_pixels(void **out)
+{
+    LampPixels *pixels = *out;
+    if (!pixels)
+        return;
+    close_pixel(&pixels->all);
+    for (int l = 0; l < TREE_LAMPS; l++)
+        close_pixel(&pixels->of[l]);
+    free(pixels);
+    *out = NULL;
+}
+
+static int create_pixels(void **out, void *layout, LightSums *light, UvRange *range, RetexError *err)
+{
+    FootprintFilm *films[TREE_LAMPS];
+    LampPixels *pixels = *out = calloc(1, sizeof *pixels);
+    int code = pixels ? create_pixel(&pixels->all, layout, light, range, err)
+                      : retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    films_by_lamp(films, layout);
+    for (int l = first_lamp(films[TREE_LAMPS - 1]->scene); l < TREE_LAMPS && !code; l++) {
+        pixels->images[l] = pixels->sums[l] = *films[l];
+        pixels->sums[l].params.sharp = pixels->sums[l].params.broad = 1, pixels->sums[l].params.clusters = 2;
+        code = create_pixel(&pixels->of[l], &pixels->sums[l], &pixels->light, &pixels->range, err);
+    }
+    if (code)
+        close_pixels(out);
+    return code;
+}
+
+static void end_paths(void *pixel, const TargetTree *path)
+{
+    LampPixels *pixels = pixel;
+    const FootprintPixel *all = pixels->all;
+    end_path(pixels->all, path);
+    if (!all->film->scene->nlamps) {
+        end_path(pixels->of[TREE_LAMPS - 1], path);
+        return;
+    }
+    for (int l = 0; l < TREE_LAMPS; l++) {
+        TargetTree own = *path;
+        own.without_hit = path->lamps_without_hit[l];
+        for (TargetNode *hit = path->last; hit; hit = hit->earlier)
+            hit->dependent = hit->lamps[l][0], hit->independent = hit->lamps[l][1];
+        end_path(pixels->of[l], &own);
+    }
+}
+
+static void sum_all_signals(const void *pixel, SignalTotals *totals)
+{
+    sum_signals(((const LampPixels *)pixel)->all, totals);
+}
+
+/* A lamp's light, spread over the clusters of all light as that is. */
+static void spread_light(Clusters *lamp, const Clusters *all)
+{
+    Float4 total = splat(0), sum = splat(0);
+    for (int k = 0; k < lamp->count; k++)
+        total += lamp->of[k].c;
+    for (int k = 0; k < all->count; k++)
+        sum += all->of[k].c;
+    lamp->count = all->count;
+    for (int k = 0; k < all->count; k++) {
+        lamp->of[k] = all->of[k];
+        for (int c = 0; c < 4; c++)
+            lamp->of[k].c[c] = sum[c] > 0 ? total[c] * (all->of[k].c[c] / sum[c]) : total[c] / (float)all->count;
+    }
+}
+
+static void end_pixels(void *pixel, BandRows *rows, int spp, int x, int y)
+{
+    LampPixels *pixels = pixel;
+    FootprintPixel *all = pixels->all;
+    const size_t ntargets = (size_t)all->film->scene->ntargets;
+    for (int l = first_lamp(all->film->scene); l < TREE_LAMPS; l++) {
+        FootprintPixel *lamp = pixels->of[l];
+        for (size_t t = 0; t < ntargets; t++) {
+            spread_light(&lamp->targets[t].sharp, &all->targets[t].sharp);
+            spread_light(&lamp->targets[t].broad, &all->targets[t].broad);
+            memcpy(lamp->targets[t].interreflections, all->targets[t].interreflections,
+                   sizeof all->targets[t].interreflections);
+        }
+        lamp->film = &pixels->images[l];
+        footprints_pixel_end(lamp, rows, spp, x, y);
+        lamp->film = &pixels->sums[l];
+    }
+    memset(all->targets, 0, ntargets * sizeof *all->targets);
+    memset(all->indep, 0, sizeof all->indep);
+}
+
 static int most_hits(int ntargets)
 {
     (void)ntargets;
@@ -261,12 +394,12 @@ const FilmLayout footprints_layout = {.name = "footprints",
                                       .prunes = 1,
                                       .most_hits = most_hits,
                                       .floats = footprints_floats,
-                                      .create = footprints_create,
-                                      .close = footprints_close,
-                                      .pixel_create = create_pixel,
-                                      .pixel_close = close_pixel,
-                                      .path_end = end_path,
-                                      .totals = sum_signals,
-                                      .pixel_end = footprints_pixel_end,
+                                      .create = create_films,
+                                      .close = close_films,
+                                      .pixel_create = create_pixels,
+                                      .pixel_close = close_pixels,
+                                      .path_end = end_paths,
+                                      .totals = sum_all_signals,
+                                      .pixel_end = end_pixels,
                                       .band_stats = footprints_band_stats,
                                       .finish = footprints_finish};

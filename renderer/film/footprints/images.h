@@ -42,6 +42,9 @@ typedef struct FootprintFilm {
     Plan plan;
     int indep; /* C0 */
     TargetImages *targets;
+    const char *lamp;           /* whose light this is; NULL: of all that have no film */
+    int parameter;              /* of that lamp, in the set; -1: none */
+    struct FootprintFilm *next; /* of the next lamp: other images of light, the same of footprints; or NULL */
 } FootprintFilm;
 
 /* Most clusters of a kind that a pixel may have on a target: sharp (kind 0) or broad (1). */
@@ -58,6 +61,8 @@ static inline int most_interreflections(const FootprintFilm *film)
 
 /* ---- store.c and finish.c: operations of the layout, see film/layout.h ---- */
 
+/* The film of a lamp: as `film`, but for its images of light. */
+int footprints_create_lamp(FootprintFilm **out, const FootprintFilm *film, const char *lamp, RetexError *err);
 int footprints_create(void **layout, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err);
 void footprints_close(void **layout);
 long footprints_floats(const FilmParams *params, int ntargets);

@@ -18,6 +18,13 @@ static const char *kind_name(int kind)
     return retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + kind);
 }
 
+static int add_light(FootprintFilm *film, const char *name, int *image, RetexError *err)
+{
+    char full[RETEX_NAME_MAX];
+    snprintf(full, sizeof full, film->lamp ? "%.95s_%.30s" : "%.95s", name, film->lamp ? film->lamp : "");
+    return bands_add(film->bands, full, "RGB", RETEX_HALF, image, err);
+}
+
 /* One image of a footprint: uv_Floor_sharp1 and so on. */
 static int add_image(FootprintFilm *film, const char *what, int t, int kind, int k, int *image, RetexError *err)
 {
@@ -35,7 +42,9 @@ static int add_image(FootprintFilm *film, const char *what, int t, int kind, int
         i++;
     retex_target_word(word, film->scene->targets[t].name);
     snprintf(name, sizeof name, "%s_%.90s_%s%d", what, word, kind_name(kind), k + 1);
-    return bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
+    if (!strcmp(what, "dep"))
+        return add_light(film, name, image, err);
+    return film->lamp ? RETEX_OK : bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
 }
 
 /* kind: 2 for further hits. */
@@ -75,11 +84,11 @@ static int add_corrections(FootprintFilm *film, int t, RetexError *err)
     char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
     retex_target_word(word, film->scene->targets[t].name);
     snprintf(name, sizeof name, "correction_%.90s", word);
-    int code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->without, err);
+    int code = add_light(film, name, &images->without, err);
     for (int kind = 0; kind < CORRECTION_KINDS; kind++)
         for (int n = 0; n < CORRECTION_POWERS && !code; n++) {
             snprintf(name, sizeof name, "correction_%.80s_%s%d", word, kind_name(kind), n + 1);
-            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->with[kind][n], err);
+            code = add_light(film, name, &images->with[kind][n], err);
         }
     return code;
 }
@@ -94,13 +103,21 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
             code = add_footprint(film, &target->kinds[kind].of[k], t, kind, k, err);
         for (int i = 1; i < film->plan.count && !code; i++) {
             interreflected_name(film->scene, t, kind, &film->plan.coefficients[i], name);
-            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &target->kinds[kind].interreflected[i], err);
+            code = add_light(film, name, &target->kinds[kind].interreflected[i], err);
         }
     }
     for (int k = 0; k < most_interreflections(film) && !code; k++)
         code = add_footprint(film, &target->interreflections[k], t, 2, k, err);
     if (!code && corrected_targets(film->scene))
         code = add_corrections(film, t, err);
+    return code;
+}
+
+static int add_images(FootprintFilm *film, RetexError *err)
+{
+    int code = add_light(film, "indep", &film->indep, err);
+    for (int t = 0; t < film->scene->ntargets && !code; t++)
+        code = add_target(film, t, err);
     return code;
 }
 
@@ -120,10 +137,23 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts, PARTS_MAX);
-    int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
-    for (int t = 0; t < scene->ntargets && !code; t++)
-        code = add_target(film, t, err);
-    return code;
+    film->parameter = -1;
+    return add_images(film, err);
+}
+
+int footprints_create_lamp(FootprintFilm **out, const FootprintFilm *of, const char *lamp, RetexError *err)
+{
+    const size_t ntargets = (size_t)of->scene->ntargets + 1;
+    FootprintFilm *film = *out = calloc(1, sizeof *film);
+    TargetImages *targets = calloc(ntargets, sizeof *targets);
+    if (!film || !targets) {
+        free(targets);
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    }
+    *film = *of;
+    memcpy(targets, of->targets, ntargets * sizeof *targets);
+    film->targets = targets, film->lamp = lamp, film->next = NULL;
+    return add_images(film, err);
 }
 
 void footprints_close(void **out)
