@@ -145,7 +145,7 @@ static void print_clusters(FILE *out, const RetexSet *set)
         fprintf(out, "clusters       %d sharp, %d broad\n", most_sharp, most_broad);
 }
 
-/* Warn of folded light, which does not follow a new texture: its path has more hits than the set keeps apart. */
+/* Warn of light that does not follow a new texture: its path has more hits than the set keeps apart. */
 static void warn_folded(const Cli *cli, const RetexSet *set)
 {
     const RetexSetInfo info = retex_set_info(set);
@@ -154,7 +154,7 @@ static void warn_folded(const Cli *cli, const RetexSet *set)
                          : info.ntargets > 1            ? "fewer targets may keep its hits apart"
                                                         : "it has more hits than a set can keep apart";
 
-    if (worst > 0.005)
+    if (worst > 0.005 && !info.further_hits)
         cli_warn(cli, "%.2f%% of the light%s keeps the original textures: %s", 100 * worst,
                  info.folded < worst ? ", were the targets white," : "", advice);
 }
@@ -175,6 +175,10 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
     if (info.folded_white > 0)
         fprintf(out, ", %.4f%% were the targets white", 100 * info.folded_white);
     fprintf(out, "\n");
+    if (info.further_hits)
+        fprintf(out, "further hits   up to %d, each leaves %.3f %.3f %.3f of the light, times the texture\n",
+                info.further_hits, (double)info.further_ratio[0], (double)info.further_ratio[1],
+                (double)info.further_ratio[2]);
     print_clusters(out, set);
     fprintf(out, "max depth      %d segments\n", info.max_depth);
     if (info.scene[0])

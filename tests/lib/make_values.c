@@ -1,5 +1,5 @@
 /* make_values FILE X,Y…: prints the values of part 0 of a set or picture at these pixels, with nine digits, one line
- * per pixel. */
+ * per pixel; for `mean` the means of all pixels. */
 #include <retex/image.h>
 #include <retex/image_file.h>
 #include <retex/set.h>
@@ -8,6 +8,16 @@
 #include <string.h>
 
 #include "set/samples.h"
+
+static void print_mean(const RetexImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    double sums[3] = {0};
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            sums[c] += (double)image->pixels[channels * i + c];
+    printf("%.9g %.9g %.9g\n", sums[0] / (double)count, sums[1] / (double)count, sums[2] / (double)count);
+}
 
 int main(int argc, char **argv)
 {
@@ -23,6 +33,10 @@ int main(int argc, char **argv)
     const RetexImage *image = set ? &set->parts[0].image : &picture;
     for (int k = 2; k < argc; k++) {
         int x, y;
+        if (!strcmp(argv[k], "mean")) {
+            print_mean(image);
+            continue;
+        }
         if (sscanf(argv[k], "%d,%d", &x, &y) != 2 || x < 0 || y < 0 || x >= image->width || y >= image->height)
             return 2;
         const float *p = image->pixels + retex_image_index(image, x, y);

@@ -191,6 +191,33 @@ static void the_formula_holds_on_a_pixel(void **state)
     retex_set_close(&set);
 }
 
+/* A tenth of what further hits change is in doubt, and nothing of the light that is folded besides. */
+static void further_hits_are_in_doubt(void **state)
+{
+    (void)state;
+    static const float a[2] = {0.4f, 0.2f}, var[2] = {0, 0};
+    RetexSet *set = small_set(16);
+    const int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0),
+              later = add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, 0.25f, 0);
+    RetexTerm *term;
+    add_term(set, 2, sharp, 0, 0);
+    add_term(set, 5, sharp, later, 2);
+    term = &set->terms[set->nterms - 1];
+    term->factors[term->nfactors] = term->factors[term->nfactors - 1];
+    term->factors[term->nfactors++].quantity = RETEX_QUANTITY_FURTHER;
+    set->folded = 0.1, set->further_hits = 2;
+    for (int c = 0; c < 3; c++)
+        set->further_ratio[c] = 0.5f;
+    const double albedo = (double)set->parts[set->footprints[later].albedo].image.pixels[0];
+    const double q = 0.5, now = 1 + q * 0.2 + q * 0.2 * q * 0.2, then = 1 + q * albedo + q * albedo * q * albedo;
+    const double want = 0.1 * fabs(5 * 0.4 * 0.2 * 0.2 * (now / then - 1));
+    float rgb[3];
+    estimate(rgb, set, a, var);
+    assert_true(want > 0);
+    assert_float_equal(rgb[0], want, 1e-4 * want);
+    retex_set_close(&set);
+}
+
 static void agreements_are_shares(void **state)
 {
     (void)state;
@@ -489,6 +516,8 @@ int main(void)
         cmocka_unit_test(a_mixture_scatters_with_its_footprints),
         cmocka_unit_test(a_mixture_of_nothing_scatters_nothing),
         cmocka_unit_test(agreements_are_shares),
+        cmocka_unit_test(further_hits_are_in_doubt),
+        cmocka_unit_test(further_hits_are_in_doubt),
         cmocka_unit_test(one_path_is_the_least),
         cmocka_unit_test(a_wide_footprint_sees_all_of_a_texture),
         cmocka_unit_test(what_is_even_does_not_scatter),

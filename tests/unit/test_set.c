@@ -155,7 +155,7 @@ static void expect_wrong_terms(RetexSet *set)
     assert_int_equal(weight.kind, RETEX_FACTOR_PARAMETER);
     assert_int_equal(set->parameters[weight.index].target, 1);
     const RetexFactor one = retex_factor(RETEX_FACTOR_FOOTPRINT, 0), no_kind = {(RetexFactorKind)4, 0, 0},
-                      no_quantity = {RETEX_FACTOR_FOOTPRINT, (RetexQuantity)1, 0};
+                      no_quantity = {RETEX_FACTOR_FOOTPRINT, (RetexQuantity)RETEX_QUANTITIES, 0};
     const RetexTerm wrong[] = {
         {RETEX_ROLE_DEP, 0, radiance, 2, {one, retex_factor(RETEX_FACTOR_PARAMETER, 0)}},
         {RETEX_ROLE_DEP, 0, radiance, 1, {retex_factor(RETEX_FACTOR_FOOTPRINT, set->nfootprints)}},

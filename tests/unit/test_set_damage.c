@@ -114,6 +114,8 @@ static void turn_inside_out(const char *sealed)
     "{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},"     \
     "{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},"
 
+#define FURTHER(hits, ratio) "\"further\":{\"hits\":" #hits ",\"ratio\":[" ratio "]},"
+
 static void test_manifests_that_lie(void **state)
 {
     (void)state;
@@ -136,6 +138,14 @@ static void test_manifests_that_lie(void **state)
         {"", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\""},
         {"", "\"folded_white\":", "\"folded_white\":\"0\",\"x\":", RETEX_EFORMAT, "\"folded_white\""},
         {"", "\"folded_white\":", "\"x\":", 0, ""},
+        {"", "\"strict_paper\"", FURTHER(1, "0,1,2") "\"strict_paper\"", 0, ""},
+        {"", "\"strict_paper\"", FURTHER(0, "0,1,2") "\"strict_paper\"", RETEX_EFORMAT, "\"hits\" from 1 to 255"},
+        {"", "\"strict_paper\"", FURTHER(256, "0,1,2") "\"strict_paper\"", RETEX_EFORMAT, "\"hits\""},
+        {"", "\"strict_paper\"", FURTHER(1, "0,1") "\"strict_paper\"", RETEX_EFORMAT, "\"ratio\""},
+        {"", "\"strict_paper\"", FURTHER(1, "0,1,2.5") "\"strict_paper\"", RETEX_EFORMAT, "ratio of further hits"},
+        {"", "\"strict_paper\"", FURTHER(1, "0,-1,2") "\"strict_paper\"", RETEX_EFORMAT, "ratio of further hits"},
+        {"", "\"strict_paper\"", FURTHER(1, "0,null,2") "\"strict_paper\"", RETEX_EFORMAT, "\"ratio\""},
+        {"", "\"strict_paper\"", "\"further\":7,\"strict_paper\"", RETEX_EFORMAT, "\"ratio\""},
         {"\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\""},
         {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,", RETEX_EFORMAT, "\"uv_scale\""},
         {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
@@ -176,6 +186,7 @@ static void test_manifests_that_lie(void **state)
         {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":-1}", RETEX_EFORMAT, "\"footprint\""},
         {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":0.5}", RETEX_EFORMAT, "\"footprint\""},
         {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":0,\"quantity\":\"color\"}", 0, ""},
+        {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":0,\"quantity\":\"further\"}", 0, ""},
         {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":0,\"quantity\":\"normal\"}", RETEX_EUNSUPPORTED,
          "quantity that this program does not know: \"normal\""},
         {"\"terms\"", "{\"footprint\":0}", "{\"footprint\":0,\"quantity\":1}", RETEX_EFORMAT, "\"quantity\""},

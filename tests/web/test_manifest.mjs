@@ -51,6 +51,14 @@ test("parameters, which groups refer to", async () => {
   await refused("groups.0.parameters", [0]);
 });
 
+test("further hits, of reduced mixtures", async () => {
+  const further = { hits: 9, ratio: [1, 0.5, 0], mixtures: [1] };
+  checkManifest({ ...manifest(), further });
+  for (const wrong of [{ hits: 256 }, { hits: -1 }, { hits: 0.5 }, { ratio: [1, 1] }, { ratio: [1, 1, 1, 1] }, { ratio: [1, "1", 1] }, { ratio: [1, -1, 1] }, { ratio: 1 },
+    { mixtures: [2] }, { mixtures: [0] }, { mixtures: 1 }, { mixtures: undefined }])
+    await fails(() => checkManifest({ ...manifest(), further: { ...further, ...wrong } }), /damaged|undefined/, JSON.stringify(wrong));
+});
+
 test("another version is told", async () => {
   for (const value of [undefined, 0, 2, "1"])
     await fails(() => checkManifest(changed("retex_web", value)), "room.json is of another version, or no room.");

@@ -32,10 +32,8 @@ function checkManifest(room) {
     for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) check(isPair(t[key]));
   });
   check(room.targets.length);
-  list(room.parameters ?? [], 64, (p) => {
-    check(typeof p.name === "string" && p.value.length === 3);
-    list(p.value, 3, (x) => number(x));
-  });
+  const color = (c) => (list(c, 3, (x) => number(x)), check(c.length === 3));
+  list(room.parameters ?? [], 64, (p) => (check(typeof p.name === "string"), color(p.value)));
   list(room.lights, 256, (l) => (file(l), levels(l), whole(l.target, -1, 8)));
   if (room.reduced) file(room.reduced);
   const tiles = room.reduced?.tiles || [];
@@ -60,7 +58,12 @@ function checkManifest(room) {
     list(m, 24, ([c, slot]) => (inside(c, room.classes), whole(slot, 0, 1)));
     check(m.every(([c]) => room.classes[c].scale === room.classes[m[0][0]].scale));
   });
-  const scaleOf = (m) => room.classes[room.mixtures[m][0][0]].scale;
+  const scaleOf = (m) => room.classes[room.mixtures[m][0][0]].scale, { further } = room;
+  if (further) {
+    whole(further.hits, 0, 255);
+    color(further.ratio);
+    list(further.mixtures, 96, (m) => (inside(m, room.mixtures), check(scaleOf(m) > 1)));
+  }
   list(room.groups, 128, (g) => {
     inside(g.light, room.lights);
     inside(g.mixture, room.mixtures, -1);

@@ -145,12 +145,15 @@ function tileFunction(room, index, finest) {
   }`;
 }
 
-/* First step: mixtures that are smaller than the picture, one layer each. */
+/* First step: mixtures that are smaller than the picture, one layer each. Those of quantity `further` are S(a) by S of
+ * the original, with S(a) = 1 + q a + ... + (q a)^n: light that meets the texture more often than terms have hits. */
 function mixtureShader(room) {
+  const { hits = 0, ratio = [0, 0, 0] } = room.further ?? {};
   const cases = room.mixtures.map((m, index) => {
     if (room.classes[m[0][0]].scale === 1) return "";
     const code = m.map(([c, slot]) => classCode(room, c, tileCode(room, room.classes[c].albedo, room.classes[c].scale),
-      `sum += w[${slot}] * color; total += w[${slot}];`));
+      `sum += w[${slot}] * color; before += w[${slot}] * own; total += w[${slot}];`));
+    if (room.further?.mixtures.includes(index)) code.push("sum = min(total * series(sum / total) / series(before / total), 65504.0);");
     return `if (mixture == ${index}) { ${code.join("\n")} }`;
   });
   return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
@@ -159,9 +162,14 @@ uniform sampler2D reduced;
 uniform int mixture;
 uniform bool original;
 out vec4 result;
+vec3 series(vec3 a) {
+  vec3 s = vec3(1.0);
+  for (int k = 0; k < ${hits}; k++) s = s * a * vec3(${ratio.map(number)}) + 1.0;
+  return s;
+}
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec3 sum = vec3(0.0);
+  vec3 sum = vec3(0.0), before = vec3(0.0);
   float total = 0.0;
   ${cases.join("\n")}
   result = vec4(total > 0.0 ? sum / total : vec3(0.0), 1.0);

@@ -389,9 +389,11 @@ static RetexFactor new_factor(const Compaction *work, RetexFactor factor)
         return factor;
     retex_factor_target(work->light->set, factor, &target, &kind);
     const int number = find_kind(work->light, target, kind);
-    if (kind != RETEX_FOOTPRINT_INTERREFLECTION)
-        return work->interreflected[number];
-    return factor.kind == RETEX_FACTOR_MIXTURE ? work->mixtures[factor.index] : work->factors[number];
+    RetexFactor made = kind != RETEX_FOOTPRINT_INTERREFLECTION ? work->interreflected[number]
+                       : factor.kind == RETEX_FACTOR_MIXTURE   ? work->mixtures[factor.index]
+                                                               : work->factors[number];
+    made.quantity = factor.quantity;
+    return made;
 }
 
 /* Names of parts of lamps end so: _lamp and the numbers of the parameters; of others in nothing. */

@@ -84,7 +84,7 @@ static int sort_term(RetexCompactLight *light, int number)
     for (int k = 0; k < term->nfactors; k++) {
         int target;
         RetexFootprintKind what;
-        if (!retex_factor_is_texture(term->factors[k]))
+        if (!retex_factor_is_hit(term->factors[k]))
             continue;
         retex_factor_target(light->set, term->factors[k], &target, &what);
         if (what == RETEX_FOOTPRINT_INTERREFLECTION)

@@ -33,7 +33,7 @@ static int is_interreflection(const RetexSet *set, RetexFactor factor)
 {
     int target;
     RetexFootprintKind kind = RETEX_FOOTPRINT_HIT;
-    if (retex_factor_is_texture(factor))
+    if (retex_factor_is_hit(factor))
         retex_factor_target(set, factor, &target, &kind);
     return kind == RETEX_FOOTPRINT_INTERREFLECTION;
 }
@@ -58,6 +58,14 @@ static const RetexFactor *find_any_target(const RetexCompactKind *kind, const Re
     return NULL;
 }
 
+static int has_further(const RetexTerm *term)
+{
+    int further = 0;
+    for (int k = 0; k < term->nfactors; k++)
+        further |= term->factors[k].quantity == RETEX_QUANTITY_FURTHER;
+    return further;
+}
+
 static int same_factors(const RetexTerm *a, const RetexTerm *b)
 {
     return a->nfactors == b->nfactors && memcmp(a->factors, b->factors, (size_t)a->nfactors * sizeof *a->factors) == 0;
@@ -80,6 +88,11 @@ static int find_gain(RetexCompactKind *kind, const RetexCompactLight *light, Ret
             term.factors[term.nfactors++] = old->factors[k];
     while (term.nfactors < 1 + order)
         term.factors[term.nfactors++] = any ? *any : *first_interreflection(set, old);
+    for (int k = 0; k < old->nfactors && order == old_order; k++)
+        if (old->factors[k].quantity == RETEX_QUANTITY_FURTHER) {
+            term.factors[term.nfactors] = any ? *any : old->factors[k];
+            term.factors[term.nfactors++].quantity = RETEX_QUANTITY_FURTHER;
+        }
     for (int k = 0; k < lamps->count; k++)
         term.factors[term.nfactors++] = lamps->factors[k];
     int g = 0;
@@ -141,12 +154,13 @@ int retex_compact_orders_make(RetexCompactKind *kind, const RetexCompactLight *l
                               RetexError *err)
 {
     const RetexSet *set = light->set;
-    int highest = 0;
+    int highest = 0; /* of terms without further hits, which no other term is divided among */
     kind->gains[mixed] = calloc(2 * (size_t)kind->ninterreflections + 1, sizeof **kind->gains);
     if (!kind->gains[mixed])
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
     for (int i = 0; i < kind->ninterreflections; i++)
-        if (retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1 > highest)
+        if (!has_further(&set->terms[kind->interreflections[i].term]) &&
+            retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1 > highest)
             highest = retex_term_hits(&set->terms[kind->interreflections[i].term]) - 1;
     for (int i = 0; i < kind->ninterreflections; i++)
         share_term(kind, light, mixed, &kind->interreflections[i], highest);

@@ -230,7 +230,7 @@ static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *ro
             const RetexTerm *term = &rows->terms[member->term];
             const double light = retex_mean_size(retex_pixel_at(rows, member->part, at)) * (double)member->weight;
             for (int f = 0; f < term->nfactors && light > 0; f++)
-                if (retex_factor_is_texture(term->factors[f]))
+                if (retex_factor_is_hit(term->factors[f]))
                     (term->factors[f].kind == RETEX_FACTOR_MIXTURE ? s->mixed : s->light)[term->factors[f].index] +=
                         light;
         }

@@ -4,14 +4,15 @@
  * the sum of the light by the mean of the texture. The error is the covariance of light and texture inside the
  * footprint. It grows with the variance of the texture there and with the light that multiplies it:
  *
- *     e^2 = sum over footprints f of (dI/dA_f)^2 Var(A_f) (k_f^2 + s_f / n_f)  +  (folded I)^2
+ *     e^2 = sum over footprints f of (dI/dA_f)^2 Var(A_f) (k_f^2 + s_f / n_f)  +  F^2
  *
  * dI/dA_f: derivative of the picture by the texture's value at the footprint; Var(A_f): variance of the texture within
  * the footprint; n_f: number of paths that met it, because a new render would look the texture up at as many places;
  * s_f: the fraction of that noise which remains, because the samples of a pixel are stratified over surfaces that are
  * seen sharply; k_f: the correlation of light and texture beyond noise. s_f and k_f were measured for each kind of
- * footprint in the scenes of tests/fidelity/error.sh. The formula is in estimate_row.c; here the variance of the
- * texture is computed, row by row. */
+ * footprint in the scenes of tests/fidelity/error.sh. F is what light with more hits than the set keeps may be off by:
+ * a tenth of what the factors of quantity FURTHER change, or without them all of it, folded I. The formula is in
+ * estimate_row.c; here the variance of the texture is computed, row by row. */
 #include <stdlib.h>
 
 #include <retex/combine.h>

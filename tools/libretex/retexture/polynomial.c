@@ -56,7 +56,7 @@ static int has_cross_terms(const RetexSet *set)
  * when it is needed. */
 static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexError *err)
 {
-    if (factor.kind == RETEX_FACTOR_PARAMETER)
+    if (factor.kind == RETEX_FACTOR_PARAMETER || retex_polynomial_is_one(p, factor))
         return RETEX_OK;
     const RetexImage *shape = retex_polynomial_factor_image(p, factor);
     const int own = shape ? retex_set_scale(p->set, shape) : 0;
@@ -144,6 +144,7 @@ static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
 }
 
 static int footprint_row(void *context, int footprint, int y, const float **made, RetexError *err);
+static int factor_row(RetexPolynomialRow *row, RetexFactor factor, int y, const float **made, RetexError *err);
 
 /* A copy of an image's row, with three channels; or NULL. */
 static int image_row(RetexPolynomialRow *row, int part, int y, float *values, const float **made, RetexError *err)
@@ -176,6 +177,13 @@ static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int 
             retex_row_gray_to_rgb(values, (size_t)width);
     } else if (factor.kind == RETEX_FACTOR_IMAGE) {
         code = image_row(row, factor.index, y, values, &row->made[slot], err);
+    } else if (factor.quantity == RETEX_QUANTITY_FURTHER) {
+        const float *colors;
+        code = factor_row(row, retex_factor(factor.kind, factor.index), y, &colors, err);
+        if (!code)
+            code =
+                retex_polynomial_further_row(p, row->reader, factor, y, colors, row->weights, &row->buffers[slot], err);
+        row->spans[slot] = row->buffers[slot].filled;
     } else if (factor.kind == RETEX_FACTOR_MIXTURE) {
         code = retex_polynomial_mixture_row(p, row->reader, factor.index, y, footprint_row, row, row->weights,
                                             &row->buffers[slot], err);

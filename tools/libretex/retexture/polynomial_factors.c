@@ -37,22 +37,41 @@ int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
 
 int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
 {
-    return factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
-           : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
-                                                 : set->nfootprints + set->nmixtures + factor.index;
+    const int textures = set->nfootprints + set->nmixtures;
+    const int slot = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
+                     : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
+                                                           : textures + factor.index;
+    return factor.quantity == RETEX_QUANTITY_FURTHER ? textures + set->nparts + slot : slot;
 }
 
 RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
 {
-    const int mixture = slot - set->nfootprints, part = mixture - set->nmixtures;
-    return mixture < 0 ? retex_factor(RETEX_FACTOR_FOOTPRINT, slot)
-           : part < 0  ? retex_factor(RETEX_FACTOR_MIXTURE, mixture)
-                       : retex_factor(RETEX_FACTOR_IMAGE, part);
+    const int textures = set->nfootprints + set->nmixtures, further = slot >= textures + set->nparts;
+    const int number = further ? slot - textures - set->nparts : slot;
+    RetexFactor factor = number < set->nfootprints ? retex_factor(RETEX_FACTOR_FOOTPRINT, number)
+                         : number < textures       ? retex_factor(RETEX_FACTOR_MIXTURE, number - set->nfootprints)
+                                                   : retex_factor(RETEX_FACTOR_IMAGE, number - textures);
+    factor.quantity = further ? RETEX_QUANTITY_FURTHER : RETEX_QUANTITY_COLOR;
+    return factor;
 }
 
 int retex_polynomial_slot_count(const RetexSet *set)
 {
-    return set->nfootprints + set->nmixtures + set->nparts;
+    return 2 * (set->nfootprints + set->nmixtures) + set->nparts;
+}
+
+/* Whether the textures of a factor of quantity FURTHER are all original: then it is 1. */
+int retex_polynomial_is_one(const RetexPolynomial *p, RetexFactor factor)
+{
+    int edited = 0;
+    if (factor.quantity != RETEX_QUANTITY_FURTHER)
+        return 0;
+    if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+        return !p->edited[p->set->footprints[factor.index].target];
+    const RetexMixture *mixture = &p->set->mixtures[factor.index];
+    for (int k = 0; k < mixture->nshares; k++)
+        edited |= p->edited[p->set->footprints[mixture->shares[k].footprint].target];
+    return !edited;
 }
 
 const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most)
@@ -195,6 +214,61 @@ int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reade
     else
         retex_mixture_divide_colors(sum->values + 3 * first, weights + 3 * first, all.end - all.begin);
     return RETEX_OK;
+}
+
+/* ---- further hits ---- */
+
+typedef struct Originals {
+    const RetexSet *set;
+    RetexRowReader *reader;
+} Originals;
+
+static int original_row(void *context, int footprint, int y, const float **row, RetexError *err)
+{
+    const Originals *of = context;
+    const int albedo = of->set->footprints[footprint].albedo;
+    if (albedo < 0)
+        return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set lacks its original albedo", footprint);
+    return retex_row_reader_get(of->reader, albedo, y, row, err);
+}
+
+static int copy_original_row(Originals *of, int footprint, int y, RetexRowBuffer *values, RetexError *err)
+{
+    const float *row;
+    const int code = original_row(of, footprint, y, &row, err);
+    if (code)
+        return code;
+    const int width = of->set->parts[of->set->footprints[footprint].albedo].image.width;
+    refill(values, (RetexRowSpan){0, width});
+    if (row)
+        memcpy(values->values, row, 3 * (size_t)width * sizeof *row);
+    return RETEX_OK;
+}
+
+/* 1 + x + ... + x^n. */
+static float series(float x, int n)
+{
+    float sum = 1;
+    for (int k = 0; k < n; k++)
+        sum = sum * x + 1;
+    return sum;
+}
+
+int retex_polynomial_further_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor, int y,
+                                 const float *colors, float *weights, RetexRowBuffer *values, RetexError *err)
+{
+    const float *q = p->set->further_ratio;
+    const int n = p->set->further_hits;
+    Originals of = {p->set, reader};
+    int code = factor.kind == RETEX_FACTOR_FOOTPRINT
+                   ? copy_original_row(&of, factor.index, y, values, err)
+                   : retex_polynomial_mixture_row(p, reader, factor.index, y, original_row, &of, weights, values, err);
+    for (int x = values->filled.begin; x < values->filled.end && !code; x++)
+        for (int c = 0; c < 3; c++) {
+            float *value = &values->values[3 * x + c];
+            *value = series(colors ? q[c] * colors[3 * x + c] : 0, n) / series(q[c] * *value, n);
+        }
+    return code;
 }
 
 void retex_row_gray_to_rgb(float *row, size_t width)

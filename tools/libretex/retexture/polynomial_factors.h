@@ -5,10 +5,14 @@
 
 #include "retexture/polynomial.h"
 
-/* Slots number footprints, mixtures and parts, which images are, in one list. Parameters have none. */
+/* Slots number footprints, mixtures and parts, which images are, in one list, then footprints and mixtures of quantity
+ * FURTHER. Parameters have none. */
 int retex_polynomial_slot(const RetexSet *set, RetexFactor factor);
 RetexFactor retex_polynomial_factor(const RetexSet *set, int slot); /* and back */
 int retex_polynomial_slot_count(const RetexSet *set);
+
+/* 1: it is 1 everywhere, as no texture of a factor of quantity FURTHER is edited. */
+int retex_polynomial_is_one(const RetexPolynomial *polynomial, RetexFactor factor);
 
 /* The image of a part if it has `least` to `most` channels, else NULL. */
 const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most);
@@ -27,6 +31,11 @@ typedef int RetexFactorRow(void *context, int footprint, int y, const float **ro
 int retex_polynomial_mixture_row(const RetexPolynomial *polynomial, RetexRowReader *reader, int mixture, int y,
                                  RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
                                  RetexError *err);
+
+/* Compute the row of a footprint or mixture of quantity FURTHER into values. colors: its row of quantity COLOR, or NULL
+ * where that is black. */
+int retex_polynomial_further_row(const RetexPolynomial *polynomial, RetexRowReader *reader, RetexFactor factor, int y,
+                                 const float *colors, float *weights, RetexRowBuffer *values, RetexError *err);
 
 /* Expand a row of one channel to three, in place. */
 void retex_row_gray_to_rgb(float *row, size_t width);

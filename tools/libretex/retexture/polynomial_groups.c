@@ -14,11 +14,12 @@
 
 #define ROWS_A_JOB 64 /* rows of a pack's strip */
 
-/* 1 of parameters, which have no size. */
+/* 1 of parameters, which have no size, and of what is 1. */
 static int factor_scale(const RetexPolynomial *p, RetexFactor factor)
 {
-    const RetexImage *shape = factor.kind == RETEX_FACTOR_PARAMETER ? NULL : retex_polynomial_factor_image(p, factor);
-    return factor.kind == RETEX_FACTOR_PARAMETER ? 1 : shape ? retex_set_scale(p->set, shape) : 0;
+    const int is_number = factor.kind == RETEX_FACTOR_PARAMETER || retex_polynomial_is_one(p, factor);
+    const RetexImage *shape = is_number ? NULL : retex_polynomial_factor_image(p, factor);
+    return is_number ? 1 : shape ? retex_set_scale(p->set, shape) : 0;
 }
 
 int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexTerm *term)
@@ -46,7 +47,8 @@ static struct RetexPolynomialGroup *group_of(RetexPolynomial *p, const RetexTerm
     struct RetexPolynomialGroup wanted = {.scale = p->apart ? 0 : retex_polynomial_group_scale(p, term)};
     wanted.weighted = weighted && !wanted.scale; /* else the product is weighted */
     for (int k = 0; k < term->nfactors; k++)
-        if (term->factors[k].kind != RETEX_FACTOR_PARAMETER && (p->apart || factor_scale(p, term->factors[k]) == 1))
+        if (term->factors[k].kind != RETEX_FACTOR_PARAMETER && !retex_polynomial_is_one(p, term->factors[k]) &&
+            (p->apart || factor_scale(p, term->factors[k]) == 1))
             wanted.factors[wanted.nfactors++] = term->factors[k];
     for (int g = 0; g < p->ngroups && !p->apart; g++)
         if (are_together(&p->groups[g], &wanted, term->radiance))

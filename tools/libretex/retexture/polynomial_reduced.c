@@ -28,6 +28,7 @@ typedef struct ReducedThread {
     const float **rows;      /* by footprint; NULL: black */
     char *made;              /* by footprint: 1 if rows has it */
     float *weights;
+    RetexRowBuffer colors; /* of a mixture */
 } ReducedThread;
 
 static int footprint_row(void *context, int footprint, int y, const float **row, RetexError *err)
@@ -48,20 +49,32 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
     return code;
 }
 
+/* Gives the row of a mixture, made in `sum`, of a footprint's colours, or of an image; NULL where it is black. */
+static int factor_row(ReducedThread *own, RetexFactor factor, int y, RetexRowBuffer *sum, const float **row,
+                      RetexError *err)
+{
+    *row = sum->values;
+    if (factor.kind == RETEX_FACTOR_MIXTURE)
+        return retex_polynomial_mixture_row(own->work->polynomial, own->reader, factor.index, y, footprint_row, own,
+                                            own->weights, sum, err);
+    return factor.kind == RETEX_FACTOR_FOOTPRINT ? footprint_row(own, factor.index, y, row, err)
+                                                 : retex_row_reader_get(own->reader, factor.index, y, row, err);
+}
+
 static int make_row(ReducedThread *own, int slot, int y, RetexError *err)
 {
     const RetexPolynomial *p = own->work->polynomial;
     const RetexFactor factor = retex_polynomial_factor(p->set, slot);
     RetexImage *image = &p->reduced[slot];
     float *out = image->pixels + retex_image_index(image, 0, y);
-    RetexRowBuffer sum = {.values = out}; /* which is 0 before */
-    if (factor.kind == RETEX_FACTOR_MIXTURE)
-        return retex_polynomial_mixture_row(p, own->reader, factor.index, y, footprint_row, own, own->weights, &sum,
-                                            err);
+    RetexRowBuffer made = {.values = out}; /* which is 0 before */
     const float *row;
-    int code = factor.kind == RETEX_FACTOR_FOOTPRINT ? footprint_row(own, factor.index, y, &row, err)
-                                                     : retex_row_reader_get(own->reader, factor.index, y, &row, err);
-    if (!code && row)
+    if (factor.quantity == RETEX_QUANTITY_FURTHER) {
+        int code = factor_row(own, retex_factor(factor.kind, factor.index), y, &own->colors, &row, err);
+        return code ? code : retex_polynomial_further_row(p, own->reader, factor, y, row, own->weights, &made, err);
+    }
+    int code = factor_row(own, factor, y, &made, &row, err);
+    if (!code && row && row != out)
         memcpy(out, row, sizeof *out * (size_t)image->width * (size_t)image->channels);
     return code;
 }
@@ -77,7 +90,8 @@ static int open_thread(const ReducedWork *work, ReducedThread *own, RetexError *
     own->rows = calloc(count, sizeof *own->rows);
     own->made = calloc(count, 1);
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
-    if (!own->buffers || !own->rows || !own->made || !own->weights)
+    own->colors.values = calloc(3 * (size_t)work->width, sizeof *own->colors.values);
+    if (!own->buffers || !own->rows || !own->made || !own->weights || !own->colors.values)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     return retex_row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
@@ -90,6 +104,7 @@ static void close_thread(const ReducedWork *work, ReducedThread *own)
     free(own->rows);
     free(own->made);
     free(own->weights);
+    free(own->colors.values);
     retex_row_reader_close(&own->reader);
 }
 

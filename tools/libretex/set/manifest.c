@@ -176,6 +176,14 @@ static const uint32_t *bands_of(const RetexBandSums *sums, int index)
     return sums && index < sums->count ? sums->of[index] : NULL;
 }
 
+static json_t *write_further(const RetexSet *set, int *finite)
+{
+    const float *ratio = set->further_ratio;
+
+    return json_pack("{s:i, s:[o, o, o]}", "hits", set->further_hits, "ratio", real((double)ratio[0], finite),
+                     real((double)ratio[1], finite), real((double)ratio[2], finite));
+}
+
 static json_t *identity(uint32_t id)
 {
     char hex[16];
@@ -215,6 +223,8 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "id", identity(set->id));
     retex_json_put(root, "folded", real(set->folded, finite));
     retex_json_put(root, "folded_white", real(set->folded_white, finite));
+    if (set->further_hits)
+        retex_json_put(root, "further", write_further(set, finite));
     retex_json_put(root, "denoised", json_boolean(set->denoised));
     retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
     retex_json_put(root, "targets", targets);

@@ -200,7 +200,7 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
             return;
         const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
         const RetexFootprint *f = &set->footprints[mixture.shares[i].footprint];
-        const int sampled = f->uv < 0 && f->spread < 0 && f->albedo < 0; /* in a stream */
+        const int sampled = f->uv < 0 && f->spread < 0; /* in a stream */
         if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
             retex_reading_fail(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
@@ -230,6 +230,19 @@ static uint32_t get_identity(Reading *reading, const json_t *json, const char *k
     return (uint32_t)id;
 }
 
+static void read_further(Reading *reading, const json_t *json, RetexSet *set)
+{
+    const json_t *ratio = retex_reading_array(reading, json, "ratio", 3);
+
+    set->further_hits = retex_reading_integer(reading, json, "hits", 1, RETEX_FURTHER_HITS_MAX);
+    for (size_t c = 0; c < 3; c++) {
+        const double value = retex_reading_real(reading, json_array_get(ratio, c), "ratio");
+        if (!(value >= 0 && value <= RETEX_FURTHER_RATIO_MAX))
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a ratio of further hits out of range");
+        set->further_ratio[c] = (float)value;
+    }
+}
+
 static void read_set(Reading *reading, const json_t *root, int width, int height, RetexSet **result)
 {
     RetexSet *set = calloc(1, sizeof *set);
@@ -256,6 +269,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     set->folded = retex_reading_real(reading, json_object_get(root, "folded"), "folded");
     if (json_object_get(root, "folded_white"))
         set->folded_white = retex_reading_real(reading, json_object_get(root, "folded_white"), "folded_white");
+    if (json_object_get(root, "further"))
+        read_further(reading, json_object_get(root, "further"), set);
     if (json_object_get(root, "denoised"))
         set->denoised = retex_reading_boolean(reading, json_object_get(root, "denoised"), "denoised");
     set->strict_paper = retex_reading_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");

@@ -88,10 +88,11 @@ static int prune_factors(const Pruning *p, RetexTerm *term)
     for (int k = 0; k < term->nfactors; k++) {
         RetexFactor *factor = &term->factors[k];
         const RetexFactorKind kind = factor->kind;
+        const RetexQuantity quantity = factor->quantity;
         if (kind == RETEX_FACTOR_FOOTPRINT)
             factor->index = p->footprints[factor->index];
         else if (kind == RETEX_FACTOR_MIXTURE)
-            *factor = p->mixtures[factor->index];
+            *factor = p->mixtures[factor->index], factor->quantity = quantity;
         if (retex_factor_is_texture(*factor) && factor->index == GONE)
             return 0;
     }

@@ -53,27 +53,29 @@ void retex_set_close(RetexSet **result)
 
 void retex_set_get_info(const RetexSet *set, RetexSetInfo *info)
 {
-    const RetexSetInfo own = {.width = set->width,
-                              .height = set->height,
-                              .layout = set->layout,
-                              .filter = set->filter,
-                              .scene = set->scene,
-                              .generator = set->generator,
-                              .orders = set->orders,
-                              .spp = set->spp,
-                              .max_depth = set->max_depth,
-                              .seed = set->seed,
-                              .id = set->id,
-                              .denoised = set->denoised,
-                              .strict_paper = set->strict_paper,
-                              .folded = set->folded,
-                              .folded_white = set->folded_white,
-                              .ntargets = set->ntargets,
-                              .nfootprints = set->nfootprints,
-                              .nmixtures = set->nmixtures,
-                              .nterms = set->nterms,
-                              .nparameters = set->nparameters,
-                              .nparts = set->nparts};
+    RetexSetInfo own = {.width = set->width,
+                        .height = set->height,
+                        .layout = set->layout,
+                        .filter = set->filter,
+                        .scene = set->scene,
+                        .generator = set->generator,
+                        .orders = set->orders,
+                        .spp = set->spp,
+                        .max_depth = set->max_depth,
+                        .seed = set->seed,
+                        .id = set->id,
+                        .denoised = set->denoised,
+                        .strict_paper = set->strict_paper,
+                        .folded = set->folded,
+                        .folded_white = set->folded_white,
+                        .ntargets = set->ntargets,
+                        .nfootprints = set->nfootprints,
+                        .nmixtures = set->nmixtures,
+                        .nterms = set->nterms,
+                        .nparameters = set->nparameters,
+                        .nparts = set->nparts,
+                        .further_hits = set->further_hits};
+    memcpy(own.further_ratio, set->further_ratio, sizeof own.further_ratio);
     (void)RETEX_PARAMS_RETURN(info, &own, NULL);
 }
 
@@ -89,6 +91,13 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err
     const int code = RETEX_PARAMS_COPY(&info, given, err);
     if (code)
         return code;
+    if (info.further_hits < 0 || info.further_hits > RETEX_FURTHER_HITS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "further hits are 0 to %d, not %d", RETEX_FURTHER_HITS_MAX,
+                          info.further_hits);
+    for (int c = 0; c < 3; c++)
+        if (!(info.further_ratio[c] >= 0 && info.further_ratio[c] <= RETEX_FURTHER_RATIO_MAX))
+            return retex_fail(err, RETEX_EINVAL, "the ratio of further hits is 0 to %d, not %g",
+                              RETEX_FURTHER_RATIO_MAX, (double)info.further_ratio[c]);
     copy_text(set->layout, sizeof set->layout, info.layout);
     copy_text(set->filter, sizeof set->filter, info.filter);
     copy_text(set->scene, sizeof set->scene, info.scene);
@@ -97,6 +106,8 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err
     set->seed = info.seed;
     set->denoised = info.denoised, set->strict_paper = info.strict_paper;
     set->folded = info.folded, set->folded_white = info.folded_white;
+    set->further_hits = info.further_hits;
+    memcpy(set->further_ratio, info.further_ratio, sizeof set->further_ratio);
     return 0;
 }
 

@@ -14,6 +14,8 @@ struct RetexSet {
     int orders, spp, max_depth;
     uint32_t seed, id;
     double folded, folded_white;
+    int further_hits;
+    float further_ratio[3];
     int denoised, strict_paper;
     int ntargets;
     RetexTarget targets[RETEX_MAX_TARGETS];

@@ -29,7 +29,7 @@ const char *retex_factor_kind_name(int kind)
 
 const char *retex_quantity_name(int quantity)
 {
-    static const char *const names[RETEX_QUANTITIES] = {"color"};
+    static const char *const names[RETEX_QUANTITIES] = {"color", "further"};
 
     return names[quantity];
 }
@@ -46,7 +46,7 @@ int retex_term_hits(const RetexTerm *term)
     int count = 0;
 
     for (int k = 0; k < term->nfactors; k++)
-        count += retex_factor_is_texture(term->factors[k]);
+        count += retex_factor_is_hit(term->factors[k]);
     return count;
 }
 

@@ -15,22 +15,41 @@
 #include "set/staging.h"
 
 typedef struct Choice {
+    const RetexSet *set;
     const RetexSamples *samples;
     char *kept;
 } Choice;
+
+/* Whether a factor of quantity FURTHER, which is relative to the original albedo, is of the footprint. */
+static int has_further(const RetexSet *set, int footprint)
+{
+    int found = 0;
+    for (int t = 0; t < set->nterms; t++)
+        for (int k = 0; k < set->terms[t].nfactors; k++) {
+            const RetexFactor factor = set->terms[t].factors[k];
+            if (factor.quantity != RETEX_QUANTITY_FURTHER)
+                continue;
+            found |= factor.kind == RETEX_FACTOR_FOOTPRINT && factor.index == footprint;
+            for (int s = 0; factor.kind == RETEX_FACTOR_MIXTURE && s < set->mixtures[factor.index].nshares; s++)
+                found |= set->mixtures[factor.index].shares[s].footprint == footprint;
+        }
+    return found;
+}
 
 static void keep_part(void *context, RetexPartUse use, int user, int *part)
 {
     const Choice *c = context;
     const int of_footprint = use == RETEX_PART_UV || use == RETEX_PART_SPREAD || use == RETEX_PART_ALBEDO;
-    c->kept[*part] |= use != RETEX_PART_ORIGINAL && !(of_footprint && retex_samples_have(c->samples, user));
+    const int sampled = of_footprint && retex_samples_have(c->samples, user);
+    c->kept[*part] |= use != RETEX_PART_ORIGINAL &&
+                      (!sampled || (use == RETEX_PART_ALBEDO && has_further(c->set, user)));
 }
 
 /* Decides which parts are written. With samples only those that recombination needs: the picture, the terms, and
  * footprints that have no sample, so that another target can be sampled further down the pipe. */
 static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
 {
-    Choice choice = {samples, kept};
+    Choice choice = {set, samples, kept};
     memset(kept, !samples, (size_t)set->nparts);
     kept[0] = 1;
     if (samples)

@@ -362,6 +362,21 @@ static json_t *describe_classes(const Web *web)
     return list;
 }
 
+/* How light goes on beyond the terms' hits, and the mixtures whose quantity that is. */
+static void describe_further(json_t **object, const Web *web)
+{
+    const float *ratio = web->set->further_ratio;
+    json_t *mixtures = json_array();
+    for (int i = 0; i < web->model.nmixtures; i++)
+        if (web->model.mixtures[i].factor.quantity == RETEX_QUANTITY_FURTHER)
+            retex_json_add(&mixtures, json_integer(i));
+    if (json_array_size(mixtures))
+        retex_json_put(object, "further",
+                       json_pack("{s:i,s:[f,f,f],s:O}", "hits", web->set->further_hits, "ratio", (double)ratio[0],
+                                 (double)ratio[1], (double)ratio[2], "mixtures", mixtures));
+    json_decref(mixtures);
+}
+
 static void describe_terms(json_t **object, const Web *web)
 {
     json_t *mixtures = json_array(), *groups = json_array(), *terms = json_array();
@@ -392,6 +407,7 @@ static void describe_terms(json_t **object, const Web *web)
                                          t->gain >= 0 ? tile_of(web, t->gain) : -1, "factors", factors));
     }
     retex_json_put(object, "mixtures", mixtures);
+    describe_further(object, web);
     retex_json_put(object, "groups", groups);
     retex_json_put(object, "terms", terms);
 }

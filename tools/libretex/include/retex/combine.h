@@ -61,7 +61,7 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
 /* The expected error of what retex_retexture makes of the same arguments, as rows of a picture: the standard deviation,
  * per channel and scene-linear, of the difference to rendering again with these textures at the set's sample count. It
  * is computed from the variance of the textures within the footprints, the light that multiplies them there, and the
- * energy that was folded; targets without a texture add no error. */
+ * light with more hits than the set keeps; targets without a texture add no error. */
 int retex_estimate_error(const RetexSet *set, const RetexSamples *samples /* or NULL */,
                          RetexTexture *const textures[RETEX_MAX_TARGETS],
                          const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,

@@ -95,9 +95,12 @@ enum { RETEX_FACTOR_KINDS = RETEX_FACTOR_PARAMETER + 1 };
 
 /* Which quantity of a texture FOOTPRINT and MIXTURE stand for. A later version may add quantities. */
 typedef enum RetexQuantity {
-    RETEX_QUANTITY_COLOR /* its colour, scene-linear */
+    RETEX_QUANTITY_COLOR,  /* its colour, scene-linear: the factor is a hit */
+    RETEX_QUANTITY_FURTHER /* what light changes by that meets the texture more often than the term has hits, and is in
+                              its radiance with original albedos: S(texture) / S(albedo), both means of a mixture,
+                              with S(a) = 1 + q a + ... + (q a)^n for the set's further_ratio q and further_hits n */
 } RetexQuantity;
-enum { RETEX_QUANTITIES = RETEX_QUANTITY_COLOR + 1 };
+enum { RETEX_QUANTITIES = RETEX_QUANTITY_FURTHER + 1 };
 
 typedef struct RetexFactor {
     RetexFactorKind kind;
@@ -146,6 +149,8 @@ typedef struct RetexParameter {
 } RetexParameter;
 
 #define RETEX_SCALE_MAX 8
+#define RETEX_FURTHER_HITS_MAX 255
+#define RETEX_FURTHER_RATIO_MAX 2
 
 /* The mean of several footprints' textures, pixel by pixel: sum of weights times textures over the sum of weights. A
  * colour that has no weight takes the mean of those that have; 0 where none has. It stands for hits that are not kept
@@ -179,6 +184,8 @@ typedef struct RetexSetInfo {
     double folded;       /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
     double folded_white; /* layout footprints: the same share, were every target painted white (albedo 0.8) */
     int ntargets, nfootprints, nmixtures, nterms, nparameters, nparts;
+    int further_hits;       /* 0..RETEX_FURTHER_HITS_MAX: see RETEX_QUANTITY_FURTHER; 0: no factor has that quantity */
+    float further_ratio[3]; /* of light with one more hit to light without it, textures left out; 0..2 */
 } RetexSetInfo;
 
 /* Fill what info->size says that the caller knows. */
@@ -225,12 +232,17 @@ static inline int retex_factor_is_texture(RetexFactor factor)
 {
     return factor.kind == RETEX_FACTOR_FOOTPRINT || factor.kind == RETEX_FACTOR_MIXTURE;
 }
+/* 1: it is a hit, which light is multiplied by once. */
+static inline int retex_factor_is_hit(RetexFactor factor)
+{
+    return retex_factor_is_texture(factor) && factor.quantity == RETEX_QUANTITY_COLOR;
+}
 /* 1: the term is part of the sum that is the picture as rendered; 0: a correction, or the picture itself. */
 static inline int retex_term_is_light(const RetexTerm *term)
 {
     return term->role != RETEX_ROLE_CORRECTION && term->role != RETEX_ROLE_PICTURE;
 }
-/* The number of hits of a term: of its footprints and mixtures. */
+/* The number of hits of a term: of its footprints and mixtures of quantity COLOR. */
 int retex_term_hits(const RetexTerm *term);
 /* The part of a term's first IMAGE factor, or -1. */
 int retex_term_image(const RetexTerm *term);

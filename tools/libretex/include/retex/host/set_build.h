@@ -43,6 +43,9 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
 /* The same of a correction of term->target, which gets the parameter of that target as its last factor. The parameter
  * is added with the target's first correction. */
 int retex_set_add_correction(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* Find the set's further_hits and further_ratio from the light of the terms that have a factor of quantity FURTHER, and
+ * of those with one hit less; before it is rounded or filtered. max_depth is known. */
+int retex_set_find_further(RetexSet *set, RetexError *err);
 /* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
 /* Remove all that is empty; empty[i]: 1 if part i is 0 everywhere. Footprints without UV are removed with their parts,
