@@ -168,6 +168,9 @@ void film_hit_limits(const FilmPixel *p, int *orders, int *most_hits)
 {
     *orders = p->film->params.orders;
     *most_hits = p->film->layout->most_hits(p->film->scene->ntargets);
+    /* where hits on any target are counted together, those of one are not limited besides */
+    if (p->film->layout->prunes && *orders == RETEX_MAX_ORDERS && p->film->scene->ntargets > 1)
+        *orders = *most_hits;
 }
 
 /* What each signal got in the pixel so far. */

@@ -124,6 +124,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     }
     stats->limited = film_limited(r->film) + limit_numbers(set);
     film_move_store(r->film, set);
+    if (!code)
+        code = retex_set_find_further(set, err);
     stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;
     return code;
 }

@@ -64,15 +64,21 @@ $ retex-info --json two.exr | grep -o '"name":"\(dep_floor_sharp_[^"]*m[^"]*\|sh
 > "name":"share_white_interreflection2"
 > "name":"dep_floor_sharp_m5"
 > "name":"dep_floor_sharp_m6"
-> "name":"dep_floor_sharp_m7"
+> "name":"dep_floor_sharp_m8"
+> "name":"dep_floor_sharp_m10"
+> "name":"dep_floor_sharp_m11"
 
 # What retex-info advises where light keeps the original.
 $ printf '#version 3.7; global_settings { assumed_gamma 1 } #declare Shell = pigment { rgb 0.8 } #declare Ball = pigment { rgb 0.7 } camera { location <0.5, 0.3, -1> look_at 0 } sphere { 0, 3 pigment { Shell } finish { diffuse 1 } } sphere { y, 0.5 pigment { Ball } } light_source { 0 rgb 1 }' >shell.pov
-$ for options in '--orders 3 -t shell' '--orders 5 -t shell -t ball' '-t shell' '-t shell -t ball'; do retex-render -q --size 16x12 --spp 2 $options shell.pov | retex-info - 2>&1 >/dev/null | sed 's/[0-9.]*%/N%/'; done
-> retex-info: warning: N% of the light keeps the original textures: more --orders keep its hits apart
+$ for options in '--orders 3 -t shell' '--orders 5 -t shell -t ball' '--layout paper -t shell -t ball' '--layout paper --strict-paper -t shell' '-t shell -t ball'; do echo "$options"; retex-render -q --size 16x12 --spp 2 $options shell.pov | retex-info - 2>&1 >/dev/null | sed 's/[0-9.]*%/N%/'; done
+> --orders 3 -t shell
+> --orders 5 -t shell -t ball
 > retex-info: warning: N% of the light, were the targets white, keeps the original textures: more --orders keep its hits apart
+> --layout paper -t shell -t ball
+> retex-info: warning: N% of the light keeps the original textures: fewer targets may keep its hits apart
+> --layout paper --strict-paper -t shell
 > retex-info: warning: N% of the light keeps the original textures: it has more hits than a set can keep apart
-> retex-info: warning: N% of the light, were the targets white, keeps the original textures: fewer targets may keep its hits apart
+> -t shell -t ball
 
 # Both layouts show the picture that was rendered, and take new textures.
 $ for s in f p two; do retex-combine -q $s.exr -o back.exr; retex-render -q --size 16x12 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; retex-diff -q back.exr plain.exr --fail-psnr 45 || echo $s; done

@@ -35,8 +35,6 @@ $ printf 'camera { location -3*z direction z right 2*x up y }\nsphere { 0, 1 }\n
 $ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor,Walls=White+Red' -o a.exr; retex-render -q --full-precision --spp 2 --size 32x24 -t Floor -t Walls=White,Red box.pov -o b.exr; retex-info --check a.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; grep -c crc32 a.txt | sed 's/^[1-9].*/checksums/'
 > a.exr: ok
 > checksums
-! retex-info: warning: 1.81% of the light, were the targets white, keeps the original textures: fewer targets may keep its hits apart
-! retex-info: warning: 1.81% of the light, were the targets white, keeps the original textures: fewer targets may keep its hits apart
 $ for f in a b; do retex-combine -q $f.exr --texture Floor=brick.jpg --texture 'Walls=rgb(.2,.5,.2)' -o $f.png; done; cmp a.png b.png
 $ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor&layout=paper&orders=2&strict_paper=1&no_denoise_data=1&aov=depth,uv&noise=0.5' -o a.exr; retex-render -q --full-precision --spp 2 --size 32x24 -t Floor --layout paper --orders 2 --strict-paper --no-denoise-data --aov depth,uv --noise 0.5 box.pov -o b.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; retex-info --check a.exr
 > a.exr: ok

@@ -1,7 +1,7 @@
 /* The player's whole picture, shaders included: a room that retex-pack wrote, drawn by the Renderer on webgl.mjs, against
  * retex-combine's pictures of its set. */
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { inflateSync } from "node:zlib";
 import { near, same, test } from "./tap.mjs";
@@ -132,6 +132,25 @@ test("lamps have their own light: the picture is that of the set with the lamp i
   const partial = open("lamps", { classes: (c) => c.target === 0 || c.kind === "interreflection" });
   const before = psnr(partial.draw(floor), green);
   least(psnr(partial.draw(floor, { colors }), green), before + 2, "nearer, while not all is loaded");
+});
+
+test("light with more hits than terms have follows a new colour", () => {
+  writeFileSync(`${folder}/closed.pov`, `#version 3.7; global_settings { assumed_gamma 1 max_trace_level 40 }
+    #default { finish { diffuse 1 ambient 0 } } camera { location <0, 1, -1.8> look_at <0, 1, 1> angle 75 }
+    light_source { <0.3, 1.8, -0.3>, rgb 0.15 } #declare Room = box { <-2, 0, -2>, <2, 2.2, 2> hollow pigment { rgb 0.5 } } object { Room }
+    sphere { <0.7, 0.4, 0.8>, 0.4 pigment { rgb <0.2, 0.5, 0.7> } }`);
+  tool("retex-render", "-q", "--size", "48x36", "--spp", "64", "-t", "Room", "closed.pov", "-o", "closed.exr");
+  tool("retex-pack", "-q", "closed.exr", "--web", "closed");
+  const { room, draw } = open("closed");
+  for (const [a, decibels] of [[0.5, 44], [0.9, 29]]) { /* what levels of light lose grows with light: 29 dB are 3 % */
+    tool("retex-combine", "-q", "closed.exr", "--texture", `Room=rgb(${a},${a},${a})`, "-o", "expected.png");
+    least(psnr(draw({ Room: { image: [a, a, a] } }), images(["expected.png"])[0]), decibels, `albedo ${a}`);
+  }
+  const { further, ...without } = room;
+  same(further.hits, 9);
+  writeFileSync(`${folder}/closed/room.json`, JSON.stringify(without));
+  const lost = psnr(open("closed").draw({ Room: { image: [0.9, 0.9, 0.9] } }), images(["expected.png"])[0]);
+  if (!(lost < 22)) throw new Error(`without it there are ${lost} dB`);
 });
 
 test("a transparent part of a texture shows the original one", () => {

@@ -98,6 +98,13 @@ static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, Re
     return code || !own.nshares ? code : finish_mixture(set, &own, &places->interreflections[t], err);
 }
 
+/* Whether light with still more hits is in the coefficient: the last one of a target, or of any. */
+static int goes_on(const FootprintFilm *film, int coefficient)
+{
+    return coefficient == film->plan.count - 1 &&
+           (film->scene->ntargets == 1 || film->plan.coefficients[coefficient].mixed);
+}
+
 /* The interreflected light of one kind. */
 static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places,
                                  RetexError *err)
@@ -110,6 +117,11 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
         add_factors(&term, places->any, c->mixed);
         for (int b = 0; b < film->scene->ntargets; b++)
             add_factors(&term, places->interreflections[b], c->powers[b]);
+        if (goes_on(film, i)) {
+            RetexFactor further = term.factors[term.nfactors - 1];
+            further.quantity = RETEX_QUANTITY_FURTHER;
+            add_factors(&term, further, 1);
+        }
         code = finish_term(film, set, &term, film->targets[t].kinds[kind].interreflected[i], err);
     }
     return code;

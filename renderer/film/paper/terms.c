@@ -242,6 +242,16 @@ static void term_factors(RetexTerm *term, TermKey key, int ntargets, int orders)
                 term->factors[term->nfactors++] = retex_factor(RETEX_FACTOR_FOOTPRINT, t * orders + k);
 }
 
+/* The light of a single target's last order is that of further hits too. Of several targets' light the hits beyond the
+ * last order may be on any of them. */
+static void add_further(RetexTerm *term, int ntargets, int orders)
+{
+    if (ntargets > 1 || orders < 2 || term->nfactors < orders)
+        return;
+    term->factors[term->nfactors] = term->factors[term->nfactors - 1];
+    term->factors[term->nfactors++].quantity = RETEX_QUANTITY_FURTHER;
+}
+
 static int compare_keys(const void *a, const void *b)
 {
     TermKey x = ((const TermKey *)a)[0], y = ((const TermKey *)b)[0];
@@ -256,10 +266,13 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
     for (int k = 0; k < table->count; k++)
         order[k][0] = table->keys[k], order[k][1] = (TermKey)k;
     qsort(order, (size_t)table->count, sizeof *order, compare_keys);
+    const RetexSetInfo info = retex_set_info(set);
     int code = RETEX_OK;
     for (int k = 0; k < table->count && !code; k++) {
         RetexTerm term = {.role = (RetexRole)(order[k][0] >> 56), .target = -1};
-        term_factors(&term, order[k][0], table->ntargets, retex_set_info(set).orders);
+        term_factors(&term, order[k][0], table->ntargets, info.orders);
+        if (!info.strict_paper)
+            add_further(&term, table->ntargets, info.orders);
         code = bands_move_part(table->bands, table->images[order[k][1]], set, &term.radiance, err);
         if (!code)
             code = retex_set_add_term(set, &term, NULL, err);
