@@ -36,8 +36,9 @@ END {
             if (all) printf "| %d | %s | %+.2f dB | %+.2f dB | %s |\n", count[c], method[m], sum / all, worst, where
         }
     print ""
-    print "`footprints` has 4 clusters per pixel and target, the default; `footprints-8` has 8 (`--clusters 8`). `paper-cross-2`"
-    print "leaves out the cross terms of three hits, `paper-cross-0` all cross terms (`retex-combine --cross`)."
+    print "`footprints` has 4 sharp and 2 broad clusters per pixel and target, the default; `footprints-8` has 8 in all"
+    print "(`--clusters 8`). `paper-cross-2` leaves out the cross terms of three hits, `paper-cross-0` all cross terms"
+    print "(`retex-combine --cross`)."
     print ""
     print "Mean gap by scene, and in brackets the mean PSNR of rendering again:"
     print ""
