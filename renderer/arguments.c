@@ -74,8 +74,10 @@ static const CliOption options[] = {
                           "add variances, as the paper's control variates need them", 0},
     [OPT_PLAIN] = {"plain", 0, NULL, "render the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0},
-    [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
-                      "clusters of footprints per pixel and target, or at most S sharp and B broad ones; default 4+2", 0},
+    [OPT_CLUSTERS] = {"clusters", 0, "K|S+B|S+B+X",
+                      "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more sharp "
+                      "ones in mirrors and through glass; default 4+2+8",
+                      0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL,
                           "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0},

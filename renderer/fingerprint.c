@@ -63,11 +63,11 @@ static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
 uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
 {
     const RenderParams *r = &a->render;
-    const int numbers[] = {r->width,          r->height,      r->crop[0],      r->crop[1],      r->crop[2],
-                           r->crop[3],        r->spp,         r->plain,        r->gaussian,     r->paper,
-                           r->orders,         r->sharp,       r->broad,        r->clusters,     r->stored,
-                           r->max_depth,      (int)r->seed,   r->strict_paper, r->denoise_data, a->sdl.ambient,
-                           r->caustics_guide, a->sdl.caustics};
+    const int numbers[] = {
+        r->width,        r->height,       r->crop[0],     r->crop[1],        r->crop[2],     r->crop[3],
+        r->spp,          r->plain,        r->gaussian,    r->paper,          r->orders,      r->sharp,
+        r->broad,        r->clusters,     r->extra,       r->stored,         r->max_depth,   (int)r->seed,
+        r->strict_paper, r->denoise_data, a->sdl.ambient, r->caustics_guide, a->sdl.caustics};
     uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
     dl_iterate_phdr(digest_program, &d);
     d = digest_bytes(d, &r->noise, sizeof r->noise);

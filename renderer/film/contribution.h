@@ -17,6 +17,7 @@ typedef struct Factor {
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* no vertex between it and the camera scattered widely */
+    int direct;   /* no vertex between it and the camera bent the path */
 } Factor;
 
 static inline Float4 factor_whole(const Factor *f)

@@ -17,6 +17,7 @@ typedef struct FilmParams {
     const struct FilmLayout *layout; /* where there is a split; see layout.h */
     int clusters;     /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
     int sharp, broad; /* at most so many of each kind, 1..clusters */
+    int extra;        /* so many more sharp ones in pixels where mirrors or glass show the target, 0.. */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int noise;                          /* also keep how noisy each signal is, see noise.h; needs two samples */
     RetexBandStore *store; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */

@@ -40,7 +40,11 @@ static inline int keep_as_hit(const SplitSink *s, const SplitPath *p, Float4 *re
 static inline TargetNode *add_hit(SplitSink *s, SplitPath *p, const Factor *f, TargetNode *before, Float4 before_d,
                                   Float4 before_i)
 {
-    const TargetVertex at = {f->uv, rgb_of4(f->albedo), (unsigned char)f->target, (unsigned char)f->sharp, 0};
+    const TargetVertex at = {.uv = f->uv,
+                             .albedo = rgb_of4(f->albedo),
+                             .target = (unsigned char)f->target,
+                             .sharp = (unsigned char)f->sharp,
+                             .direct = (unsigned char)f->direct};
     return target_tree_add(&p->tree, &s->nodes[s->count++], &at, before, before_d, before_i);
 }
 

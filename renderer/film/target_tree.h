@@ -23,6 +23,7 @@ typedef struct TargetVertex {
     Rgb albedo; /* the original's, there */
     unsigned char target, sharp; /* sharp: every bounce between the camera and it was specular, or nearly so */
     unsigned char index;         /* among the hits of the same target along the path, from 0; in expansions */
+    unsigned char direct;        /* there was no bounce between the camera and it */
 } TargetVertex;
 
 /* How many such vertices a path has, and how many monomials its throughput would have multiplied out. */

@@ -103,22 +103,37 @@ static int set_choice(const Option *o, const char *first, const char *second, in
     return RETEX_OK;
 }
 
-/* Clusters: one number for both kinds together, or S+B. */
+#define ADDENDS_MAX 3
+
+/* How many numbers of up to two digits, with + between them, a text is; 0: it is something else. */
+static int read_addends(const char *text, int numbers[ADDENDS_MAX])
+{
+    int used;
+    for (int count = 0; count < ADDENDS_MAX; text += used + 1) {
+        if (!isdigit((unsigned char)*text) || sscanf(text, "%2d%n", &numbers[count++], &used) != 1)
+            return 0;
+        if (!text[used])
+            return count;
+        if (text[used] != '+')
+            return 0;
+    }
+    return 0;
+}
+
+/* Clusters: one number for both kinds together, S+B, or S+B+X. */
 static int set_clusters(const Option *o)
 {
-    int all, sharp, broad, used = 0;
-    const char *text = o->value;
-    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &all, &used) == 1 && !text[used])
-        sharp = broad = all;
-    else if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) == 2 && !text[used])
-        all = sharp + broad;
-    else
-        return retex_fail(o->err, RETEX_EPARSE, "%s: expected a number, or two as in 2+1, not `%s`", o->name, text);
-    if (all < 2 || all > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
+    int n[ADDENDS_MAX] = {0};
+    const int count = read_addends(o->value, n);
+    if (!count)
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected one number, or two or three as in 4+2+8, not `%s`",
+                          o->name, o->value);
+    const int sharp = n[0], broad = count == 1 ? n[0] : n[1], all = n[0] + n[1];
+    if (all < 2 || all + n[2] > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
         return retex_fail(o->err, RETEX_EPARSE, "%s: expected 2 to %d, at least one sharp and one broad, not `%s`",
-                          o->name, FILM_CLUSTERS_MAX, text);
+                          o->name, FILM_CLUSTERS_MAX, o->value);
     o->render->clusters = all;
-    o->render->sharp = sharp, o->render->broad = broad;
+    o->render->sharp = sharp, o->render->broad = broad, o->render->extra = n[2];
     return RETEX_OK;
 }
 

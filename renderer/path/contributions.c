@@ -17,7 +17,7 @@ void path_worker_close(PathWorker *w)
 Factor shading_factor(const Shading *s, Float4 d, Float4 i)
 {
     return (Factor){
-        s->surface.target, d, i, color4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
+        s->surface.target, d, i, color4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0, 0};
 }
 
 const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
@@ -52,7 +52,8 @@ int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Flo
     const PathContext *c = w->context;
     Rgb *betas = path->control->betas;
     Factor factor = shading_factor(s, d, i);
-    factor.reflects = reflects, factor.sharp = path->sharp;
+    factor.reflects = reflects;
+    set_seen(&factor, path);
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)
         betas[v] = rgb_of4(color4(betas[v]) * factor_of_variant(&factor, v));

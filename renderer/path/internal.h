@@ -70,6 +70,11 @@ typedef struct Vertex {
 
 /* d times the colour at a surface, plus i. */
 Factor shading_factor(const Shading *s, Float4 d, Float4 i);
+/* How the camera sees the factor at a path's current vertex. */
+static inline void set_seen(Factor *factor, const Path *path)
+{
+    factor->sharp = path->sharp, factor->direct = path->segments == 1;
+}
 /* Copy a surface's colours by variant, for a factor that outlives its shading. NULL: the same in all. */
 const Rgb *keep_albedos(const PathContext *context, Rgb *storage, const Shading *s);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);

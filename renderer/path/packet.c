@@ -154,7 +154,7 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
         return;
     }
     factors[0] = shading_factor(&v->s, color4(value.d), color4(value.i));
-    factors[0].sharp = path->sharp;
+    set_seen(&factors[0], path);
     light.nfactors = 1 + passed;
     path_contribute(w, path, &light);
 }

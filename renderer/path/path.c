@@ -93,7 +93,7 @@ static void add_surface_emission(PathWorker *w, Path *path, const Hit *hit, cons
                             lights_emitter_pdf(w->context->lights, &path->prev_context, hit->primitive, &s->surface));
     const Split light = surface_emission(s);
     Factor factor = shading_factor(s, color4(light.d), color4(light.i));
-    factor.sharp = path->sharp;
+    set_seen(&factor, path);
     path_contribute(w, path, &(Contribution){s->surface.primitive->lamp, rgb_grey(weight), &factor, 1, NULL});
 }
 
@@ -137,7 +137,7 @@ void add_direct_light(PathWorker *w, Path *path, Vertex *v)
     if (passed < 0)
         return;
     memcpy(factors, sample->factors, (size_t)n * sizeof *factors);
-    factors[0].sharp = path->sharp;
+    set_seen(&factors[0], path);
     n += passed;
     RayKind kind = path_next_kind(path->kind, &v->s.bsdf, sample->transmitted);
     float pdf = is_source ? 0 : path_pdf_of_light(w->context, &sample->ray, kind, light, sample->pdf);

@@ -24,6 +24,7 @@ typedef struct RenderParams {
     int paper;               /* layout: 0 footprints (default), 1 paper */
     int clusters;            /* layout footprints: clusters kept a pixel and target, 2..16; default 6 */
     int sharp, broad;        /* at most so many of what is seen sharply and of the rest, 1..clusters; default 4, 2 */
+    int extra;               /* so many more sharp ones where mirrors or glass show the target; default 8 */
     int orders;              /* most hits of each target kept, 1..6; default 6; of all together 12, in paper 8 */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
@@ -52,7 +53,8 @@ typedef struct RenderParams {
                                 sources and, where it pays, of small emitters, 1 of all emitters too, -1 none */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 6, .sharp = 4, .broad = 2, .orders = 6 }
+    { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 6, .sharp = 4, .broad = 2, .extra = 8, \
+      .orders = 6 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

@@ -27,6 +27,9 @@ static int check_params(const RenderParams *p, RetexError *err)
         p->broad > p->clusters)
         return retex_fail(err, RETEX_EINVAL, "clusters must be 2 to %d, of them 1 to all sharp and 1 to all broad ones",
                           FILM_CLUSTERS_MAX);
+    if (p->extra < 0 || p->extra > FILM_CLUSTERS_MAX - p->clusters)
+        return retex_fail(err, RETEX_EINVAL, "extra clusters must be 0 to %d, not %d", FILM_CLUSTERS_MAX - p->clusters,
+                          p->extra);
     return RETEX_OK;
 }
 
@@ -272,6 +275,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .layout = render_layout(&r->params),
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
+                       .extra = r->params.extra,
                        .broad = r->params.broad,
                        .noise = keeps_denoise_data(&r->params),
                        .stored = r->params.stored};

@@ -38,7 +38,8 @@ void end_path(Fixture *f)
 
 void split_hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp, Split split)
 {
-    const TargetVertex hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
+    const TargetVertex hit = {
+        .uv = {u, v}, .albedo = albedo, .target = (unsigned char)target, .sharp = (unsigned char)sharp};
     target_tree_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, color4(f->split.d), color4(f->split.i));
     f->split = split;
     f->value = rgb_mul(f->value, split_apply(split, albedo));

@@ -310,7 +310,7 @@ static void hits_are_a_tree(void **state)
     f.split = both; /* of the light picked there, through the wall */
     hit(&f, 1, 0.5, 0.5, rgb_grey(0.5f), BROAD);
     target_node_add_light(f.hits.last, splat(1), splat(0), splat(16));
-    const TargetVertex wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0}; /* to which the path goes on elsewhere */
+    const TargetVertex wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0, 0}; /* to which the path goes on elsewhere */
     TargetNode *last = target_tree_add(&f.hits, &f.room[2], &wall, floor, splat(1), splat(0));
     target_node_add_light(last, splat(1), splat(0), splat(4));
     const double beauty = 16 * 0.5 * (0.5 * 0.5 + 0.25) + 4 * 0.5 * 0.5;

@@ -11,6 +11,8 @@
 #include "film/footprints/pixel.h"
 
 #define ROUNDING 1e-9               /* of bounds */
+#define EXTRA_FEATURE 0.05          /* distance in UV over which a texture changes that needs extra clusters */
+#define EXTRA_ERROR 0.01            /* of a pixel's light: what it may be expected to change by one merging of them */
 #define INTERREFLECTED_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 
 static void add_albedo(AlbedoSums *sums, Float4 light, Float4 albedo)
@@ -156,6 +158,16 @@ static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const
     return best;
 }
 
+/* Merge two clusters; the last one takes the place of the second. */
+static void merge_pair(const Pair *pair, const int periodic[2])
+{
+    Clusters *clusters = pair->clusters;
+    merge_cluster(&clusters->of[pair->a], &clusters->of[pair->b], periodic);
+    if (pair->b != --clusters->count)
+        clusters->of[pair->b] = clusters->of[clusters->count];
+    clusters->merge_bound = -INFINITY;
+}
+
 /* Add a hit where there are as many clusters as there may be. */
 static void merge_cheapest(Clusters *own, Clusters *other, int own_is_full, const FirstHit *q, const int periodic[2])
 {
@@ -165,32 +177,67 @@ static void merge_cheapest(Clusters *own, Clusters *other, int own_is_full, cons
         own->merge_bound = lowered_bound(own->merge_bound, best.cost, periodic);
         return;
     }
-    Clusters *merged = best.clusters;
-    merge_cluster(&merged->of[best.a], &merged->of[best.b], periodic);
-    own->merge_bound = merged->merge_bound = -INFINITY;
-    if (merged == own) {
+    own->merge_bound = -INFINITY;
+    if (best.clusters == own) {
+        merge_cluster(&own->of[best.a], &own->of[best.b], periodic);
         start_cluster(&own->of[best.b], q, periodic);
-        return;
+    } else {
+        merge_pair(&best, periodic);
+        start_cluster(&own->of[own->count++], q, periodic);
     }
-    if (best.b != --merged->count)
-        merged->of[best.b] = merged->of[merged->count];
-    start_cluster(&own->of[own->count++], q, periodic);
 }
 
 void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *params)
 {
     Clusters *own = q->sharp ? &target->sharp : &target->broad, *other = q->sharp ? &target->broad : &target->sharp;
-    int most = q->sharp ? params->sharp : params->broad;
+    target->specular |= q->sharp && !q->direct;
+    int extra = target->specular ? params->extra : 0, most = q->sharp ? params->sharp + extra : params->broad;
     const int *periodic = params->periodic[q->target];
     own->used |= q->light->used;
     for (unsigned left = q->light->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
         own->interreflected[i] += q->light->c[i];
     }
-    if (own->count < most && own->count + other->count < params->clusters) {
+    if (own->count < most && own->count + other->count < params->clusters + extra) {
         start_cluster(&own->of[own->count++], q, periodic);
         own->merge_bound = -INFINITY;
     } else {
         merge_cheapest(own, other, own->count == most, q, periodic);
+    }
+}
+
+/* ---- extra clusters ---- */
+
+/* As retex_uv_stats_variation, of a texture with features of EXTRA_FEATURE. */
+static double fine_variation(const RetexUvStats *a)
+{
+    double squares = a->m2[0] + a->m2[2];
+    return a->weight * squares / (squares + a->weight * EXTRA_FEATURE * EXTRA_FEATURE);
+}
+
+/* By how much merging two is expected to change their light, squared. */
+static double merge_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+{
+    RetexUvStats both = *a;
+    retex_uv_stats_merge(&both, b, periodic);
+    return both.weight * (fine_variation(&both) - fine_variation(a) - fine_variation(b));
+}
+
+void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light)
+{
+    Clusters *sharp = &target->sharp;
+    const int *periodic = params->periodic[t];
+    const double most = EXTRA_ERROR * EXTRA_ERROR * light * light;
+    while (sharp->count > params->sharp) {
+        Pair best = {sharp, 0, 1, INFINITY};
+        for (int i = 0; i < sharp->count; i++)
+            for (int k = i + 1; k < sharp->count; k++) {
+                double error2 = merge_error2(&sharp->of[i].uv, &sharp->of[k].uv, periodic);
+                if (error2 < best.cost)
+                    best = (Pair){sharp, i, k, error2};
+            }
+        if (best.cost > most)
+            return;
+        merge_pair(&best, periodic);
     }
 }

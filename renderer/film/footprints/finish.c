@@ -60,7 +60,7 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
     int code = RETEX_OK;
     for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++) {
         const FootprintImages *images = &film->targets[t].kinds[kind].of[k];
-        RetexFootprint f = {.target = t, .hit = 1 + k + kind * film->params.sharp};
+        RetexFootprint f = {.target = t, .hit = 1 + k + kind * most_of_kind(&film->params, 0)};
         int index, weight;
         f.kind = kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP;
         code = finish_footprint(film, set, images, &f, &index, err);
@@ -86,7 +86,7 @@ static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, Re
         const FootprintImages *images = &film->targets[t].interreflections[k];
         RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_INTERREFLECTION};
         int index, weight;
-        f.hit = 1 + film->params.sharp + film->params.broad + k;
+        f.hit = 1 + most_of_kind(&film->params, 0) + film->params.broad + k;
         code = finish_footprint(film, set, images, &f, &index, err);
         if (!code)
             code = bands_move_part(film->bands, images->share, set, &weight, err);

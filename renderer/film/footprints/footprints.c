@@ -136,6 +136,7 @@ static int add_first(FootprintPixel *p, const TargetNode *hit, HitLight *light)
         return 0;
     const FirstHit first = {.target = hit->at.target,
                             .sharp = hit->at.sharp,
+                            .direct = hit->at.direct,
                             .uv = {hit->at.uv.u, hit->at.uv.v},
                             .weight = weight,
                             .light = light,

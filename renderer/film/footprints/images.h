@@ -44,10 +44,10 @@ typedef struct FootprintFilm {
     TargetImages *targets;
 } FootprintFilm;
 
-/* Most clusters of a kind that a pixel may have on a target: sharp (kind 0) or broad (1). */
+/* Most clusters of a kind that a pixel may have on a target: sharp (kind 0), extra ones too, or broad (1). */
 static inline int most_of_kind(const FilmParams *p, int kind)
 {
-    return kind ? p->broad : p->sharp;
+    return kind ? p->broad : p->sharp + p->extra;
 }
 
 /* Footprints of interreflections that a target may have: none where no further hit is kept. */

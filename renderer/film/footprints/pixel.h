@@ -40,7 +40,7 @@ typedef struct HitLight {
 
 /* A hit of one path as the first hit of monomials, and their light. */
 typedef struct FirstHit {
-    int target, sharp;
+    int target, sharp, direct;
     double uv[2];
     double weight;
     Float4 albedo; /* the original's, there */
@@ -82,6 +82,7 @@ typedef struct EditedLight {
 /* The clusters of one pixel on one target. */
 typedef struct TargetClusters {
     Clusters sharp, broad;
+    int specular; /* a mirror or glass shows it: there may be extra sharp clusters */
     InterreflectionCluster interreflections[INTERREFLECTION_CLUSTERS];
     double interreflections_bound; /* merge_bound of interreflections */
     EditedLight edited;            /* of corrected targets */
@@ -95,6 +96,9 @@ void corrections_store(FootprintPixel *pixel, BandRows *rows, double unit, int x
 
 /* Add a hit of a path to the clusters of its target. */
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
+/* Merge extra sharp clusters of target t, once it has all hits, where the pixel is expected to change little by that.
+ * light: of the pixel, in the units of the hits' weights. */
+void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
 
 /* A hit of the current path; see target_tree.h. */

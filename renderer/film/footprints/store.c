@@ -8,7 +8,9 @@
 #include <retex/target_name.h>
 #include "film/footprints/pixel.h"
 
-#define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
+#define PARTS_MAX 1490   /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
+#define PARTS_EXTRA 1024 /* extra clusters are given up beyond: half of what readers of EXR files take */
+#define CLUSTER_PARTS 5
 
 /* ---- life ---- */
 
@@ -104,6 +106,14 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
     return code;
 }
 
+/* How many parts the set may need. */
+static int parts_needed(const FootprintFilm *film)
+{
+    const FilmParams *p = &film->params;
+    return film->scene->ntargets * (CLUSTER_PARTS * (p->sharp + p->extra + p->broad) + 2 * film->plan.count +
+                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS);
+}
+
 int footprints_create(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
 {
     FootprintFilm *film = *out = calloc(1, sizeof *film);
@@ -115,11 +125,11 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
-    int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count +
-                                   4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS);
-    if (parts > PARTS_MAX)
+    while (film->params.extra > 0 && parts_needed(film) > PARTS_EXTRA)
+        film->params.extra--;
+    if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
-                          parts, PARTS_MAX);
+                          parts_needed(film), PARTS_MAX);
     int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
     for (int t = 0; t < scene->ntargets && !code; t++)
         code = add_target(film, t, err);
@@ -278,7 +288,9 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
     p->spp = spp;
-    const double unit = retex_coefficient_unit(white_pixel(p)); /* before light is reset */
+    const double white = white_pixel(p), unit = retex_coefficient_unit(white); /* before light is reset */
+    for (int t = 0; t < film->scene->ntargets; t++)
+        clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->indep[c] * scale), p->indep[c] = 0;
@@ -291,6 +303,7 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     for (int t = 0; t < film->scene->ntargets; t++) {
         TargetClusters *target = &p->targets[t];
         reset_clusters(&target->sharp);
+        target->specular = 0;
         reset_clusters(&target->broad);
         memset(target->interreflections, 0, sizeof target->interreflections);
     }

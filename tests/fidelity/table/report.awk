@@ -36,7 +36,7 @@ END {
             if (all) printf "| %d | %s | %+.2f dB | %+.2f dB | %s |\n", count[c], method[m], sum / all, worst, where
         }
     print ""
-    print "`footprints` has 4 sharp and 2 broad clusters per pixel and target, the default; `footprints-8` has 8 in all"
+    print "`footprints` has the default clusters, 4+2+8 per pixel and target; `footprints-8` has 8 of both kinds together"
     print "(`--clusters 8`). `paper-cross-2` leaves out the cross terms of three hits, `paper-cross-0` all cross terms"
     print "(`retex-combine --cross`)."
     print ""
