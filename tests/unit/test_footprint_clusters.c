@@ -70,12 +70,13 @@ static void squeeze_place(Places *own, Places *other, int own_is_full, const Fir
     start_place(&own->of[own->count++], q, periodic);
 }
 
-static void add_place(Places kinds[2], const FirstHit *q, const FilmParams *params)
+/* extra: so many more sharp ones there may be in this pixel. */
+static void add_place(Places kinds[2], int extra, const FirstHit *q, const FilmParams *params)
 {
     Places *own = &kinds[!q->sharp], *other = &kinds[q->sharp];
-    int room = q->sharp ? params->sharp : params->broad;
+    int room = q->sharp ? params->sharp + extra : params->broad;
     const int *periodic = params->periodic[q->target];
-    if (own->count < room && own->count + other->count < params->clusters)
+    if (own->count < room && own->count + other->count < params->clusters + extra)
         start_place(&own->of[own->count++], q, periodic);
     else
         squeeze_place(own, other, own->count == room, q, periodic);
@@ -184,11 +185,101 @@ static void clusters_are_those_of_all_pairs(void **state)
             FirstHit q = {.uv = {last.u, last.v}, .light = &dark};
             q.sharp = test_random(&seed) < 0.4, q.weight = 1e-3 + pow(test_random(&seed), 8) * 50;
             clusters_add(&target, &q, &params);
-            add_place(kinds, &q, &params);
+            add_place(kinds, 0, &q, &params);
             expect_same(&target.sharp, &kinds[0]);
             expect_same(&target.broad, &kinds[1]);
         }
     }
+}
+
+/* Squared deviations over the mean of squares, weighted: what a texture whose features are .05 wide varies in a place. */
+static double fine_variation(const RetexUvStats *a)
+{
+    const double variance = (a->m2[0] + a->m2[2]) / a->weight;
+    return variance / (variance + 0.05 * 0.05);
+}
+
+/* Down to so many, the pair first whose merging changes the least: w^2 v of both, less what each had already. Returns the
+ * cost of the next merging. */
+static double merge_places(Places *places, int most, double limit, const int periodic[2])
+{
+    for (;;) {
+        double least = INFINITY;
+        int a = 0, b = 0;
+        for (int i = 0; i < places->count; i++)
+            for (int k = i + 1; k < places->count; k++) {
+                const RetexUvStats *p = &places->of[i], *q = &places->of[k];
+                RetexUvStats both = *p;
+                retex_uv_stats_merge(&both, q, periodic);
+                const double kept = p->weight * fine_variation(p) + q->weight * fine_variation(q);
+                const double cost = sqrt(fmax(0, both.weight * (both.weight * fine_variation(&both) - kept)));
+                if (cost < least)
+                    least = cost, a = i, b = k;
+            }
+        if (places->count <= most || least > limit)
+            return least;
+        retex_uv_stats_merge(&places->of[a], &places->of[b], periodic);
+        places->of[b] = places->of[--places->count];
+    }
+}
+
+/* Places of a pixel of which some light is direct, if `direct`, and some is not, from path `bent` on. */
+static void add_seen(TargetClusters *target, Places kinds[2], uint32_t round, const FilmParams *params, int direct,
+                     int bent)
+{
+    const HitLight dark = {.used = 0};
+    uint32_t seed = round + 1;
+    Vec2 last = {0, 0};
+    int extra = 0;
+    for (int n = 0; n < PLACES; n++) {
+        last = any_place(&seed, last);
+        FirstHit q = {.uv = {last.u, last.v}, .light = &dark};
+        q.sharp = test_random(&seed) < 0.8, q.weight = 1e-3 + pow(test_random(&seed), 8) * 50;
+        q.direct = n < bent || (direct && test_random(&seed) < 0.5);
+        if (q.sharp && !q.direct)
+            extra = params->extra;
+        clusters_add(target, &q, params);
+        add_place(kinds, extra, &q, params);
+        expect_same(&target->sharp, &kinds[0]);
+        expect_same(&target->broad, &kinds[1]);
+    }
+}
+
+/* Where mirrors or glass show a target there are extra clusters, once they do; at the end those merge that matter
+ * little. */
+static void extra_clusters_are_those_that_matter(void **state)
+{
+    (void)state;
+    int stopped = 0, counts[FILM_CLUSTERS_MAX + 1] = {0};
+    for (uint32_t round = 0; round < 120; round++) {
+        TargetClusters target = {.interreflections_bound = 0};
+        Places kinds[2] = {{.count = 0}, {.count = 0}};
+        FilmParams params = {.sharp = 4, .broad = 2, .clusters = 6, .extra = 8};
+        params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
+        add_seen(&target, kinds, round, &params, round % 2, round % 3 ? 0 : 50);
+        assert_int_equal(target.sharp.count, 12);
+        double light = 1;
+        for (int k = 0; k < 12; k++)
+            light += target.sharp.of[k].uv.weight * pow(4, round % 7);
+        clusters_merge_extra(&target, 0, &params, light);
+        stopped += merge_places(&kinds[0], params.sharp, 0.01 * light, params.periodic[0]) > 0.01 * light;
+        expect_same(&target.sharp, &kinds[0]);
+        expect_same(&target.broad, &kinds[1]);
+        counts[target.sharp.count]++;
+    }
+    assert_true(stopped > 20 && counts[4] > 20 && counts[12] > 0 && counts[4] + counts[12] < 110);
+}
+
+/* What is seen directly, or found after wide scattering, has no extra clusters. */
+static void direct_light_has_no_extra_clusters(void **state)
+{
+    (void)state;
+    TargetClusters target = {.interreflections_bound = 0};
+    Places kinds[2] = {{.count = 0}, {.count = 0}};
+    const FilmParams params = {.sharp = 4, .broad = 2, .clusters = 6, .extra = 8};
+    add_seen(&target, kinds, 0, &params, 1, PLACES);
+    assert_int_equal(target.sharp.count, 4);
+    assert_int_equal(target.broad.count, 2);
 }
 
 static void further_hits_are_pooled_alike(void **state)
@@ -213,8 +304,9 @@ static void further_hits_are_pooled_alike(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(clusters_are_those_of_all_pairs),
-                                       cmocka_unit_test(nothing_is_lost_by_merging),
-                                       cmocka_unit_test(further_hits_are_pooled_alike)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clusters_are_those_of_all_pairs), cmocka_unit_test(extra_clusters_are_those_that_matter),
+        cmocka_unit_test(direct_light_has_no_extra_clusters), cmocka_unit_test(nothing_is_lost_by_merging),
+        cmocka_unit_test(further_hits_are_pooled_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

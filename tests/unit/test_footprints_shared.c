@@ -212,13 +212,80 @@ static void too_many_parts_are_refused(void **state)
     }
 }
 
+/* As many places as clusters, seen in a mirror by 32 paths each; their light is not the same in all. */
+static int count_in_mirror(int ntargets, int extra, int places)
+{
+    Fixture f;
+    begin_film(&f, ntargets, 32 * places, 6, 4, 2);
+    f.params.extra = extra;
+    create_film(&f);
+    for (int k = 0; k < 32 * places; k++)
+        one_hit(&f, (k % places) / (double)places, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(1));
+    finish_film(&f);
+    const int count = count_clusters(&f, "sharp");
+    assert_int_equal(count_clusters(&f, "broad"), 0);
+    expect_beauty(&f, 0);
+    for (int k = 0; count == places && k < count; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "Floor_sharp%d", k + 1);
+        expect_place(&f, name, k / (double)places, 0);
+    }
+    end_film(&f);
+    return count;
+}
+
+/* Extra clusters keep the number of parts below what readers of EXR files take: eight targets may have eight of them. */
+static void extra_clusters_are_bounded(void **state)
+{
+    (void)state;
+    assert_int_equal(count_in_mirror(1, 0, 14), 4);
+    assert_int_equal(count_in_mirror(1, 8, 14), 12);
+    assert_int_equal(count_in_mirror(1, 10, 14), 14);
+    assert_int_equal(count_in_mirror(8, 8, 14), 12);
+    assert_int_equal(count_in_mirror(8, 10, 14), 12);
+    assert_int_equal(count_in_mirror(1, 8, 7), 7);
+}
+
+/* A pixel does not have extra clusters because the one before it had. */
+static void the_next_pixel_has_no_extra_clusters(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 8, 6, 4, 2);
+    f.params.extra = 4;
+    create_film(&f);
+    for (int x = 1; x >= 0; x--) {
+        for (int k = 0; k < 8; k++) {
+            begin_path(&f);
+            hit(&f, 0, k / 8.0, 0.5, rgb_grey(0.5f), SHARP);
+            f.hits.last->at.direct = !x;
+            connect_light(&f, rgb_grey(1));
+            end_path(&f);
+        }
+        film_pixel_end(f.pixel, x, 0);
+    }
+    make_set(&f);
+    for (int k = 0; k < 8; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "uv_Floor_sharp%d", k + 1);
+        assert_true(part(&f, name)[5] > 0);
+        assert_int_equal(part(&f, name)[2] > 0, k < 4);
+    }
+    end_film(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(either_kind_may_have_all),     cmocka_unit_test(kinds_make_room_for_each_other),
-        cmocka_unit_test(no_more_than_there_may_be),    cmocka_unit_test(far_points_claim_no_clusters),
-        cmocka_unit_test(further_hits_have_two_places), cmocka_unit_test(further_hits_weigh_by_light_through_textures),
+        cmocka_unit_test(either_kind_may_have_all),
+        cmocka_unit_test(kinds_make_room_for_each_other),
+        cmocka_unit_test(no_more_than_there_may_be),
+        cmocka_unit_test(far_points_claim_no_clusters),
+        cmocka_unit_test(further_hits_have_two_places),
+        cmocka_unit_test(further_hits_weigh_by_light_through_textures),
         cmocka_unit_test(too_many_parts_are_refused),
+        cmocka_unit_test(extra_clusters_are_bounded),
+        cmocka_unit_test(the_next_pixel_has_no_extra_clusters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
