@@ -75,7 +75,7 @@ static void end(Fixture *f)
 /* The floor, which reflects d times its albedo of 1/2. */
 static Factor floor_factor(float d, double u)
 {
-    return (Factor){0, color4(rgb_grey(d)), splat(0), color4(rgb_grey(0.5f)), NULL, {u, 0.25}, 1, 0};
+    return (Factor){0, color4(rgb_grey(d)), splat(0), color4(rgb_grey(0.5f)), NULL, {u, 0.25}, 1, 0, 0};
 }
 
 static void bounce(Fixture *f, double u)
@@ -102,6 +102,24 @@ static float red(const Fixture *f, const char *name)
     if (k < 0)
         fail_msg("there is no part %s", name);
     return f->set->parts[k].image.pixels[0];
+}
+
+/* Until the path bends; passing straight through a surface does not count. */
+static void hits_know_whether_they_are_direct(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 0);
+    for (int n = 0; n < 4; n++) {
+        bounce(&f, 0.1 * n);
+        assert_int_equal(f.path.split.tree.last->at.direct, n < 2);
+        if (n == 0)
+            f.path.straight++;
+        else
+            path_next_segment(&f.path, 0, 0);
+    }
+    finish(&f);
+    end(&f);
 }
 
 static void light_behind_the_same_hits_is_one(void **state)
@@ -225,7 +243,8 @@ static void light_passes_targets(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(light_behind_the_same_hits_is_one),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_know_whether_they_are_direct),
+                                       cmocka_unit_test(light_behind_the_same_hits_is_one),
                                        cmocka_unit_test(what_is_not_finite_is_dropped_alone),
                                        cmocka_unit_test(a_sum_that_overflows_is_not_made),
                                        cmocka_unit_test(what_comes_by_a_hit_of_its_own_is_dropped_alone),

@@ -246,6 +246,23 @@ static void extra_clusters_are_bounded(void **state)
     assert_int_equal(count_in_mirror(1, 8, 7), 7);
 }
 
+/* Pairs of places that are so near that no texture is expected to tell them apart. */
+static void extra_clusters_merge_what_is_near(void **state)
+{
+    (void)state;
+    enum { PATHS = 12 * 32 };
+    Fixture f;
+    begin_film(&f, 1, PATHS, 6, 4, 2);
+    f.params.extra = 8;
+    create_film(&f);
+    for (int k = 0; k < PATHS; k++)
+        one_hit(&f, k % 6 / 6.0 + k / 6 % 2 * 0.001, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(1));
+    finish_film(&f);
+    assert_int_equal(count_clusters(&f, "sharp"), 6);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
 /* A pixel does not have extra clusters because the one before it had. */
 static void the_next_pixel_has_no_extra_clusters(void **state)
 {
@@ -286,6 +303,7 @@ int main(void)
         cmocka_unit_test(too_many_parts_are_refused),
         cmocka_unit_test(extra_clusters_are_bounded),
         cmocka_unit_test(the_next_pixel_has_no_extra_clusters),
+        cmocka_unit_test(extra_clusters_merge_what_is_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
