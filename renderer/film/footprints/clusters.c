@@ -11,7 +11,7 @@
 #include "film/footprints/pixel.h"
 
 #define ROUNDING 1e-9               /* of bounds */
-#define EXTRA_FEATURE 0.05          /* distance in UV over which a texture changes that needs extra clusters */
+#define FINE_FEATURE 0.05           /* distance in UV over which textures change that need extra clusters */
 #define EXTRA_ERROR 0.01            /* of a pixel's light: what it may be expected to change by one merging of them */
 #define INTERREFLECTED_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 
@@ -76,21 +76,48 @@ void clusters_add_interreflection(TargetClusters *target, const Interreflection 
 
 /* ---- first hits ---- */
 
-static void merge_cluster(Cluster *into, const Cluster *from, const int periodic[2])
+/* What merging costs: of sharp places, of sharp ones where mirrors or glass show some, of broad ones. */
+typedef enum Rule { RULE_WARD, RULE_LIGHT, RULE_VARIATION } Rule;
+
+static Clusters *clusters_of(TargetClusters *target, int sharp)
+{
+    return sharp ? &target->sharp : &target->broad;
+}
+
+static Rule rule_of(const TargetClusters *target, int sharp)
+{
+    return !sharp ? RULE_VARIATION : target->specular ? RULE_LIGHT : RULE_WARD;
+}
+
+/* By how much light is expected to change, squared, if its places are one cluster: its weight times the variation of a
+ * fine texture. So what matters is told apart; much that is far away and dim is one place. */
+static double light_error2(double weight, double squares)
+{
+    return weight * weight * squares / (squares + weight * FINE_FEATURE * FINE_FEATURE);
+}
+
+static void update_variation(Cluster *cluster, Rule rule)
+{
+    const RetexUvStats *uv = &cluster->uv;
+    cluster->varies =
+        rule == RULE_LIGHT ? light_error2(uv->weight, uv->m2[0] + uv->m2[2]) : retex_uv_stats_variation(uv);
+}
+
+static void merge_cluster(Cluster *into, const Cluster *from, Rule rule, const int periodic[2])
 {
     retex_uv_stats_merge(&into->uv, &from->uv, periodic);
-    into->varies = retex_uv_stats_variation(&into->uv);
+    update_variation(into, rule);
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
     into->c += from->c;
     into->interreflected += from->interreflected;
 }
 
-static void add_first_hit(Cluster *into, const FirstHit *q, const int periodic[2])
+static void add_first_hit(Cluster *into, const FirstHit *q, Rule rule, const int periodic[2])
 {
     const HitLight *l = q->light;
     retex_uv_stats_add(&into->uv, q->weight, q->uv, periodic);
-    into->varies = retex_uv_stats_variation(&into->uv);
+    update_variation(into, rule);
     /* the albedo is that of the cluster's own light; interreflected light counts where there is no other */
     add_albedo(&into->albedo, l->c[0] + l->original * splat(INTERREFLECTED_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
@@ -98,44 +125,51 @@ static void add_first_hit(Cluster *into, const FirstHit *q, const int periodic[2
     into->interreflected += l->original;
 }
 
-static void start_cluster(Cluster *cluster, const FirstHit *q, const int periodic[2])
+static void start_cluster(Cluster *cluster, const FirstHit *q, Rule rule, const int periodic[2])
 {
     *cluster = (Cluster){.squares = 0};
-    add_first_hit(cluster, q, periodic);
+    add_first_hit(cluster, q, rule, periodic);
 }
 
 /* Two clusters of one kind, or a cluster and the hit that is to be added (b = -1). */
 typedef struct Pair {
     Clusters *clusters;
+    Rule rule;
     int a, b;
     double cost;
 } Pair;
 
-static double merge_cost(const Cluster *a, const Cluster *b, int sharp, const int periodic[2])
+static double merge_cost(const Cluster *a, const Cluster *b, Rule rule, const int periodic[2])
 {
-    if (sharp)
-        return retex_uv_stats_ward(&a->uv, &b->uv, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
-    double squares = b->uv.m2[0] + b->uv.m2[2];
-    return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, squares, periodic) - a->varies - b->varies;
+    const double spread = b->uv.m2[0] + b->uv.m2[2], kept = a->varies + b->varies;
+    if (rule == RULE_VARIATION)
+        return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, spread, periodic) - kept;
+    const double ward = retex_uv_stats_ward(&a->uv, &b->uv, periodic);
+    if (rule == RULE_WARD)
+        return ward / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
+    return light_error2(a->uv.weight + b->uv.weight, a->uv.m2[0] + a->uv.m2[2] + spread + ward) - kept;
 }
 
 /* The cost of adding a hit to a cluster. */
-static double join_cost(const Cluster *a, const FirstHit *q, const int periodic[2])
+static double join_cost(const Cluster *a, const FirstHit *q, Rule rule, const int periodic[2])
 {
-    return q->sharp
-               ? retex_uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE)
-               : retex_uv_stats_merged_variation(&a->uv, q->weight, q->uv, 0, periodic) - a->varies;
+    if (rule == RULE_VARIATION)
+        return retex_uv_stats_merged_variation(&a->uv, q->weight, q->uv, 0, periodic) - a->varies;
+    const double ward = retex_uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic);
+    if (rule == RULE_WARD)
+        return ward / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
+    return light_error2(a->uv.weight + q->weight, a->uv.m2[0] + a->uv.m2[2] + ward) - a->varies;
 }
 
 /* Look among the clusters for a pair that is cheaper than the best so far. */
-static void find_pair(Pair *best, Clusters *clusters, int sharp, const int periodic[2])
+static void find_pair(Pair *best, Clusters *clusters, Rule rule, const int periodic[2])
 {
     clusters->merge_bound = INFINITY;
     for (int i = 0; i < clusters->count; i++)
         for (int k = i + 1; k < clusters->count; k++) {
-            double cost = merge_cost(&clusters->of[i], &clusters->of[k], sharp, periodic);
+            double cost = merge_cost(&clusters->of[i], &clusters->of[k], rule, periodic);
             if (cost < best->cost)
-                *best = (Pair){clusters, i, k, cost};
+                *best = (Pair){clusters, rule, i, k, cost};
             if (cost < clusters->merge_bound)
                 clusters->merge_bound = cost;
         }
@@ -143,18 +177,20 @@ static void find_pair(Pair *best, Clusters *clusters, int sharp, const int perio
 
 /* The cheapest way to add a hit: join a cluster, or merge two of either kind; but only two of its own kind, where that
  * kind has as many as it may have. */
-static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const FirstHit *q, const int periodic[2])
+static Pair find_cheapest(TargetClusters *target, int own_is_full, const FirstHit *q, const int periodic[2])
 {
-    Pair best = own->count ? (Pair){own, 0, -1, INFINITY} : (Pair){other, 0, 1, INFINITY};
+    Clusters *own = clusters_of(target, q->sharp), *other = clusters_of(target, !q->sharp);
+    const Rule rule = rule_of(target, q->sharp), others_rule = rule_of(target, !q->sharp);
+    Pair best = own->count ? (Pair){own, rule, 0, -1, INFINITY} : (Pair){other, others_rule, 0, 1, INFINITY};
     for (int i = 0; i < own->count; i++) {
-        double cost = join_cost(&own->of[i], q, periodic);
+        double cost = join_cost(&own->of[i], q, rule, periodic);
         if (cost < best.cost)
-            best = (Pair){own, i, -1, cost};
+            best = (Pair){own, rule, i, -1, cost};
     }
     if (!(own->merge_bound > best.cost))
-        find_pair(&best, own, q->sharp, periodic);
+        find_pair(&best, own, rule, periodic);
     if (!own_is_full && !(other->merge_bound > best.cost))
-        find_pair(&best, other, !q->sharp, periodic);
+        find_pair(&best, other, others_rule, periodic);
     return best;
 }
 
@@ -162,81 +198,71 @@ static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const
 static void merge_pair(const Pair *pair, const int periodic[2])
 {
     Clusters *clusters = pair->clusters;
-    merge_cluster(&clusters->of[pair->a], &clusters->of[pair->b], periodic);
+    merge_cluster(&clusters->of[pair->a], &clusters->of[pair->b], pair->rule, periodic);
     if (pair->b != --clusters->count)
         clusters->of[pair->b] = clusters->of[clusters->count];
     clusters->merge_bound = -INFINITY;
 }
 
 /* Add a hit where there are as many clusters as there may be. */
-static void merge_cheapest(Clusters *own, Clusters *other, int own_is_full, const FirstHit *q, const int periodic[2])
+static void merge_cheapest(TargetClusters *target, int own_is_full, const FirstHit *q, const int periodic[2])
 {
-    Pair best = find_cheapest(own, other, own_is_full, q, periodic);
+    Clusters *own = clusters_of(target, q->sharp);
+    const Rule rule = rule_of(target, q->sharp);
+    Pair best = find_cheapest(target, own_is_full, q, periodic);
     if (best.b < 0) {
-        add_first_hit(&own->of[best.a], q, periodic);
+        add_first_hit(&own->of[best.a], q, rule, periodic);
         own->merge_bound = lowered_bound(own->merge_bound, best.cost, periodic);
         return;
     }
     own->merge_bound = -INFINITY;
     if (best.clusters == own) {
-        merge_cluster(&own->of[best.a], &own->of[best.b], periodic);
-        start_cluster(&own->of[best.b], q, periodic);
+        merge_cluster(&own->of[best.a], &own->of[best.b], rule, periodic);
+        start_cluster(&own->of[best.b], q, rule, periodic);
     } else {
         merge_pair(&best, periodic);
-        start_cluster(&own->of[own->count++], q, periodic);
+        start_cluster(&own->of[own->count++], q, rule, periodic);
     }
+}
+
+/* Mirrors or glass show the target: from now on there may be extra clusters, by another rule. */
+static void become_specular(TargetClusters *target)
+{
+    Clusters *sharp = &target->sharp;
+    target->specular = 1;
+    sharp->merge_bound = -INFINITY;
+    for (int k = 0; k < sharp->count; k++)
+        update_variation(&sharp->of[k], RULE_LIGHT);
 }
 
 void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *params)
 {
-    Clusters *own = q->sharp ? &target->sharp : &target->broad, *other = q->sharp ? &target->broad : &target->sharp;
-    target->specular |= q->sharp && !q->direct;
-    int extra = target->specular ? params->extra : 0, most = q->sharp ? params->sharp + extra : params->broad;
+    Clusters *own = clusters_of(target, q->sharp);
     const int *periodic = params->periodic[q->target];
+    if (q->sharp && !q->direct && params->extra && !target->specular)
+        become_specular(target);
+    int extra = target->specular ? params->extra : 0, most = q->sharp ? params->sharp + extra : params->broad;
     own->used |= q->light->used;
     for (unsigned left = q->light->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
         own->interreflected[i] += q->light->c[i];
     }
-    if (own->count < most && own->count + other->count < params->clusters + extra) {
-        start_cluster(&own->of[own->count++], q, periodic);
+    if (own->count < most && target->sharp.count + target->broad.count < params->clusters + extra) {
+        start_cluster(&own->of[own->count++], q, rule_of(target, q->sharp), periodic);
         own->merge_bound = -INFINITY;
     } else {
-        merge_cheapest(own, other, own->count == most, q, periodic);
+        merge_cheapest(target, own->count == most, q, periodic);
     }
-}
-
-/* ---- extra clusters ---- */
-
-/* As retex_uv_stats_variation, of a texture with features of EXTRA_FEATURE. */
-static double fine_variation(const RetexUvStats *a)
-{
-    double squares = a->m2[0] + a->m2[2];
-    return a->weight * squares / (squares + a->weight * EXTRA_FEATURE * EXTRA_FEATURE);
-}
-
-/* By how much merging two is expected to change their light, squared. */
-static double merge_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
-{
-    RetexUvStats both = *a;
-    retex_uv_stats_merge(&both, b, periodic);
-    return both.weight * (fine_variation(&both) - fine_variation(a) - fine_variation(b));
 }
 
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light)
 {
     Clusters *sharp = &target->sharp;
     const int *periodic = params->periodic[t];
-    const double most = EXTRA_ERROR * EXTRA_ERROR * light * light;
     while (sharp->count > params->sharp) {
-        Pair best = {sharp, 0, 1, INFINITY};
-        for (int i = 0; i < sharp->count; i++)
-            for (int k = i + 1; k < sharp->count; k++) {
-                double error2 = merge_error2(&sharp->of[i].uv, &sharp->of[k].uv, periodic);
-                if (error2 < best.cost)
-                    best = (Pair){sharp, i, k, error2};
-            }
-        if (best.cost > most)
+        Pair best = {sharp, RULE_LIGHT, 0, 1, INFINITY};
+        find_pair(&best, sharp, RULE_LIGHT, periodic);
+        if (best.cost > EXTRA_ERROR * EXTRA_ERROR * light * light)
             return;
         merge_pair(&best, periodic);
     }
