@@ -3,10 +3,10 @@
  * The cheapest pair is looked for at nearly every path. Nearly always a new hit joins a cluster at a low cost, while
  * merging two clusters would cost much. So there is a lower bound of the cost of merging any two clusters, and their
  * costs are computed only where the bound is below the cost of joining. With f(C) for what a texture varies within a
- * cluster (retex/host/uv_stats.h), merging a with k costs f(ak) - f(a) - f(k). A hit x that joins a cannot make ak vary
- * less, and makes a vary more by exactly what joining cost: f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) -
- * (f(ax) - f(a)). So the bound falls by the cost of joining. There is no bound for UV that close (periodic), as
- * distances there may go either way round. */
+ * cluster (retex/host/uv_stats.h), or for what light may change by that (light_error2), merging a with k costs f(ak) -
+ * f(a) - f(k). A hit x that joins a cannot make f(ak) less, and makes f(a) more by exactly what joining cost: f(axk) -
+ * f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by the cost of joining. There is no bound for
+ * UV that close (periodic), as distances there may go either way round. */
 #include <math.h>
 #include "film/footprints/pixel.h"
 
