@@ -75,8 +75,8 @@ static const CliOption options[] = {
     [OPT_PLAIN] = {"plain", 0, NULL, "render the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "footprints|paper", "layout of the set; default footprints", 0},
     [OPT_CLUSTERS] = {"clusters", 0, "K|S+B|S+B+X",
-                      "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more sharp "
-                      "ones in mirrors and through glass; default 4+2+8",
+                      "clusters of footprints per pixel and target, or at most S sharp and B broad ones, and X more "
+                      "sharp ones in mirrors and through glass; default 4+2+8",
                       0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL,

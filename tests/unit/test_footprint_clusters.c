@@ -257,7 +257,7 @@ static void extra_clusters_are_those_that_matter(void **state)
         for (int k = 0; k < 12; k++)
             light += target.sharp.of[k].uv.weight * pow(4, round % 7);
         clusters_merge_extra(&target, 0, &params, light);
-        const double limit = pow(0.01 * light, 2);
+        const double limit = pow(0.02 * light, 2);
         stopped += merge_places(&kinds[0], params.sharp, limit, params.periodic[0]) > limit;
         expect_same(&target.sharp, &kinds[0]);
         expect_same(&target.broad, &kinds[1]);

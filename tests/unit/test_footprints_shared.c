@@ -234,7 +234,7 @@ static int count_in_mirror(int ntargets, int extra, int places)
     return count;
 }
 
-/* Extra clusters keep the number of parts below what readers of EXR files take: eight targets may have eight of them. */
+/* Extra clusters keep the number of parts below what readers of EXR files take: eight targets have eight of them. */
 static void extra_clusters_are_bounded(void **state)
 {
     (void)state;

@@ -3,16 +3,16 @@
  * The cheapest pair is looked for at nearly every path. Nearly always a new hit joins a cluster at a low cost, while
  * merging two clusters would cost much. So there is a lower bound of the cost of merging any two clusters, and their
  * costs are computed only where the bound is below the cost of joining. With f(C) for what a texture varies within a
- * cluster (retex/host/uv_stats.h), or for what light may change by that (light_error2), merging a with k costs f(ak) -
- * f(a) - f(k). A hit x that joins a cannot make f(ak) less, and makes f(a) more by exactly what joining cost: f(axk) -
- * f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by the cost of joining. There is no bound for
- * UV that close (periodic), as distances there may go either way round. */
+ * cluster (retex/host/uv_stats.h), or for what light may change by that (light_error2), merging a with k costs
+ * f(ak) - f(a) - f(k). A hit x that joins a cannot make f(ak) less, and makes f(a) more by exactly what joining cost:
+ * f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by the cost of joining. There is no
+ * bound for UV that close (periodic), as distances there may go either way round. */
 #include <math.h>
 #include "film/footprints/pixel.h"
 
 #define ROUNDING 1e-9               /* of bounds */
 #define FINE_FEATURE 0.05           /* distance in UV over which textures change that need extra clusters */
-#define EXTRA_ERROR 0.01            /* of a pixel's light: what it may be expected to change by one merging of them */
+#define EXTRA_ERROR 0.02            /* of a pixel's light: what it may be expected to change by one merging of them */
 #define INTERREFLECTED_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 
 static void add_albedo(AlbedoSums *sums, Float4 light, Float4 albedo)
@@ -225,12 +225,12 @@ static void merge_cheapest(TargetClusters *target, int own_is_full, const FirstH
     }
 }
 
-/* Mirrors or glass show the target: from now on there may be extra clusters, by another rule. */
+/* Mirrors or glass show the target: from now on there may be extra clusters, by another rule. The hit that shows it is
+ * the first of them. */
 static void become_specular(TargetClusters *target)
 {
     Clusters *sharp = &target->sharp;
     target->specular = 1;
-    sharp->merge_bound = -INFINITY;
     for (int k = 0; k < sharp->count; k++)
         update_variation(&sharp->of[k], RULE_LIGHT);
 }
