@@ -6,7 +6,8 @@
  * cluster (retex/host/uv_stats.h), or for what light may change by that (light_error2), merging a with k costs
  * f(ak) - f(a) - f(k). A hit x that joins a cannot make f(ak) less, and makes f(a) more by exactly what joining cost:
  * f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by the cost of joining. There is no
- * bound for UV that close (periodic), as distances there may go either way round. */
+ * bound for UV that close (periodic), as distances there may go either way round. Costs of pairs are kept until one of
+ * the two changes. */
 #include <math.h>
 #include "film/footprints/pixel.h"
 
@@ -167,12 +168,20 @@ static void find_pair(Pair *best, Clusters *clusters, Rule rule, const int perio
     clusters->merge_bound = INFINITY;
     for (int i = 0; i < clusters->count; i++)
         for (int k = i + 1; k < clusters->count; k++) {
-            double cost = merge_cost(&clusters->of[i], &clusters->of[k], rule, periodic);
+            if ((clusters->changed >> i | clusters->changed >> k) & 1)
+                clusters->costs[i][k] = merge_cost(&clusters->of[i], &clusters->of[k], rule, periodic);
+            const double cost = clusters->costs[i][k];
             if (cost < best->cost)
                 *best = (Pair){clusters, rule, i, k, cost};
             if (cost < clusters->merge_bound)
                 clusters->merge_bound = cost;
         }
+    clusters->changed = 0;
+}
+
+static void mark_changed(Clusters *clusters, int k)
+{
+    clusters->changed |= 1u << k;
 }
 
 /* The cheapest way to add a hit: join a cluster, or merge two of either kind; but only two of its own kind, where that
@@ -202,6 +211,14 @@ static void merge_pair(const Pair *pair, const int periodic[2])
     if (pair->b != --clusters->count)
         clusters->of[pair->b] = clusters->of[clusters->count];
     clusters->merge_bound = -INFINITY;
+    mark_changed(clusters, pair->a), mark_changed(clusters, pair->b);
+}
+
+static void add_cluster(Clusters *clusters, const FirstHit *q, Rule rule, const int periodic[2])
+{
+    start_cluster(&clusters->of[clusters->count], q, rule, periodic);
+    mark_changed(clusters, clusters->count++);
+    clusters->merge_bound = -INFINITY;
 }
 
 /* Add a hit where there are as many clusters as there may be. */
@@ -212,16 +229,18 @@ static void merge_cheapest(TargetClusters *target, int own_is_full, const FirstH
     Pair best = find_cheapest(target, own_is_full, q, periodic);
     if (best.b < 0) {
         add_first_hit(&own->of[best.a], q, rule, periodic);
+        mark_changed(own, best.a);
         own->merge_bound = lowered_bound(own->merge_bound, best.cost, periodic);
         return;
     }
-    own->merge_bound = -INFINITY;
     if (best.clusters == own) {
         merge_cluster(&own->of[best.a], &own->of[best.b], rule, periodic);
         start_cluster(&own->of[best.b], q, rule, periodic);
+        mark_changed(own, best.a), mark_changed(own, best.b);
+        own->merge_bound = -INFINITY;
     } else {
         merge_pair(&best, periodic);
-        start_cluster(&own->of[own->count++], q, rule, periodic);
+        add_cluster(own, q, rule, periodic);
     }
 }
 
@@ -232,7 +251,7 @@ static void become_specular(TargetClusters *target)
     Clusters *sharp = &target->sharp;
     target->specular = 1;
     for (int k = 0; k < sharp->count; k++)
-        update_variation(&sharp->of[k], RULE_LIGHT);
+        update_variation(&sharp->of[k], RULE_LIGHT), mark_changed(sharp, k);
 }
 
 void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *params)
@@ -247,12 +266,10 @@ void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *p
         int i = __builtin_ctz(left);
         own->interreflected[i] += q->light->c[i];
     }
-    if (own->count < most && target->sharp.count + target->broad.count < params->clusters + extra) {
-        start_cluster(&own->of[own->count++], q, rule_of(target, q->sharp), periodic);
-        own->merge_bound = -INFINITY;
-    } else {
+    if (own->count < most && target->sharp.count + target->broad.count < params->clusters + extra)
+        add_cluster(own, q, rule_of(target, q->sharp), periodic);
+    else
         merge_cheapest(target, own->count == most, q, periodic);
-    }
 }
 
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light)

@@ -60,6 +60,8 @@ typedef struct Clusters {
     int count;
     unsigned used;      /* bits: coefficients of `interreflected` that are not 0 */
     double merge_bound; /* merging any two of them costs at least this; -inf: not known */
+    unsigned changed;   /* bits: clusters that are not as `costs` were computed */
+    double costs[FILM_CLUSTERS_MAX][FILM_CLUSTERS_MAX]; /* of merging [i][k], i < k */
     Cluster of[FILM_CLUSTERS_MAX];
     Coefficients interreflected;
 } Clusters;
