@@ -130,19 +130,21 @@ static void print_parameter(FILE *out, const RetexParameter *parameter)
 /* Layout footprints: print the highest number of clusters per pixel and target, for any target. */
 static void print_clusters(FILE *out, const RetexSet *set)
 {
-    int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0;
+    int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0, quarters = 0;
     const RetexFootprint *footprint;
 
     for (int i = 0; (footprint = retex_set_footprint(set, i)); i++) {
-        sharp[footprint->target] += footprint->kind == RETEX_FOOTPRINT_SHARP;
+        sharp[footprint->target] += footprint->kind == RETEX_FOOTPRINT_SHARP && !footprint->quadrant;
+        quarters |= footprint->quadrant > 0;
         broad[footprint->target] += footprint->kind == RETEX_FOOTPRINT_BROAD;
     }
     for (int i = 0; i < RETEX_MAX_TARGETS; i++) {
         most_sharp = sharp[i] > most_sharp ? sharp[i] : most_sharp;
         most_broad = broad[i] > most_broad ? broad[i] : most_broad;
     }
-    if (most_sharp || most_broad)
-        fprintf(out, "clusters       %d sharp, %d broad\n", most_sharp, most_broad);
+    if (most_sharp || most_broad || quarters)
+        fprintf(out, "clusters       %d sharp, %d broad%s\n", most_sharp, most_broad,
+                quarters ? ", quarters of pixels" : "");
 }
 
 /* Warn of light that does not follow a new texture: its path has more hits than the set keeps apart. */

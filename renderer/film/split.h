@@ -33,7 +33,7 @@ static inline void split_start(SplitPath *path)
 {
     path->rest = color4(rgb_grey(1));
     path->counts = TARGET_COUNTS_INIT, path->folded = 0;
-    path->tree = (TargetTree){.last = NULL};
+    path->tree = (TargetTree){.seen = {.target = -1}};
     path->last = path->current_hit = NULL;
 }
 /* Multiply throughput by a factor, which may become a hit. */

@@ -61,9 +61,17 @@ typedef struct TargetNode {
     int connections; /* number of contributions in D and I */
 } TargetNode;
 
+/* Where the camera's ray of a path met a target before anything else: seen directly. */
+typedef struct SeenTarget {
+    int target; /* -1: none, or samples of a pixel are not spread evenly over it */
+    Vec2 uv;
+    float place[2]; /* within the pixel, 0..1 from its upper left corner */
+} SeenTarget;
+
 typedef struct TargetTree {
     TargetNode *last; /* that was added, or NULL */
     int count;
+    SeenTarget seen;
     Float4 without_hit; /* sum of contributions without a hit */
     int nwithout_hit;   /* their number */
 } TargetTree;

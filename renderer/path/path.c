@@ -19,6 +19,16 @@ static int is_first_hit(const Path *path)
     return path->segments + path->straight == 1;
 }
 
+/* Tell the film of a target that the camera sees directly. */
+static void tell_place(const PathWorker *w, Path *path, const Shading *s)
+{
+    const Sampler sampler = {w->key[path->half], path->sample};
+    SeenTarget *seen = &path->split.tree.seen;
+    seen->target = s->surface.target;
+    seen->uv = s->uv;
+    sampler_pair(&sampler, DIMENSION_PIXEL, &seen->place[0], &seen->place[1]);
+}
+
 void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *hit, const VertexSamples *numbers,
                  int lane)
 {
@@ -32,6 +42,8 @@ void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit
         choose_leaf(w, path, &v->s, vec_neg(ray->direction));
     else
         shading_color(&v->s, &v->place, w->variants, c->nvariants);
+    if (c->places && v->s.surface.target >= 0 && is_first_hit(path))
+        tell_place(w, path, &v->s);
 }
 
 /* Make it a white diffuse surface, of the same bumps. */

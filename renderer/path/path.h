@@ -31,6 +31,7 @@ typedef struct PathContext {
     const Caustics *caustics; /* or NULL */
     int max_depth;
     int split;         /* keep hits on targets apart */
+    int places;        /* samples are spread evenly over pixels: with split, tell the film where in its pixel each is */
     int matte;         /* packets may sample matte surfaces together, see matte.h */
     int nvariants;     /* 1..VARIANTS_MAX: sets of textures that each path is evaluated with; 1 where split */
     int halves;        /* of a pixel's samples: 1, or 2 with sample numbers of their own, in turn */

@@ -25,6 +25,7 @@ typedef struct RenderParams {
     int clusters;            /* layout footprints: clusters kept a pixel and target, 2..16; default 6 */
     int sharp, broad;        /* at most so many of what is seen sharply and of the rest, 1..clusters; default 4, 2 */
     int extra;               /* so many more sharp ones where mirrors or glass show the target; default 8 */
+    int no_quadrants;        /* layout footprints: 1: no parallelograms, see film/footprints/quadrants.c; default 0 */
     int orders;              /* most hits of each target kept, 1..6; default 6; of all together 12, in paper 8 */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */

@@ -157,6 +157,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .lights = r->lights,
                                .max_depth = r->params.max_depth,
                                .split = split,
+                               .places = split && !r->params.gaussian,
                                .nvariants = 1,
                                .has_air = scene->fogs || scene->rainbows,
                                .camera = media_at(scene, scene->camera.location),
@@ -277,6 +278,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .sharp = r->params.sharp,
                        .extra = r->params.extra,
                        .broad = r->params.broad,
+                       .quadrants = r->context.places && !r->params.no_quadrants,
                        .noise = keeps_denoise_data(&r->params),
                        .stored = r->params.stored};
     for (int t = 0; t < r->scene->ntargets; t++)

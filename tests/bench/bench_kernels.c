@@ -141,13 +141,15 @@ enum { SIDE = 64 };
 typedef struct Rows {
     RetexTexture *texture;
     RetexTextureFilter shape;
-    float uv[3 * SIDE * SIDE], spread[3 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
+    float uv[3 * SIDE * SIDE], spread[3 * SIDE * SIDE], axes[4 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
 } Rows;
 
 static void rows_at_once(void *context)
 {
     Rows *r = context;
-    retex_texture_filter(r->texture, r->shape, r->uv, r->spread, 3, SIDE * SIDE, r->rgba, 4);
+    const int straight = r->shape == RETEX_TEXTURE_PARALLELOGRAM;
+    retex_texture_filter(r->texture, r->shape, r->uv, straight ? r->axes : r->spread, straight ? 4 : 3, SIDE * SIDE,
+                         r->rgba, 4);
     bench_sink = r->rgba[0];
 }
 
@@ -157,6 +159,13 @@ static void rows_one_by_one(void *context)
     for (int i = 0; i < SIDE * SIDE; i++) {
         double u = (double)r->spread[3 * i], v = (double)r->spread[3 * i + 1];
         double covariance[3] = {u * u, (double)r->spread[3 * i + 2] * u * v, v * v};
+        const float *axes = r->axes + 4 * i;
+        const double sides[2][2] = {{(double)axes[0], (double)axes[1]}, {(double)axes[2], (double)axes[3]}};
+        if (r->shape == RETEX_TEXTURE_PARALLELOGRAM) {
+            retex_texture_parallelogram(r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], sides,
+                                        r->rgba + 4 * i);
+            continue;
+        }
         (r->shape == RETEX_TEXTURE_DISC ? retex_texture_disc : retex_texture_gaussian)(
             r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], covariance, r->rgba + 4 * i);
     }
@@ -176,6 +185,10 @@ static void lay_rows(Rows *r, double shorter, double longer, int texels)
         r->spread[3 * i] = (float)(sqrt(covariance[0]) / texels);
         r->spread[3 * i + 1] = (float)(sqrt(covariance[2]) / texels);
         r->spread[3 * i + 2] = (float)(covariance[1] / sqrt(covariance[0] * covariance[2]));
+        r->axes[4 * i] = (float)(pitch * longer * cos(0.5) / texels);
+        r->axes[4 * i + 1] = (float)(pitch * longer * sin(0.5) / texels);
+        r->axes[4 * i + 2] = (float)(-pitch * shorter * sin(0.5) / texels);
+        r->axes[4 * i + 3] = (float)(pitch * shorter * cos(0.5) / texels);
     }
 }
 
@@ -191,11 +204,14 @@ static void bench_rows(void)
     test_must(retex_texture_create(&rows.texture, &image, NULL, 0, &err), &err);
     retex_image_free(&image);
     bench_section("Rows of footprints, times as fast as one by one");
-    for (int shape = 0; shape < 2; shape++)
+    static const RetexTextureFilter shapes[] = {RETEX_TEXTURE_DISC, RETEX_TEXTURE_GAUSSIAN,
+                                                RETEX_TEXTURE_PARALLELOGRAM};
+    static const char *const names[] = {"disc", "Gaussian", "parallelogram"};
+    for (int shape = 0; shape < 3; shape++)
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-            rows.shape = (RetexTextureFilter)shape;
+            rows.shape = shapes[shape];
             lay_rows(&rows, sizes[i][0], sizes[i][1], 2048);
-            snprintf(name, sizeof name, "%s of %g x %g texels", shape ? "Gaussian" : "disc", sizes[i][0], sizes[i][1]);
+            snprintf(name, sizeof name, "%s of %g x %g texels", names[shape], sizes[i][0], sizes[i][1]);
             bench_pair(name, rows_at_once, rows_one_by_one, &rows);
             bench_rate("    millions a second, a core", rows_at_once, &rows, SIDE * SIDE * 1e-6);
         }

@@ -17,15 +17,15 @@ $ retex-render -q --size 16x12 --spp 32 -t Floor -t Red --clusters 4+4 --crop 0,
 
 # As many clusters as the samples of a pixel need and K or S+B allow; what no pixel has is left out.
 $ for k in 2 1+1 2+1 3+1 1+3 4 8 12+4 16; do printf '%s: ' $k; retex-render -q --size 16x12 --spp 32 -t floor --orders 1 --clusters $k scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs' | tr -s ' \n' ' '; echo; done
-> 2: clusters 2 sharp, 2 broad AOVs 13: 5 radiance, 4 UV, 4 spread
-> 1+1: clusters 1 sharp, 1 broad AOVs 7: 3 radiance, 2 UV, 2 spread
-> 2+1: clusters 2 sharp, 1 broad AOVs 10: 4 radiance, 3 UV, 3 spread
-> 3+1: clusters 3 sharp, 1 broad AOVs 13: 5 radiance, 4 UV, 4 spread
-> 1+3: clusters 1 sharp, 3 broad AOVs 13: 5 radiance, 4 UV, 4 spread
-> 4: clusters 4 sharp, 4 broad AOVs 25: 9 radiance, 8 UV, 8 spread
-> 8: clusters 8 sharp, 8 broad AOVs 49: 17 radiance, 16 UV, 16 spread
-> 12+4: clusters 12 sharp, 4 broad AOVs 49: 17 radiance, 16 UV, 16 spread
-> 16: clusters 16 sharp, 16 broad AOVs 97: 33 radiance, 32 UV, 32 spread
+> 2: clusters 2 sharp, 2 broad, quarters of pixels AOVs 19: 9 radiance, 5 UV, 5 spread
+> 1+1: clusters 1 sharp, 1 broad, quarters of pixels AOVs 13: 7 radiance, 3 UV, 3 spread
+> 2+1: clusters 2 sharp, 1 broad, quarters of pixels AOVs 16: 8 radiance, 4 UV, 4 spread
+> 3+1: clusters 3 sharp, 1 broad, quarters of pixels AOVs 19: 9 radiance, 5 UV, 5 spread
+> 1+3: clusters 1 sharp, 3 broad, quarters of pixels AOVs 19: 9 radiance, 5 UV, 5 spread
+> 4: clusters 4 sharp, 4 broad, quarters of pixels AOVs 31: 13 radiance, 9 UV, 9 spread
+> 8: clusters 8 sharp, 8 broad, quarters of pixels AOVs 55: 21 radiance, 17 UV, 17 spread
+> 12+4: clusters 12 sharp, 4 broad, quarters of pixels AOVs 55: 21 radiance, 17 UV, 17 spread
+> 16: clusters 16 sharp, 16 broad, quarters of pixels AOVs 103: 37 radiance, 33 UV, 33 spread
 $ retex-info --json f.exr | grep -o '"hit":[0-9]*,"kind":"[a-z]*"'
 > "hit":1,"kind":"sharp"
 > "hit":2,"kind":"sharp"

@@ -129,7 +129,7 @@ static void footprints_go_across_seams(void **state)
             Scene *scene = test_scene(text);
             assert_int_equal(scene_resolve_targets(scene, &target, 1, NULL), 0);
             scene->width = WIDTH, scene->height = HEIGHT;
-            p.spp = 256, p.nthreads = 1, p.max_depth = 2, p.clusters = 2, p.sharp = p.broad = 1;
+            p.spp = 256, p.nthreads = 1, p.max_depth = 2, p.clusters = 2, p.sharp = p.broad = 1, p.no_quadrants = 1;
             test_must(render_scene(&set, scene, &p, NULL, &err), &err);
             assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
             for (int c = 0; c < 2; c++)

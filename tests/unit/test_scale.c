@@ -46,7 +46,7 @@ static void add_footprint(RetexSet *set, const char *name, RetexFootprintKind ki
     RetexImage *spread = &set->parts[parts[1]].image;
     for (size_t i = 0; i < retex_image_index(spread, 0, spread->height); i++)
         spread->pixels[i] *= 0.1f;
-    RetexFootprint footprint = {0, set->nfootprints + 1, kind, parts[0], parts[1], parts[2]};
+    RetexFootprint footprint = {0, set->nfootprints + 1, kind, parts[0], parts[1], parts[2], 0};
     test_must(retex_set_add_footprint(set, &footprint, NULL, &err), &err);
 }
 

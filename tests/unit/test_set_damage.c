@@ -332,12 +332,12 @@ static void test_mixtures_that_lie(void **state)
     static const ManifestCase cases[] = {
         {"", "\"mixtures\":", "\"x\":", RETEX_EFORMAT, "\"mixture\" from 0"},
         {"", "\"mixtures\":[", "\"mixtures\":[],\"x\":[", RETEX_EFORMAT, "\"mixture\" from 0"},
-        {"", "\"mixtures\":[", "\"mixtures\":[7,", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
-        {"", "\"mixtures\":[", "\"mixtures\":[{},", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
-        {"", "\"mixtures\":[", "\"mixtures\":[[],", RETEX_EINVAL, "1 to 16 shares, not 0"},
+        {"", "\"mixtures\":[", "\"mixtures\":[7,", RETEX_EFORMAT, "a mixture that is no list of at most 20"},
+        {"", "\"mixtures\":[", "\"mixtures\":[{},", RETEX_EFORMAT, "a mixture that is no list of at most 20"},
+        {"", "\"mixtures\":[", "\"mixtures\":[[],", RETEX_EINVAL, "1 to 20 shares, not 0"},
         {"", "\"mixtures\":[[", "\"mixtures\":[[7,", RETEX_EFORMAT, "\"footprint\""},
-        {"", "\"mixtures\":[[", "\"mixtures\":[[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,", RETEX_EFORMAT,
-         "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[[", "\"mixtures\":[[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,", RETEX_EFORMAT,
+         "a mixture that is no list of at most 20"},
         {"", "\"mixtures\":[",
          "\"mixtures\":[0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,",
          RETEX_EFORMAT, "no list \"mixtures\" of at most 41"},
@@ -370,6 +370,47 @@ static void test_mixtures_that_lie(void **state)
     test_must(retex_set_manifest(set, NULL, &json, &err), &err);
     check_manifests(json, cases, sizeof cases / sizeof cases[0]);
     turn_inside_out(json);
+    free(json);
+    retex_set_close(&set);
+}
+
+static void test_parallelograms_that_lie(void **state)
+{
+    (void)state;
+    static const ManifestCase cases[] = {
+        {"", "\"quadrant\":4", "\"quadrant\":0", 0, ""},
+        {"", "\"quadrant\":4", "\"quadrant\":5", RETEX_EFORMAT, "\"quadrant\" from 0 to 4"},
+        {"", "\"quadrant\":4", "\"quadrant\":-1", RETEX_EFORMAT, "\"quadrant\" from 0 to 4"},
+        {"", "\"quadrant\":4", "\"quadrant\":\"1\"", RETEX_EFORMAT, "\"quadrant\""},
+        {"", "\"axes\":\"axes\"", "\"axes\":\"two\"", RETEX_EFORMAT, "\"axes\" a part of 2 channels instead of 4"},
+        {"", "\"axes\":\"axes\"", "\"axes\":\"none\"", RETEX_EFORMAT, "a part that is not there in \"axes\""},
+        {"", "\"axes\":\"axes\"", "\"spread\":\"axes\"", RETEX_EFORMAT, "\"spread\" a part of 4 channels instead of 2"},
+        {"", "\"axes\":\"axes\"", "\"axes\":\"axes\",\"spread\":\"two\"", RETEX_EFORMAT,
+         "both \"spread\" and \"axes\""},
+        {"", "\"axes\":\"axes\"", "\"axes\":\"axes\",\"spread\":null", RETEX_EFORMAT, "both \"spread\" and \"axes\""},
+        {"", "\"axes\":\"axes\"", "\"spread\":\"two\"", RETEX_EINVAL, "quadrant 4 of a pixel without axes"},
+    };
+    RetexSet *set = test_set(16, 16, 1), *back;
+    RetexSamples *samples;
+    RetexSamplePart *parts;
+    RetexFootprint f = {.target = 0, .hit = 9, .kind = RETEX_FOOTPRINT_SHARP, .uv = -1, .albedo = -1, .quadrant = 4};
+    RetexError err = {0};
+    char *json;
+    test_make_footprints(set);
+    test_must(retex_set_add_part(set, "two", "RG", RETEX_HALF, 0, 0, &f.spread, &err), &err);
+    assert_int_equal(retex_set_add_footprint(set, &f, NULL, &err), RETEX_EINVAL);
+    test_must(retex_set_add_part(set, "axes", "RGBA", RETEX_HALF, 0, 0, &f.spread, &err), &err);
+    f.quadrant = 5;
+    assert_int_equal(retex_set_add_footprint(set, &f, NULL, &err), RETEX_EINVAL);
+    f.quadrant = 4;
+    test_must(retex_set_add_footprint(set, &f, NULL, &err), &err);
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    check_manifests(json, cases, sizeof cases / sizeof cases[0]);
+    test_must(retex_manifest_read(json, "set", &back, &samples, &parts, NULL, &err), &err);
+    const RetexFootprint *last = &back->footprints[back->nfootprints - 1];
+    assert_int_equal(last->quadrant, 4);
+    assert_string_equal(back->parts[last->spread].name, "axes");
+    retex_set_close(&back);
     free(json);
     retex_set_close(&set);
 }
@@ -520,6 +561,7 @@ int main(void)
         cmocka_unit_test(test_manifests_that_lie),
         cmocka_unit_test(test_version_1),
         cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_parallelograms_that_lie),
         cmocka_unit_test(test_mixtures_that_are_wrong),
         cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_what_is_no_set),

@@ -11,15 +11,9 @@
 #include <math.h>
 #include "film/footprints/pixel.h"
 
-#define ROUNDING 1e-9               /* of bounds */
-#define FINE_FEATURE 0.05           /* distance in UV over which textures change that need extra clusters */
-#define EXTRA_ERROR 0.02            /* of a pixel's light: what it may be expected to change by one merging of them */
-#define INTERREFLECTED_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
-
-static void add_albedo(AlbedoSums *sums, Float4 light, Float4 albedo)
-{
-    sums->light += light, sums->reflected += light * albedo;
-}
+#define ROUNDING 1e-9     /* of bounds */
+#define FINE_FEATURE 0.05 /* distance in UV over which textures change that need extra clusters */
+#define EXTRA_ERROR 0.02  /* of a pixel's light: what it may be expected to change by one merging of them */
 
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
 {
@@ -114,22 +108,58 @@ static void merge_cluster(Cluster *into, const Cluster *from, Rule rule, const i
     into->interreflected += from->interreflected;
 }
 
-static void add_first_hit(Cluster *into, const FirstHit *q, Rule rule, const int periodic[2])
+static void merge_clusters(Clusters *clusters, int into, int from, Rule rule, const int periodic[2])
+{
+    merge_cluster(&clusters->of[into], &clusters->of[from], rule, periodic);
+    if (clusters->rest[from].uv.weight > 0 && clusters->rest[into].uv.weight > 0)
+        merge_cluster(&clusters->rest[into], &clusters->rest[from], rule, periodic);
+    else if (clusters->rest[from].uv.weight > 0)
+        clusters->rest[into] = clusters->rest[from];
+}
+
+static void move_cluster(Clusters *clusters, int to, int from)
+{
+    clusters->of[to] = clusters->of[from];
+    clusters->rest[to].uv.weight = 0;
+    if (clusters->rest[from].uv.weight > 0)
+        clusters->rest[to] = clusters->rest[from];
+}
+
+void clusters_keep_rest(Clusters *clusters)
+{
+    int count = 0;
+    for (int k = 0; k < clusters->count; k++)
+        if (clusters->rest[k].uv.weight > 0)
+            clusters->of[count++] = clusters->rest[k];
+    clusters->count = count;
+}
+
+static void add_to_cluster(Cluster *into, const FirstHit *q, Rule rule, const int periodic[2])
 {
     const HitLight *l = q->light;
     retex_uv_stats_add(&into->uv, q->weight, q->uv, periodic);
     update_variation(into, rule);
-    /* the albedo is that of the cluster's own light; interreflected light counts where there is no other */
-    add_albedo(&into->albedo, l->c[0] + l->original * splat(INTERREFLECTED_WEIGHT), q->albedo);
+    add_hit_albedo(&into->albedo, q);
     into->squares += q->weight * q->weight;
     into->c += l->c[0];
     into->interreflected += l->original;
 }
 
-static void start_cluster(Cluster *cluster, const FirstHit *q, Rule rule, const int periodic[2])
+static void add_first_hit(Clusters *clusters, int k, const FirstHit *q, Rule rule, const int periodic[2])
 {
-    *cluster = (Cluster){.squares = 0};
-    add_first_hit(cluster, q, rule, periodic);
+    add_to_cluster(&clusters->of[k], q, rule, periodic);
+    if (!q->is_rest)
+        return;
+    if (!(clusters->rest[k].uv.weight > 0))
+        clusters->rest[k] = (Cluster){.squares = 0};
+    add_to_cluster(&clusters->rest[k], q, rule, periodic);
+}
+
+static void start_cluster(Clusters *clusters, int k, const FirstHit *q, Rule rule, const int periodic[2])
+{
+    clusters->of[k] = (Cluster){.squares = 0};
+    clusters->rest[k].uv.weight = 0;
+    add_first_hit(clusters, k, q, rule, periodic);
 }
 
 /* Two clusters of one kind, or a cluster and the hit that is to be added (b = -1). */
@@ -207,16 +237,16 @@ static Pair find_cheapest(TargetClusters *target, int own_is_full, const FirstHi
 static void merge_pair(const Pair *pair, const int periodic[2])
 {
     Clusters *clusters = pair->clusters;
-    merge_cluster(&clusters->of[pair->a], &clusters->of[pair->b], pair->rule, periodic);
+    merge_clusters(clusters, pair->a, pair->b, pair->rule, periodic);
     if (pair->b != --clusters->count)
-        clusters->of[pair->b] = clusters->of[clusters->count];
+        move_cluster(clusters, pair->b, clusters->count);
     clusters->merge_bound = -INFINITY;
     mark_changed(clusters, pair->a), mark_changed(clusters, pair->b);
 }
 
 static void add_cluster(Clusters *clusters, const FirstHit *q, Rule rule, const int periodic[2])
 {
-    start_cluster(&clusters->of[clusters->count], q, rule, periodic);
+    start_cluster(clusters, clusters->count, q, rule, periodic);
     mark_changed(clusters, clusters->count++);
     clusters->merge_bound = -INFINITY;
 }
@@ -228,14 +258,14 @@ static void merge_cheapest(TargetClusters *target, int own_is_full, const FirstH
     const Rule rule = rule_of(target, q->sharp);
     Pair best = find_cheapest(target, own_is_full, q, periodic);
     if (best.b < 0) {
-        add_first_hit(&own->of[best.a], q, rule, periodic);
+        add_first_hit(own, best.a, q, rule, periodic);
         mark_changed(own, best.a);
         own->merge_bound = lowered_bound(own->merge_bound, best.cost, periodic);
         return;
     }
     if (best.clusters == own) {
-        merge_cluster(&own->of[best.a], &own->of[best.b], rule, periodic);
-        start_cluster(&own->of[best.b], q, rule, periodic);
+        merge_clusters(own, best.a, best.b, rule, periodic);
+        start_cluster(own, best.b, q, rule, periodic);
         mark_changed(own, best.a), mark_changed(own, best.b);
         own->merge_bound = -INFINITY;
     } else {

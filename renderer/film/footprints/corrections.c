@@ -40,19 +40,34 @@ typedef struct MeanAlbedos {
     float shares[RETEX_MAX_TARGETS]; /* of the targets' interreflections in the mixture of all */
 } MeanAlbedos;
 
-/* The mean of footprints' albedos by their shares. Returns the sum of the shares. */
-static float mean_albedo(Float4 *mean, const FootprintImages *images, int count, const Place *at)
+/* Footprints' albedos by their shares, and the sum of the shares. */
+typedef struct AlbedoMean {
+    Float4 sum;
+    float shares;
+} AlbedoMean;
+
+static void add_albedo(AlbedoMean *mean, int share_image, int albedo_image, const Place *at)
 {
-    float shares = 0;
-    *mean = splat(0);
-    for (int k = 0; k < count; k++) {
-        const float share = *bands_pixel(at->rows, images[k].share, at->x, at->y);
-        *mean += splat(share) * stored(at, images[k].albedo);
-        shares += share;
-    }
-    if (shares > 0)
-        *mean *= splat(1 / shares);
-    return shares;
+    const float share = *bands_pixel(at->rows, share_image, at->x, at->y);
+    mean->sum += splat(share) * stored(at, albedo_image);
+    mean->shares += share;
+}
+
+static void add_albedos(AlbedoMean *mean, const FootprintImages *images, int count, const Place *at)
+{
+    for (int k = 0; k < count; k++)
+        add_albedo(mean, images[k].share, images[k].albedo, at);
+}
+
+static Float4 mean_of(const AlbedoMean *mean)
+{
+    return mean->shares > 0 ? mean->sum * splat(1 / mean->shares) : splat(0);
+}
+
+/* Whether quadrants are footprints of a kind of clusters in this pixel. */
+static int has_quadrants(const FootprintPixel *p, int t, int kind)
+{
+    return kind == 0 && p->quadrants.target == t;
 }
 
 /* The number of interreflection footprints that the pixel has on a target. */
@@ -72,10 +87,16 @@ static void find_means(MeanAlbedos *means, const FootprintPixel *p, const Place 
         const TargetImages *images = &film->targets[t];
         for (int kind = 0; kind < 2; kind++) {
             const Clusters *clusters = kind ? &p->targets[t].broad : &p->targets[t].sharp;
-            mean_albedo(&means->kinds[t][kind], images->kinds[kind].of, clusters->used ? clusters->count : 0, at);
+            AlbedoMean mean = {splat(0), 0};
+            add_albedos(&mean, images->kinds[kind].of, clusters->used ? clusters->count : 0, at);
+            for (int k = 0; k < RETEX_QUADRANTS && clusters->used && has_quadrants(p, t, kind); k++)
+                add_albedo(&mean, images->quadrants.share[k], images->quadrants.albedo, at);
+            means->kinds[t][kind] = mean_of(&mean);
         }
-        means->shares[t] = mean_albedo(&means->interreflections[t], images->interreflections,
-                                       interreflections_count(&p->targets[t]), at);
+        AlbedoMean further = {splat(0), 0};
+        add_albedos(&further, images->interreflections, interreflections_count(&p->targets[t]), at);
+        means->interreflections[t] = mean_of(&further);
+        means->shares[t] = further.shares;
         all += means->shares[t];
     }
     for (int t = 0; t < film->scene->ntargets && all > 0; t++)
@@ -132,8 +153,11 @@ static void subtract_clusters(EditedLight *sum, const FootprintPixel *p, int t, 
     const FootprintFilm *film = p->film;
     const Clusters *clusters = kind ? &p->targets[j].broad : &p->targets[j].sharp;
     const KindImages *images = &film->targets[j].kinds[kind];
+    const QuadrantImages *quadrants = &film->targets[j].quadrants;
     for (int k = 0; j != t && k < clusters->count; k++)
         sum->without -= stored(at, images->of[k].light) * stored(at, images->of[k].albedo);
+    for (int k = 0; j != t && k < RETEX_QUADRANTS && has_quadrants(p, j, kind); k++)
+        sum->without -= stored(at, quadrants->light[k]) * stored(at, quadrants->albedo);
     for (unsigned left = clusters->used; left; left &= left - 1) {
         const int i = __builtin_ctz(left);
         subtract_coefficient(sum, film, i, stored(at, images->interreflected[i]), t, j, kind, means);

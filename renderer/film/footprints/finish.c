@@ -53,6 +53,41 @@ static RetexRole role_of(int kind)
     return kind ? RETEX_ROLE_BROAD : RETEX_ROLE_SHARP;
 }
 
+/* A footprint of a kind: its own light, and its place in the mixture of all. */
+static int finish_member(FootprintFilm *film, RetexSet *set, const RetexFootprint *f, int index, int light, int share,
+                         RetexMixture *all, RetexError *err)
+{
+    RetexTerm term = {.role = role_of(f->kind == RETEX_FOOTPRINT_BROAD), .target = f->target};
+    int weight;
+    add_factors(&term, retex_factor(RETEX_FACTOR_FOOTPRINT, index), 1);
+    int code = finish_term(film, set, &term, light, err);
+    if (code || film->plan.count == 1)
+        return code;
+    code = bands_move_part(film->bands, share, set, &weight, err);
+    add_share(all, index, weight);
+    return code;
+}
+
+/* The quarters of pixels, which share all but light. */
+static int finish_quadrants(FootprintFilm *film, RetexSet *set, int t, RetexMixture *all, RetexError *err)
+{
+    const QuadrantImages *images = &film->targets[t].quadrants;
+    RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_SHARP};
+    int index, code = bands_move_part(film->bands, images->uv, set, &f.uv, err);
+    if (!code)
+        code = bands_move_part(film->bands, images->axes, set, &f.spread, err);
+    if (!code)
+        code = bands_move_part(film->bands, images->albedo, set, &f.albedo, err);
+    for (int k = 0; k < RETEX_QUADRANTS && !code; k++) {
+        f.quadrant = k + 1;
+        f.hit = 1 + most_of_kind(&film->params, 0) + film->params.broad + INTERREFLECTION_CLUSTERS + k;
+        code = retex_set_add_footprint(set, &f, &index, err);
+        if (!code)
+            code = finish_member(film, set, &f, index, images->light[k], images->share[k], all, err);
+    }
+    return code;
+}
+
 /* The clusters of one kind, each with the light that meets no other target. */
 static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Places *places, RetexError *err)
 {
@@ -61,19 +96,14 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
     for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++) {
         const FootprintImages *images = &film->targets[t].kinds[kind].of[k];
         RetexFootprint f = {.target = t, .hit = 1 + k + kind * most_of_kind(&film->params, 0)};
-        int index, weight;
+        int index;
         f.kind = kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP;
         code = finish_footprint(film, set, images, &f, &index, err);
-        if (code)
-            break;
-        RetexTerm term = {.role = role_of(kind), .target = t};
-        add_factors(&term, retex_factor(RETEX_FACTOR_FOOTPRINT, index), 1);
-        code = finish_term(film, set, &term, images->light, err);
-        if (code || film->plan.count == 1)
-            continue;
-        code = bands_move_part(film->bands, images->share, set, &weight, err);
-        add_share(&all, index, weight);
+        if (!code)
+            code = finish_member(film, set, &f, index, images->light, images->share, &all, err);
     }
+    if (!code && kind == 0 && film->quadrants)
+        code = finish_quadrants(film, set, t, &all, err);
     return code || film->plan.count == 1 ? code : finish_mixture(set, &all, &places->kinds[t][kind], err);
 }
 

@@ -27,6 +27,7 @@ static int create_pixel(void **out, void *layout, LightSums *light, UvRange *ran
         p->film = film;
         p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
         p->light = light, p->range = range;
+        p->quadrants.target = QUADRANTS_NONE;
     }
     if (p && p->targets)
         return RETEX_OK;
@@ -128,20 +129,30 @@ static int add_interreflection(FootprintPixel *p, const TargetNode *hit, const N
     return 1;
 }
 
+/* Whether a hit is where the camera's ray of its path met a target. */
+static int is_seen(const SeenTarget *seen, const TargetNode *hit)
+{
+    return !hit->before && hit->at.target == seen->target && hit->at.uv.u == seen->uv.u && hit->at.uv.v == seen->uv.v;
+}
+
 /* Add a hit as the first one, in the monomials that have no factor of a hit before it. */
-static int add_first(FootprintPixel *p, const TargetNode *hit, HitLight *light)
+static int add_first(FootprintPixel *p, const SeenTarget *seen, const TargetNode *hit, HitLight *light)
 {
     const double weight = luminance4(light->c[0] + light->half);
     if (!(weight > 0))
         return 0;
+    const int may_cover = p->quadrants.target == hit->at.target, is_direct = may_cover && is_seen(seen, hit);
     const FirstHit first = {.target = hit->at.target,
                             .sharp = hit->at.sharp,
                             .direct = hit->at.direct,
+                            .is_rest = may_cover && hit->at.sharp && !is_direct,
                             .uv = {hit->at.uv.u, hit->at.uv.v},
                             .weight = weight,
                             .light = light,
                             .albedo = color4(hit->at.albedo)};
     clusters_add(&p->targets[first.target], &first, &p->film->params);
+    if (is_direct)
+        quadrants_add(&p->quadrants, seen, &first);
     corrections_add(p, &first);
     return 1;
 }
@@ -172,26 +183,27 @@ static void add_range(FootprintPixel *p, const TargetNode *hit)
     uv_range_add(p->range, hit->at.target, uv);
 }
 
-static void finish_node(FootprintPixel *p, const TargetNode *hit, Node *node)
+static void finish_node(FootprintPixel *p, const SeenTarget *seen, const TargetNode *hit, Node *node)
 {
     int was_met = 0;
     if (hit->before) {
         was_met = add_interreflection(p, hit, node);
         scale_light(p->film, &node->dependent, node->none);
     }
-    was_met |= add_first(p, hit, &node->dependent);
+    was_met |= add_first(p, seen, hit, &node->dependent);
     if (was_met)
         add_range(p, hit);
 }
 
 /* As end_several, of a path with one hit, as most are. */
-static void end_single(FootprintPixel *p, const TargetNode *hit, Float4 *indep, Float4 *white)
+static void end_single(FootprintPixel *p, const TargetTree *path, Float4 *indep, Float4 *white)
 {
+    const TargetNode *hit = path->last;
     HitLight light;
     start_light(p->film, &light, hit->dependent);
     *indep += hit->independent;
     *white += target_factor_white(hit->dependent, hit->independent);
-    if (add_first(p, hit, &light))
+    if (add_first(p, &path->seen, hit, &light))
         add_range(p, hit);
 }
 
@@ -211,7 +223,7 @@ static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *indep
     for (int k = 0; k < path->count; k++) {
         if (!hits[k]->before)
             *indep += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
-        finish_node(p, hits[k], &p->nodes[k]);
+        finish_node(p, &path->seen, hits[k], &p->nodes[k]);
     }
 }
 
@@ -219,8 +231,10 @@ static void end_path(void *pixel, const TargetTree *path)
 {
     FootprintPixel *p = pixel;
     Float4 indep = path->without_hit, white = path->without_hit;
+    if (p->film->quadrants)
+        quadrants_start_path(&p->quadrants, &path->seen, p->film->params.periodic);
     if (path->count == 1)
-        end_single(p, path->last, &indep, &white);
+        end_single(p, path, &indep, &white);
     else if (path->count)
         end_several(p, path, &indep, &white);
     for (int c = 0; c < 3; c++)

@@ -21,6 +21,13 @@ typedef struct KindImages {
     int interreflected[PLAN_COEFFICIENTS_MAX];
 } KindImages;
 
+/* Images of what a pixel sees directly of a target that covers it: its parallelogram, and the light of each quarter. */
+#define QUADRANT_IMAGES (3 + 2 * RETEX_QUADRANTS)
+typedef struct QuadrantImages {
+    int uv, axes, albedo;
+    int light[RETEX_QUADRANTS], share[RETEX_QUADRANTS];
+} QuadrantImages;
+
 #define CORRECTION_KINDS 3 /* of the first hit on the edited target: sharp, broad, an interreflection */
 
 /* Images of the corrections of a target: without its texture, and by kind and number of hits. */
@@ -30,7 +37,8 @@ typedef struct CorrectionImages {
 
 /* Images of a target. */
 typedef struct TargetImages {
-    KindImages kinds[2]; /* sharp, broad */
+    KindImages kinds[2];      /* sharp, broad */
+    QuadrantImages quadrants; /* of the sharp ones, where the film has them */
     FootprintImages interreflections[INTERREFLECTION_CLUSTERS];
     CorrectionImages corrections; /* where there are several targets */
 } TargetImages;
@@ -40,7 +48,8 @@ typedef struct FootprintFilm {
     FilmParams params;
     Bands *bands; /* borrowed */
     Plan plan;
-    int indep; /* C0 */
+    int quadrants; /* it has them */
+    int indep;     /* C0 */
     TargetImages *targets;
 } FootprintFilm;
 

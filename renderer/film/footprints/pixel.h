@@ -8,6 +8,8 @@
 
 typedef struct FootprintPixel FootprintPixel;
 
+#define INTERREFLECTED_WEIGHT 1e-3f /* in a footprint's albedo, of light that goes on to targets */
+
 /* Colours are red, green, blue and nothing. */
 typedef Float4 Coefficients[PLAN_COEFFICIENTS_MAX];
 
@@ -41,6 +43,7 @@ typedef struct HitLight {
 /* A hit of one path as the first hit of monomials, and their light. */
 typedef struct FirstHit {
     int target, sharp, direct;
+    int is_rest; /* it is not in the quadrants that may cover the pixel */
     double uv[2];
     double weight;
     Float4 albedo; /* the original's, there */
@@ -63,6 +66,7 @@ typedef struct Clusters {
     unsigned changed;   /* bits: clusters that are not as `costs` were computed */
     double costs[FILM_CLUSTERS_MAX][FILM_CLUSTERS_MAX]; /* of merging [i][k], i < k */
     Cluster of[FILM_CLUSTERS_MAX];
+    Cluster rest[FILM_CLUSTERS_MAX]; /* of each, the hits that are not in quadrants; only the weight is set if 0 */
     Coefficients interreflected;
 } Clusters;
 
@@ -73,6 +77,38 @@ typedef struct InterreflectionCluster {
     double squares;  /* of the paths' weights */
     AlbedoSums albedo;
 } InterreflectionCluster;
+
+/* Sums over the paths of a pixel whose camera rays met one target, of where in the pixel they are and of UV there: each
+ * path counts 1, whatever its light. Places are from the pixel's middle, UV from the first path's. */
+typedef struct PlaceSums {
+    double n, place[2], uv[2];
+    double places[3], mixed[2][2], uvs[3]; /* xx, xy, yy; [x, y][u, v]; uu, uv, vv */
+} PlaceSums;
+
+/* The part of a pixel's light that comes directly from a quarter of it. */
+typedef struct Quadrant {
+    int paths;
+    Float4 c, interreflected; /* as of a cluster */
+} Quadrant;
+
+/* A target that all camera rays of a pixel met first, so far: the UV as a map from the place in the pixel, and the
+ * light of each quarter. */
+typedef struct Quadrants {
+    int target; /* -1: no path yet; -2: some ray met something else */
+    double origin[2];
+    PlaceSums sums;
+    double weight, squares; /* of the paths' weights */
+    AlbedoSums albedo;
+    Quadrant of[RETEX_QUADRANTS];
+} Quadrants;
+
+#define QUADRANTS_NONE (-1)
+#define QUADRANTS_MIXED (-2)
+
+/* What a pixel sees of a surface if its UV change evenly: the middle, and du/dx, dv/dx, du/dy, dv/dy. */
+typedef struct PixelMap {
+    double uv[2], axes[4];
+} PixelMap;
 
 /* Light that meets a target, where that target alone is edited: with the original albedos of all other hits, by kind
  * of the first hit on the target. Light of one target's clusters without further hits is left out. */
@@ -95,6 +131,24 @@ void corrections_add(FootprintPixel *pixel, const FirstHit *hit);
 /* Store what the light of edited targets differs from that of the stored images, with the mean albedos of other
  * targets; before the clusters are reset. unit: to which it is rounded. */
 void corrections_store(FootprintPixel *pixel, BandRows *rows, double unit, int x, int y);
+
+/* Add the albedo of a cluster's own light; interreflected light counts where there is no other. */
+static inline void add_hit_albedo(AlbedoSums *sums, const FirstHit *hit)
+{
+    const Float4 light = hit->light->c[0] + hit->light->original * splat(INTERREFLECTED_WEIGHT);
+    sums->light += light, sums->reflected += light * hit->albedo;
+}
+
+/* Begin a path, with what its camera ray met. */
+void quadrants_start_path(Quadrants *quadrants, const SeenTarget *seen, const int periodic[][2]);
+/* Add light that comes directly from there. */
+void quadrants_add(Quadrants *quadrants, const SeenTarget *seen, const FirstHit *hit);
+/* Whether the quadrants stand for all that the pixel sees directly; then *map is where. */
+int quadrants_find_map(const Quadrants *quadrants, const int periodic[][2], PixelMap *map);
+/* The light of a quadrant, by the means of their paths, whose numbers differ; that of all is kept. */
+Float4 quadrants_light(const Quadrants *quadrants, int k, int interreflected);
+/* Remove hits that are in quadrants. */
+void clusters_keep_rest(Clusters *clusters);
 
 /* Add a hit of a path to the clusters of its target. */
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
@@ -119,6 +173,7 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double indep[3];
     TargetClusters *targets;
+    Quadrants quadrants;
     Node nodes[TARGET_NODES_MAX];
     LightSums *light; /* of contributions */
     UvRange *range;   /* of the hits */

@@ -20,38 +20,54 @@ static const char *kind_name(int kind)
     return retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + kind);
 }
 
-/* One image of a footprint: uv_Floor_sharp1 and so on. */
-static int add_image(FootprintFilm *film, const char *what, int t, int kind, int k, int *image, RetexError *err)
+/* One image of a footprint: uv_Floor_sharp1 and so on. number: 0 for none. */
+static int add_image(FootprintFilm *film, const char *what, int t, const char *kind, int number, int *image,
+                     RetexError *err)
 {
     static const struct {
         const char *what, *letters;
         RetexPixelType type;
-    } table[] = {{"uv", "RGA", RETEX_FLOAT},
-                 {"spread", "RGB", RETEX_HALF},
-                 {"albedo", "RGB", RETEX_HALF},
-                 {"dep", "RGB", RETEX_HALF},
-                 {"share", "R", RETEX_HALF}};
-    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
+    } table[] = {{"uv", "RGA", RETEX_FLOAT}, {"spread", "RGB", RETEX_HALF}, {"albedo", "RGB", RETEX_HALF},
+                 {"dep", "RGB", RETEX_HALF}, {"share", "R", RETEX_HALF},    {"axes", "RGBA", RETEX_HALF}};
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX], digits[16] = "";
     int i = 0;
     while (strcmp(table[i].what, what))
         i++;
     retex_target_word(word, film->scene->targets[t].name);
-    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, word, kind_name(kind), k + 1);
+    if (number)
+        snprintf(digits, sizeof digits, "%d", number);
+    snprintf(name, sizeof name, "%s_%.90s_%s%s", what, word, kind, digits);
     return bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
 }
 
 /* kind: 2 for further hits. */
 static int add_footprint(FootprintFilm *film, FootprintImages *f, int t, int kind, int k, RetexError *err)
 {
-    int code = add_image(film, "uv", t, kind, k, &f->uv, err);
+    const char *name = kind_name(kind);
+    int code = add_image(film, "uv", t, name, k + 1, &f->uv, err);
     if (!code)
-        code = add_image(film, "spread", t, kind, k, &f->spread, err);
+        code = add_image(film, "spread", t, name, k + 1, &f->spread, err);
     if (!code)
-        code = add_image(film, "albedo", t, kind, k, &f->albedo, err);
+        code = add_image(film, "albedo", t, name, k + 1, &f->albedo, err);
     if (!code && kind < 2)
-        code = add_image(film, "dep", t, kind, k, &f->light, err);
+        code = add_image(film, "dep", t, name, k + 1, &f->light, err);
     if (!code && film->plan.count > 1)
-        code = add_image(film, "share", t, kind, k, &f->share, err);
+        code = add_image(film, "share", t, name, k + 1, &f->share, err);
+    return code;
+}
+
+/* uv_Floor_quadrants and so on, which the quarters of a pixel share, and dep_Floor_quadrant1. */
+static int add_quadrants(FootprintFilm *film, QuadrantImages *q, int t, RetexError *err)
+{
+    int code = add_image(film, "uv", t, "quadrants", 0, &q->uv, err);
+    if (!code)
+        code = add_image(film, "axes", t, "quadrants", 0, &q->axes, err);
+    if (!code)
+        code = add_image(film, "albedo", t, "quadrants", 0, &q->albedo, err);
+    for (int k = 0; k < RETEX_QUADRANTS && !code; k++)
+        code = add_image(film, "dep", t, "quadrant", k + 1, &q->light[k], err);
+    for (int k = 0; k < RETEX_QUADRANTS && !code && film->plan.count > 1; k++)
+        code = add_image(film, "share", t, "quadrant", k + 1, &q->share[k], err);
     return code;
 }
 
@@ -101,6 +117,8 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
     }
     for (int k = 0; k < most_interreflections(film) && !code; k++)
         code = add_footprint(film, &target->interreflections[k], t, 2, k, err);
+    if (!code && film->quadrants)
+        code = add_quadrants(film, &target->quadrants, t, err);
     if (!code && corrected_targets(film->scene))
         code = add_corrections(film, t, err);
     return code;
@@ -130,6 +148,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts_needed(film), PARTS_MAX);
+    film->quadrants = params->quadrants && parts_needed(film) + scene->ntargets * QUADRANT_IMAGES <= PARTS_MAX;
     int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
     for (int t = 0; t < scene->ntargets && !code; t++)
         code = add_target(film, t, err);
@@ -167,16 +186,22 @@ static float *pixel_of(const Place *place, int image)
     return bands_pixel(place->rows, image, place->x, place->y);
 }
 
-static void store_footprint(const FootprintImages *to, const RetexUvStats *uv, const AlbedoSums *albedo, float coverage,
-                            const Place *at)
+static void store_albedo(int image, const AlbedoSums *albedo, const Place *at)
 {
-    float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread), *a = pixel_of(at, to->albedo);
-    retex_uv_stats_get(uv, mean, spread);
-    mean[2] = coverage;
+    float *a = pixel_of(at, image);
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
     for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
         a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : light > 0 ? reflected / light : 0;
+}
+
+static void store_footprint(const FootprintImages *to, const RetexUvStats *uv, const AlbedoSums *albedo, float coverage,
+                            const Place *at)
+{
+    float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread);
+    retex_uv_stats_get(uv, mean, spread);
+    mean[2] = coverage;
+    store_albedo(to->albedo, albedo, at);
 }
 
 static int compare_clusters(const void *a, const void *b)
@@ -208,9 +233,9 @@ static double white_pixel(const FootprintPixel *p)
 }
 
 /* So many paths of equal weight would know as much (Kish 1965): few bright ones count for few. */
-static double effective_samples(const Cluster *cluster)
+static double effective_samples(double weight, double squares)
 {
-    return cluster->uv.weight * cluster->uv.weight / cluster->squares;
+    return weight * weight / squares;
 }
 
 static void store_light(int image, Float4 sum, float scale, const Place *at)
@@ -227,17 +252,44 @@ static void store_share(int image, float share, const Place *at)
     *pixel_of(at, image) = fmaxf(share, RETEX_LEAST_SHARE);
 }
 
-/* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
-static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, const Place *at)
+/* What the pixel sees directly of the target that covers it. interreflected: the light of the kind, for shares. */
+static void store_quadrants(const FootprintPixel *p, const QuadrantImages *images, const PixelMap *map,
+                            float interreflected, const Place *at)
 {
+    const Quadrants *q = &p->quadrants;
+    const float scale = 1 / (float)p->spp, coverage = (float)effective_samples(q->weight, q->squares) * scale;
+    float *uv = pixel_of(at, images->uv), *axes = pixel_of(at, images->axes);
+    for (int k = 0; k < 2; k++)
+        uv[k] = (float)map->uv[k];
+    for (int k = 0; k < 4; k++)
+        axes[k] = (float)map->axes[k];
+    uv[2] = coverage / RETEX_QUADRANTS;
+    store_albedo(images->albedo, &q->albedo, at);
+    for (int k = 0; k < RETEX_QUADRANTS; k++) {
+        store_light(images->light[k], quadrants_light(q, k, 0), scale, at);
+        if (interreflected > 0)
+            store_share(images->share[k], luminance4(quadrants_light(q, k, 1)) / interreflected, at);
+    }
+}
+
+/* Clusters into their images, in the order of their place on the texture, so that neighbours agree. map: where the
+ * quadrants are that stand for a part of the light, or NULL. */
+static void store_clusters(FootprintPixel *p, const TargetImages *target, int kind, Clusters *clusters,
+                           const PixelMap *map, const Place *at)
+{
+    const KindImages *images = &target->kinds[kind];
     float scale = 1 / (float)p->spp;
     float interreflected = 0;
     for (int k = 0; k < clusters->count; k++)
         interreflected += luminance4(clusters->of[k].interreflected);
+    if (map) {
+        store_quadrants(p, &target->quadrants, map, interreflected, at);
+        clusters_keep_rest(clusters);
+    }
     qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
     for (int k = 0; k < clusters->count; k++) {
         const Cluster *cluster = &clusters->of[k];
-        float coverage = (float)effective_samples(cluster) * scale;
+        float coverage = (float)effective_samples(cluster->uv.weight, cluster->squares) * scale;
         store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
         store_light(images->of[k].light, cluster->c, scale, at);
         if (interreflected > 0)
@@ -276,7 +328,7 @@ static void store_interreflections(FootprintPixel *p, const Place *at)
             const FootprintImages *images = &p->film->targets[t].interreflections[k];
             if (!(cluster->uv.weight > 0))
                 continue;
-            double effective = cluster->uv.weight * cluster->uv.weight / cluster->squares / p->spp;
+            double effective = effective_samples(cluster->uv.weight, cluster->squares) / p->spp;
             store_footprint(images, &cluster->uv, &cluster->albedo, (float)fmin(effective, 1), at);
             store_share(images->share, sum > 0 ? (float)(light_sum(&cluster->albedo) / sum) : 0, at);
         }
@@ -294,10 +346,14 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->indep[c] * scale), p->indep[c] = 0;
+    PixelMap map;
+    const int covered =
+        quadrants_find_map(&p->quadrants, film->params.periodic, &map) ? p->quadrants.target : QUADRANTS_NONE;
     for (int t = 0; t < film->scene->ntargets; t++) {
-        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, &at);
-        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, &at);
+        store_clusters(p, &film->targets[t], 0, &p->targets[t].sharp, t == covered ? &map : NULL, &at);
+        store_clusters(p, &film->targets[t], 1, &p->targets[t].broad, NULL, &at);
     }
+    p->quadrants.target = covered; /* corrections look at the stored images */
     store_interreflections(p, &at);
     corrections_store(p, rows, unit, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
@@ -307,6 +363,7 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
         reset_clusters(&target->broad);
         memset(target->interreflections, 0, sizeof target->interreflections);
     }
+    p->quadrants.target = QUADRANTS_NONE;
 }
 
 /* ---- the finished band ---- */
@@ -319,6 +376,8 @@ void footprints_band_stats(const void *layout, const BandRows *rows, RetexBandSt
         for (int kind = 0; kind < 2; kind++)
             for (int k = 0; k < most_of_kind(&film->params, kind); k++)
                 bands_add_albedo(rows, target->kinds[kind].of[k].uv, target->kinds[kind].of[k].albedo, s, t);
+        for (int k = 0; k < RETEX_QUADRANTS && film->quadrants; k++)
+            bands_add_albedo(rows, target->quadrants.uv, target->quadrants.albedo, s, t);
         for (int k = 0; k < most_interreflections(film); k++)
             bands_add_albedo(rows, target->interreflections[k].uv, target->interreflections[k].albedo, s, t);
     }

@@ -175,14 +175,16 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
 {
     const RetexSet *set = work->light->set;
     const RetexFootprint *f = &set->footprints[work->kind->footprints[k]];
-    const float *uv = set->parts[f->uv].image.pixels + 3 * pixel, *met = set->parts[f->albedo].image.pixels + 3 * pixel;
+    const float *met = set->parts[f->albedo].image.pixels + 3 * pixel;
+    float uv[3], spread[3];
     const double rgb[] = {light->single[0] + light->interreflected[0], light->single[1] + light->interreflected[1],
                           light->single[2] + light->interreflected[2]};
     const double weight = retex_compact_luminance(rgb);
     Cluster cluster = {.light = *light};
+    retex_footprint_ellipse(set, f, pixel, uv, spread);
     if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
         return;
-    retex_uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
+    retex_uv_stats_load(&cluster.place, weight, uv, spread);
     add_cluster(pool, &cluster);
     pool->weight += weight;
     pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));

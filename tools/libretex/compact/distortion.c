@@ -54,12 +54,14 @@ static double probe_pixels(const RetexCompactLight *light, size_t a, size_t b)
         retex_compact_cluster_light(light, kind, RETEX_COMPACT_ALL_LAMPS, a, of);
         for (int k = 0; k < kind->count; k++) {
             const RetexFootprint *f = &set->footprints[kind->footprints[k]];
-            const float *uv = set->parts[f->uv].image.pixels, *spread = set->parts[f->spread].image.pixels;
+            float uv[2][3], spread[2][3];
+            retex_footprint_ellipse(set, f, a, uv[0], spread[0]);
+            retex_footprint_ellipse(set, f, b, uv[1], spread[1]);
             const double weight = retex_compact_luminance(of[k].single) + retex_compact_luminance(of[k].interreflected);
             double far = 0;
             for (int axis = 0; axis < 2 && weight > 0; axis++) {
-                const size_t ia = 3 * a + (size_t)axis, ib = 3 * b + (size_t)axis;
-                const double d = (double)uv[ia] - (double)uv[ib], s = (double)spread[ia] + (double)spread[ib];
+                const double d = (double)uv[0][axis] - (double)uv[1][axis];
+                const double s = (double)spread[0][axis] + (double)spread[1][axis];
                 far += d * d / (d * d + s * s + 1e-12);
             }
             sum += weight > 0 && isfinite(weight) ? weight * far : 0;
@@ -192,7 +194,8 @@ static Wave make_wave(const RetexTarget *target, int number, int trial, int colo
 }
 
 typedef struct WaveWork {
-    const RetexImage *uv, *spread;
+    const RetexSet *set;
+    const RetexFootprint *footprint;
     RetexImage *image;
     Wave waves[3];
 } WaveWork;
@@ -203,8 +206,8 @@ static void wave_row(void *context, int y, int thread)
     const size_t width = (size_t)work->image->width, first = 3 * width * (size_t)y;
     (void)thread;
     for (size_t i = first; i < first + 3 * width; i += 3) {
-        const float *uv = work->uv->pixels + i, *spread = work->spread->pixels + i;
-        float *out = work->image->pixels + i;
+        float *out = work->image->pixels + i, uv[3], spread[3];
+        retex_footprint_ellipse(work->set, work->footprint, i / 3, uv, spread);
         for (int c = 0; c < 3 && uv[2] > 0; c++) {
             const double *f = work->waves[c].frequency;
             const double a = f[0] * (double)spread[0], b = f[1] * (double)spread[1];
@@ -221,13 +224,14 @@ static void wave_row(void *context, int y, int thread)
 static int make_waves(RetexImage *image, const RetexSet *set, int footprint, int trial, int nthreads, RetexError *err)
 {
     const RetexFootprint *f = &set->footprints[footprint];
-    WaveWork work = {&set->parts[f->uv].image, &set->parts[f->spread].image, image, {{{0}, 0}}};
-    int code = retex_image_alloc(image, work.uv->width, work.uv->height, 3, err);
+    const RetexImage *uv = &set->parts[f->uv].image;
+    WaveWork work = {set, f, image, {{{0}, 0}}};
+    int code = retex_image_alloc(image, uv->width, uv->height, 3, err);
     if (code)
         return code;
     for (int c = 0; c < 3; c++)
         work.waves[c] = make_wave(&set->targets[f->target], f->target, trial, c);
-    retex_parallel(nthreads, work.uv->height, wave_row, &work);
+    retex_parallel(nthreads, uv->height, wave_row, &work);
     return RETEX_OK;
 }
 

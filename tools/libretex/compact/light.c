@@ -18,7 +18,7 @@ static RetexCompactKind *find_kind(RetexCompactLight *light, int target, RetexFo
 
 static int is_whole(const RetexSet *set, const RetexFootprint *f)
 {
-    return f->uv >= 0 && f->spread >= 0 && f->albedo >= 0 && strlen(set->parts[f->spread].letters) == 3 &&
+    return f->uv >= 0 && f->spread >= 0 && f->albedo >= 0 && retex_set_spread_channels(set, f->spread) > 2 &&
            set->parts[f->uv].image.width == set->width && set->parts[f->uv].image.height == set->height &&
            set->parts[f->spread].image.width == set->width && set->parts[f->spread].image.height == set->height &&
            set->parts[f->albedo].image.width == set->width && set->parts[f->albedo].image.height == set->height;

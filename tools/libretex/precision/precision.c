@@ -24,6 +24,7 @@ enum { NEIGHBOURS = 2 }; /* pixels to each side over which noise is averaged */
 typedef struct Footprint {
     int uv, spread, albedo; /* parts; uv -1: it is left as it is */
     int channels;           /* of its spread */
+    int shared;             /* the first footprint with the same uv, or its own number */
     int signal;             /* of the light that it multiplies, or -1: all of them */
     int first;              /* the first footprint of the same target and kind */
     int broad;
@@ -49,6 +50,9 @@ typedef struct Scratch {
     double *mixed;      /* by mixture */
     int *order;         /* of footprints */
 } Scratch;
+
+#define EVEN_DEVIATION 0.28867513 /* of an axis of 1: the root of 1/12 */
+#define EXACT 64                  /* parts of a deviation that the mean of a parallelogram is known to */
 
 static size_t band_pixels(const RetexSet *rows)
 {
@@ -84,11 +88,15 @@ static void plan_footprints(RetexPrecision *p, const RetexSet *set)
         while (set->footprints[first].target != f->target || set->footprints[first].kind != f->kind)
             first++;
         const int whole = is_whole(set, f->uv, 3) && is_whole(set, f->spread, 2) && is_whole(set, f->albedo, 3);
+        int shared = 0;
+        while (set->footprints[shared].uv != f->uv)
+            shared++;
         p->footprints[i] =
-            (Footprint){.uv = whole ? f->uv : -1,
+            (Footprint){.uv = whole && shared == i ? f->uv : -1,
                         .spread = f->spread,
                         .albedo = f->albedo,
                         .channels = whole ? set->parts[f->spread].image.channels : 0,
+                        .shared = whole ? shared : i,
                         .signal = f->kind == RETEX_FOOTPRINT_INTERREFLECTION ? -1 : signal_of(p, f),
                         .first = first,
                         .broad = f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION,
@@ -243,6 +251,9 @@ static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *ro
             s->light[mixture->shares[k].footprint] +=
                 s->mixed[m] * (double)*retex_pixel_at(rows, mixture->shares[k].weight, at) / sum;
     }
+    for (int i = 0; i < p->nfootprints; i++)
+        if (p->footprints[i].shared != i)
+            s->light[p->footprints[i].shared] += s->light[i];
 }
 
 static double relative_noise(double noise, double light)
@@ -277,15 +288,32 @@ static double kind_variance(const RetexPrecision *p, const RetexSet *rows, int f
 static double credible_deviation(const RetexPrecision *p, const RetexSet *rows, const Footprint *f, size_t at, int axis,
                                  double samples)
 {
-    const double deviation = (double)retex_pixel_at(rows, f->spread, at)[axis];
+    const float *spread = retex_pixel_at(rows, f->spread, at);
+    const double deviation = f->channels == RETEX_AXES
+                                 ? hypot((double)spread[axis], (double)spread[2 + axis]) * EVEN_DEVIATION
+                                 : (double)spread[axis];
     if (!f->broad || !p->has_noise)
         return deviation;
     const double own = fmax(deviation * deviation, 1e-20), all = kind_variance(p, rows, f->first, at, axis) / 2;
     return all > own ? sqrt(own * pow(all / own, 1 / (1 + 0.2 * fmax(samples - 1, 0)))) : deviation;
 }
 
+/* Both axes by their size along u and along v. */
+static void round_axes(float *axes, double relative)
+{
+    for (int k = 0; k < 2; k++) {
+        const double size = hypot((double)axes[k], (double)axes[2 + k]);
+        for (int i = k; i < RETEX_AXES; i += 2)
+            axes[i] = rounded(RETEX_PRECISION_SPREAD, (double)axes[i], size, relative);
+    }
+}
+
 static void round_spread(const Footprint *f, float *spread, double relative)
 {
+    if (f->channels == RETEX_AXES) {
+        round_axes(spread, relative);
+        return;
+    }
     for (int k = 0; k < 2; k++)
         spread[k] = rounded(f->broad ? RETEX_PRECISION_BROAD_SPREAD : RETEX_PRECISION_SPREAD, (double)spread[k],
                             (double)spread[k], relative);
@@ -320,8 +348,10 @@ static void round_place(const RetexPrecision *p, const RetexSet *rows, const Foo
         const double size = fabs((double)uv[k]), kept = retex_round_unit(size) / 32768, /* 16 significant bits */
             wanted = retex_precision_step(f->broad ? RETEX_PRECISION_BROAD_MEAN : RETEX_PRECISION_MEAN, deviation[k],
                                           relative);
-        /* more bits only where they are finer than half a deviation, which PXR24 cannot store */
-        const int enough = !p->has_noise ? 0 : kept <= deviation[k] / 2 || (double)uv[2] * rows->spp < 8;
+        /* more bits only where they are finer than half a deviation, which PXR24 cannot store; parallelograms are
+         * exact */
+        const double needed = deviation[k] / (f->channels == RETEX_AXES ? EXACT : 2);
+        const int enough = !p->has_noise ? 0 : kept <= needed || (double)uv[2] * rows->spp < 8;
         const double unit = retex_round_unit(fmax(fmax(wanted, FINEST), enough ? kept : 0));
         uv[k] = (float)rounded_mean(f->target, k, (double)uv[k], unit) + 0.0f;
         if (f->broad)

@@ -10,13 +10,15 @@
 
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
+    if (retex_footprint_has_axes(set, footprint))
+        return (RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + footprint->quadrant);
     if (footprint->kind == RETEX_FOOTPRINT_BROAD || footprint->kind == RETEX_FOOTPRINT_INTERREFLECTION)
         return RETEX_TEXTURE_BROAD;
     int even = footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
     return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
 }
 
-static const float zeros[3 * RETEX_MAX_SIZE];
+static const float zeros[RETEX_AXES * RETEX_MAX_SIZE];
 
 int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, const RetexSet *set,
                              const RetexFootprint *footprint, int y, int with_albedo, RetexError *err)

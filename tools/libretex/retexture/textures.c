@@ -61,7 +61,7 @@ static int check_part(const RetexSet *set, int part, int channels)
     if (part < 0 || part >= set->nparts)
         return 0;
     const RetexImage *im = &set->parts[part].image;
-    return retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels == 3));
+    return retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels > 2));
 }
 
 /* Checks that the footprints of targets with a new texture have all their parts. */

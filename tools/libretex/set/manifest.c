@@ -90,9 +90,15 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
 
 static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
 {
-    return json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "kind",
-                     retex_footprint_kind_name(footprint->kind), "uv", part_name(set, footprint->uv), "spread",
-                     part_name(set, footprint->spread), "albedo", part_name(set, footprint->albedo));
+    const int has_axes = retex_footprint_has_axes(set, footprint);
+    json_t *json = json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit,
+                             "kind", retex_footprint_kind_name(footprint->kind), "uv", part_name(set, footprint->uv),
+                             has_axes ? "axes" : "spread", part_name(set, footprint->spread), "albedo",
+                             part_name(set, footprint->albedo));
+
+    if (has_axes && footprint->quadrant)
+        retex_json_put(&json, "quadrant", json_integer(footprint->quadrant));
+    return json;
 }
 
 static json_t *write_factor(const RetexSet *set, RetexFactor factor)

@@ -20,10 +20,16 @@ static void get_pair(Reading *reading, const json_t *object, const char *key, do
         out[i] = retex_reading_real(reading, json_array_get(array, i), key);
 }
 
-/* The part of the standard deviations of u and v, with or without their correlation. */
+/* The part of the standard deviations of u and v, with or without their correlation; or that of the axes of a
+ * parallelogram. */
 static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
 {
     const char *name = json_string_value(json_object_get(json, "spread"));
+    if (json_object_get(json, "axes")) {
+        if (json_object_get(json, "spread"))
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a footprint with both \"spread\" and \"axes\"");
+        return retex_reading_part(reading, set, json, "axes", RETEX_AXES, 1);
+    }
     const int part = name ? retex_set_find_part(set, name) : -1;
     return retex_reading_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2,
                               1);
@@ -168,6 +174,8 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
             .spread = get_spread(reading, set, json),
             .albedo = retex_reading_part(reading, set, json, "albedo", 3, 1),
         };
+        if (json_object_get(json, "quadrant"))
+            footprint.quadrant = retex_reading_integer(reading, json, "quadrant", 0, RETEX_QUADRANTS);
         if (reading->status)
             return;
         if (json_object_get(json, "kind"))

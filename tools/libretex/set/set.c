@@ -1,5 +1,6 @@
 /* Sets in memory: creation, adding, searching. */
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@
 #include "set/references.h"
 #include "set/set.h"
 #include "set/source.h"
+#include "texture/filter.h"
 
 int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
 {
@@ -282,6 +284,33 @@ int retex_set_add_target(RetexSet *set, const RetexTarget *target, int *index, R
     return 0;
 }
 
+int retex_set_spread_channels(const RetexSet *set, int part)
+{
+    const size_t channels = part >= 0 && part < set->nparts ? strlen(set->parts[part].letters) : 0;
+    return channels == 3 || channels == RETEX_AXES ? (int)channels : 2;
+}
+
+void retex_footprint_ellipse(const RetexSet *set, const RetexFootprint *f, size_t pixel, float uv[3], float spread[3])
+{
+    const int channels = set->parts[f->spread].image.channels;
+    const float *mean = set->parts[f->uv].image.pixels + 3 * pixel;
+    const float *from = set->parts[f->spread].image.pixels + (size_t)channels * pixel;
+    memcpy(uv, mean, 3 * sizeof *uv);
+    if (channels < RETEX_AXES) {
+        memcpy(spread, from, 2 * sizeof *spread);
+        spread[2] = channels == 3 ? from[2] : 0;
+        return;
+    }
+    const RetexParallelogram p =
+        retex_parallelogram((RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + f->quadrant), mean, from);
+    const float even = 0.28867513f, *side = p.sides; /* the deviation of an even spread over 1 */
+    const float both = hypotf(side[0], side[2]) * hypotf(side[1], side[3]);
+    memcpy(uv, p.uv, sizeof p.uv);
+    spread[0] = even * hypotf(side[0], side[2]);
+    spread[1] = even * hypotf(side[1], side[3]);
+    spread[2] = both > 0 ? (side[0] * side[1] + side[2] * side[3]) / both : 0;
+}
+
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)
 {
     int status = 0;
@@ -292,11 +321,13 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
         return retex_fail(err, RETEX_EINVAL, "hits count from 1, not %d", footprint->hit);
     if (footprint->kind < RETEX_FOOTPRINT_HIT || footprint->kind > RETEX_FOOTPRINT_INTERREFLECTION)
         return retex_fail(err, RETEX_EINVAL, "the footprint is of no known kind (%d)", (int)footprint->kind);
-    const int correlated =
-        footprint->spread >= 0 && footprint->spread < set->nparts && strlen(set->parts[footprint->spread].letters) == 3;
+    const int channels = retex_set_spread_channels(set, footprint->spread);
+    if (footprint->quadrant < 0 || footprint->quadrant > (channels == RETEX_AXES ? RETEX_QUADRANTS : 0))
+        return retex_fail(err, RETEX_EINVAL, "the footprint is quadrant %d of a %s", footprint->quadrant,
+                          channels == RETEX_AXES ? "parallelogram, which has 4" : "pixel without axes");
     status = check_part(set, footprint->uv, 3, 1, "a footprint's UV", err);
     if (!status)
-        status = check_part(set, footprint->spread, correlated ? 3 : 2, 1, "a footprint's spread", err);
+        status = check_part(set, footprint->spread, (size_t)channels, 1, "a footprint's spread", err);
     if (!status)
         status = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
     if (!status)

@@ -31,4 +31,16 @@ struct RetexSet {
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
 };
 
+/* The channels of a footprint's part `spread`: 2, 3, or RETEX_AXES; 2 where it is none of these, or absent. */
+int retex_set_spread_channels(const RetexSet *set, int part);
+/* Where a footprint is in a pixel, of a set in memory: mean UV and coverage; standard deviations and their correlation,
+ * of a parallelogram those of the ellipse with the same covariance. Its spread has two channels, three, or axes. */
+void retex_footprint_ellipse(const RetexSet *set, const RetexFootprint *footprint, size_t pixel, float uv[3],
+                             float spread[3]);
+/* Whether a footprint is a parallelogram: its spread are axes. */
+static inline int retex_footprint_has_axes(const RetexSet *set, const RetexFootprint *footprint)
+{
+    return retex_set_spread_channels(set, footprint->spread) == RETEX_AXES;
+}
+
 #endif

@@ -46,11 +46,14 @@ static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexText
 {
     const RetexTextureLevel *image = &texture->levels[0];
     *t = (RetexBatchTexture){.texture = texture,
-                             .gaussian = shape != RETEX_TEXTURE_DISC,
+                             .gaussian = shape == RETEX_TEXTURE_GAUSSIAN || shape == RETEX_TEXTURE_BROAD,
                              .broad = shape == RETEX_TEXTURE_BROAD,
-                             .narrowest = gaussians[shape].narrowest,
-                             .least = gaussians[shape].least,
-                             .most = gaussians[shape].most};
+                             .straight = shape >= RETEX_TEXTURE_PARALLELOGRAM};
+    if (t->gaussian) {
+        t->narrowest = gaussians[shape].narrowest;
+        t->least = gaussians[shape].least;
+        t->most = gaussians[shape].most;
+    }
     t->size[0] = image->width;
     t->size[1] = image->height;
     t->levels = count_levels(texture);
@@ -80,15 +83,48 @@ static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexText
     }
 }
 
+static void filter_parallelogram(const RetexTexture *texture, RetexTextureFilter shape, const float *uv,
+                                 const float *axes, float *rgba)
+{
+    const RetexParallelogram p = retex_parallelogram(shape, uv, axes);
+    const double sides[2][2] = {{(double)p.sides[0], (double)p.sides[1]}, {(double)p.sides[2], (double)p.sides[3]}};
+    retex_texture_parallelogram(texture, (double)p.uv[0], (double)p.uv[1], sides, rgba);
+}
+
 static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
                        int spreads, float *rgba)
 {
+    if (shape >= RETEX_TEXTURE_PARALLELOGRAM) {
+        filter_parallelogram(texture, shape, uv, spread, rgba);
+        return;
+    }
     double correlation = spreads == 3 ? (double)spread[2] : 0, u = (double)spread[0], v = (double)spread[1];
     double covariance[3] = {u * u, correlation * u * v, v * v};
     if (shape == RETEX_TEXTURE_DISC)
         retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
     else
         retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], covariance, rgba);
+}
+
+static void add_ellipse(RetexBatch *batch, const float *uv, const float *spread, int spreads)
+{
+    const int k = batch->count++;
+    batch->u[k] = uv[0];
+    batch->v[k] = uv[1];
+    batch->spread[0][k] = spread[0];
+    batch->spread[1][k] = spread[1];
+    batch->spread[2][k] = spreads == 3 ? spread[2] : 0;
+    batch->spread[3][k] = 0;
+}
+
+static void add_parallelogram(RetexBatch *batch, RetexTextureFilter shape, const float *uv, const float *axes)
+{
+    const RetexParallelogram p = retex_parallelogram(shape, uv, axes);
+    const int k = batch->count++;
+    batch->u[k] = p.uv[0];
+    batch->v[k] = p.uv[1];
+    for (int i = 0; i < 4; i++)
+        batch->spread[i][k] = p.sides[i];
 }
 
 /* Divides by alpha; without alpha out stays 0. */
@@ -120,13 +156,11 @@ void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTe
             const float *at = uv + 3 * i, *s = spread + (size_t)spreads * i;
             if (!(at[2] > 0))
                 continue;
-            int k = batch.count++;
-            from[k] = i;
-            batch.u[k] = at[0];
-            batch.v[k] = at[1];
-            batch.su[k] = s[0];
-            batch.sv[k] = s[1];
-            batch.correlation[k] = spreads == 3 ? s[2] : 0;
+            from[batch.count] = i;
+            if (prepared.straight)
+                add_parallelogram(&batch, shape, at, s);
+            else
+                add_ellipse(&batch, at, s, spreads);
         }
         if (!batch.count)
             break;

@@ -25,6 +25,7 @@ typedef struct RetexBatchLimit {
 typedef struct RetexBatchTexture {
     const RetexTexture *texture;
     int gaussian;
+    int straight;                        /* 1: parallelograms */
     int broad;                           /* 1: the level is chosen by `most', and never interpolated */
     float narrowest, least, most;        /* see batch.c */
     double matrix[2][2], offset[2];      /* from surface UV to image UV, in images, y down */
@@ -46,7 +47,8 @@ typedef struct RetexBatchTexture {
  * filter. */
 typedef struct RetexBatch {
     int count;
-    float u[BATCH_SIZE], v[BATCH_SIZE], su[BATCH_SIZE], sv[BATCH_SIZE], correlation[BATCH_SIZE];
+    float u[BATCH_SIZE], v[BATCH_SIZE];
+    float spread[4][BATCH_SIZE]; /* deviations along u and v, correlation; or the sides of a parallelogram */
     float rgba[BATCH_SIZE][4];
     int left[BATCH_SIZE], nleft;
 } RetexBatch;

@@ -12,6 +12,7 @@
 #define Places NAME(Places)
 #define Footprints NAME(Footprints)
 #define Spread NAME(Spread)
+#define Sides NAME(Sides)
 #define Ends NAME(Ends)
 #define Double NAME(Double)
 #define DoubleMask NAME(DoubleMask)
@@ -31,12 +32,17 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define MAX_BLOCKS 4 /* blocks across in a strip */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
 #define NKEYS (8 * MAX_STRIPS * MAX_BLOCKS)
-#define NODES 2 /* chords between two lines */
+#define NODES 2 /* chords between two lines; of parallelograms, in each of the pieces between corners */
+#define PIECES 3
 #define BATCH_BOX_VARIANCE (1.0f / 12)
 #define BATCH_TENT_VARIANCE (1.0f / 6)
 /* The smaller variance, in texels of the level, that remains for a disc: for round ones, and for very long ones. */
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
+/* The same for parallelograms, whose sides show where texels are coarse. */
+#define STRAIGHT_LEAST 1.5f
+#define STRAIGHT_LONG_LEAST 0.75f
+#define STRAIGHT_BOX_FROM 1.5f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
 #define LEAST_KEPT 1e-3f   /* share of a cut Gaussian that must remain; with less the reference ignores the limit */
 #define LEAST_RADIUS 0.02f /* texels */
@@ -48,7 +54,7 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define INNER_DISC 0.54119610f
 #define OUTER_DISC 1.30656296f
 
-/* Gauss's quadrature rules on 0..1, as in disc_kernel.c: inside, after an ellipse's tip, before one, between both. */
+/* Gauss's quadrature rules on 0..1, as in even_kernel.h: inside, after an ellipse's tip, before one, between both. */
 static const float batch_nodes[2][4] = {{0.21132487f, 0.2899492f, 0.17883809f, 0.25f},
                                         {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
 static const float batch_weights[2][4] = {{0.5f, 0.5154537f, 0.42939674f, 0.45344984f},
@@ -132,6 +138,15 @@ RETEX_CPU_INLINE Lanes NAME(all)(float value)
     return value - (Lanes){0};
 }
 
+/* Whether a lane is not 0. */
+RETEX_CPU_INLINE int NAME(any)(Mask mask)
+{
+    int found = 0;
+    for (int lane = 0; lane < LANES; lane++)
+        found |= mask[lane];
+    return found;
+}
+
 RETEX_CPU_INLINE Lanes NAME(to_float)(Mask i)
 {
     return __builtin_convertvector(i, Lanes);
@@ -158,6 +173,7 @@ typedef struct Footprints {
     int contiguous;   /* 1: consecutive in the batch */
     int turned, fine, strips, blocks, lines, columns;
     Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three are whole numbers */
+    Lanes inner, side;                                                         /* of parallelograms */
     Mask level;
     int cut;               /* 1: the surface ends within the windows */
     Lanes low[2], high[2]; /* limits of the surface, in lines and texels from the mean */
@@ -210,27 +226,58 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Footprints *f, const Strip *strip,
     }
 }
 
+/* The same of parallelograms, as in even_kernel.h, for the pieces between corners that some lane has; returns the
+ * number of chords. */
+RETEX_CPU_INLINE int NAME(find_straight_chords)(const Footprints *f, const Strip *strip, Lanes low, Chord *chords)
+{
+    const Lanes none = NAME(all)(0), inverse = 1 / MAX(f->length - f->inner, NAME(all)(LEAST_RADIUS));
+    const Lanes corners[PIECES + 1] = {-f->length, -f->inner, f->inner, f->length};
+    int count = 0;
+    for (int piece = 0; piece < PIECES; piece++) {
+        Lanes begin = MAX(low, corners[piece]), span = MAX(MIN(low + 1, corners[piece + 1]) - begin, none);
+        if (!NAME(any)(span > none))
+            continue;
+        for (int k = 0; k < NODES; k++, count++) {
+            Lanes at = begin + span * batch_nodes[k][0], middle = strip->middle + f->slope * at, h = f->half;
+            if (piece != 1) {
+                Lanes t = MIN((MAX(at, -at) - f->inner) * inverse, NAME(all)(1));
+                middle += piece ? t * f->side : -(t * f->side);
+                h *= 1 - t;
+            }
+            chords[count].left = middle - h;
+            chords[count].right = middle + h;
+            chords[count].weight = span * batch_weights[k][0];
+            chords[count].share = at - low;
+        }
+    }
+    return count;
+}
+
 /* Weights of interpolated texels: the double integral of their tents, differenced twice. Adds to the weights, or sets
  * them. */
-RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Strip *strip, Lanes length, Lanes half, Lanes scale, int is_added)
+RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Strip *strip, Lanes length, Lanes half, Lanes scale, int is_added,
+                                       int straight)
 {
     Lanes lines[5][MAX_COLUMNS]; /* the last one is not used */
-    Chord chords[NODES];
+    Chord chords[PIECES * NODES];
+    int count = NODES;
     Lanes inverse = 1 / length;
     for (int c = 0; c <= f->columns; c++)
         lines[4][c] = NAME(all)(0);
     for (int i = 0; i <= strip->lines; i++) {
-        Lanes here[NODES], next[NODES];
-        NAME(find_chords)
-        (f, strip, strip->begin + (float)(i - 1), length, inverse, half, chords);
-        for (int k = 0; k < NODES; k++) {
+        Lanes here[PIECES * NODES], next[PIECES * NODES], low = strip->begin + (float)(i - 1);
+        if (straight)
+            count = NAME(find_straight_chords)(f, strip, low, chords);
+        else
+            NAME(find_chords)(f, strip, low, length, inverse, half, chords);
+        for (int k = 0; k < count; k++) {
             next[k] = chords[k].weight * chords[k].share * scale;
             here[k] = chords[k].weight * scale - next[k];
         }
         Lanes *before = lines[i > 0 ? i - 1 : 4], *after = lines[i < 4 ? i : 4];
         for (int c = 0; c <= f->columns; c++) { /* no chord goes beyond the neighbour of the last column */
             Lanes at = NAME(all)((float)(c - 1)), sum = {0}, more = {0};
-            for (int k = 0; k < NODES; k++) {
+            for (int k = 0; k < count; k++) {
                 Lanes r = MAX(chords[k].right - at, NAME(all)(0)), l = MAX(chords[k].left - at, NAME(all)(0));
                 Lanes area = (r - l) * (r + l);
                 sum += here[k] * area;
@@ -250,16 +297,20 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Footprints *f, Strip *strip, Lanes length
 }
 
 /* Weights of texels that are averages over squares: the length of each chord in each texel. */
-RETEX_CPU_INLINE void NAME(weigh_boxes)(Footprints *f, Strip *strip)
+RETEX_CPU_INLINE void NAME(weigh_boxes)(Footprints *f, Strip *strip, int straight)
 {
-    Chord chords[NODES];
+    Chord chords[PIECES * NODES];
     Lanes inverse = 1 / f->length;
+    int count = NODES;
     for (int j = 0; j < strip->lines; j++) {
-        NAME(find_chords)
-        (f, strip, strip->begin + ((float)j - 0.5f), f->length, inverse, f->half, chords);
+        const Lanes low = strip->begin + ((float)j - 0.5f);
+        if (straight)
+            count = NAME(find_straight_chords)(f, strip, low, chords);
+        else
+            NAME(find_chords)(f, strip, low, f->length, inverse, f->half, chords);
         for (int c = 0; c < f->columns; c++) {
             Lanes begin = NAME(all)((float)c - 0.5f), end = NAME(all)((float)c + 0.5f), w = {0};
-            for (int k = 0; k < NODES; k++)
+            for (int k = 0; k < count; k++)
                 w += chords[k].weight * MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
             strip->weights[j][c] = w;
         }
@@ -321,14 +372,18 @@ RETEX_CPU_INLINE void NAME(weigh_strip)(Footprints *f, int number, Strip *strip)
     if (f->texture->gaussian && f->fine) {
         /* both discs have the same weight: each chord is divided by the area of its own ellipse */
         float in = INNER_DISC / OUTER_DISC;
-        NAME(weigh_fine)(f, strip, f->length * in, f->half * in, NAME(all)(1 / (in * in)), 0);
-        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 1);
+        NAME(weigh_fine)(f, strip, f->length * in, f->half * in, NAME(all)(1 / (in * in)), 0, 0);
+        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 1, 0);
     } else if (f->texture->gaussian) {
         NAME(weigh_gaussian)(f, strip, strip->lines, f->columns);
+    } else if (f->texture->straight && f->fine) {
+        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 0, 1);
+    } else if (f->texture->straight) {
+        NAME(weigh_boxes)(f, strip, 1);
     } else if (f->fine) {
-        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 0);
+        NAME(weigh_fine)(f, strip, f->length, f->half, NAME(all)(1), 0, 0);
     } else {
-        NAME(weigh_boxes)(f, strip);
+        NAME(weigh_boxes)(f, strip, 0);
     }
     if (f->cut)
         NAME(cut_strip)(f, strip, strip->lines, f->columns);
@@ -343,7 +398,11 @@ RETEX_CPU_INLINE void NAME(load_footprints)(Footprints *f)
     const Places *p = f->places;
     const void *arrays[] = {p->along, p->across, p->length, p->half,   p->slope,  p->lean,    p->reach,  p->first,
                             p->line,  p->texel,  p->level,  p->low[0], p->low[1], p->high[0], p->high[1]};
-    const int count = f->cut ? 15 : 11;
+    const int count = f->cut ? 15 : f->texture->straight ? 13 : 11;
+    if (f->texture->straight) { /* which are never cut */
+        arrays[11] = p->inner;
+        arrays[12] = p->side;
+    }
     Lanes values[15];
     Mask index;
     LOAD(index, f->index);
@@ -363,6 +422,10 @@ RETEX_CPU_INLINE void NAME(load_footprints)(Footprints *f)
     f->line = values[8];
     f->texel = values[9];
     f->level = (Mask)values[10];
+    if (f->texture->straight) {
+        f->inner = values[11];
+        f->side = values[12];
+    }
     for (int k = 0; k < 2 && f->cut; k++) {
         f->low[k] = values[11 + k];
         f->high[k] = values[13 + k];
@@ -458,16 +521,13 @@ RETEX_CPU_INLINE int NAME(choose_row)(Footprints *f, int count, int i)
     Mask key;
     LOAD(key, f->places->key + i);
     const Mask larger = (key != 0) & (key != 4 * MAX_STRIPS * MAX_BLOCKS);
-    int others = 0;
-    for (int lane = 0; lane < LANES; lane++)
-        others |= larger[lane];
     f->cut = f->texture->limited;
     f->turned = f->fine = 0;
     f->strips = f->blocks = f->contiguous = 1;
     f->count = count - i < LANES ? count - i : LANES;
     for (int lane = 0; lane < LANES; lane++)
         f->index[lane] = i + lane;
-    return !others;
+    return !NAME(any)(larger);
 }
 
 /* The weights and texels of such footprints. */
@@ -523,7 +583,9 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
     Footprints footprints = {.texture = texture, .places = &places};
     int ends[NKEYS + 1], order[BATCH_SIZE], pending[BATCH_SIZE], begin = 0;
     for (int i = batch->count; i % LANES; i++) { /* unused footprints that complete a vector */
-        batch->u[i] = batch->v[i] = batch->su[i] = batch->sv[i] = batch->correlation[i] = 0;
+        batch->u[i] = batch->v[i] = 0;
+        for (int k = 0; k < 4; k++)
+            batch->spread[k][i] = 0;
     }
     batch->nleft = 0;
     const int npending = NAME(filter_rows)(texture, batch, &places, pending);
@@ -557,6 +619,8 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
 #undef LOAD
 #undef STORE
 #undef Spread
+#undef Sides
+#undef Outline
 #undef Ends
 #undef Double
 #undef DoubleMask

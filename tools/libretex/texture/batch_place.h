@@ -10,10 +10,11 @@ typedef struct Places {
     float xx[BATCH_SIZE], yy[BATCH_SIZE];        /* variances in the level's texels */
     int line[BATCH_SIZE], texel[BATCH_SIZE];     /* the ellipse's first line; the whole part of the mean across */
     float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y along and across lines */
-    float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in disc_kernel.c */
+    float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in even_kernel.h */
     float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* slope of the blocks, and their extent to each side */
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
+    float inner[BATCH_SIZE], side[BATCH_SIZE];     /* of parallelograms, as in even_kernel.h */
     float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* for batch_cut.h: limits of the surface, from the mean */
 } Places;
 
@@ -66,6 +67,45 @@ RETEX_CPU_INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, 
                     c * c * uu + 2 * c * d * uv + d * d * vv};
 }
 
+/* The sides of a parallelogram in texels: [side], x and y. */
+typedef struct Sides {
+    Lanes x[2], y[2];
+} Sides;
+
+RETEX_CPU_INLINE Sides NAME(find_sides)(const RetexBatchTexture *t, const RetexBatch *batch, int i)
+{
+    const float(*m)[2] = t->to_texels;
+    Sides sides;
+    for (int k = 0; k < 2; k++) {
+        Lanes u, v;
+        LOAD(u, batch->spread[2 * k] + i);
+        LOAD(v, batch->spread[2 * k + 1] + i);
+        sides.x[k] = m[0][0] * u + m[0][1] * v;
+        sides.y[k] = m[1][0] * u + m[1][1] * v;
+    }
+    return sides;
+}
+
+RETEX_CPU_INLINE Spread NAME(spread_of_sides)(const Sides *s)
+{
+    const float even = 1.0f / 12;
+    return (Spread){(s->x[0] * s->x[0] + s->x[1] * s->x[1]) * even, (s->x[0] * s->y[0] + s->x[1] * s->y[1]) * even,
+                    (s->y[0] * s->y[0] + s->y[1] * s->y[1]) * even};
+}
+
+/* Scales sides to a level; those of lanes that are too far away become 0. */
+RETEX_CPU_INLINE void NAME(scale_sides)(const RetexBatchTexture *t, Sides *s, Mask level, Mask far)
+{
+    const float width = (float)(1 / t->size[0]), height = (float)(1 / t->size[1]);
+    const Lanes none = NAME(all)(0);
+    const Lanes x = OF_LEVEL(t->texels[0], level) * OF_LEVEL(t->spread[0], level) * width;
+    const Lanes y = OF_LEVEL(t->texels[1], level) * OF_LEVEL(t->spread[1], level) * height;
+    for (int k = 0; k < 2; k++) {
+        s->x[k] = SELECT(far, none, s->x[k] * x);
+        s->y[k] = SELECT(far, none, s->y[k] * y);
+    }
+}
+
 /* Widens a Gaussian that is too long for its width: the level chosen by its width would have far more texels in it than
  * others have. */
 RETEX_CPU_INLINE void NAME(widen)(Spread *s, float narrowest)
@@ -91,6 +131,9 @@ RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Sprea
     } else if (t->gaussian) {
         needed = NAME(all)(t->least + 1.0f / 12);
         *fine = smaller < t->least - BATCH_TENT_VARIANCE;
+    } else if (t->straight) {
+        needed = STRAIGHT_LONG_LEAST + (STRAIGHT_LEAST - STRAIGHT_LONG_LEAST) * SQRT(smaller / larger);
+        *fine = smaller < STRAIGHT_BOX_FROM;
     } else {
         needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
         *fine = smaller < BOX_FROM;
@@ -135,20 +178,49 @@ RETEX_CPU_INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 
 #include "texture/batch_cut.h"
 
-/* Computes the ellipse in lines, and the blocks that it meets. */
-RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y,
-                                        Mask column, Mask row, Mask fine, Mask far, const Ends *ends, Places *p, int i)
+/* An ellipse or parallelogram in lines; width: half its extent across. */
+#define Outline NAME(Outline)
+typedef struct Outline {
+    Lanes length, half, slope, width, inner, side;
+} Outline;
+
+RETEX_CPU_INLINE Outline NAME(find_ellipse)(const RetexBatchTexture *t, const Spread *s, Mask turned, Mask fine)
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
-    Mask turned = t->broad ? (Mask){0} : s->xx > 1.1f * s->yy; /* round ellipses are never turned */
     Lanes along = SELECT(turned, s->xx, s->yy), across = SELECT(turned, s->yy, s->xx);
-    Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
     Lanes slope = s->xy / MAX(along, NAME(all)(1e-12f));
     Lanes radius = SELECT(fine, NAME(all)(t->gaussian ? 2 * OUTER_DISC : 2), NAME(all)(wider));
     Lanes length = MAX(radius * SQRT(along), least), half = radius * SQRT(MAX(across - slope * s->xy, none));
     half = MAX(half, least);
-    Lanes width = MAX(radius * SQRT(across), half);
+    return (Outline){length, half, slope, MAX(radius * SQRT(across), half), none, none};
+}
+
+RETEX_CPU_INLINE Outline NAME(find_parallelogram)(const Sides *s, Mask turned)
+{
+    const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
+    Lanes along[2], across[2];
+    for (int k = 0; k < 2; k++) {
+        Lanes a = SELECT(turned, s->x[k], s->y[k]), b = SELECT(turned, s->y[k], s->x[k]);
+        along[k] = MAX(a, -a);
+        across[k] = SELECT(a < none, -b, b); /* sides that go up the lines */
+    }
+    Mask second = along[1] > along[0];
+    Lanes longer = MAX(MAX(along[0], along[1]), 2 * least), shorter = MIN(along[0], along[1]);
+    Lanes slope = SELECT(second, across[1], across[0]) / longer;
+    Lanes side = 0.5f * (SELECT(second, across[0], across[1]) - slope * shorter), half = MAX(MAX(side, -side), least);
+    Lanes width = 0.5f * (MAX(across[0], -across[0]) + MAX(across[1], -across[1])) + least;
+    return (Outline){0.5f * (longer + shorter), half, slope, width, 0.5f * (longer - shorter), side};
+}
+
+/* Computes the blocks that the outline meets. */
+RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Outline *outline, Mask turned, Lanes at_x,
+                                        Lanes at_y, Mask column, Mask row, Mask fine, Mask far, const Ends *ends,
+                                        Places *p, int i)
+{
+    const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
+    Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
+    Lanes length = outline->length, half = outline->half, slope = outline->slope, width = outline->width;
     /* Slightly more than the reach of texels, so that rounding does not depend on the windows of other lanes. */
     Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f)) + 1e-4f;
 
@@ -180,6 +252,10 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     STORE(p->length + i, length);
     STORE(p->half + i, half);
     STORE(p->slope + i, slope);
+    if (t->straight) {
+        STORE(p->inner + i, SELECT(far, none, outline->inner));
+        STORE(p->side + i, SELECT(far, none, outline->side));
+    }
     STORE(p->lean + i, SELECT(leans, slope, none));
     STORE(p->reach + i, SELECT(leans, leaning, upright));
     STORE(p->first + i, first);
@@ -192,17 +268,20 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
 RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Places *p, int i)
 {
     Lanes u, v, su, sv, correlation, at[2];
+    Sides sides;
     LOAD(u, batch->u + i);
     LOAD(v, batch->v + i);
-    LOAD(su, batch->su + i);
-    LOAD(sv, batch->sv + i);
-    LOAD(correlation, batch->correlation + i);
+    LOAD(su, batch->spread[0] + i);
+    LOAD(sv, batch->spread[1] + i);
+    LOAD(correlation, batch->spread[2] + i);
+    if (t->straight)
+        sides = NAME(find_sides)(t, batch, i);
     Mask far = {0}, fine, index[2];
     for (int axis = 0; axis < 2; axis++) {
         Lanes x = (float)t->matrix[axis][0] * u + (float)t->matrix[axis][1] * v + (float)t->offset[axis];
         far |= ~(MAX(x, -x) < 1e6f);
     }
-    Spread s = NAME(find_spread)(t, su, sv, correlation);
+    Spread s = t->straight ? NAME(spread_of_sides)(&sides) : NAME(find_spread)(t, su, sv, correlation);
     far |= ~(s.xx + s.yy < 1e12f);
     const Lanes none = NAME(all)(0);
     u = SELECT(far, none, u);
@@ -217,9 +296,14 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
         NAME(find_mean)(t, axis, u, v, mean[axis]);
         NAME(split_mean)(mean[axis], OF_LEVEL(t->texels[axis], level), &index[axis], &at[axis]);
     }
-    s.xx = NAME(reduce_variance)(t, 0, mean[0], s.xx, level, fine);
-    s.yy = NAME(reduce_variance)(t, 1, mean[1], s.yy, level, fine);
-    s.xy *= OF_LEVEL(t->inverse_area[1], level) * OF_LEVEL(t->spread[0], level) * OF_LEVEL(t->spread[1], level);
+    if (t->straight) { /* which do not shrink, as in parallelogram_kernel.c */
+        NAME(scale_sides)(t, &sides, level, far);
+        s = NAME(spread_of_sides)(&sides);
+    } else {
+        s.xx = NAME(reduce_variance)(t, 0, mean[0], s.xx, level, fine);
+        s.yy = NAME(reduce_variance)(t, 1, mean[1], s.yy, level, fine);
+        s.xy *= OF_LEVEL(t->inverse_area[1], level) * OF_LEVEL(t->spread[0], level) * OF_LEVEL(t->spread[1], level);
+    }
     if (t->broad) { /* the least variances may leave no covariance: it is at most that of the narrowest ellipse */
         const Lanes most = (1 - t->narrowest) / (1 + t->narrowest) * SQRT(s.xx * s.yy);
         s.xy = MAX(MIN(s.xy, most), -most);
@@ -234,13 +318,16 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
     Ends ends[2];
     for (int axis = 0; axis < 2 && t->limited; axis++)
         ends[axis] = NAME(find_ends)(t, axis, u, v, level);
-    NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
+    const Mask turned = t->broad ? (Mask){0} : s.xx > 1.1f * s.yy; /* round ellipses are never turned */
+    const Outline outline =
+        t->straight ? NAME(find_parallelogram)(&sides, turned) : NAME(find_ellipse)(t, &s, turned, fine);
+    NAME(find_window)(t, &outline, turned, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
 }
 
 /* Leaves footprints that a transparent border cuts to the reference. */
 RETEX_CPU_INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
 {
-    float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
+    float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : t->straight ? 2.5f : 2;
     for (int axis = 0; axis < 2; axis++) {
         if (!t->black[axis])
             continue;

@@ -93,5 +93,8 @@ void retex_texture_nearest_kernel(const RetexTexture *texture, double x, double 
 void retex_texture_row_kernel(const RetexTexture *texture, int y, float *rgb);
 void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
 void retex_texture_disc_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
+/* sides: the two axes of a parallelogram in texels, each x and y, whose covariance the footprint has. */
+void retex_texture_parallelogram_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint,
+                                        const double sides[2][2], float rgba[4]);
 
 #endif

@@ -1,6 +1,6 @@
 /* Textures: loading, placement, and the transform from surface UV to texels. A file becomes premultiplied RGBA: 16-bit
  * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
- * filter_kernel.c and disc_kernel.c, those of whole rows in batch.c. */
+ * filter_kernel.c, disc_kernel.c and parallelogram_kernel.c, those of whole rows in batch.c. */
 #include "base/params.h"
 #include "picture/image_read.h"
 #include "texture/pyramid.h"
@@ -655,24 +655,34 @@ static void set_limits(const RetexTexture *texture, const double at[2], RetexTex
     }
 }
 
-static void filter_at(const RetexTexture *texture, double u, double v, const double covariance[3], Filter *filter,
-                      float rgba[4])
+/* Finds the footprint in the image; 0 where it is no area: then rgba is the colour. */
+static int find_footprint(const RetexTexture *texture, double u, double v, const double covariance[3],
+                          RetexTexelFootprint *footprint, float rgba[4])
 {
     double uv[2];
-    RetexTexelFootprint footprint;
     if (!texture->nlevels) {
         constant_color(texture, rgba);
     } else if (!texture_uv(texture, u, v, uv)) {
         memset(rgba, 0, 4 * sizeof(float));
-    } else if (!texel_covariance(texture, covariance, &footprint)) {
+    } else if (!texel_covariance(texture, covariance, footprint)) {
         point_at(texture, uv, 0, rgba);
     } else {
-        footprint.x = uv[0] * texture->levels[0].width;
-        footprint.y = (1 - uv[1]) * texture->levels[0].height;
-        set_limits(texture, (const double[2]){u, v}, &footprint);
-        filter(texture, &footprint, rgba);
-        unassociate(rgba);
+        footprint->x = uv[0] * texture->levels[0].width;
+        footprint->y = (1 - uv[1]) * texture->levels[0].height;
+        set_limits(texture, (const double[2]){u, v}, footprint);
+        return 1;
     }
+    return 0;
+}
+
+static void filter_at(const RetexTexture *texture, double u, double v, const double covariance[3], Filter *filter,
+                      float rgba[4])
+{
+    RetexTexelFootprint footprint;
+    if (!find_footprint(texture, u, v, covariance, &footprint, rgba))
+        return;
+    filter(texture, &footprint, rgba);
+    unassociate(rgba);
 }
 
 void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
@@ -683,4 +693,35 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
 void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
 {
     filter_at(texture, u, v, covariance, retex_texture_disc_kernel, rgba);
+}
+
+/* A footprint that is too large has been made smaller: its sides follow. */
+static void limit_sides(const RetexTexelFootprint *f, double sides[2][2])
+{
+    const double most = sqrt(12 * (f->xx + f->yy)) * (1 + 1e-9);
+    for (int k = 0; k < 2; k++) {
+        const double length = hypot(sides[k][0], sides[k][1]);
+        for (int i = 0; i < 2 && length > most; i++)
+            sides[k][i] = isfinite(length) ? sides[k][i] * (most / length) : 0;
+    }
+}
+
+void retex_texture_parallelogram(const RetexTexture *texture, double u, double v, const double axes[2][2],
+                                 float rgba[4])
+{
+    const double texels[2] = {texture->levels[0].width, -(double)texture->levels[0].height}; /* y goes down */
+    double covariance[3] = {0}, sides[2][2];
+    RetexTexelFootprint footprint;
+    for (int k = 0; k < 2; k++) {
+        covariance[0] += axes[k][0] * axes[k][0] / 12;
+        covariance[1] += axes[k][0] * axes[k][1] / 12;
+        covariance[2] += axes[k][1] * axes[k][1] / 12;
+        for (int i = 0; i < 2; i++)
+            sides[k][i] = (texture->matrix[i][0] * axes[k][0] + texture->matrix[i][1] * axes[k][1]) * texels[i];
+    }
+    if (!find_footprint(texture, u, v, covariance, &footprint, rgba))
+        return;
+    limit_sides(&footprint, sides);
+    retex_texture_parallelogram_kernel(texture, &footprint, sides, rgba);
+    unassociate(rgba);
 }

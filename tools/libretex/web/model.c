@@ -1,6 +1,7 @@
 /* See model.h. */
 #include "web/model.h"
 #include "set/parts.h"
+#include "set/set.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,8 @@ static int add_footprint(RetexWebModel *model, const RetexSet *set, int number, 
     RetexWebClass *c = class_of(model, f);
     if (f->uv < 0 || f->spread < 0 || f->kind == RETEX_FOOTPRINT_HIT)
         return refuse(err, "its layout is not footprints");
+    if (retex_footprint_has_axes(set, f)) /* compact sets have none */
+        return refuse(err, "it has parallelograms");
     if (!c && model->nclasses == RETEX_WEB_CLASSES_MAX)
         return refuse(err, "it has too many kinds of footprints");
     if (!c) {

@@ -33,7 +33,9 @@ extern "C" {
 #define RETEX_MAX_FACTORS 16 /* of a term: its hits, images and parameters */
 #define RETEX_PARAMETERS_MAX 64
 #define RETEX_MIXTURES_MAX (5 * RETEX_MAX_TARGETS + 1)
-#define RETEX_SHARES_MAX 16
+#define RETEX_SHARES_MAX 20
+#define RETEX_AXES 4        /* channels of a part of axes */
+#define RETEX_QUADRANTS 4   /* of a pixel */
 #define RETEX_NAME_MAX 128  /* bytes of a target or part name, with the final NUL */
 #define RETEX_SCENE_MAX 256 /* bytes of a scene's name, with the final NUL: longer ones are cut off */
 
@@ -77,11 +79,15 @@ typedef struct RetexFootprint {
     int target; /* index of the target it lies on */
     int hit;    /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
     RetexFootprintKind kind;
-    int uv;     /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
+    int uv;       /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
                                 layout footprints that of the effective ones, (sum of weights)^2 / sum of squares;
                                 0 = this pixel has no such footprint and u, v mean nothing. float */
-    int spread; /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
-    int albedo; /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
+    int spread;   /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half. Of a footprint
+                   that is a parallelogram its axes, part "RGBA": du/dx, dv/dx, du/dy, dv/dy for a step of a pixel to
+                   the right and down */
+    int albedo;   /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
+    int quadrant; /* of a parallelogram: 0 is the whole pixel, 1 to 4 its quarter at the upper left, upper right, lower
+                     left and lower right, with the centre uv -+ axes / 4 and half the axes. Else 0 */
 } RetexFootprint;
 
 /* What a factor is. A later version may add kinds. */

@@ -36,6 +36,11 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
  * width, skip texels along their length. */
 void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
 
+/* The same over the parallelogram with that middle and two sides, each a step in u and v: what a pixel sees of a
+ * surface whose UV change evenly across it. */
+void retex_texture_parallelogram(const RetexTexture *texture, double u, double v, const double sides[2][2],
+                                 float rgba[4]);
+
 #ifdef __cplusplus
 }
 #endif
