@@ -100,7 +100,7 @@ faq() {
     }
     crop="--size 480x360 --crop 240,10,140,120 --spp 64"
     # shellcheck disable=SC2086 # words wanted
-    for clusters in 2 4 8; do
+    for clusters in 2 4+2 4+2+8; do
         [ -e "$sets/clusters-$clusters.exr" ] ||
             retex-render -q $crop --clusters $clusters -t Floor $glass -o "$sets/clusters-$clusters.exr"
         retex-combine -q "$sets/clusters-$clusters.exr" --texture Floor=scenes/textures/fans.jpg -o "$sets/c.png"
