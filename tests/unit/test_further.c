@@ -17,7 +17,7 @@
 #include "lib_folder.h"
 #include "lib_test.h"
 
-static const float RATIO[3] = {0.25f, 0.9f, 1}, PAINT[3] = {0.9f, 0.125f, 0.5f};
+static const float RATIO[3] = {0.25f, 0.9f, 1}, PAINT[3] = {0.125f, 0.9375f, 0.5f};
 
 enum { HITS = 9 };
 
