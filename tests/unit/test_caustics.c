@@ -412,6 +412,29 @@ static void source_stays_invisible(void **state)
     scene_close(&scene);
 }
 
+/* A mirror that throws no caustics ends them, also for one behind it that does: the light of a periscope. */
+static void caustics_end_at_other_mirrors(void **state)
+{
+    static const char PERISCOPE[] =
+        "#version 3.7; global_settings { photons { count 1 } } camera { location <0, 1, -1> look_at 0 angle 20 }"
+        "#default { finish { ambient 0 diffuse 1 } } disc { 0, y, .4 pigment { rgb 1 } }"
+        "#macro Mirror() box { <-1, -.02, -.6>, <1, .02, .6> rotate 45*z pigment { rgb 0 }"
+        " finish { diffuse 0 reflection 1 } #end "
+        "Mirror() translate <0, 3, 0> %s } Mirror() translate <3, 3, 0> photons { target reflection on } }"
+        "box { <-9, 5, -9>, <2.25, 5.1, 9> pigment { rgb 0 } } light_source { <3, 9, 0>, 1 retex { radius .6 } }";
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1024];
+        snprintf(text, sizeof text, PERISCOPE, k ? "photons { target reflection on }" : "");
+        Scene *scene = test_scene(text);
+        RetexSet *set = render(scene, 64, -1, 1);
+        assert_true(scene->lights[0].caustics != 0);
+        assert_int_equal(mean_of(set) > 0, k);
+        retex_set_close(&set);
+        scene_close(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -426,6 +449,7 @@ int main(void)
         cmocka_unit_test(media_dim_caustics),
         cmocka_unit_test(lobes_follow_a_mirror),
         cmocka_unit_test(source_stays_invisible),
+        cmocka_unit_test(caustics_end_at_other_mirrors),
         cmocka_unit_test(source_needs_no_guide),
         cmocka_unit_test(sheet_keeps_the_light),
     };

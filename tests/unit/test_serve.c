@@ -20,6 +20,7 @@
 #include "serve/cache.h"
 #include "serve/headers.h"
 #include "serve/images.h"
+#include "serve/kept.h"
 #include "serve/rooms.h"
 #include "serve/shrink.h"
 #include "serve/uploads.h"
@@ -359,13 +360,56 @@ static void test_corrections(Rooms *rooms, const Room *room, const char *room_na
     rooms_end_picture(rooms, room);
 }
 
-/* Rooms beyond the limit are closed, the oldest first; those in use, and a replaced one that is in use, stay. */
+static int is_of_any(const Kept *kept, const void *key)
+{
+    (void)key;
+    return kept != NULL;
+}
+
+static Kept *create_kept(const void *key, const void *params)
+{
+    (void)key, (void)params;
+    return calloc(1, sizeof(Kept));
+}
+
+static void close_kept(Kept *kept)
+{
+    kept->bytes = 0;
+}
+
+/* What was opened is kept if its file had settled and is the one that was asked for; who has it keeps it anyway. */
+static void test_kept(void **state)
+{
+    const FileId id = {.size = 1}, replaced = {.size = 2};
+    const struct {
+        Content content;
+        int is_kept;
+    } cases[] = {{{.id = id, .is_settled = 1}, 1}, {{.id = id}, 0}, {{.id = replaced, .is_settled = 1}, 0}};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        KeptList list = {.most_bytes = 9, .most = 9, .is_of = is_of_any, .create = create_kept, .close = close_kept};
+        int is_new;
+        kept_begin(&list);
+        Kept *kept = kept_take(&list, "", &id, &is_new);
+        assert_true(kept && is_new);
+        kept_opened(&list, kept, 0, &cases[k].content, 5);
+        assert_int_equal(list.bytes, 5);
+        Kept *other = kept_peek(&list, "", &id);
+        assert_ptr_equal(other, cases[k].is_kept ? kept : NULL);
+        kept_return(&list, other);
+        kept_return(&list, kept);
+        assert_int_equal(list.count, cases[k].is_kept);
+        kept_end(&list);
+    }
+}
+
 /* Files that were written just now are not kept: they may change without having another time. */
 static void let_files_settle(void)
 {
     poll(NULL, 0, 150);
 }
 
+/* Rooms beyond the limit are closed, the oldest first; those in use, and a replaced one that is in use, stay. */
 static void test_rooms(void **state)
 {
     const RoomsParams params = {".", 0, 1L << 20, 1};
@@ -640,10 +684,10 @@ static int enter_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_long_message), cmocka_unit_test(test_cache),   cmocka_unit_test(test_work),
-        cmocka_unit_test(test_etags),        cmocka_unit_test(test_ranges),  cmocka_unit_test(test_base),
-        cmocka_unit_test(test_shrink),       cmocka_unit_test(test_rooms),   cmocka_unit_test(test_contents),
-        cmocka_unit_test(test_images),       cmocka_unit_test(test_uploads),
+        cmocka_unit_test(test_long_message), cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),
+        cmocka_unit_test(test_etags),        cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),
+        cmocka_unit_test(test_shrink),       cmocka_unit_test(test_kept),   cmocka_unit_test(test_rooms),
+        cmocka_unit_test(test_contents),     cmocka_unit_test(test_images), cmocka_unit_test(test_uploads),
     };
     return cmocka_run_group_tests(tests, enter_folder, test_remove_folder);
 }
