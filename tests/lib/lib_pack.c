@@ -1,9 +1,11 @@
 /* See lib_pack.h. */
 #include "lib_pack.h"
+#include "lib_footprints.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -53,4 +55,25 @@ double part_difference(const RetexPart *a, const RetexPart *b, double floor)
             worst = fmax(worst, fabs(x - y) / fmax(fmax(fabs(x), fabs(y)), floor));
     }
     return worst;
+}
+
+RetexSet *set_of_axes(int width, int height)
+{
+    RetexSet *set = start_set(width, height, 1);
+    set->targets[0].periodic[0] = 1;
+    strcpy(set->filter, "box");
+    const int f = add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 1, "RGBA"), light = add_term(set, 1, f, 0);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            const double below = 20 + y, aside = x + 0.3 * y, u = 3 * aside / below;
+            if (hypot(x - 0.5 * width, y - 0.5 * height) < 0.2 * width)
+                continue;
+            const double axes[] = {3 / below, 0, 0.9 / below - u / below, 40 / (below * below)};
+            put(set, f, x, y, (float)(u - floor(u)), (float)(-40 / below), 1);
+            for (int k = 0; k < RETEX_AXES; k++)
+                pixel(set, set->footprints[f].spread, x, y)[k] = (float)axes[k];
+            put_rgb(set, set->footprints[f].albedo, x, y, 0.5f, 0.5f, 0.5f);
+            put_rgb(set, light, x, y, 0.8f, 0.7f, 0.6f);
+        }
+    return set;
 }

@@ -328,6 +328,71 @@ static void merged_clusters_have_all_their_light(void **state)
     retex_set_close(&set);
 }
 
+/* Two sharp clusters a pixel with a distance that differs from pixel to pixel, and three quarters of the light in the
+ * first; how many footprints are left. */
+static int left_of_pair(float distance, int spp, double noise)
+{
+    RetexSet *set = start_sharp_set(), *compact;
+    RetexCompactParams params = RETEX_COMPACT_INIT;
+    RetexError err = {0};
+    uint32_t seed = 3;
+    set->spp = spp;
+    params.broad = 4, params.interreflection = 8, params.gain = 1, params.noise = noise;
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            for (int k = 0; k < 2; k++) {
+                const float turn = (float)(6.28 * test_random(&seed)), light = k ? 1 : 3;
+                put(set, k, x, y, 0.5f + (float)k * distance * cosf(turn), 0.5f + (float)k * distance * sinf(turn),
+                    0.5f);
+                put_spread(set, k, x, y, 0.0005f, 0.0005f, 0);
+                put_rgb(set, set->footprints[k].albedo, x, y, 0.5f, 0.5f, 0.5f);
+                put_rgb(set, light_part(set, k), x, y, light, light, light);
+            }
+    test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
+    int count = 0;
+    for (int k = 0; k < compact->nfootprints; k++)
+        count += pixel(compact, compact->footprints[k].uv, WIDE / 2, HIGH / 2)[2] > 0;
+    retex_set_close(&set);
+    retex_set_close(&compact);
+    return count;
+}
+
+/* Together the variance of UV is 3/16 of the distance squared, V, and clusters alone have nearly none. The light of
+ * both is 4, which merging changes by 4 (V / (V + .02^2))^1.5, and noise by the root of (9 + 1) / (spp / 2). */
+static void clusters_merge_within_noise(void **state)
+{
+    static const float distances[] = {0.01f, 0.02f, 0.04f, 0.08f, 0.3f};
+    static const int counts[] = {4, 16, 64, 256, 4096};
+    (void)state;
+    for (int d = 0; d < 5; d++)
+        for (int n = 0; n < 5; n++) {
+            const double v = 3.0 / 16 * pow((double)distances[d], 2), error = 4 * pow(v / (v + 0.0004), 1.5);
+            const double chance = sqrt(10 / (0.5 * counts[n]));
+            if (fabs(log(error / chance)) < 0.1)
+                continue;
+            assert_int_equal(left_of_pair(distances[d], counts[n], 1), error < chance ? 1 : 2);
+            if (fabs(log(error / chance / 0.125)) > 0.1)
+                assert_int_equal(left_of_pair(distances[d], counts[n], 0.5), error < 0.125 * chance ? 1 : 2);
+        }
+}
+
+/* Light with further hits has weights of its own if it is a tenth of all light of sharp clusters or more. */
+static void little_light_has_no_weights_of_its_own(void **state)
+{
+    (void)state;
+    for (int little = 0; little < 2; little++) {
+        RetexSet *set = whole_set(1, 3);
+        for (int i = 0; i < set->nterms; i++)
+            for (int k = 0; k < 3 * WIDE * HIGH && retex_term_hits(&set->terms[i]) > 1; k++)
+                set->parts[set->terms[i].radiance].image.pixels[k] *= little ? 0.05f : 0.5f;
+        RetexSet *compact = compacted(set, 4, 8, 1);
+        assert_int_equal(retex_set_find_part(compact, "share_T0_sharp1") < 0, little);
+        assert_true(retex_set_find_part(compact, "weight_T0_sharp1") >= 0);
+        retex_set_close(&set);
+        retex_set_close(&compact);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -337,6 +402,8 @@ int main(void)
         cmocka_unit_test(energy_is_kept_in_one_image),
         cmocka_unit_test(weights_are_shares),
         cmocka_unit_test(merged_clusters_have_all_their_light),
+        cmocka_unit_test(clusters_merge_within_noise),
+        cmocka_unit_test(little_light_has_no_weights_of_its_own),
         cmocka_unit_test(few_orders_tell_of_many),
         cmocka_unit_test(the_picture_is_no_term),
         cmocka_unit_test(corrections_move_no_footprints),

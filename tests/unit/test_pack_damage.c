@@ -125,10 +125,11 @@ static unsigned char *changed_pack(const unsigned char *data, size_t bytes, cons
     return out;
 }
 
-static void refuse_change(const char *add, const char *find, const char *put, const char *message)
+/* Refuse the pack of a set, which is closed, once it is changed. */
+static void refuse_change_of(RetexSet *set, const char *add, const char *find, const char *put, const char *message)
 {
     size_t bytes, changed_bytes;
-    RetexSet *set = test_set(16, 8, 7), *back = NULL;
+    RetexSet *back = NULL;
     RetexError err = {0};
     unsigned char *data = pack(set, NULL, &bytes, 0);
     unsigned char *changed = changed_pack(data, bytes, add, find, put, &changed_bytes);
@@ -138,6 +139,11 @@ static void refuse_change(const char *add, const char *find, const char *put, co
     free(changed);
     free(data);
     retex_set_close(&set);
+}
+
+static void refuse_change(const char *add, const char *find, const char *put, const char *message)
+{
+    refuse_change_of(test_set(16, 8, 7), add, find, put, message);
 }
 
 static void test_foreign_entries_are_refused(void **state)
@@ -166,6 +172,17 @@ static void test_manifests_that_lie_are_refused(void **state)
     refuse_change(NULL, "\"masked\":true", "\"masked\":false", "");
 }
 
+static void test_steps_that_lie_are_refused(void **state)
+{
+    static const char *const changes[][2] = {{"\"map\":\"step\"", "\"map\":\"log\""},
+                                             {"\"map\":\"lattice\"", "\"map\":\"step\",\"first\":1,\"per_octave\":8"},
+                                             {"\"sigma\":\"axes_T0_whole\"", "\"sigma\":\"uv_T0_whole\""},
+                                             {"\"map\":\"step\",\"first\":", "\"map\":\"step\",\"first\":-"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; k++)
+        refuse_change_of(set_of_axes(20, 70), NULL, changes[k][0], changes[k][1], "not sound");
+}
+
 static void test_other_zips_are_refused(void **state)
 {
     (void)state;
@@ -181,7 +198,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_flipped_byte_is_seen),  cmocka_unit_test(test_truncated_packs_are_refused),
         cmocka_unit_test(test_foreign_entries_are_refused), cmocka_unit_test(test_manifests_that_lie_are_refused),
-        cmocka_unit_test(test_other_zips_are_refused),
+        cmocka_unit_test(test_other_zips_are_refused),      cmocka_unit_test(test_steps_that_lie_are_refused),
     };
     return cmocka_run_group_tests_name("pack damage", tests, NULL, NULL);
 }

@@ -181,7 +181,7 @@ const BUILT_IN = {
   pow: (a, b) => each(Math.pow, a, b), atan: (y, x) => Math.atan2(y, x), exp2: (x) => each((a) => 2 ** a, x), fract: (x) => each((a) => a - Math.floor(a), x),
   length: (x) => Math.hypot(...x), any: (x) => x.some(Boolean),
   lessThan: (a, b) => each((x, y) => x < y, a, b), greaterThan: (a, b) => each((x, y) => x > y, a, b),
-  uintBitsToFloat: (x) => (bits.setUint32(0, Number(x)), bits.getFloat32(0)),
+  uintBitsToFloat: (x) => each((b) => (bits.setUint32(0, Number(b)), bits.getFloat32(0)), x),
   texelFetch: (sampler, place) => sampler.texel(...place.map(Number)),
   textureSize: (sampler) => (sampler.layers ? [sampler.width, sampler.height, sampler.layers] : [sampler.width, sampler.height]).map(BigInt),
   texture: (sampler, place) => sampler.lookUp(place, 0), textureLod: (sampler, place, lod) => sampler.lookUp(place, lod),

@@ -97,16 +97,38 @@ def checked(folder, entry):
     return data
 
 
-def read_class(folder, c):
-    """For each footprint: present, u, v, standard deviations, correlation, weights by slot."""
+def steps(uv, present, periodic):
+    """The derivatives to the right and down, pixel by pixel: of the parabola through a pixel and the two beside it, or the two
+    on one side; of a line through two pixels; or 0. Down within 64 rows."""
+    out = np.zeros((2,) + uv.shape)
+    height, width = uv.shape
+    near = lambda d: d - round(d) if periodic else d
+    for y, x in zip(*np.nonzero(present)):
+        first, end = y // 64 * 64, min(y // 64 * 64 + 64, height)
+        for down in range(2):
+            def at(k):
+                i, j = (y + k, x) if down else (y, x + k)
+                return near(uv[i, j] - uv[y, x]) if first <= i < end and 0 <= j < width and present[i, j] else None
+            places = [k for k in (-1, 1) if at(k) is not None]
+            if len(places) == 1 and at(2 * places[0]) is not None:
+                k = places[0]
+                out[down, y, x] = k * (at(k) - (near(at(2 * k) - at(k)) - at(k)) / 2)
+            elif places:
+                out[down, y, x] = sum(k * at(k) for k in places) / len(places)
+    return list(out)
+
+
+def read_class(folder, c, periodic):
+    """For each footprint: present, u, v, standard deviations, correlation, weights by slot. Of one with axes these stand in
+    place of standard deviations: [right, down] of u, and of v; and there is no correlation."""
     stream = Stream(zlib.decompress(checked(folder, c)))
     width, height, out = c["width"], c["height"], []
     for f in c["footprints"]:
         mask = np.frombuffer(stream.take((width + 7) // 8 * height), np.uint8).reshape(height, -1)
         present = np.unpackbits(mask, axis=1, bitorder="little")[:, :width].astype(bool)
-        codes = [plane(stream, present, 8, None) for _ in range(c["spreads"])]
+        codes = [plane(stream, present, 8, None) for _ in range(2 if c["spreads"] == 4 else c["spreads"])]
         sigma = [np.where(k > 0, f["first"] * 2.0 ** ((k - 1) / f["per_octave"]), 0) for k in codes[:2]]
-        rho = np.sin((codes[2] - 128) / f["angle_steps"] * np.pi / 2) if c["spreads"] > 2 else np.zeros(present.shape)
+        rho = np.sin((codes[2] - 128) / f["angle_steps"] * np.pi / 2) if c["spreads"] == 3 else np.zeros(present.shape)
         uv = []
         for k in range(2):
             shift = np.clip((codes[k] - 1 + f["sigma_first"]) // f["per_octave"], 0, 24)
@@ -117,6 +139,8 @@ def read_class(folder, c):
                 weights.append(np.ones(present.shape))
             else:
                 weights.append(plane(stream, present, 8, None) * first if first else np.zeros(present.shape))
+        if c["spreads"] == 4:
+            sigma, rho = [steps(uv[k], present, periodic[k]) for k in range(2)], None
         out.append((present, uv, sigma, rho, weights))
     return out
 
@@ -217,6 +241,21 @@ class Texture:
         return sum_ / np.where(plain, 1, total)[:, None]
 
 
+    def evenly(self, uv, axes):
+        """The mean over parallelograms: of a grid of points, each filtered over its part of the grid."""
+        grid, shape = 12, np.array([[self.levels[0].shape[1]], [self.levels[0].shape[0]]])
+        place = lambda p: self.turn @ (self.scale[:, None] * p)
+        sides = [place(np.array([axes[0][k], axes[1][k]])) for k in range(2)]
+        cell = np.sqrt(np.abs(np.linalg.norm(sides[0] * shape, axis=0) * np.linalg.norm(sides[1] * shape, axis=0))) / grid
+        lod, mean = np.log2(np.maximum(cell, 1)), place(uv) + self.offset[:, None]
+        sum_ = np.zeros((uv.shape[1], 3))
+        for j in range(grid):
+            for i in range(grid):
+                u, v = mean + sides[0] * ((i + 0.5) / grid - 0.5) + sides[1] * ((j + 0.5) / grid - 0.5)
+                sum_ += self.trilinear(lod, u, v)
+        return sum_ / grid**2
+
+
 # ---- the picture ----
 
 
@@ -243,7 +282,8 @@ class Room:
         self.tiles = []
         for t in self.room["reduced"]["tiles"] if self.room["reduced"] else []:
             self.tiles.append(decode_light(atlas[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t))
-        self.classes = [read_class(folder, c) for c in self.room["classes"]]
+        targets = self.room["targets"]
+        self.classes = [read_class(folder, c, targets[c["target"]]["periodic"]) for c in self.room["classes"]]
 
     def image(self, entry):
         checked(self.folder, entry)
@@ -262,6 +302,8 @@ class Room:
                 w = weights[slot]
                 if texture is None:
                     color = albedo[present]
+                elif rho is None:
+                    color = texture.evenly(np.array([x[present] for x in uv]), [[x[present] for x in s] for s in sigma])
                 else:
                     color = texture.filtered(np.array([x[present] for x in uv]), [x[present] for x in sigma],
                                              rho[present], disc, self.room["targets"][info["target"]])

@@ -112,24 +112,31 @@ function readRecord(records, at) {
     ((rest >>> 8) & 4095) / 4095, (rest >>> 20) / 4095];
 }
 
-/* Compares decoded records with lists of footprints, each of [pixel, u, v, sigma, sigma, rho, weight, weight]. */
+/* Compares decoded records with lists of footprints, each of [pixel, u, v, sigma, sigma, rho, weight, weight] or, with
+ * axes, which are a second record, of [pixel, u, v, du/dx, du/dy, dv/dx, dv/dy, weight, weight]. */
 function compare(info, { heads, records, rows }, footprints) {
-  same(rows, Math.ceil(info.records / RECORD_COLUMNS), "rows");
+  const each = info.spreads === 4 ? 2 : 1, floats = new Float32Array(records.buffer);
+  same(rows, Math.ceil(info.records * each / RECORD_COLUMNS), "rows");
   const byPixel = Array.from({ length: info.width * info.height }, () => []);
   for (const footprint of footprints) for (const [pixel, ...values] of footprint) byPixel[pixel].push(values);
-  const most = Math.max(1e-6, ...footprints.flat().flatMap((f) => f.slice(6)));
+  const most = Math.max(1e-6, ...footprints.flat().flatMap((f) => f.slice(-2)));
   let at = info.base;
   byPixel.forEach((expected, pixel) => {
-    same([heads[pixel] >>> 5, heads[pixel] & 31], [at, expected.length], `head of pixel ${pixel}`);
+    same([heads[pixel] >>> 5, heads[pixel] & 31], [at, each * expected.length], `head of pixel ${pixel}`);
     for (const values of expected) {
       const found = readRecord(records, at++ - info.base), what = `pixel ${pixel}`;
       near(found.slice(0, 2), values.slice(0, 2).map(Math.fround), 0, `${what}: u, v`);
+      near(found.slice(5), values.slice(-2).map((w) => w / most), 0.5001 / 4095, `${what}: weights`);
+      if (each > 1) {
+        const axes = floats.slice(4 * (at - info.base), 4 * (++at - info.base));
+        near([axes[0], axes[2], axes[1], axes[3]], values.slice(2, 6), 1e-6, `${what}: axes`);
+        continue;
+      }
       for (const k of [2, 3]) near(found[k], values[k], values[k] * 0.0002, `${what}: sigma`); // half a step of 2^(1/2048)
       near(found[4], values[4], 0.5001 / 127, `${what}: rho`);
-      near(found.slice(5), values.slice(5).map((w) => w / most), 0.5001 / 4095, `${what}: weights`);
     }
   });
-  same(at - info.base, info.records, "records");
+  same(at - info.base, info.records * each, "records");
 }
 
 test("classes of known footprints: masks, means, spreads and weights", () => {
@@ -171,6 +178,42 @@ test("classes of known footprints: masks, means, spreads and weights", () => {
   }
 });
 
+test("axes are the steps of means within 64 rows, the shorter way round where UV are periodic", () => {
+  const width = 9, height = 70, next = random(8), periodic = [1, 0];
+  const info = { file: "c", width, height, spreads: 4, base: 4096, records: 0,
+    footprints: [{ first: 2 ** -9, per_octave: 4, sigma_first: 0, angle_steps: 0, weights: [0.25, null] }] };
+  const present = Array.from({ length: width * height }, () => next(0, 4) > 0), bytes = [];
+  for (let y = 0; y < height; y++)
+    for (let x = 0; x < width; x += 8)
+      bytes.push(Array.from({ length: 8 }, (_, b) => (x + b < width && present[y * width + x + b] ? 2 ** b : 0)).reduce((a, b) => a + b));
+  const plane = (low, high) => present.map((p) => (p ? next(low, high) : undefined));
+  for (let k = 0; k < 2; k++) bytes.push(...encodePlane(plane(1, 1), width, 1, 1, () => 0, 8));
+  const uv = [plane(0, 2 ** 18), plane(-(2 ** 16), 2 ** 16)], weights = plane(0, 4);
+  for (const numbers of uv) bytes.push(...encodePlane(numbers, width, 3, 4, () => 0));
+  bytes.push(...encodePlane(weights, width, 1, 1, () => 0, 8));
+  const there = (x, y, from) => x >= 0 && y >= 0 && x < width && y < height && y >> 6 === from >> 6 && present[y * width + x];
+  const footprint = [];
+  for (let y = 0; y < height; y++)
+    for (let x = 0; x < width; x++) {
+      const i = y * width + x;
+      if (!present[i]) continue;
+      const step = (axis, dx, dy) => {
+        const far = dx + width * dy, at = (k) => there(x + k * dx, y + k * dy, y);
+        const between = (k) => {
+          const d = (uv[axis][i + (k + 1) * far] - uv[axis][i + k * far]) / 2 ** 18;
+          return periodic[axis] ? [d - 1, d, d + 1].reduce((m, e) => (Math.abs(e) < Math.abs(m) ? e : m)) : d;
+        };
+        if (at(-1) && at(1)) return (between(-1) + between(0)) / 2;
+        const side = at(-1) ? -1 : 1, first = side < 0 ? -1 : 0; // a parabola through three pixels, or a line through two
+        if (!at(side)) return 0;
+        return at(2 * side) ? between(first) + (between(first) - between(first + side)) / 2 : between(first);
+      };
+      footprint.push([i, uv[0][i] / 2 ** 18, uv[1][i] / 2 ** 18, step(0, 1, 0), step(0, 0, 1), step(1, 1, 0), step(1, 0, 1), (weights[i] ?? 0) / 4, 0]);
+    }
+  info.records = footprint.length;
+  compare(info, decodeClass(info, Uint8Array.from(bytes), info.base, periodic), [footprint]);
+});
+
 test("classes of another length or number of records are damaged", async () => {
   const info = { file: "c.z", width: 2, height: 1, spreads: 2, footprints: [{ first: 1, per_octave: 1, sigma_first: 0, angle_steps: 0, weights: ["one", null] }] };
   const bytes = [3, 0, 0, 0, 0]; // both pixels, and planes of zeros
@@ -194,8 +237,8 @@ test("the footprints of a room that retex-pack wrote are those that numpy reads"
     room.classes.forEach((info, k) => {
       const data = inflateSync(readFileSync(`${folder}/room/${info.file}`));
       if (data.length >= mostBytes(info)) throw new Error(`${info.file}: more than ${mostBytes(info)} bytes`);
-      compare(Object.assign(info, { base }), decodeClass(info, data, base), expected[k]);
-      base += RECORD_COLUMNS * Math.ceil(info.records / RECORD_COLUMNS);
+      compare(Object.assign(info, { base }), decodeClass(info, data, base, room.targets[info.target].periodic), expected[k]);
+      base += RECORD_COLUMNS * Math.ceil(info.records * (info.spreads === 4 ? 2 : 1) / RECORD_COLUMNS);
     });
   } finally {
     rmSync(folder, { recursive: true });

@@ -72,7 +72,7 @@ test("numbers out of their ranges", async () => {
     "targets.0.share": [-0.1, Infinity, "1"], "lights.0.white": [0, -1, Infinity, 1e31], "lights.0.levels": [0.5, 256],
     "lights.0.target": [-2, 9, 0.5], "reduced.tiles.0.x": [-1, 4097, 0.5], "reduced.tiles.0.y": [-1, 4097],
     "reduced.tiles.0.white": [0], "reduced.tiles.0.levels": [0, 256],
-    "classes.0.scale": [0, 3, 16, "1"], "classes.0.spreads": [1, 4], "classes.0.target": [-1, 2, 0.5], "classes.0.records": [-1, 201, 0.5],
+    "classes.0.scale": [0, 3, 16, "1"], "classes.0.spreads": [1, 5], "classes.0.target": [-1, 2, 0.5], "classes.0.records": [-1, 201, 0.5],
     "classes.0.footprints.0.first": [-1, NaN], "classes.0.footprints.0.per_octave": [0, 1e-4], "classes.0.footprints.0.sigma_first": [-1e10, "3"],
     "classes.0.footprints.0.angle_steps": [-1], "groups.0.light": [-1, 2], "groups.0.mixture": [-2, 2], "groups.0.target": [-2, 9],
     "terms.0.group": [-1, 2], "terms.0.gain": [-2, 1], "mixtures.0.0.0": [-1, 2], "mixtures.0.0.1": [-1, 2],

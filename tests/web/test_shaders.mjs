@@ -39,7 +39,7 @@ function open(name, { classes = () => true } = {}) {
   renderer.putStill(still);
   renderer.putReduced(reduced);
   lights.forEach((light, i) => renderer.putLight(i, light));
-  for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base));
+  for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
   const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value) } = {}) => {
     const all = room.targets.map((t, i) => {
       const { image = null, ...options } = textures[t.name] || {};

@@ -227,7 +227,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     const footprints = (c) => jobs.push(async () => {
       const data = await inflate(await get(c), c.file, mostBytes(c));
       await new Promise((resolve) => setTimeout(resolve));
-      renderer.putClass(c, decodeClass(c, data, c.base));
+      renderer.putClass(c, decodeClass(c, data, c.base, room.targets[c.target].periodic));
     });
     if (room.reduced) jobs.push(async () => renderer.putReduced(await decodeJpeg(await get(room.reduced), room.reduced.file)));
     room.classes.filter((c) => c.kind === "interreflection").forEach(footprints);

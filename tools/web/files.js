@@ -147,9 +147,27 @@ function decodePlane(stream, present, width, height, out, shift, mask) {
 const RECORD_COLUMNS = 2048;
 const LOG_OFFSET = 24, LOG_STEPS = 2048;
 
+/* The derivative of mean UV at pixel i, to the right or down, of u or v, by its neighbours within 64 rows: half the difference
+ * of both or, with one of them only, by two on its side. On a periodic axis differences go the shorter way round. */
+function stepAt({ present, uv }, i, down, axis, { width, height }, periodic) {
+  const x = i % width, y = (i - x) / width, far = down ? width : 1, place = down ? y & 63 : x;
+  const count = down ? Math.min(height - (y - place), 64) : width;
+  const has = (k) => place + k >= 0 && place + k < count && present[i + k * far];
+  const d = [-2, -1, 0, 1].map((k) => {
+    const step = has(k) && has(k + 1) ? (uv[axis][i + (k + 1) * far] - uv[axis][i + k * far]) / 262144 : 0;
+    return periodic[axis] ? step - Math.round(step) : step;
+  });
+  if (has(-1) && has(1)) return 0.5 * (d[1] + d[2]);
+  if (has(-1)) return has(-2) ? 1.5 * d[1] - 0.5 * d[0] : d[1];
+  return has(2) ? 1.5 * d[2] - 0.5 * d[3] : d[2];
+}
+
+/* How many records a footprint takes in a pixel: those with axes have a second one. */
+const recordsEach = (info) => (info.spreads === 4 ? 2 : 1);
+
 /* All footprints of a class as records of four 32-bit numbers, pixel by pixel, and for each pixel where its records
  * begin, times 32, plus how many there are. */
-function decodeClass(info, data, base) {
+function decodeClass(info, data, base, periodic = []) {
   const { width, height } = info, pixels = width * height, stream = { data, at: 0, count: 0 };
   const footprints = info.footprints.map((f) => {
     const present = new Uint8Array(pixels), rowBytes = (width + 7) >> 3;
@@ -162,7 +180,7 @@ function decodeClass(info, data, base) {
       decodePlane(stream, present, width, height, bytes, null, 255);
       return bytes;
     };
-    const spread = Array.from({ length: info.spreads }, () => coded(new Uint8Array(pixels)));
+    const spread = Array.from({ length: info.spreads === 4 ? 2 : info.spreads }, () => coded(new Uint8Array(pixels)));
     const uv = [0, 1].map((k) => {
       const shift = new Uint8Array(pixels), out = new Int32Array(pixels);
       for (let i = 0; i < pixels; i++)
@@ -188,7 +206,7 @@ function decodeClass(info, data, base) {
   }
   const total = footprints.reduce((n, p) => n + p.present.reduce((a, b) => a + b, 0), 0);
   if (total !== info.records) throw new Error(`${info.file} is damaged.`);
-  const rows = Math.ceil(total / RECORD_COLUMNS);
+  const rows = Math.ceil(total * recordsEach(info) / RECORD_COLUMNS);
   const records = new Uint32Array(rows * RECORD_COLUMNS * 4), floats = new Float32Array(records.buffer);
   const heads = new Uint32Array(pixels);
   let at = 0;
@@ -200,7 +218,10 @@ function decodeClass(info, data, base) {
       floats[4 * at] = p.uv[0][i] / 262144;
       floats[4 * at + 1] = p.uv[1][i] / 262144;
       records[4 * at + 2] = p.log[p.spread[0][i]] | (p.log[p.spread[1][i]] << 16);
-      records[4 * at + 3] = (info.spreads > 2 ? p.rho[p.spread[2][i]] : 128) | (w[0] << 8) | (w[1] << 20);
+      records[4 * at + 3] = (info.spreads === 3 ? p.rho[p.spread[2][i]] : 128) | (w[0] << 8) | (w[1] << 20);
+      at++;
+      if (info.spreads < 4) continue;
+      for (let k = 0; k < 4; k++) floats[4 * at + k] = stepAt(p, i, k > 1, k & 1, info, periodic);
       at++;
     }
     heads[i] = (base + begin) * 32 + at - begin;

@@ -38,12 +38,12 @@ function checkManifest(room) {
   if (room.reduced) file(room.reduced);
   const tiles = room.reduced?.tiles || [];
   list(tiles, 2048, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
-  list(room.classes, 24, (c) => {
+  list(room.classes, 32, (c) => {
     file(c);
     scaled(c);
     inside(c.target, room.targets);
     inside(c.albedo, c.scale === 1 ? room.lights : tiles);
-    whole(c.spreads, 2, 3);
+    whole(c.spreads, 2, 4);
     list(c.footprints, 16, (f) => {
       number(f.first);
       number(f.per_octave, 1e-3);
@@ -95,7 +95,7 @@ class Renderer {
     room.mixtureLayers = room.mixtures.map((m) => (room.classes[m[0][0]].scale > 1 ? layers++ : -1));
     for (const c of room.classes) {
       c.base = rows * RECORD_COLUMNS;
-      rows += Math.ceil(c.records / RECORD_COLUMNS);
+      rows += Math.ceil(c.records * recordsEach(c) / RECORD_COLUMNS);
     }
     if (rows > this.most) throw new Error("The room is too large for this device.");
     const most = (list, key) => Math.max(1, ...list.map((x) => x[key]));

@@ -31,7 +31,10 @@ void main() {
  *
  * The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
  * Three rows across the shorter axis; along the longer axis as many samples as its length needs. Each sample is a
- * trilinear look-up with a part of the footprint's variance, the rows and samples have the rest. */
+ * trilinear look-up with a part of the footprint's variance, the rows and samples have the rest.
+ *
+ * Over a parallelogram (evenly): cells along its two sides, each a look-up of the size of a cell. Cells are drawn together
+ * where a look-up cannot be as small as they are. */
 const FILTER = `
 uniform usampler2D records;
 uniform mat2 turn[TARGETS];
@@ -89,8 +92,25 @@ vec4 filtered(sampler2D image, mat2 turned, vec2 moved, vec2 ends, vec4 bounds, 
   }
   return total > 0.0 ? sum / total : look(image, size, mean, lod, ends);
 }
+vec4 evenly(sampler2D image, mat2 turned, vec2 moved, vec2 ends, uvec4 record, mat2 axes) {
+  vec2 size = vec2(textureSize(image, 0)), uv = vec2(uintBitsToFloat(record.x), uintBitsToFloat(record.y));
+  mat2 sides = mat2(size.x, 0.0, 0.0, size.y) * turned * axes;
+  vec2 longs = vec2(length(sides[0]), length(sides[1])), most = longs.x > longs.y ? vec2(32.0, 6.0) : vec2(6.0, 32.0);
+  vec2 counts = clamp(ceil(longs / max(1.5, min(longs.x, longs.y) / 6.0)), vec2(1.0), most), cells = longs / counts;
+  float cell = max(cells.x, cells.y), tap = max(cell * cell / 12.0, 1.0 / 6.0);
+  float power = 4.0 * (tap + 1.0 / 12.0), low = floor(0.5 * log2(power));
+  float lod = low + (power / exp2(2.0 * low) - 1.0) / 3.0;
+  vec2 variance = longs * longs / 12.0, places = max(variance * (1.0 - 1.0 / (counts * counts)), vec2(1e-9));
+  vec2 drawn = min(sqrt(max(variance - tap, vec2(0.0)) / places), vec2(1.0));
+  vec4 sum = vec4(0.0);
+  for (float j = 0.5; j < counts.y; j += 1.0)
+    for (float i = 0.5; i < counts.x; i += 1.0)
+      sum += look(image, size, turned * uv + moved + sides * ((vec2(i, j) / counts - 0.5) * drawn) / size, lod, ends);
+  return sum / (counts.x * counts.y);
+}
 vec2 shares(uvec4 r) { return vec2(float((r.w >> 8) & 4095u), float(r.w >> 20)); }
 uvec4 recordAt(int at) { return texelFetch(records, ivec2(at & ${RECORD_COLUMNS - 1}, at / ${RECORD_COLUMNS}), 0); }
+mat2 axesAt(int at) { vec4 a = uintBitsToFloat(recordAt(at)); return mat2(a.x, a.y, a.z, a.w); }
 `;
 
 const number = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
@@ -98,6 +118,7 @@ const number = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
 /* Adds the colours of class c's records in pixel p to sum and total, weighted by w. */
 function classCode(room, c, albedo, add) {
   const info = room.classes[c], t = info.target, target = room.targets[t];
+  const axes = info.spreads === 4, where = `image${t}, turn[${t}], offset[${t}], edge[${t}]`;
   const disc = info.kind === "sharp" && room.filter === "box";
   const bound = (value, k, far) => number(target.periodic[k] ? far : value[k]);
   const bounds = `vec4(${bound(target.uv_min, 0, -1e30)}, ${bound(target.uv_min, 1, -1e30)}, ` +
@@ -106,12 +127,12 @@ function classCode(room, c, albedo, add) {
     uint head = texelFetch(heads, ivec3(p, ${info.layer}), 0).r;
     int count = int(head & 31u), first = int(head >> 5);
     vec3 own = count > 0 ? ${albedo} : vec3(0.0);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i += ${axes ? 2 : 1}) {
       uvec4 r = recordAt(first + i);
       vec2 w = shares(r);
       vec3 color = own;
       if (edited[${t}] && !original) {
-        vec4 found = filtered(image${t}, turn[${t}], offset[${t}], edge[${t}], ${bounds}, r, ${disc});
+        vec4 found = ${axes ? `evenly(${where}, r, axesAt(first + i + 1))` : `filtered(${where}, ${bounds}, r, ${disc})`};
         color = own * (1.0 - found.a) + found.rgb * tint[${t}];
       }
       ${add}

@@ -151,7 +151,7 @@ static int step_of(int scale)
 static int copy_clusters(RetexCompactClusters *to, const RetexCompactClusters *from, RetexError *err)
 {
     int code = retex_image_copy(&to->albedo, &from->albedo, err);
-    to->count = from->count;
+    to->count = from->count, to->whole = from->whole;
     for (int k = 0; k < from->count && !code; k++) {
         code = retex_image_copy(&to->uv[k], &from->uv[k], err);
         if (!code)
@@ -276,23 +276,24 @@ void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight 
 static int add_cluster(Compaction *work, int number, RetexCompactClusters *clusters, int k, int albedo, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
-    const char *name = retex_footprint_kind_name(kind->kind);
-    char target[RETEX_NAME_MAX];
+    const int is_whole = k == clusters->whole;
+    char target[RETEX_NAME_MAX], name[RETEX_NAME_MAX] = "whole";
+    if (!is_whole)
+        snprintf(name, sizeof name, "%s%d", retex_footprint_kind_name(kind->kind), k + 1);
     retex_target_word(target, work->set->targets[kind->target].name);
     RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
-    f.hit = work->light->set->footprints[kind->footprints[k]].hit;
-    int code =
-        move_image(work->set, &clusters->uv[k], "RGA", RETEX_FLOAT, &f.uv, err, "uv_%s_%s%d", target, name, k + 1);
+    f.hit = work->light->set->footprints[kind->footprints[is_whole ? 0 : k]].hit;
+    int code = move_image(work->set, &clusters->uv[k], "RGA", RETEX_FLOAT, &f.uv, err, "uv_%s_%s", target, name);
     if (!code)
-        code = move_image(work->set, &clusters->spread[k], "RGB", RETEX_HALF, &f.spread, err, "spread_%s_%s%d", target,
-                          name, k + 1);
+        code = move_image(work->set, &clusters->spread[k], is_whole ? "RGBA" : "RGB", RETEX_HALF, &f.spread, err,
+                          is_whole ? "axes_%s_%s" : "spread_%s_%s", target, name);
     if (!code && (clusters->count > 1 || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION))
         code = move_image(work->set, &clusters->weight[k], "R", RETEX_HALF, &work->weights[number][k], err,
-                          "weight_%s_%s%d", target, name, k + 1);
+                          "weight_%s_%s", target, name);
     work->shares[number][k] = -1;
     if (!code && clusters->count > 1 && clusters->interreflected[k].pixels)
         code = move_image(work->set, &clusters->interreflected[k], "R", RETEX_HALF, &work->shares[number][k], err,
-                          "share_%s_%s%d", target, name, k + 1);
+                          "share_%s_%s", target, name);
     if (!code)
         code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
     for (int i = 0; i < RETEX_COMPACT_WAVES && !code && work->trial; i++)

@@ -14,8 +14,10 @@
 #define POOL 12                  /* most clusters while a block is gathered */
 #define SHARE_STEP (1.0 / 512)   /* quantizer step of weights */
 #define LEAST_SHARE (1.0 / 1024) /* clusters with a smaller share of their block's light are dropped */
-#define UNIFORM_NOISE 0.3        /* uniform pixels are smoothed if params->noise is at least this */
+#define WHOLE_NOISE 0.3          /* with less noise to be removed, quadrants keep their light, as ellipses */
 #define MORE_VARIANCE 0.25       /* relative variance by which a cluster may grow when merged */
+#define LITTLE_LIGHT 0.1         /* share of interreflected light up to which it has the weights of all light */
+#define FEATURE 0.02             /* distance in UV over which fine textures change */
 #define UNKNOWN_SAMPLES 1024     /* samples of a pixel, if the set does not have their number */
 #define TEXEL (1.0 / (1 << 26))  /* UV variance of a texel of a texture 8192 wide */
 
@@ -30,6 +32,8 @@ typedef struct Pool {
     double noise;           /* RetexCompactLight's */
     double weight, squares; /* light gathered: sum, and sum of squares divided by the numbers of samples */
     Cluster of[POOL + 1];
+    Cluster whole;                   /* the pixel, if it is a parallelogram; else without light */
+    const RetexFootprint *whole_as;  /* its UV and axes */
     double cost[POOL + 1][POOL + 1]; /* of merging clusters i and j < i */
 } Pool;
 
@@ -65,14 +69,19 @@ static void remove_cluster(Pool *pool, int j)
             pool->cost[k < j ? j : k][k < j ? k : j] = pool->cost[last][k];
 }
 
+static void add_light(RetexCompactClusterLight *to, const RetexCompactClusterLight *light)
+{
+    for (int c = 0; c < 3; c++) {
+        to->single[c] += light->single[c];
+        to->interreflected[c] += light->interreflected[c];
+    }
+}
+
 static void merge_pair(Pool *pool, int i, int j)
 {
     Cluster *into = &pool->of[i];
     retex_uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
-    for (int c = 0; c < 3; c++) {
-        into->light.single[c] += pool->of[j].light.single[c];
-        into->light.interreflected[c] += pool->of[j].light.interreflected[c];
-    }
+    add_light(&into->light, &pool->of[j].light);
     remove_cluster(pool, j);
     find_costs(pool, i);
 }
@@ -143,9 +152,46 @@ static void merge_places(Pool *pool)
             }
 }
 
+/* How much of a cluster's light, squared, a fine texture changes if it is averaged over an ellipse in place of what the
+ * cluster is made of. Both have the same mean and covariance, so textures that are quadratic there do not change. */
+static double shape_error2(const RetexUvStats *place)
+{
+    const double squares = place->m2[0] + place->m2[2];
+    const double share = squares / (squares + place->weight * FEATURE * FEATURE);
+    return place->weight * place->weight * share * share * share;
+}
+
+static double merging_error2(const Pool *pool, int i, int j)
+{
+    RetexUvStats both = pool->of[i].place;
+    retex_uv_stats_merge(&both, &pool->of[j].place, pool->periodic);
+    return shape_error2(&both) - shape_error2(&pool->of[i].place) - shape_error2(&pool->of[j].place);
+}
+
+/* Merge sharp clusters as long as one merging is expected to change the block less than its noise: light that comes
+ * from where the texture is black or white as chance has it varies by its square over the number of samples. Where
+ * less noise may be removed, far less than that. */
+static void merge_within_noise(Pool *pool)
+{
+    const double most = pow(pool->noise, 6) * pool->squares;
+    while (pool->count > 1) {
+        int first = 1, second = 0;
+        double least = INFINITY;
+        for (int i = 1; i < pool->count; i++)
+            for (int j = 0; j < i; j++) {
+                const double error2 = merging_error2(pool, i, j);
+                if (error2 < least)
+                    least = error2, first = i, second = j;
+            }
+        if (least > most)
+            return;
+        merge_pair(pool, second, first);
+    }
+}
+
 static void remove_faint(Pool *pool)
 {
-    double all = 0;
+    double all = pool->whole.place.weight;
     for (int i = 0; i < pool->count; i++)
         all += pool->of[i].place.weight;
     for (int i = pool->count - 1; i >= 0; i--)
@@ -170,6 +216,13 @@ typedef struct Albedo {
     double sum[3], weight[3];
 } Albedo;
 
+/* Whether a footprint is a part of the pixel as a parallelogram: all such that share UV and axes. */
+static int is_of_whole(const ClustersWork *work, const RetexFootprint *f, const Pool *pool)
+{
+    return work->clusters->whole >= 0 && retex_footprint_has_axes(work->light->set, f) &&
+           (!pool->whole_as || (pool->whole_as->uv == f->uv && pool->whole_as->spread == f->spread));
+}
+
 static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const RetexCompactClusterLight *light,
                            Pool *pool, Albedo *albedo)
 {
@@ -184,8 +237,14 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     retex_footprint_ellipse(set, f, pixel, uv, spread);
     if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
         return;
-    retex_uv_stats_load(&cluster.place, weight, uv, spread);
-    add_cluster(pool, &cluster);
+    if (is_of_whole(work, f, pool)) {
+        pool->whole_as = f;
+        pool->whole.place.weight += weight;
+        add_light(&pool->whole.light, light);
+    } else {
+        retex_uv_stats_load(&cluster.place, weight, uv, spread);
+        add_cluster(pool, &cluster);
+    }
     pool->weight += weight;
     pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
     for (int c = 0; c < 3; c++) {
@@ -264,21 +323,50 @@ static double part_of(const Cluster *cluster, Part part)
                                          : cluster->place.weight;
 }
 
-/* Store each cluster's share of the light `part`, relative to `all`, or to the clusters' own sum if `all` is 0. If the
- * clusters have no such light, store their shares of all light instead. Positive shares never round to 0. */
-static void store_weights(RetexImage *images, size_t block, const Pool *pool, Part part, double all)
+/* A share as it is stored: positive ones never round to 0. */
+static float rounded_share(double part, double all)
 {
-    double own = 0;
+    const double share = all > 0 ? part / all : 0;
+    return share > 0 ? (float)(fmax(rint(share / SHARE_STEP), 1) * SHARE_STEP) : 0;
+}
+
+/* Store each cluster's share of the light `part`, relative to `all`, or to the clusters' own sum if `all` is 0. If the
+ * clusters have no such light, store their shares of all light instead. */
+static void store_weights(RetexImage *images, int whole, size_t block, const Pool *pool, Part part, double all)
+{
+    double own = part_of(&pool->whole, part);
     for (int i = 0; i < pool->count; i++)
         own += part_of(&pool->of[i], part);
     if (!(all > 0))
         all = own;
-    for (int i = 0; i < pool->count; i++) {
-        const double share = all > 0 ? part_of(&pool->of[i], part) / all : 0;
-        images[i].pixels[block] = share > 0 ? (float)(fmax(rint(share / SHARE_STEP), 1) * SHARE_STEP) : 0;
-    }
+    for (int i = 0; i < pool->count; i++)
+        images[i].pixels[block] = rounded_share(part_of(&pool->of[i], part), all);
+    if (whole >= 0)
+        images[whole].pixels[block] = rounded_share(part_of(&pool->whole, part), all);
     if (!(all > 0) && part != PART_ALL)
-        store_weights(images, block, pool, PART_ALL, 0);
+        store_weights(images, whole, block, pool, PART_ALL, 0);
+}
+
+/* Copy the UV and the axes that the set has of a whole pixel. */
+static void store_whole(const ClustersWork *work, size_t block, const RetexFootprint *f)
+{
+    const int whole = work->clusters->whole;
+    const RetexPart *parts = work->light->set->parts;
+    const size_t pixel = block - (size_t)work->first * (size_t)parts[f->uv].image.width;
+    float *uv = work->clusters->uv[whole].pixels + 3 * block;
+    memcpy(uv, parts[f->uv].image.pixels + 3 * pixel, 2 * sizeof *uv);
+    uv[2] = 1;
+    memcpy(work->clusters->spread[whole].pixels + RETEX_AXES * block,
+           parts[f->spread].image.pixels + RETEX_AXES * pixel, RETEX_AXES * sizeof *uv);
+}
+
+static void sum_light(const ClustersWork *work, int row, const Pool *pool)
+{
+    for (int i = -1; i < pool->count && work->clusters->split; i++) {
+        const Cluster *cluster = i < 0 ? &pool->whole : &pool->of[i];
+        work->clusters->further[row] += part_of(cluster, PART_INTERREFLECTED);
+        work->clusters->all[row] += part_of(cluster, PART_ALL);
+    }
 }
 
 static void store_block(const ClustersWork *work, size_t block, const Pool *pool, double all, const Albedo *albedo)
@@ -290,9 +378,11 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
         retex_uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
         uv[2] = 1;
     }
-    store_weights(clusters->weight, block, pool, clusters->split ? PART_SINGLE : PART_ALL, all);
+    if (pool->whole_as)
+        store_whole(work, block, pool->whole_as);
+    store_weights(clusters->weight, clusters->whole, block, pool, clusters->split ? PART_SINGLE : PART_ALL, all);
     if (clusters->split)
-        store_weights(clusters->interreflected, block, pool, PART_INTERREFLECTED, 0);
+        store_weights(clusters->interreflected, clusters->whole, block, pool, PART_INTERREFLECTED, 0);
     for (int c = 0; c < 3; c++)
         sum += albedo->sum[c], weights += albedo->weight[c];
     for (int c = 0; c < 3; c++)
@@ -302,21 +392,26 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
-/* Store the sum of a pixel's clusters as a candidate for uniform pixels. A pixel with several clusters is one only if
- * the kind has four, for the quarters. */
+/* Store the sum of a pixel's clusters as a candidate of uniform pixels. A pixel with several clusters is one only if
+ * the kind has four, for quarters. */
 static void store_pixel(const ClustersWork *work, size_t block, const Pool *pool)
 {
-    RetexUniformPixel *whole = &work->clusters->pixels[block];
+    RetexUniformPixel *pixel = &work->clusters->pixels[block];
+    if (pool->whole_as) {
+        const float *uv = work->clusters->uv[work->clusters->whole].pixels + 3 * block;
+        *pixel = (RetexUniformPixel){{(double)uv[0], (double)uv[1]}, {0, 0, 0}, RETEX_UNIFORM_EXACT};
+        return;
+    }
     if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
         return;
     RetexUvStats sum = pool->of[0].place;
     for (int i = 1; i < pool->count; i++)
         retex_uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
     for (int k = 0; k < 2; k++)
-        whole->mean[k] = sum.mean[k];
+        pixel->mean[k] = sum.mean[k];
     for (int k = 0; k < 3; k++)
-        whole->variances[k] = (float)(sum.m2[k] / sum.weight);
-    whole->samples = (float)(pool->weight * pool->weight / pool->squares);
+        pixel->variances[k] = (float)(sum.m2[k] / sum.weight);
+    pixel->samples = (float)(pool->weight * pool->weight / pool->squares);
 }
 
 static void blocks_job(void *context, int by, int thread)
@@ -335,11 +430,14 @@ static void blocks_job(void *context, int by, int thread)
         while (pool.count > work->kind->count)
             merge_cheapest(&pool);
         merge_places(&pool);
+        if (pool.sharp)
+            merge_within_noise(&pool);
         sort_places(&pool);
+        sum_light(work, work->first + by, &pool);
         store_block(work, block, &pool, all, &albedo);
         if (work->clusters->pixels)
             store_pixel(work, block, &pool);
-        work->clusters->lit[block] = pool.count > 0;
+        work->clusters->lit[block] = pool.count > 0 || pool.whole_as;
     }
 }
 
@@ -375,24 +473,28 @@ static void fill_holes(RetexCompactClusters *clusters, const unsigned char *lit,
 
 /* ---- all blocks ---- */
 
-static int alloc_images(RetexCompactClusters *clusters, const RetexCompactLight *light, int uniform, RetexError *err)
+static int alloc_images(RetexCompactClusters *clusters, const RetexCompactLight *light, RetexError *err)
 {
     const int scale = clusters->scale;
     const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
     const size_t blocks = (size_t)width * (size_t)height;
+    const int count = clusters->whole >= 0 ? clusters->whole + 1 : clusters->count;
     int code = retex_image_alloc(&clusters->albedo, width, height, 3, err);
-    for (int k = 0; k < clusters->count && !code; k++) {
+    for (int k = 0; k < count && !code; k++) {
         code = retex_image_alloc(&clusters->uv[k], width, height, 3, err);
         if (!code)
-            code = retex_image_alloc(&clusters->spread[k], width, height, 3, err);
+            code = retex_image_alloc(&clusters->spread[k], width, height, k == clusters->whole ? RETEX_AXES : 3, err);
         if (!code)
             code = retex_image_alloc(&clusters->weight[k], width, height, 1, err);
         if (!code && clusters->split)
             code = retex_image_alloc(&clusters->interreflected[k], width, height, 1, err);
     }
     clusters->lit = calloc(blocks, sizeof *clusters->lit);
-    clusters->pixels = uniform ? calloc(blocks, sizeof *clusters->pixels) : NULL;
-    if (!code && (!clusters->lit || (uniform && !clusters->pixels)))
+    clusters->pixels = clusters->whole >= 0 ? calloc(blocks, sizeof *clusters->pixels) : NULL;
+    clusters->further = calloc((size_t)height, sizeof *clusters->further);
+    clusters->all = calloc((size_t)height, sizeof *clusters->all);
+    if (!code &&
+        (!clusters->lit || !clusters->further || !clusters->all || (clusters->whole >= 0 && !clusters->pixels)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
     return code;
 }
@@ -401,6 +503,9 @@ static void free_work(RetexCompactClusters *clusters)
 {
     free(clusters->lit);
     free(clusters->pixels);
+    free(clusters->further);
+    free(clusters->all);
+    clusters->further = clusters->all = NULL;
     clusters->lit = NULL;
     clusters->pixels = NULL;
 }
@@ -426,10 +531,13 @@ int retex_compact_clusters_begin(RetexCompactClusters *clusters, const RetexComp
                                  const RetexCompactKind *kind, int scale, RetexError *err)
 {
     const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP;
-    const int uniform = sharp && scale == 1 && light->noise >= UNIFORM_NOISE && strcmp(light->set->filter, "box") == 0;
-    *clusters = (RetexCompactClusters){
-        .count = kind->count, .scale = scale, .split = kind->ninterreflections && (sharp || !(light->noise > 0))};
-    int code = alloc_images(clusters, light, uniform, err);
+    const int whole = sharp && scale == 1 && light->noise >= WHOLE_NOISE && strcmp(light->set->filter, "box") == 0 &&
+                      kind->count < RETEX_SHARES_MAX;
+    *clusters = (RetexCompactClusters){.count = kind->count,
+                                       .whole = whole ? kind->count : -1,
+                                       .scale = scale,
+                                       .split = kind->ninterreflections && (sharp || !(light->noise > 0))};
+    int code = alloc_images(clusters, light, err);
     if (code)
         retex_compact_clusters_free(clusters);
     return code;
@@ -443,18 +551,52 @@ void retex_compact_clusters_rows(RetexCompactClusters *clusters, const RetexComp
     retex_parallel(nthreads, (light->set->height + scale - 1) / scale, blocks_job, &work);
 }
 
+/* Give interreflected light no weights of its own where there is little of it. */
+static void join_little_light(RetexCompactClusters *clusters, double noise)
+{
+    double further = 0, all = 0;
+    for (int y = 0; y < clusters->albedo.height; y++)
+        further += clusters->further[y], all += clusters->all[y];
+    for (int k = 0; k < RETEX_SHARES_MAX && further <= noise * LITTLE_LIGHT * all; k++)
+        retex_image_free(&clusters->interreflected[k]);
+}
+
+/* Leave out clusters that no pixel has, and count that of whole pixels, behind all others. */
+static void count_clusters(RetexCompactClusters *clusters)
+{
+    const int whole = clusters->whole;
+    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
+        free_cluster(clusters, --clusters->count);
+    clusters->whole = -1;
+    if (whole < 0)
+        return;
+    if (is_empty(clusters, whole)) {
+        free_cluster(clusters, whole);
+        return;
+    }
+    RetexImage *const images[] = {clusters->uv, clusters->spread, clusters->weight, clusters->interreflected};
+    clusters->whole = clusters->count++;
+    for (int i = 0; i < 4 && clusters->whole != whole; i++) {
+        images[i][clusters->whole] = images[i][whole];
+        images[i][whole] = (RetexImage){0};
+    }
+}
+
 int retex_compact_clusters_end(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                const RetexCompactKind *kind, int nthreads, RetexError *err)
 {
+    const int *periodic = light->set->targets[kind->target].periodic;
     int code = RETEX_OK;
     if (clusters->pixels)
-        code = retex_compact_smooth_uniform(clusters, clusters->pixels, light->set->targets[kind->target].periodic,
-                                            light->noise, nthreads, err);
+        code = retex_compact_smooth_uniform(clusters, clusters->pixels, periodic, light->noise, nthreads, err);
+    if (clusters->pixels && !code)
+        code = retex_compact_split_uneven(clusters, periodic, nthreads, err);
     if (clusters->scale > 1)
         fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? (float)SHARE_STEP : 1);
+    if (clusters->split)
+        join_little_light(clusters, light->noise);
     free_work(clusters);
-    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
-        free_cluster(clusters, --clusters->count);
+    count_clusters(clusters);
     if (code)
         retex_compact_clusters_free(clusters);
     return code;
@@ -472,7 +614,7 @@ int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompa
 
 void retex_compact_clusters_free(RetexCompactClusters *clusters)
 {
-    for (int k = 0; k < clusters->count; k++)
+    for (int k = 0; k < RETEX_SHARES_MAX; k++)
         free_cluster(clusters, k);
     retex_image_free(&clusters->albedo);
     free_work(clusters);

@@ -12,8 +12,12 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <retex/parallel.h>
+
+#include "set/steps.h"
+#include "texture/filter.h"
 
 #define TEXEL (1.0 / (1 << 26))   /* UV variance of a texel of a texture 8192 wide */
 #define DISTANCE_DEVIATIONS_MAX 3 /* largest distance of a mean from its map, in standard deviations, */
@@ -31,7 +35,6 @@
 #define DEPTH_SLOPE_MIN 0.04
 #define DEPTH_SLOPE_MAX 0.4
 #define DEPTH_CURVATURE_MAX 0.25   /* of the map that remains with a depth, relative to the squared depth */
-#define QUARTERS_SAMPLES_MIN 16    /* of a pixel that is stored as quarters */
 #define SMOOTHED_DISTANCE_MAX 0.02 /* largest squared distance of smoothed means from the last map, in pixels */
 enum { RADIUS = 2, SIDE = 2 * RADIUS + 1, FITTED_MIN = 12, PASSES = 3 /* of fitting */ };
 
@@ -48,7 +51,7 @@ typedef struct Map {
 typedef struct UvMap {
     double mean[2];
     float right[2], down[2], depth[2];
-    int parts; /* 0: the pixel is not uniform; 1: the whole pixel; 4: its quarters */
+    int is_uniform;
 } UvMap;
 
 typedef struct SmoothWork {
@@ -298,23 +301,15 @@ static void store_map(UvMap *to, const SmoothWork *work, size_t pixel, const Map
         to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][CONSTANT]);
         to->depth[a] = (float)map->depth[a];
     }
+    to->is_uniform = 1;
 }
 
-/* How many parts a uniform pixel is stored as: 4 quarters, if the kind has four clusters and most pixels around have
- * several clusters and enough samples; else 1. */
-static int choose_parts(const SmoothWork *work, int x, int y)
+/* The map of a pixel that is a parallelogram already. */
+static void copy_exact(UvMap *to, const SmoothWork *work, size_t pixel)
 {
-    const RetexCompactClusters *clusters = work->clusters;
-    int several = 0;
-    for (int j = y - RADIUS; j <= y + RADIUS && clusters->count >= 4; j++)
-        for (int i = x - RADIUS; i <= x + RADIUS; i++) {
-            const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
-            const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
-            if (there && work->pixels[at].samples > 0)
-                several +=
-                    clusters->uv[1].pixels[3 * at + 2] > 0 && work->pixels[at].samples >= QUARTERS_SAMPLES_MIN ? 1 : -1;
-        }
-    return several > 0 ? 4 : 1;
+    const float *axes = work->clusters->spread[work->clusters->whole].pixels + RETEX_AXES * pixel;
+    *to = (UvMap){
+        {work->pixels[pixel].mean[0], work->pixels[pixel].mean[1]}, {axes[0], axes[1]}, {axes[2], axes[3]}, {0, 0}, 1};
 }
 
 /* Whether a pixel is uniform. Edges distort the first map, so maps are fitted again without outliers. */
@@ -349,14 +344,15 @@ static void fit_row(void *context, int y, int thread)
         Map map;
         if (!(own->samples > 0))
             continue;
+        if (own->samples >= RETEX_UNIFORM_EXACT) {
+            if (work->pass == 0)
+                copy_exact(&work->maps[pixel], work, pixel);
+            continue;
+        }
         if (work->pass < 0 && fit_map(&map, work, x, y, NULL, 0))
             work->distances[pixel] = (float)(center_distance(&map) / expected_distance(work, own));
         else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_uniform(&map, work, x, y)))
             store_map(&work->maps[pixel], work, pixel, &map);
-        else
-            continue;
-        if (work->pass == 0)
-            work->maps[pixel].parts = choose_parts(work, x, y);
     }
 }
 
@@ -367,47 +363,41 @@ static void start_pass_row(void *context, int y, int thread)
     (void)thread;
     for (size_t i = (size_t)y * (size_t)work->width; i < (size_t)(y + 1) * (size_t)work->width; i++) {
         RetexUniformPixel *place = &work->pixels[i];
-        place->samples = work->maps[i].parts ? place->samples : 0;
+        place->samples = work->maps[i].is_uniform ? place->samples : 0;
         place->mean[0] = work->maps[i].mean[0];
         place->mean[1] = work->maps[i].mean[1];
     }
 }
 
-/* Store a uniform pixel as one cluster, or as its quarters, sorted by u + v as all clusters are. */
+static void clear_cluster(RetexCompactClusters *clusters, int k, size_t pixel)
+{
+    memset(clusters->uv[k].pixels + 3 * pixel, 0, 3 * sizeof(float));
+    memset(clusters->spread[k].pixels + 3 * pixel, 0, 3 * sizeof(float));
+    clusters->weight[k].pixels[pixel] = 0;
+    if (clusters->interreflected[k].pixels)
+        clusters->interreflected[k].pixels[pixel] = 0;
+}
+
+static void store_weights(RetexCompactClusters *clusters, int k, size_t pixel, float weight, float interreflected)
+{
+    clusters->weight[k].pixels[pixel] = weight;
+    if (clusters->interreflected[k].pixels)
+        clusters->interreflected[k].pixels[pixel] = interreflected;
+}
+
+/* Store a uniform pixel as a whole, in place of its clusters. */
 static void store_uniform(const SmoothWork *work, size_t pixel)
 {
     const UvMap *map = &work->maps[pixel];
     RetexCompactClusters *clusters = work->clusters;
-    const int count = map->parts;
-    const double share = count == 4 ? 0.25 : 1, part = share / 12;
-    const double right[2] = {(double)map->right[0], (double)map->right[1]};
-    const double down[2] = {(double)map->down[0], (double)map->down[1]};
-    const double a = right[0] + right[1], b = down[0] + down[1];
-    const double first = a < 0 ? -1 : 1, second = b < 0 ? -1 : 1;
-    for (int k = 0; k < clusters->count; k++) {
-        const int goes_right = k == 3 || k == (fabs(a) < fabs(b) ? 1 : 2), goes_down = k == 3 || (!goes_right && k > 0);
-        RetexUvStats place = {.weight = 1};
-        for (int axis = 0; axis < 2; axis++) {
-            const double side = count == 4 ? first * (goes_right ? 0.25 : -0.25) * right[axis] +
-                                                 second * (goes_down ? 0.25 : -0.25) * down[axis]
-                                           : 0;
-            place.mean[axis] = map->mean[axis] + side;
-            place.mean[axis] -= work->periodic[axis] ? floor(place.mean[axis]) : 0;
-            place.m2[2 * axis] = part * (right[axis] * right[axis] + down[axis] * down[axis]);
-        }
-        place.m2[1] = part * (right[0] * right[1] + down[0] * down[1]);
-        float *uv = clusters->uv[k].pixels + 3 * pixel, *spread = clusters->spread[k].pixels + 3 * pixel;
-        if (k < count) {
-            retex_uv_stats_store(&place, uv, spread);
-            uv[2] = 1;
-        } else {
-            for (int i = 0; i < 3; i++)
-                uv[i] = spread[i] = 0;
-        }
-        clusters->weight[k].pixels[pixel] = k < count ? (float)share : 0;
-        if (clusters->interreflected[k].pixels)
-            clusters->interreflected[k].pixels[pixel] = k < count ? (float)share : 0;
-    }
+    float *uv = clusters->uv[clusters->whole].pixels + 3 * pixel;
+    float *axes = clusters->spread[clusters->whole].pixels + RETEX_AXES * pixel;
+    for (int k = 0; k < clusters->count; k++)
+        clear_cluster(clusters, k, pixel);
+    for (int a = 0; a < 2; a++)
+        uv[a] = (float)map->mean[a], axes[a] = map->right[a], axes[2 + a] = map->down[a];
+    uv[2] = 1;
+    store_weights(clusters, clusters->whole, pixel, 1, 1);
 }
 
 static void store_row(void *context, int y, int thread)
@@ -416,7 +406,7 @@ static void store_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
-        if (work->maps[pixel].parts)
+        if (work->maps[pixel].is_uniform && work->pixels[pixel].samples < RETEX_UNIFORM_EXACT)
             store_uniform(work, pixel);
     }
 }
@@ -466,4 +456,121 @@ int retex_compact_smooth_uniform(RetexCompactClusters *clusters, RetexUniformPix
     retex_parallel(nthreads, work.height, store_row, &work);
     free(work.maps);
     return RETEX_OK;
+}
+
+/* ---- whole pixels that are no steps ---- */
+
+typedef struct SplitWork {
+    RetexCompactClusters *clusters;
+    const int *periodic;
+    unsigned char *is_uneven; /* by pixel */
+    int *count;               /* by row: how many are */
+} SplitWork;
+
+/* Whether a pixel has axes that the steps to its neighbours are not. */
+static int is_uneven(const SplitWork *work, int x, int y)
+{
+    const RetexImage *uv = &work->clusters->uv[work->clusters->whole];
+    const RetexImage *axes = &work->clusters->spread[work->clusters->whole];
+    const float *of = axes->pixels + retex_image_index(axes, x, y);
+    double steps[RETEX_AXES];
+    retex_steps_at(steps, uv, x, y, work->periodic);
+    return !retex_steps_fit(steps, of, RETEX_STEPS_TOLERANCE);
+}
+
+static int find_free(const RetexCompactClusters *clusters, int first, size_t pixel)
+{
+    while (first < clusters->count && clusters->uv[first].pixels[3 * pixel + 2] > 0)
+        first++;
+    return first;
+}
+
+/* Mark those that are, and for which there is room as clusters. */
+static void find_uneven(void *context, int y, int thread)
+{
+    const SplitWork *work = context;
+    const RetexImage *uv = &work->clusters->uv[work->clusters->whole];
+    (void)thread;
+    work->count[y] = 0;
+    for (int x = 0; x < uv->width; x++) {
+        const size_t at = (size_t)y * (size_t)uv->width + (size_t)x;
+        work->is_uneven[at] = uv->pixels[3 * at + 2] > 0 && is_uneven(work, x, y) &&
+                              find_free(work->clusters, 0, at) < work->clusters->count;
+        work->count[y] += work->is_uneven[at];
+    }
+}
+
+/* Store a part of a whole pixel as a cluster: a quarter, or all of it. `of`: its middle and axes, as many as parts. */
+static void store_ellipse(const SplitWork *work, int k, size_t pixel, const RetexParallelogram *of)
+{
+    RetexCompactClusters *clusters = work->clusters;
+    RetexUvStats place = {.weight = 1};
+    for (int a = 0; a < 2; a++) {
+        place.mean[a] = (double)of->uv[a] - (work->periodic[a] ? floor((double)of->uv[a]) : 0);
+        place.m2[2 * a] =
+            ((double)of->sides[a] * (double)of->sides[a] + (double)of->sides[2 + a] * (double)of->sides[2 + a]) / 12;
+    }
+    place.m2[1] = ((double)of->sides[0] * (double)of->sides[1] + (double)of->sides[2] * (double)of->sides[3]) / 12;
+    float *uv = clusters->uv[k].pixels + 3 * pixel;
+    retex_uv_stats_store(&place, uv, clusters->spread[k].pixels + 3 * pixel);
+    uv[2] = 1;
+}
+
+/* Make clusters of a whole pixel. */
+static void split_pixel(const SplitWork *work, size_t pixel)
+{
+    RetexCompactClusters *clusters = work->clusters;
+    const int whole = clusters->whole;
+    float *uv = clusters->uv[whole].pixels + 3 * pixel, *axes = clusters->spread[whole].pixels + RETEX_AXES * pixel;
+    const float weight = clusters->weight[whole].pixels[pixel];
+    const float interreflected =
+        clusters->interreflected[whole].pixels ? clusters->interreflected[whole].pixels[pixel] : 0;
+    int room = 0;
+    for (int k = find_free(clusters, 0, pixel); k < clusters->count; k = find_free(clusters, k + 1, pixel))
+        room++;
+    const int parts = room < RETEX_QUADRANTS ? 1 : RETEX_QUADRANTS;
+    for (int part = 0, k = 0; part < parts; part++, k++) {
+        const RetexParallelogram of = retex_parallelogram(
+            (RetexTextureFilter)(RETEX_TEXTURE_PARALLELOGRAM + (parts == 1 ? 0 : 1 + part)), uv, axes);
+        k = find_free(clusters, k, pixel);
+        store_ellipse(work, k, pixel, &of);
+        store_weights(clusters, k, pixel, weight / (float)parts, interreflected / (float)parts);
+    }
+    memset(uv, 0, 3 * sizeof *uv);
+    memset(axes, 0, RETEX_AXES * sizeof *axes);
+    store_weights(clusters, whole, pixel, 0, 0);
+}
+
+static void split_row(void *context, int y, int thread)
+{
+    const SplitWork *work = context;
+    const size_t width = (size_t)work->clusters->albedo.width;
+    (void)thread;
+    for (size_t i = (size_t)y * width; i < (size_t)(y + 1) * width && work->count[y]; i++)
+        if (work->is_uneven[i])
+            split_pixel(work, i);
+}
+
+static int any_row(const int *count, int height)
+{
+    int any = 0;
+    for (int y = 0; y < height; y++)
+        any |= count[y] > 0;
+    return any;
+}
+
+int retex_compact_split_uneven(RetexCompactClusters *clusters, const int periodic[2], int nthreads, RetexError *err)
+{
+    const int width = clusters->albedo.width, height = clusters->albedo.height;
+    SplitWork work = {clusters, periodic, malloc((size_t)width * (size_t)height),
+                      malloc((size_t)height * sizeof *work.count)};
+    int code = work.is_uneven && work.count ? 0 : retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    for (int left = !code; left;) { /* what is split may leave neighbours without a step */
+        retex_parallel(nthreads, height, find_uneven, &work);
+        left = any_row(work.count, height);
+        retex_parallel(nthreads, height, split_row, &work);
+    }
+    free(work.is_uneven);
+    free(work.count);
+    return code;
 }

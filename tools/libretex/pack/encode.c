@@ -157,6 +157,11 @@ static int strip_alloc(Strip *strip, const RetexPackPart *p, int index)
 static void numbers_of(int32_t *numbers, const RetexPackEncoded *w, int part, int channel, int index, size_t pixels)
 {
     const RetexImage *im = &w->items[part].part->image;
+    if (w->packed[part].maps[channel].kind == RETEX_PACK_MAP_STEP &&
+        channel > 1) { /* their sizes are in the first two */
+        memset(numbers, 0, pixels * sizeof *numbers);
+        return;
+    }
     retex_pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * RETEX_PACK_STRIP_ROWS) + channel,
                            (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
 }

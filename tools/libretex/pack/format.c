@@ -122,13 +122,19 @@ int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err
 
 /* --- to JSON --- */
 
+/* The key of per_octave. */
+static const char *octaves_key(const RetexPackMap *map)
+{
+    return map->kind == RETEX_PACK_MAP_ANGLE ? "steps" : "per_octave";
+}
+
 static json_t *describe_map(const RetexPackMap *map)
 {
     json_t *o = json_pack("{s:s}", "map", retex_pack_map_names[map->kind]);
-    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_LINEAR)
+    if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_ANGLE)
         retex_json_put(&o, "first", json_real(map->first));
-    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_ANGLE)
-        retex_json_put(&o, map->kind == RETEX_PACK_MAP_LOG ? "per_octave" : "steps", json_integer(map->per_octave));
+    if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_LINEAR)
+        retex_json_put(&o, octaves_key(map), json_integer(map->per_octave));
     return o;
 }
 
@@ -222,11 +228,10 @@ static int parse_map(RetexPackMap *map, const json_t *o)
     if (!name || kind == RETEX_PACK_MAPS)
         return 0;
     map->kind = (RetexPackMapKind)kind;
-    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_LINEAR)
+    if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_ANGLE)
         ok = get_positive(json_object_get(o, "first"), &map->first);
-    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_ANGLE)
-        ok = ok && get_integer(json_object_get(o, map->kind == RETEX_PACK_MAP_LOG ? "per_octave" : "steps"), 1, 1000,
-                               &map->per_octave);
+    if (retex_pack_map_is_coded(map) && map->kind != RETEX_PACK_MAP_LINEAR)
+        ok = ok && get_integer(json_object_get(o, octaves_key(map)), 1, 1000, &map->per_octave);
     retex_pack_map_fill(map);
     return ok;
 }
@@ -293,10 +298,27 @@ static int modelled_is_sound(const RetexPackPart *packed, const RetexPackPart *a
     return ok;
 }
 
-/* Check that a part refers to parts of the right kind, and that there are no cycles: coverage refers to no part,
- * standard deviations to coverage, means to both. */
-static int references_are_sound(const RetexPackPart *packed, const RetexPackPart *all)
+/* Axes are steps in all channels, of the means whose coverage says where they are. */
+static int steps_are_sound(int part, const RetexPackPart *all)
 {
+    const RetexPackPart *packed = &all[part], *means = packed->present >= 0 ? &all[packed->present] : NULL;
+    int ok = means && packed->channels == RETEX_AXES && means->present == packed->present && means->sigma == part;
+    for (int c = 0; c < packed->channels; c++)
+        ok = ok && packed->maps[c].kind == RETEX_PACK_MAP_STEP &&
+             (c > 1 || means->maps[c].kind == RETEX_PACK_MAP_LATTICE);
+    return ok;
+}
+
+static int is_step(const RetexPackPart *packed, int c)
+{
+    return packed->maps[c].kind == RETEX_PACK_MAP_STEP;
+}
+
+/* Check that a part refers to parts of the right kind, and that there are no cycles: coverage refers to no part,
+ * standard deviations to coverage, means to both, axes, beyond their sizes, to means. */
+static int references_are_sound(int part, const RetexPackPart *all)
+{
+    const RetexPackPart *packed = &all[part];
     if (packed->codec == RETEX_PACK_MODEL)
         return modelled_is_sound(packed, all);
     if (packed->codec != RETEX_PACK_PLANES)
@@ -310,20 +332,32 @@ static int references_are_sound(const RetexPackPart *packed, const RetexPackPart
         if (packed->maps[c].kind == RETEX_PACK_MAP_LATTICE) {
             const RetexPackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
             if (!present || !sigma || c > 1 || sigma->codec != RETEX_PACK_PLANES || sigma->channels < 2 ||
-                sigma->maps[c].kind != RETEX_PACK_MAP_LOG || sigma->present != packed->present)
+                (sigma->maps[c].kind != RETEX_PACK_MAP_LOG && !is_step(sigma, c)) || sigma->present != packed->present)
                 return 0;
+        } else if (is_step(packed, c) && !steps_are_sound(part, all)) {
+            return 0;
         }
     return 1;
 }
 
 static int part_is_sound(int part, const RetexSet *set, const RetexPackPart *packed, RetexError *err)
 {
-    int sound = packed[part].codec != RETEX_PACK_COMBINED ? references_are_sound(&packed[part], packed)
+    int sound = packed[part].codec != RETEX_PACK_COMBINED ? references_are_sound(part, packed)
                 : part > 0                                ? 0
                                                           : retex_pack_combine_fits(set, err);
     if (sound == 0)
         return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
     return sound < 0 ? sound : 0;
+}
+
+/* Where UV are periodic whose steps are axes. */
+static void find_wraps(RetexPackPart *packed, const RetexSet *set)
+{
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        for (int a = 0; a < 2 && f->spread >= 0; a++)
+            packed[f->spread].wraps[a] = set->targets[f->target].periodic[a];
+    }
 }
 
 int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err)
@@ -344,6 +378,8 @@ int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *man
     }
     for (int i = 0; !code && i < set->nparts; i++)
         code = part_is_sound(i, set, packed, err);
+    if (!code)
+        find_wraps(packed, set);
     for (int i = 0; !code && i < set->nparts; i++)
         code = retex_pack_part_slices(&packed[i], err);
     json_decref(root);

@@ -37,6 +37,7 @@ typedef struct RetexPackPart {
     int present;          /* planes: the part whose third channel (coverage) is 0 where pixels are absent, or -1 */
     int sigma;            /* with RETEX_PACK_MAP_LATTICE: the part of the standard deviations, or -1 */
     int sigma_first;      /* planes: means whose deviation has code c have shift (c - 1 + sigma_first) / per_octave */
+    int wraps[2];         /* planes of steps, when reading: whether u and v are periodic */
     RetexPackCurve curve; /* JPEG */
     double jpeg_step;     /* when writing */
     int masked;           /* JPEG: 1 = there is a mask; a set bit means that the pixel is exactly black */

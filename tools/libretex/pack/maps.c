@@ -5,7 +5,7 @@
 #include "base/half.h"
 #include "pack/planes.h"
 
-const char *const retex_pack_map_names[RETEX_PACK_MAPS] = {"bits", "lattice", "log", "linear", "angle"};
+const char *const retex_pack_map_names[RETEX_PACK_MAPS] = {"bits", "lattice", "log", "linear", "angle", "step"};
 
 int retex_pack_map_is_coded(const RetexPackMap *map)
 {
@@ -16,7 +16,7 @@ void retex_pack_map_fill(RetexPackMap *map)
 {
     for (int c = 0; c < RETEX_PACK_CODES && retex_pack_map_is_coded(map); c++) {
         double value = c * map->first;
-        if (map->kind == RETEX_PACK_MAP_LOG)
+        if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_STEP)
             value = c ? map->first * exp2((double)(c - 1) / map->per_octave) : 0;
         else if (map->kind == RETEX_PACK_MAP_ANGLE)
             value = sin(fmin(fmax((double)(c - 128) / map->per_octave, -1), 1) * acos(-1) / 2);
@@ -59,6 +59,8 @@ void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t strid
         const size_t n = count - begin < HALVES ? count - begin : HALVES;
         for (size_t i = 0; i < n; i++)
             run[i] = samples[(begin + i) * stride];
+        for (size_t i = 0; i < n && map->kind == RETEX_PACK_MAP_STEP; i++)
+            run[i] = hypotf(run[i], samples[(begin + i) * stride + 2]);
         if (map->kind == RETEX_PACK_MAP_BITS && type == RETEX_HALF)
             retex_half_from_float(halves, run, n);
         for (size_t i = 0; i < n; i++) {

@@ -11,6 +11,7 @@
 #include "compact/image_noise.h"
 #include "set/references.h"
 #include "set/set.h"
+#include "set/steps.h"
 
 #define FINE_NOISE 3     /* the step of radiance is at most this many times its noise, */
 #define FINER_MOST 4     /* but at least the quality's step divided by this; */
@@ -19,6 +20,7 @@
 #define BRIGHTER_MOST 4  /* most white of a part of radiance, as a multiple of the set's white */
 #define GAIN_STEP 2.5    /* most step of gains, in steps of their radiance: errors of many gains average out. */
 #define GAIN_FINER 1.5   /* With little noise the step is smaller, but at least this many steps of radiance */
+#define STEP_SHARE 16    /* for the sizes of axes, which are 3.5 deviations, and whose errors add up in steps */
 #define GAIN_NOISE 0.8   /* and this many times the noise: quantization adds a twentieth to its variance */
 
 double retex_pack_quality_psnr(double quality)
@@ -90,7 +92,8 @@ static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
     }
     const RetexPart *uv = &set->parts[f->uv], *spread = &set->parts[f->spread];
     const int apart = plan->roles[f->spread] != ROLE_NONE && plan->means[f->spread] != f->uv;
-    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= 3 &&
+    const int most = plan->quantizer ? RETEX_AXES : 3; /* without loss, steps are nothing to predict axes by */
+    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= most &&
                     uv->image.width == spread->image.width && uv->image.height == spread->image.height && !apart &&
                     (plan->roles[f->uv] == ROLE_NONE || plan->means[f->spread] == f->uv);
     give_role(plan, f->uv, fit ? ROLE_MEAN : ROLE_EXACT);
@@ -285,32 +288,62 @@ static void plan_gain(Planning *plan, int part)
     plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 
-/* Quantize means to lattices, standard deviations and coverage logarithmically. Pixels of coverage 0 are not stored. */
-static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFootprintSteps *quantizer)
+/* Whether spreads can be quantized: standard deviations that are positive, or axes that are the steps of means. */
+static int spread_fits(const Planning *plan, const RetexFootprint *f)
 {
-    RetexPackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
-    const Range *of_uv = plan->ranges[uv], *of_spread = plan->ranges[spread];
-    const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
-    if (plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
-        of_uv[1].most_size >= farthest || !of_uv[2].positive || !of_spread[0].positive || !of_spread[1].positive ||
-        (s->channels == 3 && isinf(of_spread[2].most_size)))
-        return;
-    p->present = s->present = uv;
-    p->sigma = spread;
-    map_log(&p->maps[2], &of_uv[2], 2);
-    Range both = of_spread[0]; /* the same map for both axes, because sigma_first is shared */
-    both.most = fmaxf(of_spread[0].most, of_spread[1].most);
-    for (int c = 0; c < 2; c++) {
-        p->maps[c].kind = RETEX_PACK_MAP_LATTICE;
+    const RetexImage *uv = &plan->set->parts[f->uv].image, *spread = &plan->set->parts[f->spread].image;
+    const Range *range = plan->ranges[f->spread];
+    const int is_axes = spread->channels == RETEX_AXES;
+    int fits = 1;
+    for (int c = 0; c < spread->channels; c++)
+        fits = fits && (c < 2 && !is_axes ? range[c].positive : !isinf(range[c].most_size));
+    for (int i = 0; i < uv->width * uv->height && is_axes && fits; i++) {
+        double steps[RETEX_AXES];
+        if (!(uv->pixels[3 * i + 2] > 0))
+            continue;
+        retex_steps_at(steps, uv, i % uv->width, i / uv->width, plan->set->targets[f->target].periodic);
+        fits = retex_steps_fit(steps, spread->pixels + (size_t)RETEX_AXES * (size_t)i, RETEX_STEPS_TOLERANCE_STORED);
+    }
+    return fits;
+}
+
+/* Of standard deviations, or of the sizes of axes: the same map along u and v, because sigma_first is shared. */
+static void plan_spread(Planning *plan, int part, const RetexPackFootprintSteps *quantizer)
+{
+    RetexPackPart *s = &plan->packed[part];
+    const Range *of = plan->ranges[part];
+    const int is_axes = s->channels == RETEX_AXES;
+    const int count = is_axes ? RETEX_AXES : 2;
+    Range both = {.most = 0};
+    for (int c = 0; c < count; c++)
+        both.most = fmaxf(both.most, (is_axes ? (float)M_SQRT2 : 1) * of[c].most_size);
+    for (int c = 0; c < count; c++) {
         map_log(&s->maps[c], &both, quantizer->per_octave);
+        s->maps[c].kind = is_axes ? RETEX_PACK_MAP_STEP : RETEX_PACK_MAP_LOG;
     }
     if (s->channels == 3) {
         s->maps[2].kind = RETEX_PACK_MAP_ANGLE;
         s->maps[2].per_octave = quantizer->angle_steps;
         retex_pack_map_fill(&s->maps[2]);
     }
-    p->sigma_first =
-        (int)floor((log2(s->maps[0].first / quantizer->sigma_share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
+}
+
+/* Quantize means to lattices, standard deviations and coverage logarithmically. Pixels of coverage 0 are not stored. */
+static void plan_footprint(Planning *plan, const RetexFootprint *f, const RetexPackFootprintSteps *quantizer)
+{
+    RetexPackPart *p = &plan->packed[f->uv], *s = &plan->packed[f->spread];
+    const Range *of_uv = plan->ranges[f->uv];
+    const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
+    if (plan->roles[f->uv] != ROLE_MEAN || plan->roles[f->spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
+        of_uv[1].most_size >= farthest || !of_uv[2].positive || !spread_fits(plan, f))
+        return;
+    p->present = s->present = f->uv;
+    p->sigma = f->spread;
+    map_log(&p->maps[2], &of_uv[2], 2);
+    p->maps[0].kind = p->maps[1].kind = RETEX_PACK_MAP_LATTICE;
+    plan_spread(plan, f->spread, quantizer);
+    const double share = s->channels == RETEX_AXES ? STEP_SHARE * quantizer->sigma_share : quantizer->sigma_share;
+    p->sigma_first = (int)floor((log2(s->maps[0].first / share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
 /* 1 if all means are multiples of the steps to which the renderer rounds them, and none is -0. */
@@ -398,7 +431,7 @@ static void plan_parts(Planning *plan)
         const RetexFootprint *f = &set->footprints[i];
         if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == RETEX_PACK_PLANES &&
             plan->packed[f->spread].codec == RETEX_PACK_PLANES)
-            plan_footprint(plan, f->uv, f->spread,
+            plan_footprint(plan, f,
                            f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION
                                ? &plan->quantizer->broad
                                : &plan->quantizer->sharp);

@@ -17,6 +17,7 @@ typedef enum RetexPackMapKind {
     RETEX_PACK_MAP_LOG,     /* code 0: 0; code c: first * 2^((c - 1) / per_octave) */
     RETEX_PACK_MAP_LINEAR,  /* c * first */
     RETEX_PACK_MAP_ANGLE,   /* sin((c - 128) / per_octave * pi / 2): a correlation */
+    RETEX_PACK_MAP_STEP,    /* axes, which are the steps of means (set/steps.h): c is the size along u or v as in LOG */
     RETEX_PACK_MAPS
 } RetexPackMapKind;
 
@@ -33,12 +34,13 @@ typedef struct RetexPackMap {
     RetexPackMapKind kind;
     double first;
     int per_octave;
-    float value[RETEX_PACK_CODES]; /* by code, for the last three kinds */
+    float value[RETEX_PACK_CODES]; /* by code, for kinds from LOG on */
 } RetexPackMap;
 
 int retex_pack_map_is_coded(const RetexPackMap *map); /* 1: numbers are codes from 0 to 255 */
 void retex_pack_map_fill(RetexPackMap *map);          /* compute value[] from the other fields */
-/* Turn `count` samples, `stride` floats apart, into numbers, and numbers into samples. */
+/* Turn `count` samples, `stride` floats apart, into numbers, and numbers into samples; of steps into the numbers of
+ * their sizes: samples are those to the right, two channels on are those down. */
 void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,
                             const RetexPackMap *map, RetexPixelType type);
 void retex_pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count,

@@ -1,9 +1,13 @@
 /* Strips of planes: their numbers, channel by channel, and rows of samples from these. See scratch.h. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "pack/restore.h"
 #include "pack/scratch.h"
+#include "set/steps.h"
+
+_Static_assert(RETEX_STEPS_ROWS == RETEX_PACK_STRIP_ROWS, "steps are taken within strips");
 
 void retex_pack_plane_strip_init(RetexPackPlaneStrip *planes)
 {
@@ -176,6 +180,39 @@ static void map_run(const RetexPackPart *p, const RetexPackPlaneStrip *own, int 
             retex_pack_map_samples(out, channels, (const int32_t *)own->numbers[c] + at, count, &p->maps[c], p->type);
 }
 
+static int is_steps(const RetexPackPart *p)
+{
+    return p->maps[0].kind == RETEX_PACK_MAP_STEP;
+}
+
+/* The step of means of channel c at a pixel; `at`: its place in a row or column of `count` pixels, `apart` from each
+ * other, which begins at `first` in the strip. */
+static float step_at(const RetexPackPlaneStrip *of, int c, size_t first, size_t apart, int at, int count, int wraps)
+{
+    const int32_t *numbers = of->numbers[c];
+    RetexStep step = {{0}, {0}};
+    for (int i = 0; i < 5; i++) {
+        const int place = at + i - 2;
+        if (place < 0 || place >= count || !of->present[first + (size_t)place * apart])
+            continue;
+        step.has[i] = 1;
+        step.uv[i] = ldexp((double)numbers[first + (size_t)place * apart], -RETEX_PACK_LATTICE_BITS);
+    }
+    return (float)retex_step(&step, wraps);
+}
+
+/* A run of a row of axes, which are the steps of the means `of`. */
+static void step_run(const RetexPackPart *p, const RetexPackPlaneStrip *of, int rows, int line, RetexRowSpan run,
+                     float *row)
+{
+    const size_t width = (size_t)p->width;
+    for (int x = run.begin; x < run.end; x++)
+        for (int a = 0; a < 2; a++) {
+            row[RETEX_AXES * x + a] = step_at(of, a, (size_t)line * width, 1, x, p->width, p->wraps[a]);
+            row[RETEX_AXES * x + 2 + a] = step_at(of, a, (size_t)x, width, line, rows, p->wraps[a]);
+        }
+}
+
 /* What is of the row that was there becomes 0. */
 static void clear_row(const RetexPackPart *p, const RetexPackPlaneStrip *own, float *row)
 {
@@ -198,6 +235,8 @@ int retex_pack_plane_strip_row(int part, int strip, int line, float *row, RetexR
         code = reserve_numbers(part, strip, c, s, err);
     if (!code && p->present >= 0)
         code = reserve_runs(p->present, strip, s, err);
+    for (int c = 0; !code && is_steps(p) && c < 2; c++)
+        code = reserve_numbers(p->present, strip, c, s, err);
     if (code)
         return code;
     clear_row(p, own, row);
@@ -210,7 +249,10 @@ int retex_pack_plane_strip_row(int part, int strip, int line, float *row, RetexR
         const RetexPackRuns *runs = &s->cached[p->present].planes.runs;
         for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
             const RetexRowSpan run = runs->run[k];
-            map_run(p, own, line, run, row);
+            if (is_steps(p))
+                step_run(p, &s->cached[p->present].planes, retex_pack_strip_rows(p, strip), line, run, row);
+            else
+                map_run(p, own, line, run, row);
             *span = retex_span_union(*span, run);
         }
     }

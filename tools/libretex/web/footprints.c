@@ -89,9 +89,17 @@ static void put_plane(Stream *s, const RetexImage *shape, int bits, int shifted)
 static int can_encode(const Stream *s, const RetexFootprint *f)
 {
     const RetexPackPart *uv = &s->packed[f->uv], *spread = &s->packed[f->spread];
-    return uv->maps[0].kind == RETEX_PACK_MAP_LATTICE && spread->maps[0].kind == RETEX_PACK_MAP_LOG &&
-           spread->maps[1].kind == RETEX_PACK_MAP_LOG && uv->sigma == f->spread &&
-           (spread->channels < 3 || spread->maps[2].kind == RETEX_PACK_MAP_ANGLE);
+    const int is_axes = spread->channels == RETEX_AXES;
+    int can = uv->maps[0].kind == RETEX_PACK_MAP_LATTICE && uv->sigma == f->spread;
+    for (int c = 0; c < (is_axes ? RETEX_AXES : 2); c++)
+        can = can && spread->maps[c].kind == (is_axes ? RETEX_PACK_MAP_STEP : RETEX_PACK_MAP_LOG);
+    return can && (spread->channels != 3 || spread->maps[2].kind == RETEX_PACK_MAP_ANGLE);
+}
+
+/* Planes of a spread: of standard deviations and their correlation, or of the sizes of axes. */
+static int spread_planes(const RetexPackPart *spread)
+{
+    return spread->channels == RETEX_AXES ? 2 : spread->channels;
 }
 
 static int put_footprint(Stream *s, const RetexWebClass *c, int index, RetexError *err)
@@ -105,7 +113,7 @@ static int put_footprint(Stream *s, const RetexWebClass *c, int index, RetexErro
     for (size_t i = 0; i < s->pixels; i++)
         s->present[i] = uv->pixels[3 * i + 2] > 0;
     put_mask(s, uv);
-    for (int k = 0; k < spread->channels; k++) {
+    for (int k = 0; k < spread_planes(spread); k++) {
         numbers_of(s->numbers, s, f->spread, k);
         put_plane(s, uv, 8, 0);
     }
@@ -168,7 +176,7 @@ json_t *retex_web_footprints_describe(const RetexPackPart *packed, const RetexSe
         retex_json_add(&list,
                        json_pack("{s:f,s:i,s:i,s:i,s:o}", "first", spread->maps[0].first, "per_octave",
                                  spread->maps[0].per_octave, "sigma_first", packed[f->uv].sigma_first, "angle_steps",
-                                 spread->channels < 3 ? 0 : spread->maps[2].per_octave, "weights", weights));
+                                 spread->channels != 3 ? 0 : spread->maps[2].per_octave, "weights", weights));
     }
     return list;
 }

@@ -13,10 +13,11 @@ static int refuse(RetexError *err, const char *what)
 
 /* ---- classes ---- */
 
-static RetexWebClass *class_of(RetexWebModel *model, const RetexFootprint *f)
+static RetexWebClass *class_of(RetexWebModel *model, const RetexFootprint *f, int has_axes)
 {
     for (int i = 0; i < model->nclasses; i++)
-        if (model->classes[i].target == f->target && model->classes[i].kind == f->kind)
+        if (model->classes[i].target == f->target && model->classes[i].kind == f->kind &&
+            model->classes[i].has_axes == has_axes)
             return &model->classes[i];
     return NULL;
 }
@@ -24,16 +25,21 @@ static RetexWebClass *class_of(RetexWebModel *model, const RetexFootprint *f)
 static int add_footprint(RetexWebModel *model, const RetexSet *set, int number, RetexError *err)
 {
     const RetexFootprint *f = &set->footprints[number];
-    RetexWebClass *c = class_of(model, f);
+    const int has_axes = f->spread >= 0 && retex_footprint_has_axes(set, f);
+    RetexWebClass *c = class_of(model, f, has_axes);
     if (f->uv < 0 || f->spread < 0 || f->kind == RETEX_FOOTPRINT_HIT)
         return refuse(err, "its layout is not footprints");
-    if (retex_footprint_has_axes(set, f)) /* compact sets have none */
-        return refuse(err, "it has parallelograms");
+    if (f->quadrant) /* compact sets have none */
+        return refuse(err, "it has quadrants");
     if (!c && model->nclasses == RETEX_WEB_CLASSES_MAX)
         return refuse(err, "it has too many kinds of footprints");
     if (!c) {
         c = &model->classes[model->nclasses++];
-        *c = (RetexWebClass){f->target, retex_set_footprint_scale(set, number), f->albedo, f->kind, 0, {0}, 0, {{0}}};
+        *c = (RetexWebClass){.target = f->target,
+                             .scale = retex_set_footprint_scale(set, number),
+                             .albedo = f->albedo,
+                             .kind = f->kind,
+                             .has_axes = has_axes};
     }
     if (c->nfootprints == RETEX_SHARES_MAX || c->albedo != f->albedo ||
         c->scale != retex_set_footprint_scale(set, number) || c->scale < 1)

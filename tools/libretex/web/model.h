@@ -9,15 +9,16 @@ enum {
     RETEX_WEB_SLOTS = 2,        /* most weights of a footprint */
     RETEX_WEB_WEIGHT_NONE = -1, /* in place of a part: 0 */
     RETEX_WEB_WEIGHT_ONE = -2,  /* 1 */
-    RETEX_WEB_CLASSES_MAX = 3 * RETEX_MAX_TARGETS,
+    RETEX_WEB_CLASSES_MAX = 4 * RETEX_MAX_TARGETS,
     RETEX_WEB_GROUPS_MAX = 128, /* what shaders have room for */
     RETEX_WEB_TERMS_MAX = 1024
 };
 
-/* The footprints of one target and kind. */
+/* The footprints of one target and kind: those with standard deviations, or those with axes. */
 typedef struct RetexWebClass {
     int target, scale, albedo;
     RetexFootprintKind kind;
+    int has_axes;
     int nfootprints, footprints[RETEX_SHARES_MAX];
     int nslots, weights[RETEX_WEB_SLOTS][RETEX_SHARES_MAX]; /* parts, or RETEX_WEB_WEIGHT_… */
 } RetexWebClass;
