@@ -87,9 +87,10 @@ static void squeeze_place(Places *own, Places *other, int own_is_full, int specu
 static void add_place(Places kinds[2], int extra, const FirstHit *q, const FilmParams *params)
 {
     Places *own = &kinds[!q->sharp], *other = &kinds[q->sharp];
-    int room = q->sharp ? params->sharp + extra : params->broad;
+    const int gathered = params->clusters == params->sharp + params->broad ? 2 : 0; /* broad ones until all are there */
+    int room = q->sharp ? params->sharp + extra : params->broad + gathered;
     const int *periodic = params->periodic[q->target];
-    if (own->count < room && own->count + other->count < params->clusters + extra)
+    if (own->count < room && own->count + other->count < params->clusters + extra + gathered)
         start_place(&own->of[own->count++], q, periodic);
     else
         squeeze_place(own, other, own->count == room, extra > 0, q, periodic);
@@ -156,7 +157,7 @@ static void nothing_is_lost_by_merging(void **state)
     (void)state;
     for (uint32_t round = 0; round < 20; round++) {
         TargetClusters target = {.interreflections_bound = 0};
-        FilmParams params = {.sharp = 2, .broad = 2, .clusters = 3};
+        FilmParams params = {.sharp = 2, .broad = 2, .clusters = 3 + (int)round % 2};
         Kept all = {0, 0, 0, 0}, kept = {0, 0, 0, 0};
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
@@ -171,6 +172,7 @@ static void nothing_is_lost_by_merging(void **state)
             all.squares += q.weight * q.weight, all.light += own, all.interreflected += further;
             all.reflected += 0.25 * (own + 1e-3 * further); /* interreflected light says little of the albedo */
         }
+        clusters_merge_broad(&target, 0, &params);
         add_kept(&kept, &target.sharp);
         add_kept(&kept, &target.broad);
         assert_true(fabs(kept.squares / all.squares - 1) < 1e-9);
@@ -275,7 +277,122 @@ static void direct_light_has_no_extra_clusters(void **state)
     const FilmParams params = {.sharp = 4, .broad = 2, .clusters = 6, .extra = 8};
     add_seen(&target, kinds, 0, &params, 1, PLACES);
     assert_int_equal(target.sharp.count, 4);
+    assert_int_equal(target.broad.count, 4);
+    clusters_merge_broad(&target, 0, &params);
     assert_int_equal(target.broad.count, 2);
+}
+
+/* A wave of a texture, as a Gaussian place sees it, times the place's light: from a place near it. */
+static void add_wave(double sum[2], double light, const RetexUvStats *a, const RetexUvStats *from, const double wave[2],
+                     const int periodic[2])
+{
+    const double u = retex_uv_stats_difference(a->mean[0], from->mean[0], periodic[0]);
+    const double v = retex_uv_stats_difference(a->mean[1], from->mean[1], periodic[1]);
+    const double phase = wave[0] * u + wave[1] * v;
+    const double m2 = wave[0] * wave[0] * a->m2[0] + 2 * wave[0] * wave[1] * a->m2[1] + wave[1] * wave[1] * a->m2[2];
+    const double seen = light * exp(-m2 / a->weight / 2);
+    sum[0] += seen * cos(phase), sum[1] += seen * sin(phase);
+}
+
+/* How far the light of two places changes, squared, if they are merged: wave by wave, of a texture with features of
+ * .05, whose power is a Gaussian of the wave number. */
+static double waves_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+{
+    enum { WAVES = 120 };
+    const double step = 0.9; /* its period, 7 units, is beyond all places */
+    RetexUvStats both = *a;
+    double error2 = 0, power = 0;
+    retex_uv_stats_merge(&both, b, periodic);
+    for (int i = 0; i <= WAVES; i++) /* the other half is alike */
+        for (int k = i ? -WAVES : 0; k <= WAVES; k++) {
+            const double wave[2] = {i * step, k * step};
+            const double s = exp(-0.05 * 0.05 * (wave[0] * wave[0] + wave[1] * wave[1]) / 2) * (i || k ? 2 : 1);
+            double sum[2] = {0, 0};
+            add_wave(sum, a->weight, a, a, wave, periodic);
+            add_wave(sum, b->weight, b, a, wave, periodic);
+            add_wave(sum, -both.weight, &both, a, wave, periodic);
+            error2 += s * (sum[0] * sum[0] + sum[1] * sum[1]), power += s;
+        }
+    return error2 / power;
+}
+
+/* At the end, broad places merge by what a fine texture would change by that. */
+static void broad_clusters_are_those_that_matter(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < 40; round++) {
+        TargetClusters target = {.interreflections_bound = 0};
+        const HitLight dark = {.used = 0};
+        FilmParams params = {.sharp = 1, .broad = 1 + (int)round % 2, .clusters = 2 + (int)round % 2};
+        const int *periodic = params.periodic[0];
+        uint32_t seed = round + 1;
+        Vec2 last = {0, 0};
+        params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
+        for (int n = 0; n < 4 + (int)round; n++) {
+            last = any_place(&seed, last);
+            FirstHit q = {.uv = {last.u, last.v}, .light = &dark, .weight = 1e-3 + test_random(&seed)};
+            clusters_add(&target, &q, &params);
+        }
+        Places places = {.count = target.broad.count};
+        assert_int_equal(places.count, params.broad + 2);
+        for (int k = 0; k < places.count; k++)
+            places.of[k] = target.broad.of[k].uv;
+        while (places.count > params.broad) {
+            Best best = {.cost = INFINITY};
+            for (int i = 0; i < places.count; i++)
+                for (int k = i + 1; k < places.count; k++) {
+                    const double cost = waves_error2(&places.of[i], &places.of[k], periodic);
+                    if (cost < best.cost)
+                        best = (Best){&places, i, k, cost};
+                }
+            retex_uv_stats_merge(&places.of[best.a], &places.of[best.b], periodic);
+            places.of[best.b] = places.of[--places.count];
+        }
+        clusters_merge_broad(&target, 0, &params);
+        expect_same(&target.broad, &places);
+    }
+}
+
+/* Two wide clusters on a line far away, where a variance is a small difference of large numbers, and a point. */
+static void far_broad_clusters_merge(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    for (int round = 0; round < 200; round++) {
+        const FilmParams params = {.sharp = 1, .broad = 2, .clusters = 3};
+        const double size = pow(10, 12 * test_random(&seed)), slope = test_random(&seed);
+        TargetClusters target = {.broad = {.count = 3, .changed = 7}};
+        target.broad.of[0].uv = (RetexUvStats){.weight = 2};
+        for (int k = 1; k < 3; k++) {
+            RetexUvStats *uv = &target.broad.of[k].uv;
+            retex_uv_stats_add(uv, 1, (double[2]){(k - 1) * size, (k - 1) * slope * size}, params.periodic[0]);
+            retex_uv_stats_add(uv, 1, (double[2]){k * size, k * slope * size}, params.periodic[0]);
+        }
+        clusters_merge_broad(&target, 0, &params);
+        assert_int_equal(target.broad.count, 2);
+        assert_true(target.broad.of[0].uv.m2[0] == 0);
+    }
+}
+
+/* As many as there may be are gathered no further than arrays reach; where kinds share a number, no more than that. */
+static void broad_clusters_are_bounded(void **state)
+{
+    (void)state;
+    static const FilmParams params[] = {{.sharp = 1, .broad = 15, .clusters = 16},
+                                        {.sharp = 2, .broad = 14, .clusters = 16},
+                                        {.sharp = 3, .broad = 3, .clusters = 3}};
+    static const int gathered[] = {16, 16, 3};
+    for (int k = 0; k < 3; k++) {
+        TargetClusters target = {.interreflections_bound = 0};
+        const HitLight dark = {.used = 0};
+        for (int n = 0; n < 40; n++) {
+            FirstHit q = {.uv = {n * 0.1, 0}, .light = &dark, .weight = 1};
+            clusters_add(&target, &q, &params[k]);
+        }
+        assert_int_equal(target.broad.count, gathered[k]);
+        clusters_merge_broad(&target, 0, &params[k]);
+        assert_int_equal(target.broad.count, params[k].broad);
+    }
 }
 
 static void further_hits_are_pooled_alike(void **state)
@@ -301,8 +418,9 @@ static void further_hits_are_pooled_alike(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clusters_are_those_of_all_pairs), cmocka_unit_test(extra_clusters_are_those_that_matter),
+        cmocka_unit_test(clusters_are_those_of_all_pairs),    cmocka_unit_test(extra_clusters_are_those_that_matter),
         cmocka_unit_test(direct_light_has_no_extra_clusters), cmocka_unit_test(nothing_is_lost_by_merging),
-        cmocka_unit_test(further_hits_are_pooled_alike)};
+        cmocka_unit_test(further_hits_are_pooled_alike),      cmocka_unit_test(broad_clusters_are_those_that_matter),
+        cmocka_unit_test(far_broad_clusters_merge),           cmocka_unit_test(broad_clusters_are_bounded)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 #include "film/footprints/pixel.h"
 
 #define ROUNDING 1e-9     /* of bounds */
-#define FINE_FEATURE 0.05 /* distance in UV over which textures change that need extra clusters */
+#define FINE_FEATURE 0.05 /* distance in UV over which textures change that need good clusters */
 #define EXTRA_ERROR 0.02  /* of a pixel's light: what it may be expected to change by one merging of them */
 
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
@@ -290,13 +290,14 @@ void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *p
     const int *periodic = params->periodic[q->target];
     if (q->sharp && !q->direct && params->extra && !target->specular)
         become_specular(target);
-    int extra = target->specular ? params->extra : 0, most = q->sharp ? params->sharp + extra : params->broad;
+    const int extra = target->specular ? params->extra : 0, broad = most_gathered_broad(params);
+    const int most = q->sharp ? params->sharp + extra : broad, all = params->clusters + extra + broad - params->broad;
     own->used |= q->light->used;
     for (unsigned left = q->light->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
         own->interreflected[i] += q->light->c[i];
     }
-    if (own->count < most && target->sharp.count + target->broad.count < params->clusters + extra)
+    if (own->count < most && target->sharp.count + target->broad.count < all)
         add_cluster(own, q, rule_of(target, q->sharp), periodic);
     else
         merge_cheapest(target, own->count == most, q, periodic);
@@ -312,5 +313,48 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
         if (best.cost > EXTRA_ERROR * EXTRA_ERROR * light * light)
             return;
         merge_pair(&best, periodic);
+    }
+}
+
+/* ---- broad clusters of a pixel that is complete ---- */
+
+/* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
+ * their distance d in FINE_FEATURE. Places are seen as normal distributions. */
+static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+{
+    const double f = FINE_FEATURE * FINE_FEATURE;
+    const double uu = a->m2[0] / a->weight + b->m2[0] / b->weight, uv = a->m2[1] / a->weight + b->m2[1] / b->weight;
+    const double vv = a->m2[2] / a->weight + b->m2[2] / b->weight;
+    const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
+    const double v = retex_uv_stats_difference(a->mean[1], b->mean[1], periodic[1]);
+    const double det =
+        f * f + f * (uu + vv) + fmax(uu * vv - uv * uv, 0); /* on a line far away: nothing but rounding */
+    const double distance2 = fmax((vv + f) * u * u - 2 * uv * u * v + (uu + f) * v * v, 0) / det;
+    return f / sqrt(det) * exp(-distance2 / 2);
+}
+
+/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. */
+static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+{
+    RetexUvStats both = *a;
+    retex_uv_stats_merge(&both, b, periodic);
+    const double p = a->weight, q = b->weight, r = both.weight;
+    return p * p * texture_covariance(a, a, periodic) + q * q * texture_covariance(b, b, periodic) +
+           r * r * texture_covariance(&both, &both, periodic) + 2 * p * q * texture_covariance(a, b, periodic) -
+           2 * r * (p * texture_covariance(a, &both, periodic) + q * texture_covariance(b, &both, periodic));
+}
+
+void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params)
+{
+    Clusters *broad = &target->broad;
+    while (broad->count > params->broad) {
+        Pair best = {broad, RULE_VARIATION, 0, 1, INFINITY};
+        for (int i = 0; i < broad->count; i++)
+            for (int k = i + 1; k < broad->count; k++) {
+                const double cost = merging_error2(&broad->of[i].uv, &broad->of[k].uv, params->periodic[t]);
+                if (cost < best.cost)
+                    best = (Pair){broad, RULE_VARIATION, i, k, cost};
+            }
+        merge_pair(&best, params->periodic[t]);
     }
 }

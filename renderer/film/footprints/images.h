@@ -7,6 +7,7 @@
 #include "film/footprints/plan.h"
 
 #define INTERREFLECTION_CLUSTERS 2 /* footprints of further hits, of each target */
+#define BROAD_GATHERED 2           /* broad clusters of a pixel beyond those that are kept, until it is complete */
 
 /* Images of one footprint: their numbers in the film's bands. */
 typedef struct FootprintImages {
@@ -57,6 +58,14 @@ typedef struct FootprintFilm {
 static inline int most_of_kind(const FilmParams *p, int kind)
 {
     return kind ? p->broad : p->sharp + p->extra;
+}
+
+/* So many broad ones are gathered until the pixel is complete: only then is it known how narrow each is, and what a
+ * texture may change by merging it. Where sharp and broad ones share a number, no more are gathered than are kept. */
+static inline int most_gathered_broad(const FilmParams *p)
+{
+    const int more = p->clusters < p->sharp + p->broad ? 0 : BROAD_GATHERED;
+    return p->broad + more < FILM_CLUSTERS_MAX ? p->broad + more : FILM_CLUSTERS_MAX;
 }
 
 /* Footprints of interreflections that a target may have: none where no further hit is kept. */

@@ -341,8 +341,10 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     FootprintFilm *film = p->film;
     p->spp = spp;
     const double white = white_pixel(p), unit = retex_coefficient_unit(white); /* before light is reset */
-    for (int t = 0; t < film->scene->ntargets; t++)
+    for (int t = 0; t < film->scene->ntargets; t++) {
         clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
+        clusters_merge_broad(&p->targets[t], t, &film->params);
+    }
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->indep[c] * scale), p->indep[c] = 0;
