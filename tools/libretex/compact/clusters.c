@@ -17,7 +17,6 @@
 #define WHOLE_NOISE 0.3          /* with less noise to be removed, quadrants keep their light, as ellipses */
 #define MORE_VARIANCE 0.25       /* relative variance by which a cluster may grow when merged */
 #define LITTLE_LIGHT 0.1         /* share of interreflected light up to which it has the weights of all light */
-#define FEATURE 0.02             /* distance in UV over which fine textures change */
 #define UNKNOWN_SAMPLES 1024     /* samples of a pixel, if the set does not have their number */
 #define TEXEL (1.0 / (1 << 26))  /* UV variance of a texel of a texture 8192 wide */
 
@@ -152,22 +151,6 @@ static void merge_places(Pool *pool)
             }
 }
 
-/* How much of a cluster's light, squared, a fine texture changes if it is averaged over an ellipse in place of what the
- * cluster is made of. Both have the same mean and covariance, so textures that are quadratic there do not change. */
-static double shape_error2(const RetexUvStats *place)
-{
-    const double squares = place->m2[0] + place->m2[2];
-    const double share = squares / (squares + place->weight * FEATURE * FEATURE);
-    return place->weight * place->weight * share * share * share;
-}
-
-static double merging_error2(const Pool *pool, int i, int j)
-{
-    RetexUvStats both = pool->of[i].place;
-    retex_uv_stats_merge(&both, &pool->of[j].place, pool->periodic);
-    return shape_error2(&both) - shape_error2(&pool->of[i].place) - shape_error2(&pool->of[j].place);
-}
-
 /* Merge sharp clusters as long as one merging is expected to change the block less than its noise: light that comes
  * from where the texture is black or white as chance has it varies by its square over the number of samples. Where
  * less noise may be removed, far less than that. */
@@ -179,7 +162,7 @@ static void merge_within_noise(Pool *pool)
         double least = INFINITY;
         for (int i = 1; i < pool->count; i++)
             for (int j = 0; j < i; j++) {
-                const double error2 = merging_error2(pool, i, j);
+                const double error2 = retex_uv_stats_shape_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
                 if (error2 < least)
                     least = error2, first = i, second = j;
             }

@@ -68,6 +68,26 @@ static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, doub
     return sum * both / (both + sum * sum * (RETEX_UV_FEATURE * RETEX_UV_FEATURE));
 }
 
+#define RETEX_UV_FINE 0.02 /* distance in UV over which fine textures change */
+
+/* How much of a cluster's light, its weight, a fine texture changes, squared, if it is averaged over an ellipse in place
+ * of what the cluster is made of: w^2 (V / (V + RETEX_UV_FINE^2))^3. Both have the same mean and covariance, so textures
+ * that are quadratic there do not change. */
+static inline double retex_uv_stats_shape_error2(const RetexUvStats *a)
+{
+    const double squares = a->m2[0] + a->m2[2];
+    const double share = squares / (squares + a->weight * RETEX_UV_FINE * RETEX_UV_FINE);
+    return a->weight * a->weight * share * share * share;
+}
+
+/* By how much merging two raises that. */
+static inline double retex_uv_stats_shape_gain(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+{
+    RetexUvStats both = *a;
+    retex_uv_stats_merge(&both, b, periodic);
+    return retex_uv_stats_shape_error2(&both) - retex_uv_stats_shape_error2(a) - retex_uv_stats_shape_error2(b);
+}
+
 /* The mean, as floats; spread: the standard deviations of u and v, and their correlation. */
 void retex_uv_stats_get(const RetexUvStats *stats, float mean[2], float spread[3]);
 /* The same, rounded: the mean to a 32nd of the standard deviation at most. */
