@@ -96,12 +96,12 @@ static void add_place(Places kinds[2], int extra, const FirstHit *q, const FilmP
         squeeze_place(own, other, own->count == room, extra > 0, q, periodic);
 }
 
-static void add_interreflection(RetexUvStats clusters[INTERREFLECTION_CLUSTERS], const Interreflection *l,
+static void add_interreflection(RetexUvStats clusters[INTERREFLECTION_GATHERED], const Interreflection *l,
                                 const int periodic[2])
 {
     const RetexUvStats one = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}};
-    double gain[INTERREFLECTION_CLUSTERS];
-    for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+    double gain[INTERREFLECTION_GATHERED];
+    for (int k = 0; k < INTERREFLECTION_GATHERED; k++) {
         if (clusters[k].weight == 0) {
             clusters[k] = one;
             return;
@@ -112,12 +112,21 @@ static void add_interreflection(RetexUvStats clusters[INTERREFLECTION_CLUSTERS],
             return;
         }
     }
-    double both = retex_uv_stats_variation_gain(&clusters[0], &clusters[1], periodic);
-    if (both < gain[0] && both < gain[1]) {
-        retex_uv_stats_merge(&clusters[0], &clusters[1], periodic);
-        clusters[1] = one;
+    int nearest = 0, a = 0, b = 1;
+    double least = INFINITY;
+    for (int i = 0; i < INTERREFLECTION_GATHERED; i++) {
+        nearest = gain[i] < gain[nearest] ? i : nearest;
+        for (int k = i + 1; k < INTERREFLECTION_GATHERED; k++) {
+            const double cost = retex_uv_stats_variation_gain(&clusters[i], &clusters[k], periodic);
+            if (cost < least)
+                least = cost, a = i, b = k;
+        }
+    }
+    if (least < gain[nearest]) {
+        retex_uv_stats_merge(&clusters[a], &clusters[b], periodic);
+        clusters[b] = one;
     } else {
-        retex_uv_stats_merge(&clusters[gain[1] < gain[0]], &one, periodic);
+        retex_uv_stats_merge(&clusters[nearest], &one, periodic);
     }
 }
 
@@ -350,6 +359,22 @@ static double waves_error2(const RetexUvStats *a, const RetexUvStats *b, const i
     return error2 / power;
 }
 
+/* Down to so many, those first that a fine texture tells apart least. */
+static void merge_by_waves(Places *places, int most, const int periodic[2])
+{
+    while (places->count > most) {
+        Best best = {.cost = INFINITY};
+        for (int i = 0; i < places->count; i++)
+            for (int k = i + 1; k < places->count; k++) {
+                const double cost = waves_error2(&places->of[i], &places->of[k], periodic);
+                if (cost < best.cost)
+                    best = (Best){places, i, k, cost};
+            }
+        retex_uv_stats_merge(&places->of[best.a], &places->of[best.b], periodic);
+        places->of[best.b] = places->of[--places->count];
+    }
+}
+
 /* At the end, broad places merge by what a fine texture would change by that. */
 static void broad_clusters_are_those_that_matter(void **state)
 {
@@ -371,17 +396,7 @@ static void broad_clusters_are_those_that_matter(void **state)
         assert_int_equal(places.count, params.broad + 2);
         for (int k = 0; k < places.count; k++)
             places.of[k] = target.broad.of[k].uv;
-        while (places.count > params.broad) {
-            Best best = {.cost = INFINITY};
-            for (int i = 0; i < places.count; i++)
-                for (int k = i + 1; k < places.count; k++) {
-                    const double cost = waves_error2(&places.of[i], &places.of[k], periodic);
-                    if (cost < best.cost)
-                        best = (Best){&places, i, k, cost};
-                }
-            retex_uv_stats_merge(&places.of[best.a], &places.of[best.b], periodic);
-            places.of[best.b] = places.of[--places.count];
-        }
+        merge_by_waves(&places, params.broad, periodic);
         clusters_merge_broad(&target, 0, &params);
         expect_same(&target.broad, &places);
     }
@@ -429,13 +444,24 @@ static void broad_clusters_are_bounded(void **state)
     }
 }
 
+/* No two interreflections cost less to merge than the bound, but for rounding; while more fit, there is none. */
+static void expect_bound(const TargetClusters *target, const int periodic[2])
+{
+    const InterreflectionCluster *c = target->interreflections;
+    double least = c[INTERREFLECTION_GATHERED - 1].uv.weight > 0 ? INFINITY : -INFINITY;
+    for (int i = 0; i < INTERREFLECTION_GATHERED; i++)
+        for (int k = i + 1; k < INTERREFLECTION_GATHERED && least > -INFINITY; k++)
+            least = fmin(least, retex_uv_stats_variation_gain(&c[i].uv, &c[k].uv, periodic));
+    assert_true(target->interreflections_bound <= least + 1e-12);
+}
+
 static void further_hits_are_pooled_alike(void **state)
 {
     (void)state;
     for (uint32_t round = 0; round < 60; round++) {
         const int periodic[2] = {round % 4 == 3, round % 8 == 3};
         TargetClusters target = {.interreflections_bound = 0};
-        RetexUvStats clusters[INTERREFLECTION_CLUSTERS] = {{.weight = 0}, {.weight = 0}};
+        RetexUvStats clusters[INTERREFLECTION_GATHERED] = {{.weight = 0}, {.weight = 0}};
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
         for (int n = 0; n < PLACES; n++) {
@@ -443,10 +469,57 @@ static void further_hits_are_pooled_alike(void **state)
             const Interreflection l = {.uv = {last.u, last.v}, .weight = 1e-3 + pow(test_random(&seed), 8) * 50};
             clusters_add_interreflection(&target, &l, periodic);
             add_interreflection(clusters, &l, periodic);
-            for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++)
+            for (int k = 0; k < INTERREFLECTION_GATHERED; k++)
                 assert_memory_equal(&target.interreflections[k].uv, &clusters[k], sizeof clusters[k]);
+            expect_bound(&target, periodic);
         }
     }
+}
+
+/* At the end, interreflections merge as broad places do, from as many as there are; their light is kept. */
+static void interreflections_are_those_that_matter(void **state)
+{
+    (void)state;
+    int gathered[5] = {0}; /* up to four */
+    for (uint32_t round = 0; round < 40; round++) {
+        TargetClusters target = {.interreflections_bound = 0};
+        FilmParams params = {.sharp = 1, .broad = 1, .clusters = 2};
+        const int *periodic = params.periodic[0];
+        Places places = {.count = 0};
+        uint32_t seed = round + 1;
+        Vec2 last = {0, 0};
+        double squares = 0;
+        float light = 0;
+        params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
+        for (uint32_t n = 0; n < 1 + round % 8 * (1 + round % 3); n++) {
+            last = any_place(&seed, last);
+            const float own = (float)test_random(&seed);
+            const Interreflection l = {.uv = {last.u, last.v},
+                                       .weight = 1e-3 + test_random(&seed),
+                                       .light = {0, own, 0, 0},
+                                       .albedo = {0.5f, 0.25f, 1, 0}};
+            clusters_add_interreflection(&target, &l, periodic);
+            squares += l.weight * l.weight, light += own;
+        }
+        for (; places.count < INTERREFLECTION_GATHERED; places.count++) {
+            const RetexUvStats *uv = &target.interreflections[places.count].uv;
+            if (!(uv->weight > 0))
+                break;
+            places.of[places.count] = *uv;
+        }
+        gathered[places.count]++;
+        merge_by_waves(&places, 2, periodic);
+        clusters_merge_interreflections(&target, 0, &params);
+        for (int k = 0; k < INTERREFLECTION_GATHERED; k++) {
+            const InterreflectionCluster *c = &target.interreflections[k];
+            assert_memory_equal(&c->uv, &places.of[k], k < places.count ? sizeof c->uv : 0);
+            assert_true((c->uv.weight > 0) == (k < places.count));
+            squares -= c->squares, light -= c->albedo.light[1];
+            assert_true(fabsf(c->albedo.reflected[1] - 0.25f * c->albedo.light[1]) < 1e-5f);
+        }
+        assert_true(fabs(squares) < 1e-9 && fabsf(light) < 1e-4f);
+    }
+    assert_true(gathered[1] > 0 && gathered[2] > 0 && gathered[3] > 0 && gathered[4] > 20);
 }
 
 int main(void)
@@ -459,6 +532,7 @@ int main(void)
                                        cmocka_unit_test(further_hits_are_pooled_alike),
                                        cmocka_unit_test(broad_clusters_are_those_that_matter),
                                        cmocka_unit_test(far_broad_clusters_merge),
-                                       cmocka_unit_test(broad_clusters_are_bounded)};
+                                       cmocka_unit_test(broad_clusters_are_bounded),
+                                       cmocka_unit_test(interreflections_are_those_that_matter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

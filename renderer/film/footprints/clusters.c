@@ -7,7 +7,11 @@
  * f(ak) - f(a) - f(k). A hit x that joins a cannot make f(ak) less, and makes f(a) more by exactly what joining cost:
  * f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by the cost of joining. There is no
  * bound for UV that close (periodic), as distances there may go either way round. Costs of pairs are kept until one of
- * the two changes. */
+ * the two changes.
+ *
+ * While paths end, broad clusters and interreflections merge by features of half a unit of UV, as it is not yet known
+ * which of them are narrow. So more are gathered than are kept; the last mergings, when the pixel is complete, go by
+ * fine features. */
 #include <math.h>
 #include "film/footprints/pixel.h"
 
@@ -38,14 +42,29 @@ static void merge_interreflections(InterreflectionCluster *into, const Interrefl
     merge_albedo(&into->albedo, &from->albedo);
 }
 
+/* The two of a pixel's interreflections, when it has as many as it may gather, that cost the least to merge. Returns
+ * the cost. */
+static double find_interreflections(const InterreflectionCluster *clusters, const int periodic[2], int *a, int *b)
+{
+    double least = INFINITY;
+    for (int i = 0; i < INTERREFLECTION_GATHERED; i++)
+        for (int k = i + 1; k < INTERREFLECTION_GATHERED; k++) {
+            const double cost = retex_uv_stats_variation_gain(&clusters[i].uv, &clusters[k].uv, periodic);
+            if (cost < least)
+                least = cost, *a = i, *b = k;
+        }
+    return least;
+}
+
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *l, const int periodic[2])
 {
     const InterreflectionCluster one = {.uv = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}},
                                         .squares = l->weight * l->weight,
                                         .albedo = {l->light, l->light * l->albedo}};
     InterreflectionCluster *clusters = target->interreflections;
-    double gain[INTERREFLECTION_CLUSTERS];
-    for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+    double gain[INTERREFLECTION_GATHERED];
+    int nearest = 0, a = 0, b = 1;
+    for (int k = 0; k < INTERREFLECTION_GATHERED; k++) {
         if (clusters[k].uv.weight == 0) {
             clusters[k] = one;
             target->interreflections_bound = -INFINITY;
@@ -56,17 +75,17 @@ void clusters_add_interreflection(TargetClusters *target, const Interreflection 
             merge_interreflections(&clusters[k], &one, periodic);
             return;
         }
+        nearest = gain[k] < gain[nearest] ? k : nearest;
     }
-    int nearer = gain[1] < gain[0];
-    if (target->interreflections_bound <= gain[nearer])
-        target->interreflections_bound = retex_uv_stats_variation_gain(&clusters[0].uv, &clusters[1].uv, periodic);
-    if (target->interreflections_bound < gain[nearer]) {
-        merge_interreflections(&clusters[0], &clusters[1], periodic);
-        clusters[1] = one;
+    if (target->interreflections_bound <= gain[nearest])
+        target->interreflections_bound = find_interreflections(clusters, periodic, &a, &b);
+    if (target->interreflections_bound < gain[nearest]) {
+        merge_interreflections(&clusters[a], &clusters[b], periodic);
+        clusters[b] = one;
         target->interreflections_bound = -INFINITY;
     } else {
-        merge_interreflections(&clusters[nearer], &one, periodic);
-        target->interreflections_bound = lowered_bound(target->interreflections_bound, gain[nearer], periodic);
+        merge_interreflections(&clusters[nearest], &one, periodic);
+        target->interreflections_bound = lowered_bound(target->interreflections_bound, gain[nearest], periodic);
     }
 }
 
@@ -337,7 +356,7 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
     }
 }
 
-/* ---- broad clusters of a pixel that is complete ---- */
+/* ---- broad clusters and interreflections of a pixel that is complete ---- */
 
 /* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
  * their distance d in FINE_FEATURE. Places are seen as normal distributions. */
@@ -365,17 +384,43 @@ static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, const
            2 * r * (p * texture_covariance(a, &both, periodic) + q * texture_covariance(b, &both, periodic));
 }
 
+/* The two of several places that such a texture tells apart least. */
+static void find_least_different(const RetexUvStats *const places[], int count, const int periodic[2], int *a, int *b)
+{
+    double least = INFINITY;
+    *a = 0, *b = 1;
+    for (int i = 0; i < count; i++)
+        for (int k = i + 1; k < count; k++) {
+            const double error2 = merging_error2(places[i], places[k], periodic);
+            if (error2 < least)
+                least = error2, *a = i, *b = k;
+        }
+}
+
 void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params)
 {
     Clusters *broad = &target->broad;
+    const RetexUvStats *places[FILM_CLUSTERS_MAX];
+    for (int k = 0; k < broad->count; k++)
+        places[k] = &broad->of[k].uv;
     while (broad->count > params->broad) {
-        Pair best = {broad, RULE_VARIATION, 0, 1, INFINITY};
-        for (int i = 0; i < broad->count; i++)
-            for (int k = i + 1; k < broad->count; k++) {
-                const double cost = merging_error2(&broad->of[i].uv, &broad->of[k].uv, params->periodic[t]);
-                if (cost < best.cost)
-                    best = (Pair){broad, RULE_VARIATION, i, k, cost};
-            }
-        merge_pair(&best, params->periodic[t]);
+        Pair pair = {broad, RULE_VARIATION, 0, 1, 0};
+        find_least_different(places, broad->count, params->periodic[t], &pair.a, &pair.b);
+        merge_pair(&pair, params->periodic[t]);
+    }
+}
+
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params)
+{
+    InterreflectionCluster *clusters = target->interreflections;
+    const RetexUvStats *places[INTERREFLECTION_GATHERED];
+    int count = 0, a, b;
+    for (; count < INTERREFLECTION_GATHERED && clusters[count].uv.weight > 0; count++)
+        places[count] = &clusters[count].uv;
+    while (count > INTERREFLECTION_CLUSTERS) {
+        find_least_different(places, count, params->periodic[t], &a, &b);
+        merge_interreflections(&clusters[a], &clusters[b], params->periodic[t]);
+        clusters[b] = clusters[--count];
+        clusters[count] = (InterreflectionCluster){.squares = 0};
     }
 }

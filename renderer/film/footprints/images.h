@@ -7,6 +7,7 @@
 #include "film/footprints/plan.h"
 
 #define INTERREFLECTION_CLUSTERS 2 /* footprints of further hits, of each target */
+#define INTERREFLECTION_GATHERED 4 /* such clusters of a pixel, until it is complete */
 #define BROAD_GATHERED 2           /* broad clusters of a pixel beyond those that are kept, until it is complete */
 
 /* Images of one footprint: their numbers in the film's bands. */

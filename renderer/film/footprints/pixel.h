@@ -121,7 +121,7 @@ typedef struct EditedLight {
 typedef struct TargetClusters {
     Clusters sharp, broad;
     int specular; /* a mirror or glass shows it: there may be extra sharp clusters */
-    InterreflectionCluster interreflections[INTERREFLECTION_CLUSTERS];
+    InterreflectionCluster interreflections[INTERREFLECTION_GATHERED];
     double interreflections_bound; /* merge_bound of interreflections */
     EditedLight edited;            /* of corrected targets */
 } TargetClusters;
@@ -161,6 +161,8 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
 /* Merge broad clusters of target t, once it has all hits, down to as many as are kept. */
 void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
+/* Merge interreflections of target t, once it has all hits, down to as many as are kept: the first of the array. */
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params);
 
 /* A hit of the current path; see target_tree.h. */
 typedef struct Node {

@@ -344,6 +344,7 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     for (int t = 0; t < film->scene->ntargets; t++) {
         clusters_merge_within_noise(&p->targets[t], t, &film->params);
         clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
+        clusters_merge_interreflections(&p->targets[t], t, &film->params);
         clusters_merge_broad(&p->targets[t], t, &film->params);
     }
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
