@@ -373,25 +373,33 @@ static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, c
     return f / sqrt(det) * exp(-distance2 / 2);
 }
 
-/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. */
-static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+/* How far the light of a place varies, squared, with such a texture. */
+static double light_variance(const RetexUvStats *a, const int periodic[2])
+{
+    return a->weight * a->weight * texture_covariance(a, a, periodic);
+}
+
+/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. apart: the
+ * sum of their light_variance. */
+static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, double apart, const int periodic[2])
 {
     RetexUvStats both = *a;
     retex_uv_stats_merge(&both, b, periodic);
     const double p = a->weight, q = b->weight, r = both.weight;
-    return p * p * texture_covariance(a, a, periodic) + q * q * texture_covariance(b, b, periodic) +
-           r * r * texture_covariance(&both, &both, periodic) + 2 * p * q * texture_covariance(a, b, periodic) -
+    return apart + light_variance(&both, periodic) + 2 * p * q * texture_covariance(a, b, periodic) -
            2 * r * (p * texture_covariance(a, &both, periodic) + q * texture_covariance(b, &both, periodic));
 }
 
 /* The two of several places that such a texture tells apart least. */
 static void find_least_different(const RetexUvStats *const places[], int count, const int periodic[2], int *a, int *b)
 {
-    double least = INFINITY;
+    double least = INFINITY, variance[FILM_CLUSTERS_MAX];
     *a = 0, *b = 1;
+    for (int k = 0; k < count; k++)
+        variance[k] = light_variance(places[k], periodic);
     for (int i = 0; i < count; i++)
         for (int k = i + 1; k < count; k++) {
-            const double error2 = merging_error2(places[i], places[k], periodic);
+            const double error2 = merging_error2(places[i], places[k], variance[i] + variance[k], periodic);
             if (error2 < least)
                 least = error2, *a = i, *b = k;
         }
