@@ -13,7 +13,7 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 > retex-room.d.ts
 > retex-room.js
 > room.json
-> 12
+> 14
 $ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 65536 && echo small
 > small
 
@@ -28,7 +28,7 @@ $ retex-pack s.exr --web out/room 2>&1 | /usr/bin/python3 "$TESTS/../web/files.p
 $ retex-pack -q s.exr --web one --threads 1; diff -r one out/room && echo same
 > same
 $ retex-pack -q s.exr -o s.retex; retex-pack -q s.retex --web packed; ls packed | wc -l
-> 21
+> 23
 
 # From a pack without loss it is the set's own. In finer packs all is of the picture's size, and nothing is there to be
 # made compact; the message says what to take.
