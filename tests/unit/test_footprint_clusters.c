@@ -277,40 +277,6 @@ static void extra_clusters_are_those_that_matter(void **state)
     assert_true(stopped > 20 && counts[4] > 20 && counts[12] > 0 && counts[4] + counts[12] < 110);
 }
 
-/* How many clusters are left of two places at a distance, of n hits of weight 1 each. What is seen directly is left as it
- * was gathered, in four. */
-static int left_of_two(double distance, int n, int direct)
-{
-    const FilmParams params = {.sharp = 4, .broad = 2, .clusters = 6, .extra = 8};
-    const HitLight dark = {.used = 0};
-    TargetClusters target = {.interreflections_bound = 0};
-    for (int k = 0; k < 2 * n; k++) {
-        const FirstHit q = {
-            .uv = {0.3 + (k % 2) * distance, 0.4}, .light = &dark, .weight = 1, .sharp = 1, .direct = direct};
-        clusters_add(&target, &q, &params);
-    }
-    clusters_merge_within_noise(&target, 0, &params);
-    return target.sharp.count;
-}
-
-/* Their light is 2 n, the variance of UV of both V = d^2 / 4. A merging changes (2 n)^2 (V / (V + .02^2))^3, and half of
- * the noise of 2 n samples is (2 n) / 4, squared. */
-static void clusters_merge_within_noise_of_samples(void **state)
-{
-    (void)state;
-    int merged = 0, all = 0;
-    for (int n = 4; n <= 4096; n *= 4)
-        for (double d = 0.002; d < 0.5; d *= 1.3, all++) {
-            const double v = d * d / 4, change2 = 4.0 * n * n * pow(v / (v + 0.0004), 3), most = 2.0 * n / 4;
-            if (fabs(log(change2 / most)) < 0.01)
-                continue;
-            assert_int_equal(left_of_two(d, n, 0), change2 < most ? 1 : 2);
-            assert_int_equal(left_of_two(d, n, 1), 4);
-            merged += change2 < most;
-        }
-    assert_true(merged > all / 10 && merged < all * 3 / 4);
-}
-
 /* What is seen directly, or found after wide scattering, has no extra clusters. */
 static void direct_light_has_no_extra_clusters(void **state)
 {
@@ -526,7 +492,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(clusters_are_those_of_all_pairs),
                                        cmocka_unit_test(extra_clusters_are_those_that_matter),
-                                       cmocka_unit_test(clusters_merge_within_noise_of_samples),
                                        cmocka_unit_test(direct_light_has_no_extra_clusters),
                                        cmocka_unit_test(nothing_is_lost_by_merging),
                                        cmocka_unit_test(further_hits_are_pooled_alike),

@@ -23,7 +23,7 @@ static void remove_pixel(RetexImage *uv, int x, int y)
 /* u = x^2 / 8 + y, v = x y / 4 - y^2 / 16: exact in floats. */
 static RetexImage parabolas(void)
 {
-    RetexImage uv;
+    RetexImage uv = {0};
     RetexError err;
     test_must(retex_image_alloc(&uv, WIDE, HIGH, 3, &err), &err);
     for (int y = 0; y < HIGH; y++)

@@ -17,8 +17,7 @@
 
 #define ROUNDING 1e-9     /* of bounds */
 #define FINE_FEATURE 0.05 /* distance in UV over which textures change that need good clusters */
-#define NOISE_SHARE 0.25 /* of the variance that the samples of a pixel have, which one merging of sharp ones may add */
-#define EXTRA_ERROR 0.02 /* of a pixel's light: what it may be expected to change by one merging of them */
+#define EXTRA_ERROR 0.02  /* of a pixel's light: what it may be expected to change by one merging of them */
 
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
 {
@@ -321,26 +320,6 @@ void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *p
         add_cluster(own, q, rule_of(target, q->sharp), periodic);
     else
         merge_cheapest(target, own->count == most, q, periodic);
-}
-
-void clusters_merge_within_noise(TargetClusters *target, int t, const FilmParams *params)
-{
-    Clusters *sharp = &target->sharp;
-    double noise2 = 0;
-    for (int i = 0; i < sharp->count; i++)
-        noise2 += sharp->of[i].squares;
-    while (sharp->count > 1 && target->specular) {
-        Pair best = {sharp, RULE_LIGHT, 0, 1, INFINITY};
-        for (int i = 0; i < sharp->count; i++)
-            for (int k = i + 1; k < sharp->count; k++) {
-                const double cost = retex_uv_stats_shape_gain(&sharp->of[i].uv, &sharp->of[k].uv, params->periodic[t]);
-                if (cost < best.cost)
-                    best = (Pair){sharp, RULE_LIGHT, i, k, cost};
-            }
-        if (best.cost > NOISE_SHARE * noise2)
-            return;
-        merge_pair(&best, params->periodic[t]);
-    }
 }
 
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light)

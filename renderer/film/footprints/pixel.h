@@ -152,9 +152,6 @@ void clusters_keep_rest(Clusters *clusters);
 
 /* Add a hit of a path to the clusters of its target. */
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
-/* Merge sharp clusters that mirrors or glass show of target t, once it has all hits, where one merging is expected to
- * change the pixel less than half as much as chance in its samples does. */
-void clusters_merge_within_noise(TargetClusters *target, int t, const FilmParams *params);
 /* Merge extra sharp clusters of target t, once it has all hits, where the pixel is expected to change little by that.
  * light: of the pixel, in the units of the hits' weights. */
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light);

@@ -342,7 +342,6 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     p->spp = spp;
     const double white = white_pixel(p), unit = retex_coefficient_unit(white); /* before light is reset */
     for (int t = 0; t < film->scene->ntargets; t++) {
-        clusters_merge_within_noise(&p->targets[t], t, &film->params);
         clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
         clusters_merge_interreflections(&p->targets[t], t, &film->params);
         clusters_merge_broad(&p->targets[t], t, &film->params);

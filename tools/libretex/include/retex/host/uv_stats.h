@@ -70,9 +70,9 @@ static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, doub
 
 #define RETEX_UV_FINE 0.02 /* distance in UV over which fine textures change */
 
-/* How much of a cluster's light, its weight, a fine texture changes, squared, if it is averaged over an ellipse in place
- * of what the cluster is made of: w^2 (V / (V + RETEX_UV_FINE^2))^3. Both have the same mean and covariance, so textures
- * that are quadratic there do not change. */
+/* How much of a cluster's light, its weight, a fine texture changes, squared, if it is averaged over an ellipse in
+ * place of what the cluster is made of: w^2 (V / (V + RETEX_UV_FINE^2))^3. Both have the same mean and covariance, so
+ * textures that are quadratic there do not change. */
 static inline double retex_uv_stats_shape_error2(const RetexUvStats *a)
 {
     const double squares = a->m2[0] + a->m2[2];
