@@ -50,6 +50,8 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     RetexDenoiseResult result = {NULL, NULL};
     int code = retex_set_load(set, nthreads, err);
     if (!code)
+        retex_set_round_to_types(set, nthreads);
+    if (!code)
         code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
     if (!code)
         code = retex_denoise_result_open(&result, d, err);

@@ -4,9 +4,8 @@
 #include <retex/combine.h>
 #include <retex/parallel.h>
 
-#include "base/half.h"
 #include "precision/precision.h"
-#include "set/set.h"
+#include "set/parts.h"
 
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;
@@ -30,20 +29,6 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
     }
 }
 
-/* Rounds to halves as the file will, so that it does not matter whether the set is written and read in between. */
-static void round_halves(const RetexPart *part, int y)
-{
-    const RetexImage *im = &part->image;
-    float *row = im->pixels + retex_image_index(im, 0, y);
-    size_t count = (size_t)im->width * (size_t)im->channels;
-    uint16_t halves[256];
-    for (size_t i = 0; i < count && part->type == RETEX_HALF; i += 256) {
-        size_t n = count - i < 256 ? count - i : 256;
-        retex_half_from_float(halves, row + i, n);
-        retex_half_to_float(row + i, halves, n);
-    }
-}
-
 typedef struct Finish {
     const RetexDenoiser *denoiser;
     const RetexDenoiseResult *result;
@@ -60,16 +45,7 @@ static void restore_row(void *context, int y, int thread)
         restore_means(d, f->result, y);
     for (int k = 0; k < d->set->nparts; k++)
         if (f->result->written[k])
-            round_halves(&d->set->parts[k], y);
-}
-
-static void round_row(void *context, int y, int thread)
-{
-    const RetexSet *set = context;
-    (void)thread;
-    for (int k = 0; k < set->nparts; k++)
-        if (set->parts[k].image.pixels && set->parts[k].image.height == set->height)
-            round_halves(&set->parts[k], y);
+            retex_part_round_row(&d->set->parts[k], y);
 }
 
 static int round_all(const RetexDenoiser *d, int nthreads, RetexError *err)
@@ -79,7 +55,7 @@ static int round_all(const RetexDenoiser *d, int nthreads, RetexError *err)
     if (!code)
         code = retex_precision_round(precision, d->set, &d->roi, nthreads, err);
     retex_precision_close(&precision);
-    retex_parallel(retex_threads(nthreads), d->set->height, round_row, d->set);
+    retex_set_round_to_types(d->set, nthreads);
     return code;
 }
 
@@ -94,6 +70,6 @@ int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *resul
     if (!code && set->nterms)
         code = retex_combine(&set->parts[0].image, set, NULL, &sum, &d->roi, nthreads, err);
     for (int y = 0; y < set->height && !code; y++)
-        round_halves(&set->parts[0], y);
+        retex_part_round_row(&set->parts[0], y);
     return code;
 }

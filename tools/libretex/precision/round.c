@@ -8,6 +8,7 @@
 #include "base/jobs.h"
 #include "set/strip.h"
 #include "precision/precision.h"
+#include "set/parts.h"
 #include "set/set.h"
 
 enum { ROWS = 4 * RETEX_PRECISION_LINES }; /* that are in memory at once */
@@ -52,8 +53,10 @@ static int round_rows(const RetexPrecision *precision, RoundedStore *s, RetexSet
     RetexSet *rows;
     const int left = s->set->height - y;
     int code = retex_set_strip_load(&rows, strip, y, left < ROWS ? left : ROWS, nthreads, err);
-    if (!code)
+    if (!code) {
+        retex_set_round_to_types(rows, nthreads); /* as those of a band store are */
         code = retex_precision_round(precision, rows, NULL, nthreads, err);
+    }
     s->rows = rows, s->y = y;
     return code || !s->store ? code : retex_jobs_run(nthreads, s->set->nparts, store_part, s, err);
 }

@@ -6,7 +6,10 @@
 
 #include <retex/host/denoise_data.h>
 #include <retex/host/set_build.h>
+#include <retex/parallel.h>
 
+#include "base/half.h"
+#include "base/image.h"
 #include "set/references.h"
 
 static void find_part(void *context, RetexPartUse use, int user, int *part)
@@ -88,4 +91,31 @@ int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kep
     retex_set_visit_parts(&view->set, renumber, place);
     free(place);
     return 0;
+}
+
+void retex_part_round_row(RetexPart *part, int y)
+{
+    RetexImage *im = &part->image;
+    float *row = im->pixels + retex_image_index(im, 0, y);
+    const size_t count = (size_t)im->width * (size_t)im->channels;
+    uint16_t halves[256];
+    for (size_t i = 0; i < count && part->type == RETEX_HALF; i += 256) {
+        const size_t n = count - i < 256 ? count - i : 256;
+        retex_half_from_float(halves, row + i, n);
+        retex_half_to_float(row + i, halves, n);
+    }
+}
+
+static void round_parts(void *context, int y, int thread)
+{
+    RetexSet *set = context;
+    (void)thread;
+    for (int k = 0; k < set->nparts; k++)
+        if (set->parts[k].image.pixels && set->parts[k].image.height == set->height)
+            retex_part_round_row(&set->parts[k], y);
+}
+
+void retex_set_round_to_types(RetexSet *set, int nthreads)
+{
+    retex_parallel(retex_threads(nthreads), set->height, round_parts, set);
 }

@@ -17,6 +17,11 @@ int retex_name_is_feature(const char *name);
 /* The scale that all present parts of a footprint have; 1 where none is present; 0 where they differ. */
 int retex_set_footprint_scale(const RetexSet *set, int footprint);
 
+/* Round a row of a part in memory to what a file holds, so that it does not matter whether it has been in one. */
+void retex_part_round_row(RetexPart *part, int y);
+/* The same for all parts in memory of the set's height. */
+void retex_set_round_to_types(RetexSet *set, int nthreads);
+
 /* The parts of a set that go into a file: arrays of the view's own, pixels borrowed from the set. */
 typedef struct RetexSetView {
     RetexSet set;
