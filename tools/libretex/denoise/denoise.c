@@ -8,6 +8,7 @@
 #include "base/params.h"
 #include "base/image.h"
 #include "denoise/filter.h"
+#include "denoise/second.h"
 #include "denoise/strips.h"
 #include "set/parts.h"
 
@@ -48,6 +49,7 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
 {
     RetexSet *set = d->set;
     RetexDenoiseResult result = {NULL, NULL};
+    RetexDenoisePassed passed = {0};
     int code = retex_set_load(set, nthreads, err);
     if (!code)
         retex_set_round_to_types(set, nthreads);
@@ -56,9 +58,16 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     if (!code)
         code = retex_denoise_result_open(&result, d, err);
     if (!code)
+        code = retex_denoise_passed_open(&passed, d, d->roi.y1 - d->roi.y0, err);
+    passed.first = d->roi.y0;
+    d->passed = &passed;
+    if (!code)
         code = retex_denoise_filter(d, &result, nthreads, err);
     if (!code)
+        code = retex_denoise_second(d, &passed, result.sums, nthreads, err);
+    if (!code)
         code = retex_denoise_finish(d, &result, nthreads, err);
+    retex_denoise_passed_close(&passed, d);
     retex_denoise_result_close(&result);
     return code;
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include <retex/host/cpu.h>
+#include "denoise/falloff.h"
 
 enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 
@@ -15,15 +15,6 @@ static const struct {
     float color, near;
     enum { STRICT, LOOSE, NONE } features;
 } filters[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
-
-/* Approximates exp(-x) for x >= 0; 0 from x = 8 on. */
-RETEX_CPU_INLINE float falloff(float x)
-{
-    float y = 1 - x * 0.125f;
-    y = y > 0 ? y : 0;
-    y *= y, y *= y;
-    return y * y;
-}
 
 /* ---- features ---- */
 
@@ -69,8 +60,8 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
             feature_distance(strict, loose, f, &f->of[g], p, o, per_pixel);
         for (int i = 0; i < DENOISE_TILE; i++) {
             alike->valid[at + (size_t)i] = valid[i + o];
-            alike->strict[at + (size_t)i] = valid[i + o] * falloff(strict[i]);
-            alike->loose[at + (size_t)i] = valid[i + o] * falloff(loose[i]);
+            alike->strict[at + (size_t)i] = valid[i + o] * denoise_falloff(strict[i]);
+            alike->loose[at + (size_t)i] = valid[i + o] * denoise_falloff(loose[i]);
         }
     }
 }
@@ -133,7 +124,7 @@ RETEX_CPU_INLINE void weight_row(float *restrict weight, const float *restrict d
                                  float color, float near)
 {
     for (int i = 0; i < DENOISE_TILE; i++) {
-        float a = falloff(distance[i] * color), b = alike[i] * near;
+        float a = denoise_falloff(distance[i] * color), b = alike[i] * near;
         weight[i] = a < b ? a : b;
     }
 }
@@ -211,7 +202,7 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
     for (int n = 0; n < batch->count; n++) {
         int dx = batch->dx + n;
         for (int k = 0; k < DENOISE_CANDIDATES; k++)
-            near[k][n] = falloff(filters[k].near * (float)(dx * dx + batch->dy * batch->dy));
+            near[k][n] = denoise_falloff(filters[k].near * (float)(dx * dx + batch->dy * batch->dy));
         find_distances(s, (ptrdiff_t)batch->dy * DENOISE_PITCH + dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
     }
     for (int y = 0; y < DENOISE_TILE; y++) {

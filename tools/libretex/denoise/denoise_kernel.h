@@ -42,7 +42,7 @@ typedef struct RetexDenoiseFeature {
 } RetexDenoiseFeature;
 
 typedef struct RetexDenoiseFeatures {
-    const float *valid; /* 1 within the picture, else 0 */
+    float *valid; /* 1 for pixels that count: within the picture; else 0 */
     const float *planes[DENOISE_FEATURE_PLANES_MAX];
     int count;
     RetexDenoiseFeature of[DENOISE_FEATURES_MAX];

@@ -44,6 +44,15 @@ void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int pa
     }
 }
 
+void retex_denoise_load_kind(float *restrict kind, const RetexDenoiser *d, const RetexSignal *signal, int x0, int y0)
+{
+    const int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0;
+    if (sharp)
+        retex_denoise_load_plane(kind, d->set, signal->cover, 0, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE; i++)
+        kind[i] = sharp && !(kind[i] > DENOISE_LEAST_COVER) ? -1 : 1;
+}
+
 /* Adds the squared change from pixel to pixel along both axes: to strict the smaller of both sides, so that an edge
  * does not count as a slope, to loose the larger. */
 static void add_gradient(float *restrict strict, float *restrict loose, const float *restrict f)

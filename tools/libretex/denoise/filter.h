@@ -2,7 +2,7 @@
 #ifndef RETEX_DENOISE_FILTER_H
 #define RETEX_DENOISE_FILTER_H
 
-#include "denoise/tile.h"
+#include "denoise/passed.h"
 
 /* The result of filtering besides new pixels. */
 typedef struct RetexDenoiseResult {
@@ -13,13 +13,15 @@ typedef struct RetexDenoiseResult {
 int retex_denoise_result_open(RetexDenoiseResult *result, const RetexDenoiser *denoiser, RetexError *err);
 void retex_denoise_result_close(RetexDenoiseResult *result);
 
-/* The largest distance of pixels that influence a pixel. */
+/* The largest distance of pixels that influence a pixel, in either pass. */
 enum { DENOISE_REACH = DENOISE_MARGIN + DENOISE_HALO };
 
-/* Filter the region of denoiser->set, in steps of DENOISE_STEP rows; adds to the sums of result. */
+/* The first pass: filter the region of denoiser->set, in steps of DENOISE_STEP rows, into the set and denoiser->passed;
+ * adds to the sums of result what signals were before. */
 int retex_denoise_filter(RetexDenoiser *denoiser, RetexDenoiseResult *result, int nthreads, RetexError *err);
 
-/* Finish the new pixels of the set: scale them to the old means of signals, round them, and compute the beauty as their
+/* Finish the new pixels of the set: multiply them by the factors of the second pass, scale them to the old means of
+ * signals, round them, and compute the beauty as their
  * recombination. result is that of the whole region; the set may be some of its rows. */
 int retex_denoise_finish(const RetexDenoiser *denoiser, const RetexDenoiseResult *result, int nthreads,
                          RetexError *err);

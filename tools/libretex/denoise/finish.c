@@ -10,11 +10,12 @@
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;
 
-/* Scales signals so that their means are as before filtering. */
+/* Multiplies members by the factors of the second pass, and signals so that their means are as before filtering. */
 static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *result, int y)
 {
     for (int s = 0; s < d->signals.count; s++) {
         const RetexSignalSums *sums = &result->sums[s];
+        const float *factors = retex_denoise_passed_at(d->passed, d, s, 0, y) + DENOISE_PASSED_TOTAL;
         float scale[3];
         for (int c = 0; c < 3; c++)
             scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
@@ -23,8 +24,9 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
                 continue;
             RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
             float *row = im->pixels + retex_image_index(im, 0, y);
-            for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
-                row[x] *= scale[x % 3];
+            for (int x = d->roi.x0; x < d->roi.x1; x++)
+                for (int c = 0; c < 3; c++)
+                    row[3 * x + c] *= factors[DENOISE_PASSED * x + c] * scale[c];
         }
     }
 }

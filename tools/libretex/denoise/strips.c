@@ -1,5 +1,6 @@
-/* See strips.h. Two passes over the set: strips are filtered into a band store; when the change of the signals' means
- * is known, rows of the band store and of the file are finished into another band store. */
+/* See strips.h. It goes over the set three times. First, strips are filtered into a band store, and what the second
+ * pass reads goes into another. Then the factors of the second pass are found. When the change of the signals' means is
+ * known, rows of the band store and of the file are finished into the last band store. */
 #include "denoise/strips.h"
 
 #include <stdlib.h>
@@ -9,6 +10,7 @@
 #include <retex/host/denoise_data.h>
 
 #include "denoise/filter.h"
+#include "denoise/second.h"
 #include "base/jobs.h"
 #include "set/strip.h"
 #include "set/parts.h"
@@ -18,7 +20,7 @@ enum { STRIP = 2 * DENOISE_STEP, FINISHED = 4 * RETEX_BAND_ROWS };
 
 _Static_assert(STRIP % RETEX_BAND_ROWS == 0, "strips are whole bands of the band store");
 
-static const double FILTERED = 0.9; /* share of the work, for progress */
+static const double FILTERED = 0.75, SECOND = 0.9; /* share of the work that is done, for progress */
 
 /* Rows to be written to a band store. */
 typedef struct StoreJob {
@@ -83,11 +85,12 @@ static int store_rows(RetexBandStore *store, const int *images, const RetexSet *
     return retex_jobs_run(nthreads, rows->nparts, store_part, &job, err);
 }
 
-/* State of both passes. */
+/* State of all passes. */
 typedef struct Strips {
     const RetexDenoiser *denoiser;
     RetexDenoiseResult result;
-    RetexSet filtered;         /* the set with the band store of what was filtered */
+    RetexSet filtered; /* the set with the band store of what was filtered */
+    RetexPassedStore passed;
     RetexBandStore *stores[2]; /* filtered, finished */
     int *images[2];            /* by part: number of its image in each band store, or -1 */
     int nthreads;
@@ -108,26 +111,91 @@ static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
     RetexDenoiser strip = *s->denoiser;
-    int code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
+    RetexDenoisePassed passed;
+    int code = retex_denoise_passed_open(&passed, s->denoiser, end - y, err);
+    if (!code)
+        code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     strip.params.progress = NULL;
+    strip.passed = &passed, passed.first = y - first;
     if (!code)
         code = retex_denoise_filter(&strip, &s->result, s->nthreads, err);
     if (!code && !s->stores[0])
         code = open_store(&s->stores[0], s->images[0], s->denoiser, s->result.written, 1, err);
-    return code ? code : store_rows(s->stores[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+    if (!code)
+        code = store_rows(s->stores[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+    for (int k = 0; k < PASSED_FACTOR && !code; k++)
+        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, 0, end - y, y, err);
+    retex_denoise_passed_close(&passed, s->denoiser);
+    return code;
 }
 
 static int filter_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
-    RetexSetStrip *loaded;
-    int code = retex_set_strip_open(&loaded, set, STRIP + 2 * DENOISE_REACH, 1, err);
+    RetexSetStrip *loaded = NULL;
+    int code = retex_passed_store_open(&s->passed, s->denoiser, err);
+    if (!code)
+        code = retex_set_strip_open(&loaded, set, STRIP + 2 * DENOISE_REACH, 1, err);
     for (int y = 0; y < set->height && !code; y += STRIP) {
         show_progress(s, FILTERED * y / set->height);
         code = filter_strip(s, loaded, y, err);
     }
     retex_set_strip_close(&loaded);
+    return code;
+}
+
+/* The second pass of one strip, loaded with the rows around it. */
+static int second_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    const int end = y + STRIP < set->height ? y + STRIP : set->height;
+    const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
+    const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
+    RetexDenoiser strip = *s->denoiser;
+    RetexDenoisePassed passed;
+    int code = retex_denoise_passed_open(&passed, s->denoiser, last - first, err);
+    if (!code)
+        code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
+    strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
+    for (int k = 0; k < PASSED_FACTOR && !code; k++)
+        code = retex_passed_store_load(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, first, err);
+    if (!code)
+        code = retex_denoise_second(&strip, &passed, s->result.sums, s->nthreads, err);
+    if (!code)
+        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, PASSED_FACTOR, y - first, end - y, y, err);
+    retex_denoise_passed_close(&passed, s->denoiser);
+    return code;
+}
+
+/* The features of the set, which are all that the second pass reads of it. */
+static int open_features(RetexSet *features, const RetexSet *set, RetexError *err)
+{
+    *features = *set;
+    features->parts = malloc(sizeof *set->parts * (size_t)set->nparts);
+    if (!features->parts)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    memcpy(features->parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
+    for (int k = 0; k < set->nparts; k++)
+        if (!retex_name_is_feature(set->parts[k].name))
+            features->parts[k].image = (RetexImage){0};
+    return RETEX_OK;
+}
+
+static int second_all(Strips *s, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    RetexSetStrip *loaded = NULL;
+    RetexSet features;
+    int code = open_features(&features, set, err);
+    if (!code)
+        code = retex_set_strip_open(&loaded, &features, STRIP + 2 * DENOISE_REACH, 1, err);
+    for (int y = 0; y < set->height && !code; y += STRIP) {
+        show_progress(s, FILTERED + (SECOND - FILTERED) * y / set->height);
+        code = second_strip(s, loaded, y, err);
+    }
+    retex_set_strip_close(&loaded);
+    free(features.parts);
     return code;
 }
 
@@ -155,11 +223,20 @@ static int finish_rows(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
     const RetexSet *set = s->denoiser->set;
     const int count = set->height - y < FINISHED ? set->height - y : FINISHED;
     RetexDenoiser rows = *s->denoiser;
-    int code = retex_set_strip_load(&rows.set, loaded, y, count, s->nthreads, err);
+    RetexDenoisePassed passed;
+    int code = retex_denoise_passed_open(&passed, s->denoiser, count, err);
+    if (!code)
+        code = retex_set_strip_load(&rows.set, loaded, y, count, s->nthreads, err);
+    if (!code)
+        code = retex_passed_store_load(&s->passed, s->denoiser, &passed, PASSED_FACTOR, y, err);
     rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
+    rows.passed = &passed;
     if (!code)
         code = retex_denoise_finish(&rows, &s->result, s->nthreads, err);
-    return code ? code : store_rows(s->stores[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
+    if (!code)
+        code = store_rows(s->stores[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
+    retex_denoise_passed_close(&passed, s->denoiser);
+    return code;
 }
 
 static int finish_all(Strips *s, RetexError *err)
@@ -175,7 +252,7 @@ static int finish_all(Strips *s, RetexError *err)
     if (!code)
         code = retex_set_strip_open(&loaded, &s->filtered, FINISHED, 1, err);
     for (int y = 0; y < set->height && !code; y += FINISHED) {
-        show_progress(s, FILTERED + (1 - FILTERED) * y / set->height);
+        show_progress(s, SECOND + (1 - SECOND) * y / set->height);
         code = finish_rows(s, loaded, y, err);
     }
     retex_set_strip_close(&loaded);
@@ -229,6 +306,8 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     if (!code)
         code = filter_all(&s, err);
     if (!code)
+        code = second_all(&s, err);
+    if (!code)
         code = finish_all(&s, err);
     if (!code)
         code = take_over(&s, err);
@@ -236,6 +315,7 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
         retex_band_store_close(&s.stores[k]);
         free(s.images[k]);
     }
+    retex_passed_store_close(&s.passed);
     free(s.filtered.parts);
     retex_denoise_result_close(&s.result);
     return code;

@@ -8,11 +8,12 @@
 #include <string.h>
 
 #include "denoise/features.h"
+#include "denoise/fireflies.h"
 #include "denoise/footprints.h"
+#include "denoise/passed.h"
 #include "set/set.h"
 
-#define STRENGTH 0.45f    /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
-#define LEAST_COVER 0.02f /* coverage of a target below which it counts as not seen */
+#define STRENGTH 0.45f /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
 #define LEAST_MODULATION 0.2f
 #define TARGET_BRIGHTNESS 0.3f /* assumed of a target in light that its texture does not multiply */
 #define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
@@ -32,7 +33,8 @@ enum { CHOICES = DENOISE_CANDIDATES + 1 };
 /* Scratch memory of a tile for one signal. */
 typedef struct SignalScratch {
     int nclusters, nplanes;
-    float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
+    float *half[2][3], *variance[3], *lost[3], *kind, *modulation[3], *mean_modulation; /* planes; lost: what fireflies
+                                                                                         were lowered by */
     float **planes, **sums; /* images to filter, by channel: the sum of all clusters if there are any, then the other
                                members */
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
@@ -44,6 +46,7 @@ struct RetexDenoiseScratch {
     float *memory;
     float *features; /* DENOISE_FEATURES_SCRATCH planes */
     float *spare;    /* a plane */
+    float *kept[2];  /* planes */
     float *scratch, *errors[CHOICES], *neighbours;
     RetexDenoiseSimilarity *alike; /* DENOISE_BATCH */
     SignalScratch *signals;
@@ -76,6 +79,7 @@ static void plan_signal(SignalScratch *r, Layout *l, const RetexSignal *signal)
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
         r->variance[c] = take(l, DENOISE_PLANE), r->modulation[c] = take(l, DENOISE_PLANE);
+        r->lost[c] = take(l, DENOISE_PLANE);
         r->half[0][c] = take(l, DENOISE_PLANE), r->half[1][c] = take(l, DENOISE_PLANE);
     }
     for (int k = 0; k < DENOISE_CANDIDATES; k++)
@@ -101,6 +105,7 @@ static void plan_scratch(RetexDenoiseScratch *work, Layout *l, const RetexDenois
     l->used = l->npointers = 0;
     work->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
     work->spare = take(l, DENOISE_PLANE);
+    work->kept[0] = take(l, DENOISE_PLANE), work->kept[1] = take(l, DENOISE_PLANE);
     work->scratch = take(l, DENOISE_SCRATCH);
     work->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
     for (int k = 0; k < CHOICES; k++)
@@ -200,18 +205,14 @@ static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, co
 static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
                             const RetexSignal *signal, int x0, int y0)
 {
-    int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
-        any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        r->kind[i] = 1;
+    const int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
+              any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
+    retex_denoise_load_kind(r->kind, d, signal, x0, y0);
     if (sharp)
         retex_denoise_load_plane(work->spare, d->set, signal->cover, 0, x0, y0);
-    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
-        int covered = sharp && work->spare[i] > LEAST_COVER;
+    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++)
         for (int c = 0; c < 3; c++)
-            r->modulation[c][i] = covered ? work->spare[i] : 1;
-        r->kind[i] = sharp && !covered ? -1 : 1;
-    }
+            r->modulation[c][i] = sharp && r->kind[i] > 0 ? work->spare[i] : 1;
     if (!sharp && !any)
         find_seen_modulation(r, work, d, x0, y0);
     for (int i = 0; i < DENOISE_PLANE; i++) {
@@ -221,20 +222,55 @@ static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const R
     }
 }
 
-/* Computes both halves and their variance from the total and its noise. */
+/* The part of a pixel's samples that is in the first half. */
+static float first_part(const RetexDenoiser *d)
+{
+    return (float)(d->set->spp / 2) / (float)d->set->spp;
+}
+
+/* Computes both halves from the total and its noise. */
 static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
-    float first = 2 * (float)(d->set->spp - d->set->spp / 2) / (float)d->set->spp, second = 2 - first;
+    const float second = 2 * first_part(d), first = 2 - second;
     for (int c = 0; c < 3; c++) {
-        float *restrict a = r->half[0][c], *restrict b = r->half[1][c], *restrict v = r->variance[c];
+        float *restrict a = r->half[0][c], *restrict b = r->half[1][c];
         const float *restrict m = r->modulation[c];
         retex_denoise_load_plane(work->spare, d->set, signal->noise, c, x0, y0);
         for (int i = 0; i < DENOISE_PLANE; i++) {
             float total = a[i] / m[i], noise = work->spare[i] / m[i];
             a[i] = total + first * noise, b[i] = total - second * noise;
-            v[i] = 2 * noise * noise;
         }
+    }
+}
+
+/* Lowers fireflies in the halves and, in the same proportion, in the images. */
+static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const float *valid)
+{
+    const float part = first_part(d);
+    retex_denoise_lower_fireflies(r->half, work->kept, r->kind, valid);
+    for (int i = 0; i < DENOISE_PLANE; i++) {
+        const float first = work->kept[0][i], second = work->kept[1][i];
+        for (int c = 0; c < 3; c++)
+            r->lost[c][i] = 0;
+        for (int c = 0; c < 3 && (first < 1 || second < 1); c++) {
+            const float a = r->half[0][c][i], b = r->half[1][c][i],
+                        before = part * (a / first) + (1 - part) * (b / second), after = part * a + (1 - part) * b,
+                        scale = before > 0 ? after / before : 1;
+            r->lost[c][i] = before - after;
+            for (int k = 0; k < r->nplanes; k += 3)
+                r->planes[k + c][i] *= scale;
+        }
+    }
+}
+
+static void find_variance(SignalScratch *r, RetexDenoiseScratch *work)
+{
+    for (int c = 0; c < 3; c++) {
+        const float *restrict a = r->half[0][c], *restrict b = r->half[1][c];
+        float *restrict v = r->variance[c];
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            v[i] = 0.5f * (a[i] - b[i]) * (a[i] - b[i]);
         smooth(v, work->spare);
     }
 }
@@ -301,16 +337,16 @@ static float choice_value(const SignalScratch *r, int choice, int half, int c, s
 }
 
 /* The squared difference of each choice to the other half, in units of noise, averaged around each pixel. */
-static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
+static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     for (int k = 0; k < CHOICES; k++) {
         for (int y = 0; y < DENOISE_TILE; y++)
             for (int x = 0; x < DENOISE_TILE; x++) {
                 size_t i = (size_t)y * DENOISE_TILE + (size_t)x, p = denoise_at(x, y);
                 float error = 0;
-                for (int c = 0; c < 3; c++) {
-                    float a = choice_value(r, k, 0, c, p, i) - r->half[1][c][p],
-                          b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
+                for (int c = 0; c < 3 && valid[p] > 0; c++) {
+                    const float a = choice_value(r, k, 0, c, p, i) - r->half[1][c][p],
+                                b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
                     error += (a * a + b * b) / (epsilon + r->variance[c][p]);
                 }
                 work->errors[k][i] = error;
@@ -344,10 +380,10 @@ static int is_spike(const SignalScratch *r, size_t p)
     return squared > SPIKE * variance;
 }
 
-static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
+static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     unsigned char best[DENOISE_PIXELS];
-    find_errors(r, work, epsilon);
+    find_errors(r, work, epsilon, valid);
     for (size_t i = 0; i < DENOISE_PIXELS; i++) {
         best[i] = (unsigned char)best_choice(work, i);
         for (int k = 0; k < CHOICES; k++)
@@ -371,14 +407,18 @@ typedef struct TilePixel {
     size_t p, i; /* index in planes; index in sums */
 } TilePixel;
 
-/* The filtered total of one channel. */
-static float filtered_total(const SignalScratch *r, const TilePixel *at, int c)
+/* The filtered total of one channel, of which passed receives both halves. */
+static float filtered_total(const SignalScratch *r, const TilePixel *at, int c, float *passed)
 {
     float total = 0;
-    for (int k = 0; k < CHOICES; k++)
-        total +=
-            r->chosen[k][at->i] * (choice_value(r, k, 0, c, at->p, at->i) + choice_value(r, k, 1, c, at->p, at->i));
-    return fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
+    for (int h = 0; h < 2; h++) {
+        float half = 0;
+        for (int k = 0; k < CHOICES; k++)
+            half += r->chosen[k][at->i] * choice_value(r, k, h, c, at->p, at->i);
+        passed[DENOISE_PASSED_HALVES + 3 * h + c] = half;
+        total += half;
+    }
+    return passed[DENOISE_PASSED_TOTAL + c] = fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
 }
 
 /* The total of the members filtered with the first candidate's weights. */
@@ -434,12 +474,13 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
                           const TilePixel *at, RetexDenoisedRows *out, RetexSignalSums *sums)
 {
     float total[3], members[3], light[3];
+    float *passed = retex_denoise_passed_at(d->passed, d, (int)(signal - d->signals.of), at->x, at->y);
     int image = r->nclusters > 0;
     for (int c = 0; c < 3; c++) {
-        total[c] = filtered_total(r, at, c);
+        total[c] = filtered_total(r, at, c, passed);
         members[c] = total_of_members(r, signal, at, c);
-        sums->before[c] += 0.5f * r->modulation[c][at->p] * (r->half[0][c][at->p] + r->half[1][c][at->p]);
-        sums->after[c] += total[c];
+        sums->before[c] +=
+            r->modulation[c][at->p] * (0.5f * (r->half[0][c][at->p] + r->half[1][c][at->p]) + r->lost[c][at->p]);
         light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
     }
     for (int k = 0; k < signal->nmembers; k++) {
@@ -518,11 +559,13 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
         load_members(r, work, d, &d->signals.of[s], x0, y0);
         find_modulation(r, work, d, &d->signals.of[s], x0, y0);
         split_halves(r, work, d, &d->signals.of[s], x0, y0);
+        lower_fireflies(r, work, d, features.valid);
+        find_variance(r, work);
         signals[s] = start_signal(r, work, d);
     }
     search_window(d, work, &features, signals);
     for (int s = 0; s < d->signals.count; s++)
-        choose(&work->signals[s], work, signals[s].epsilon);
+        choose(&work->signals[s], work, signals[s].epsilon, features.valid);
     for (int y = out->first; y < out->first + out->rows; y++)
         for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
             TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};

@@ -13,6 +13,8 @@ typedef struct RetexDenoisedRows {
     float **parts;
 } RetexDenoisedRows;
 
+typedef struct RetexDenoisePassed RetexDenoisePassed; /* see passed.h */
+
 /* The state of one call of retex_denoise. */
 typedef struct RetexDenoiser {
     RetexSet *set;
@@ -21,9 +23,10 @@ typedef struct RetexDenoiser {
     int features[RETEX_FEATURE_COUNT]; /* parts */
     RetexSignals signals;
     struct RetexDenoiseFootprints *footprints;
+    RetexDenoisePassed *passed; /* rows of the region */
 } RetexDenoiser;
 
-/* Sums over the pixels of a signal's total, before and after filtering. */
+/* Sums over the pixels of a signal's total: as rendered, and after the second pass. */
 typedef struct RetexSignalSums {
     double before[3], after[3];
 } RetexSignalSums;
@@ -34,7 +37,7 @@ int retex_denoise_scratch_create(RetexDenoiseScratch **work, const RetexDenoiser
 void retex_denoise_scratch_close(RetexDenoiseScratch **work);
 
 /* Filter DENOISE_STEP x DENOISE_STEP pixels from (x0, out->first) on, as far as they are in out's rows and the region,
- * into out. sums has an entry for each signal. */
+ * into out and denoiser->passed. Adds to sums->before; sums has an entry for each signal. */
 void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *out,
                         RetexSignalSums *sums);
 

@@ -5,7 +5,8 @@
  *
  * Sources: Rousselle, Knaus, Zwicker, 'Adaptive Rendering with Non-Local Means Filtering', 2012: weights from patches
  * of one half of the samples for the other half. Rousselle, Manzi, Zwicker, 'Robust Denoising using Feature and Color
- * Information', 2013: weights no larger than features allow. */
+ * Information', 2013: weights no larger than features allow. Dammertz, Sewtz, Hanika, Lensch, 'Edge-Avoiding A-Trous
+ * Wavelet Transform for Fast Global Illumination Filtering', 2010: the second pass. */
 #ifndef RETEX_DENOISE_H
 #define RETEX_DENOISE_H
 

@@ -1,0 +1,161 @@
+/* See second_kernel.h. Each loop is written once and compiled for several vector widths, and once without vectors. The
+ * arithmetic is elementwise, so that all versions give the same bits. */
+#include "denoise/second_kernel.h"
+
+#include "denoise/falloff.h"
+
+/* Of the B-spline that Dammertz et al. take. */
+static const float spline[DENOISE_TAPS_SIDE] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
+
+typedef float Row[DENOISE_PITCH];
+
+RETEX_CPU_INLINE void add_difference(Row worst, const RetexDenoiseFeatures *f, const RetexDenoiseFeature *g, size_t p,
+                                     ptrdiff_t o, float per_pixel, int n)
+{
+    Row distance;
+    for (int i = 0; i < n; i++)
+        distance[i] = 0;
+    for (int k = 0; k < g->count; k++) {
+        const float *restrict a = f->planes[g->first + k] + p;
+        if (g->normal[0]) {
+            const float *restrict normal = g->normal[k] + p;
+            for (int i = 0; i < n; i++)
+                distance[i] += normal[i] * (a[i + o] - a[i]);
+        } else {
+            for (int i = 0; i < n; i++)
+                distance[i] += (a[i + o] - a[i]) * (a[i + o] - a[i]);
+        }
+    }
+    const float *restrict scale = g->strict + p;
+    const int is_along = g->normal[0] != NULL;
+    for (int i = 0; i < n; i++) {
+        float d = (is_along ? distance[i] * distance[i] * per_pixel : distance[i]) * scale[i];
+        worst[i] = d > worst[i] ? d : worst[i];
+    }
+}
+
+/* The part of a weight that all signals share: the spline's, by features. */
+RETEX_CPU_INLINE void tap_row(Row to, const RetexDenoiseFeatures *f, size_t p, int dx, int dy, float weight, int n)
+{
+    const ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
+    const float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
+    const float *restrict valid = f->valid + p;
+    Row worst;
+    for (int i = 0; i < n; i++)
+        worst[i] = 0;
+    for (int g = 0; g < f->count; g++)
+        add_difference(worst, f, &f->of[g], p, o, per_pixel, n);
+    for (int i = 0; i < n; i++)
+        to[i] = weight * valid[i + o] * denoise_falloff(worst[i]);
+}
+
+/* Sums of one row of a signal. */
+typedef struct RowSums {
+    Row half[2][3], norm[2], variance[2][3];
+} RowSums;
+
+RETEX_CPU_INLINE void clear_sums(RowSums *sums, int n)
+{
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < n; i++) {
+            sums->norm[h][i] = 0;
+            for (int c = 0; c < 3; c++)
+                sums->half[h][c][i] = sums->variance[h][c][i] = 0;
+        }
+}
+
+/* Weights by how much the other half differs at both pixels, beyond its noise; 0 for pixels of another kind. */
+RETEX_CPU_INLINE void weigh_row(Row weight, const RetexDenoiseLight *from, int half, const float *restrict kind,
+                                const Row tap, size_t p, ptrdiff_t o, int n)
+{
+    Row distance;
+    for (int i = 0; i < n; i++)
+        distance[i] = 0;
+    for (int c = 0; c < 3; c++) {
+        const float *restrict a = from->half[!half][c] + p, *restrict v = from->variance[c] + p;
+        for (int i = 0; i < n; i++) {
+            float d = a[i] - a[i + o], vp = v[i], vq = v[i + o], least = vp < vq ? vp : vq;
+            distance[i] += (d * d - (vp + least)) / (vp + vq);
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        float d = distance[i] * (1.0f / 3), w = tap[i] * denoise_falloff(d > 0 ? d : 0);
+        weight[i] = kind[i] * kind[i + o] > 0 ? w : 0;
+    }
+}
+
+RETEX_CPU_INLINE void add_row(RowSums *sums, const RetexDenoiseLight *from, int half, const Row weight, size_t q, int n)
+{
+    for (int c = 0; c < 3; c++) {
+        const float *restrict a = from->half[half][c] + q, *restrict v = from->variance[c] + q;
+        for (int i = 0; i < n; i++) {
+            sums->half[half][c][i] += weight[i] * a[i];
+            sums->variance[half][c][i] += weight[i] * weight[i] * v[i];
+        }
+    }
+    for (int i = 0; i < n; i++)
+        sums->norm[half][i] += weight[i];
+}
+
+/* A pixel outside of the picture has no neighbours and keeps what it has. */
+RETEX_CPU_INLINE void store_row(const RetexDenoiseLight *to, const RetexDenoiseLight *from, const RowSums *sums,
+                                float epsilon, size_t p, int n)
+{
+    for (int c = 0; c < 3; c++) {
+        for (int h = 0; h < 2; h++) {
+            float *restrict out = to->half[h][c] + p;
+            const float *restrict in = from->half[h][c] + p;
+            for (int i = 0; i < n; i++)
+                out[i] = sums->norm[h][i] > 0 ? sums->half[h][c][i] / sums->norm[h][i] : in[i];
+        }
+        float *restrict out = to->variance[c] + p;
+        const float *restrict in = from->variance[c] + p;
+        for (int i = 0; i < n; i++) {
+            float a = sums->norm[0][i] * sums->norm[0][i], b = sums->norm[1][i] * sums->norm[1][i];
+            float v = 0.5f * (sums->variance[0][c][i] / a + sums->variance[1][c][i] / b) + epsilon;
+            out[i] = a > 0 && b > 0 ? v : in[i];
+        }
+    }
+}
+
+RETEX_CPU_INLINE void level_body(const RetexDenoiseLevel *level)
+{
+    const int n = DENOISE_TILE + 2 * level->around;
+    for (int y = -level->around; y < DENOISE_TILE + level->around; y++) {
+        const size_t p = denoise_at(-level->around, y);
+        Row taps[DENOISE_TAPS];
+        for (int k = 0; k < DENOISE_TAPS; k++) {
+            const int i = k % DENOISE_TAPS_SIDE, j = k / DENOISE_TAPS_SIDE;
+            tap_row(taps[k], level->features, p, (i - 2) * level->step, (j - 2) * level->step, spline[i] * spline[j],
+                    n);
+        }
+        for (int s = 0; s < level->nsignals; s++) {
+            RowSums sums;
+            clear_sums(&sums, n);
+            for (int k = 0; k < DENOISE_TAPS; k++) {
+                const int dx = (k % DENOISE_TAPS_SIDE - 2) * level->step,
+                          dy = (k / DENOISE_TAPS_SIDE - 2) * level->step;
+                const ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
+                for (int h = 0; h < 2; h++) {
+                    Row weight;
+                    weigh_row(weight, &level->from[s], h, level->kinds[s] + p, taps[k], p, o, n);
+                    add_row(&sums, &level->from[s], h, weight, (size_t)((ptrdiff_t)p + o), n);
+                }
+            }
+            store_row(&level->to[s], &level->from[s], &sums, level->epsilons[s], p, n);
+        }
+    }
+}
+
+RETEX_CPU_KERNEL(level, (const RetexDenoiseLevel *level), (level))
+
+RETEX_CPU_OPTIONS("no-tree-vectorize,no-tree-slp-vectorize")
+static void level_scalar(const RetexDenoiseLevel *level)
+{
+    level_body(level);
+}
+
+void retex_denoise_level_kernel(const RetexDenoiseLevel *level, int scalar)
+{
+    (scalar ? level_scalar : level_by_level[retex_cpu_level()])(level);
+}
