@@ -4,10 +4,10 @@
 
 #include "denoise/denoise_kernel.h"
 
-/* Lower the fireflies of a tile and of the pixels around it. A half of a pixel is one if it is more than twice as bright
- * as the pixel's other half and as all but two halves of the pixels of its kind within 5 pixels. It becomes twice the
- * third largest of these, where that is more than the other half. Brightness is the sum over colours. kept: by pixel, the
- * share of each half that stays, 1 for most. */
+/* Lower the fireflies of a tile and of the pixels around it. A half of a pixel is one if it is more than twice as
+ * bright as the pixel's other half and as all but two halves of the pixels of its kind within 5 pixels. It becomes
+ * twice the third largest of these, where that is more than the other half. Brightness is the sum over colours. kept:
+ * by pixel, the share of each half that stays, 1 for most. */
 void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const float *kind, const float *valid);
 
 #endif

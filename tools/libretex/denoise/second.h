@@ -1,6 +1,7 @@
 /* The second pass of denoising: spots larger than the first pass' window, which it leaves on even surfaces, are
- * smoothed by an edge-avoiding a-trous wavelet transform (Dammertz et al. 2010), each half for itself. Up to three levels are
- * taken where each half then agrees better with what the first pass made of the other half. Private to libretex. */
+ * smoothed by an edge-avoiding a-trous wavelet transform (Dammertz et al. 2010), each half for itself. Up to three
+ * levels are taken where each half then agrees better with what the first pass made of the other half. Private to
+ * libretex. */
 #ifndef RETEX_DENOISE_SECOND_H
 #define RETEX_DENOISE_SECOND_H
 
