@@ -73,6 +73,14 @@ $(BUILD)/tests/faults/faults: tests/faults/faults.c
 	@mkdir -p $(@D)
 	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) $< -o $@ -lz
 
+# Stands in for Open Image Denoise 2, and for one that lacks a function.
+OIDN_STAND_INS := $(BUILD)/tests/oidn/libOpenImageDenoise.so.2 $(BUILD)/tests/oidn/older.so
+$(BUILD)/tests/oidn/older.so: private CPPFLAGS += -DOLDER
+$(OIDN_STAND_INS): tests/oidn/stand_in.c tests/oidn/stand_in.h
+	@mkdir -p $(@D)
+	$(SAY)$(CC) $(CPPFLAGS) -std=gnu11 -O2 -g $(WARNINGS) -Wno-missing-prototypes -shared -fPIC $< -o $@ -lm
+$(BUILD)/tests/unit/test_denoise_oidn: | $(OIDN_STAND_INS)
+
 # What make bench-post measures by: each is one file.
 $(BUILD)/tests/bench/post_%: $(BUILD)/obj/tests/bench/post_%.o $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
@@ -85,7 +93,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 .PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
-test-programs: $(TEST_PROGRAMS) all
+test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) all
 tests: test-programs $(FAULTS) unit-tests
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.

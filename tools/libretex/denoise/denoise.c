@@ -10,6 +10,7 @@
 #include "denoise/filter.h"
 #include "denoise/second.h"
 #include "denoise/strips.h"
+#include "denoise/totals.h"
 #include "set/parts.h"
 
 static int find_features(int parts[RETEX_FEATURE_COUNT], const RetexSet *set, RetexError *err)
@@ -41,6 +42,8 @@ static int check_params(const RetexDenoiseParams *p, RetexError *err)
     if (p->radius < 1 || p->radius > DENOISE_RADIUS_MAX)
         return retex_fail(err, RETEX_EINVAL, "the radius of denoising must be 1 to %d, not %d", DENOISE_RADIUS_MAX,
                           p->radius);
+    if (!retex_denoiser_is_known(p->denoiser))
+        return retex_fail(err, RETEX_EINVAL, "the denoiser must be nlm, oidn or both, not '%s'", p->denoiser);
     return RETEX_OK;
 }
 
@@ -50,11 +53,7 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     RetexSet *set = d->set;
     RetexDenoiseResult result = {NULL, NULL};
     RetexDenoisePassed passed = {0};
-    int code = retex_set_load(set, nthreads, err);
-    if (!code)
-        retex_set_round_to_types(set, nthreads);
-    if (!code)
-        code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
+    int code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
     if (!code)
         code = retex_denoise_result_open(&result, d, err);
     if (!code)
@@ -84,9 +83,16 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
         code = find_features(d.features, set, err);
     if (!code)
         code = retex_signals_open(&d.signals, set, err);
+    const int in_strips = !roi && retex_denoise_can_use_strips(set);
+    if (!code && !in_strips)
+        code = retex_set_load(set, nthreads, err);
+    if (!code && !in_strips)
+        retex_set_round_to_types(set, nthreads);
     if (!code)
-        code = !roi && retex_denoise_can_use_strips(set) ? retex_denoise_strips(&d, nthreads, err)
-                                                         : denoise_in_memory(&d, roi, nthreads, err);
+        code = retex_denoise_totals_open(&d.totals, &d, nthreads, err);
+    if (!code)
+        code = in_strips ? retex_denoise_strips(&d, nthreads, err) : denoise_in_memory(&d, roi, nthreads, err);
+    retex_denoise_totals_close(&d.totals);
     retex_signals_close(&d.signals);
     if (code)
         return code;

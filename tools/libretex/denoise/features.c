@@ -39,7 +39,7 @@ void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int pa
         float *restrict to = plane + denoise_at(-DENOISE_HALO, y);
         for (int x = 0; x < DENOISE_PITCH; x++) {
             float v = row[(size_t)clamp(x0 + x - DENOISE_HALO, im->width) * (size_t)im->channels];
-            to[x] = fabsf(v) < 1e30f ? v : 0;
+            to[x] = retex_denoise_finite(v);
         }
     }
 }

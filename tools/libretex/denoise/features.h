@@ -2,7 +2,15 @@
 #ifndef RETEX_DENOISE_FEATURES_H
 #define RETEX_DENOISE_FEATURES_H
 
+#include <math.h>
+
 #include "denoise/tile.h"
+
+/* A number of a set as denoising takes it. */
+static inline float retex_denoise_finite(float v)
+{
+    return fabsf(v) < 1e30f ? v : 0;
+}
 
 /* Load one channel of a part of the set around the tile at (x0, y0). Pixels outside of the picture repeat its border;
  * values that are not finite become 0. */

@@ -9,6 +9,7 @@
 
 #include "denoise/features.h"
 #include "denoise/second_kernel.h"
+#include "denoise/totals.h"
 #include "set/set.h"
 
 #define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
@@ -242,6 +243,12 @@ static void mix_choices(float light[3], const Scratch *work, int signal, const u
 
 /* ---- tiles ---- */
 
+static float factor_of(float light, float before)
+{
+    const float quotient = light / before;
+    return before > 0 && quotient < LARGEST ? quotient : 1;
+}
+
 /* Writes the factors of one signal over a tile. */
 static void store_factors(const Second *w, const Scratch *work, const float *valid, int signal, int x0, int y0,
                           RetexSignalSums *sums)
@@ -252,13 +259,18 @@ static void store_factors(const Second *w, const Scratch *work, const float *val
     for (int y = DENOISE_MARGIN; y < DENOISE_MARGIN + DENOISE_STEP && y0 + y < d->roi.y1; y++)
         for (int x = DENOISE_MARGIN; x < DENOISE_MARGIN + DENOISE_STEP && x0 + x < d->roi.x1; x++) {
             float *passed = retex_denoise_passed_at(w->passed, d, signal, x0 + x, y0 + y), light[3];
+            float *total = passed + DENOISE_PASSED_TOTAL, old[3], new[3];
             mix_choices(light, work, signal, choices, valid, x, y);
             for (int c = 0; c < 3; c++) {
-                const float before =
-                    fmaxf(0, 0.5f * (passed[DENOISE_PASSED_HALVES + c] + passed[DENOISE_PASSED_HALVES + 3 + c]));
-                const float quotient = light[c] / before, factor = before > 0 && quotient < LARGEST ? quotient : 1;
-                sums->after[c] += passed[DENOISE_PASSED_TOTAL + c] * factor;
-                passed[DENOISE_PASSED_TOTAL + c] = factor; /* which no other pixel reads */
+                const float half = passed[DENOISE_PASSED_HALVES + c] + passed[DENOISE_PASSED_HALVES + 3 + c];
+                old[c] = total[c];
+                new[c] = total[c] * factor_of(light[c], fmaxf(0, 0.5f * half));
+            }
+            retex_denoise_mix_total(old, d, signal, x0 + x, y0 + y);
+            retex_denoise_mix_total(new, d, signal, x0 + x, y0 + y);
+            for (int c = 0; c < 3; c++) {
+                total[c] = factor_of(new[c], old[c]); /* which no other pixel reads */
+                sums->after[c] += old[c] * total[c];
             }
         }
 }

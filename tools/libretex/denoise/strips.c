@@ -116,6 +116,7 @@ static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err
     if (!code)
         code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
+    strip.first_row = first;
     strip.params.progress = NULL;
     strip.passed = &passed, passed.first = y - first;
     if (!code)
@@ -157,6 +158,7 @@ static int second_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err
     int code = retex_denoise_passed_open(&passed, s->denoiser, last - first, err);
     if (!code)
         code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
+    strip.first_row = first;
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     for (int k = 0; k < PASSED_FACTOR && !code; k++)
         code = retex_passed_store_load(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, first, err);

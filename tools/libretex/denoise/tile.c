@@ -11,11 +11,11 @@
 #include "denoise/fireflies.h"
 #include "denoise/footprints.h"
 #include "denoise/passed.h"
+#include "denoise/totals.h"
 #include "set/set.h"
 
 #define STRENGTH 0.45f /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
 #define LEAST_MODULATION 0.2f
-#define TARGET_BRIGHTNESS 0.3f /* assumed of a target in light that its texture does not multiply */
 #define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
 #define ERROR_RADIUS 2         /* radius of the patch over which candidates are compared */
 #define CHOICE_RADIUS 2        /* radius over which the choice is smoothed */
@@ -183,7 +183,7 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
     }
 }
 
-/* The albedo of the seen surface; for targets, white in the guide, TARGET_BRIGHTNESS. */
+/* The albedo of the seen surface; for targets, white in the guide, DENOISE_TARGET_BRIGHTNESS. */
 static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
@@ -194,7 +194,7 @@ static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, co
         retex_denoise_load_plane(work->spare, d->set, d->signals.covers[t], 0, x0, y0);
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < DENOISE_PLANE; i++)
-                r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * work->spare[i];
+                r->modulation[c][i] -= (1 - DENOISE_TARGET_BRIGHTNESS) * work->spare[i];
     }
 }
 
@@ -476,8 +476,10 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     float total[3], members[3], light[3];
     float *passed = retex_denoise_passed_at(d->passed, d, (int)(signal - d->signals.of), at->x, at->y);
     int image = r->nclusters > 0;
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         total[c] = filtered_total(r, at, c, passed);
+    retex_denoise_mix_total(total, d, (int)(signal - d->signals.of), at->x, at->y);
+    for (int c = 0; c < 3; c++) {
         members[c] = total_of_members(r, signal, at, c);
         sums->before[c] +=
             r->modulation[c][at->p] * (0.5f * (r->half[0][c][at->p] + r->half[1][c][at->p]) + r->lost[c][at->p]);

@@ -15,6 +15,17 @@ typedef struct RetexDenoisedRows {
 
 typedef struct RetexDenoisePassed RetexDenoisePassed; /* see passed.h */
 
+/* Brightness that is assumed of a target in light that its texture does not multiply; guides show targets white. */
+#define DENOISE_TARGET_BRIGHTNESS 0.3f
+
+/* Totals of signals that another denoiser filtered, whole pictures of three floats a pixel: see totals.h. */
+typedef struct RetexDenoiseTotals {
+    float share; /* of them in the total that is used, above 0 */
+    int count;   /* of signals */
+    size_t width;
+    float **of; /* by signal */
+} RetexDenoiseTotals;
+
 /* The state of one call of retex_denoise. */
 typedef struct RetexDenoiser {
     RetexSet *set;
@@ -24,6 +35,8 @@ typedef struct RetexDenoiser {
     RetexSignals signals;
     struct RetexDenoiseFootprints *footprints;
     RetexDenoisePassed *passed; /* rows of the region */
+    RetexDenoiseTotals *totals; /* or NULL */
+    int first_row;              /* of the set's rows in the totals: above 0 where the set is a strip */
 } RetexDenoiser;
 
 /* Sums over the pixels of a signal's total: as rendered, and after the second pass. */

@@ -33,15 +33,18 @@ typedef struct RetexDenoiseParams {
     const RetexBudget *budget; /* may stop it; NULL, the default = nothing does */
     int full_precision;  /* 1: the new pixels are rounded to halves only; 0 (default): also to what they are known to,
                             see retex-set(5) */
+    const char *denoiser; /* of the light: "nlm", "oidn", which is Open Image Denoise 2, or "both", the mean of the two;
+                             NULL, the default: nlm. oidn and both filter the light of the whole picture at once */
 } RetexDenoiseParams;
-#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0 }
+#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0, NULL }
 
 /* Filter a set in place. A set that is open (retex_set_open) is filtered strip by strip into a band store if roi is
  * NULL. Filtered are terms, with `footprints` also broad footprints and, as far as they are near to each other,
  * interreflections; the beauty becomes the recombination with the original textures. The mean of each signal over roi
  * (NULL = all) is preserved, apart from rounding. Pixels outside roi keep their terms and footprints. The data that
  * only denoising reads are removed from the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such
- * data. The same to the bit for every nthreads. */
+ * data. With denoiser oidn or both, RETEX_EUNSUPPORTED where Open Image Denoise 2 cannot be opened or fails. The same
+ * to the bit for every nthreads, as far as that library's result is. */
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params /* NULL = defaults */, const RetexRoi *roi,
                   int nthreads, RetexError *err);
 
