@@ -14,10 +14,18 @@ static const CliOption options[] = {
      0},
     {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"denoiser", 0, "nlm|oidn|both",
+     "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0},
     {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
     {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
     {0},
 };
+
+static void check_denoiser(const Cli *cli, const CliOption *option)
+{
+    if (strcmp(cli->value, "nlm") != 0 && strcmp(cli->value, "oidn") != 0 && strcmp(cli->value, "both") != 0)
+        cli_die(cli, "--%s: expected nlm, oidn or both, not '%s'", option->name, cli->value);
+}
 
 static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory)
 {
@@ -33,6 +41,9 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory)
             params->radius = (int)cli_integer(cli, option, 1, 10);
         } else if (strcmp(option->name, "memory") == 0) {
             *memory = cli_size(cli, option);
+        } else if (strcmp(option->name, "denoiser") == 0) {
+            params->denoiser = cli->value;
+            check_denoiser(cli, option);
         } else if (strcmp(option->name, "full-precision") == 0) {
             params->full_precision = 1;
         } else {
