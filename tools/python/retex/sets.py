@@ -375,11 +375,12 @@ class Set:
     # ---- the set itself ----
 
     def denoise(self, *, strength: float = 1, radius: int = 5, footprints: bool = True, full_precision: bool = False,
-                threads: int = 0) -> None:
+                denoiser: str = "nlm", threads: int = 0) -> None:
         """Remove the noise from the set, once, in place, as retex-denoise(1): every picture made of it is clean then.
-        Error, Code.ENOTFOUND, where the set has no data for that."""
+        Error, Code.ENOTFOUND, where the set has no data for that. The denoiser is nlm, oidn, or both: these two need
+        Open Image Denoise 2."""
         params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, footprints, 0, None, None, None, None,
-                                    full_precision)
+                                    full_precision, denoiser.encode())
         with self._exclusive() as pointer:
             call("retex_denoise", pointer, byref(params), None, threads_of(threads))
             self._read_manifest()
