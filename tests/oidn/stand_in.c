@@ -50,6 +50,14 @@ static void misuse(int is_wrong)
     oidn_stand_in.misused += is_wrong != 0;
 }
 
+static void *make(size_t bytes)
+{
+    void *made = calloc(1, bytes);
+    if (!made)
+        fail(OUT_OF_MEMORY, "out of memory");
+    return made;
+}
+
 /* ---- devices ---- */
 
 API void *oidnNewDevice(int type)
@@ -62,8 +70,9 @@ API void *oidnNewDevice(int type)
     if (wrong("nothing"))
         return NULL;
     misuse(type != TYPE_CPU);
-    oidn_stand_in.devices++, oidn_stand_in.made_devices++;
-    return calloc(1, sizeof(Device));
+    Device *device = make(sizeof *device);
+    oidn_stand_in.devices += device != NULL, oidn_stand_in.made_devices++;
+    return device;
 }
 
 API void oidnReleaseDevice(void *device)
@@ -116,8 +125,9 @@ API void *oidnNewFilter(void *device, const char *type)
         fail(INVALID_ARGUMENT, "unknown filter type");
         return NULL;
     }
-    oidn_stand_in.filters++, oidn_stand_in.made_filters++;
-    return calloc(1, sizeof(Filter));
+    Filter *filter = make(sizeof *filter);
+    oidn_stand_in.filters += filter != NULL, oidn_stand_in.made_filters++;
+    return filter;
 }
 
 API void oidnReleaseFilter(void *filter)
