@@ -4,6 +4,8 @@
 # a few of each.
 set -u
 . tests/lib/tap.sh
+RETEX_OIDN=$BUILD/tests/oidn/libOpenImageDenoise.so.2
+export RETEX_OIDN
 mkdir -p "$work/run/out" "$work/run/log" "$work/run/tmp"
 cp tests/faults/good.pov tests/faults/image.pov tests/faults/t.png tests/faults/model.gltf "$work/run"
 most=3 libraries=0

@@ -63,8 +63,10 @@ static void *open_library(const char **name, RetexError *err)
         void *library = dlopen(*name, RTLD_NOW | RTLD_LOCAL);
         if (library)
             return library;
+        const char *why = dlerror();
         if (k == 0)
-            retex_fail(err, RETEX_EUNSUPPORTED, "Open Image Denoise 2 cannot be loaded: %s", dlerror());
+            retex_fail(err, RETEX_EUNSUPPORTED, "Open Image Denoise 2 cannot be loaded: %s",
+                       why ? why : "unknown reason");
     }
     return NULL;
 }
