@@ -129,8 +129,8 @@ def make_tree(number, names):
         if os.path.exists(source):
             os.makedirs(os.path.dirname(copy), exist_ok=True)
             shutil.copy2(source, copy)
-    for name in ("obj", "gen", "lib", "bin", "plugins", "tests/unit", "tests/bin", "tests/libtest.a", "config.mk",
-                 "test.mk"):
+    for name in ("obj", "gen", "lib", "bin", "plugins", "tests/unit", "tests/bin", "tests/oidn", "tests/libtest.a",
+                 "config.mk", "test.mk"):
         source, copy = os.path.join(BUILD, name), os.path.join(tree, "build", name)
         os.makedirs(os.path.dirname(copy), exist_ok=True)
         if os.path.isdir(source):
