@@ -45,19 +45,15 @@ typedef struct Pictures {
     int nthreads;
 } Pictures;
 
-static int get_row(const Pictures *p, int thread, int part, int y, const float **row, RetexError *err)
-{
-    return retex_row_reader_get(p->readers[thread], part, y, row, err);
-}
-
 /* Add a part's row, times weight; a part of one channel counts for all three. */
 static int add_row(float *to, const Pictures *p, int thread, int part, float weight, int y, RetexError *err)
 {
     const RetexImage *im = &p->of->set->parts[part].image;
+    const int each = im->channels == 1 ? 3 : 1;
     const float *row = NULL;
-    const int code = get_row(p, thread, part, y, &row, err), step = im->channels == 1 ? 1 : 3;
+    const int code = retex_row_reader_get(p->readers[thread], part, y, &row, err);
     for (int i = 0; row && !code && i < 3 * im->width; i++)
-        to[i] += weight * retex_denoise_finite(row[step == 1 ? i / 3 : i]);
+        to[i] += weight * retex_denoise_finite(row[i / each]);
     return code;
 }
 
