@@ -212,8 +212,10 @@ static int is_cancelled(const Filter *f)
 {
     const struct timespec pause = {0, 10000000};
     for (int k = 0; k < 1000; k++) {
-        if (!f->progress(f->context, k / 1000.0))
+        if (!f->progress(f->context, k / 1000.0)) {
+            oidn_stand_in.cancelled++;
             return 1;
+        }
         nanosleep(&pause, NULL);
     }
     return 0;

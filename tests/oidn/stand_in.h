@@ -8,6 +8,7 @@ typedef struct OidnStandIn {
     int devices, filters;           /* made and not released */
     int made_devices, made_filters; /* ever */
     int executed, misused; /* calls of oidnExecuteFilter; calls that the real library refuses or answers wrongly */
+    int cancelled;         /* filters that were told to stop */
     int type, threads, affinity, megabytes, width, height;
     int npictures; /* executed, as far as they are kept */
     float color[OIDN_PICTURES][3 * OIDN_PIXELS], albedo[OIDN_PICTURES][3 * OIDN_PIXELS],

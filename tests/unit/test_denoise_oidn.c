@@ -438,6 +438,7 @@ static void test_time(void **state)
     retex_budget_set_seconds(budget, 2);
     expect_failure(&params, RETEX_ELIMIT, "longer than the 2 s of --max-time");
     assert_int_equal(oidn->executed, 1);
+    assert_int_equal(oidn->cancelled, 1);
     retex_budget_close(&budget);
 }
 
