@@ -185,24 +185,32 @@ static int store_samples(const RetexExrPlan *plan, RetexImage *image, int top, c
     return 1;
 }
 
-exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int column, int row, RetexImage *image,
-                                  int top, const RetexExrSums *sums, RetexExrScratch *scratch)
+exr_result_t retex_exr_chunk_samples(RetexExr *exr, const RetexExrPlan *plan, int column, int row,
+                                     RetexExrScratch *scratch, const unsigned char **samples, int *width, int *height)
 {
     const int x = column * plan->chunk_width, y = row * plan->chunk_height;
-    const int width = plan->width - x < plan->chunk_width ? plan->width - x : plan->chunk_width;
-    const int height = plan->height - y < plan->chunk_height ? plan->height - y : plan->chunk_height;
-    const unsigned char *samples;
     exr_chunk_info_t chunk;
     exr_result_t code;
 
+    *width = plan->width - x < plan->chunk_width ? plan->width - x : plan->chunk_width;
+    *height = plan->height - y < plan->chunk_height ? plan->height - y : plan->chunk_height;
     if (plan->storage == EXR_STORAGE_SCANLINE)
         code = exr_read_scanline_chunk_info(exr->context, plan->request->part, plan->top + y, &chunk);
     else
         code = exr_read_tile_chunk_info(exr->context, plan->request->part, column, row, 0, 0, &chunk);
-    if (!code && (chunk.width != width || chunk.height != height))
+    if (!code && (chunk.width != *width || chunk.height != *height))
         code = EXR_ERR_BAD_CHUNK_LEADER;
-    if (!code)
-        code = chunk_samples(exr, plan, &chunk, scratch, &samples);
+    return code ? code : chunk_samples(exr, plan, &chunk, scratch, samples);
+}
+
+exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int column, int row, RetexImage *image,
+                                  int top, const RetexExrSums *sums, RetexExrScratch *scratch)
+{
+    const int x = column * plan->chunk_width, y = row * plan->chunk_height;
+    const unsigned char *samples;
+    int width, height;
+    exr_result_t code = retex_exr_chunk_samples(exr, plan, column, row, scratch, &samples, &width, &height);
+
     if (!code &&
         !reserve((void **)&scratch->rows, &scratch->rows_count, (size_t)width * RETEX_EXR_LETTERS_MAX, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;

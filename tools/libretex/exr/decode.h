@@ -60,6 +60,10 @@ void retex_exr_plan_close(RetexExrPlan *plan);
 
 size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel);
 
+/* Read and decompress the chunk at (column, row) among the part's chunks, of *width x *height pixels: line by line, in
+ * each line channel by channel, in *samples, which scratch owns. Thread-safe, each thread with its own scratch. */
+exr_result_t retex_exr_chunk_samples(RetexExr *exr, const RetexExrPlan *plan, int column, int row,
+                                     RetexExrScratch *scratch, const unsigned char **samples, int *width, int *height);
 /* Read the chunk at (column, row) among the part's chunks into the image (NULL: nowhere), whose first row is row top of
  * the part, and update sums (or NULL), for which chunks of a row must come from the left. Thread-safe, each thread with
  * its own scratch. */
