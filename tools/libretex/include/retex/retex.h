@@ -10,6 +10,7 @@
 #include <retex/color_text.h>
 #include <retex/combine.h>
 #include <retex/denoise.h>
+#include <retex/denoise_picture.h>
 #include <retex/diff.h>
 #include <retex/edit.h>
 #include <retex/error.h>

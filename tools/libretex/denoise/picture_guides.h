@@ -1,0 +1,28 @@
+/* The guides of a picture that is no set. Private to libretex. */
+#ifndef RETEX_DENOISE_PICTURE_GUIDES_H
+#define RETEX_DENOISE_PICTURE_GUIDES_H
+
+#include <retex/set.h>
+
+/* Images of three channels, of the picture's size; those that a picture lacks are not allocated. */
+typedef struct RetexPictureGuides {
+    RetexImage normal, position;           /* of the first hit; used if has_first is 1 */
+    RetexImage seen_normal, seen_position; /* of the hit that is seen in mirrors and through glass, as far as known */
+    RetexImage albedo;
+    int has_first;
+} RetexPictureGuides;
+
+/* Turn depths, of three equal channels, into positions of a camera whose field of view is not known: x and y in units
+ * of the picture's width, and the logarithm of the depth. A plane stays about plane. */
+void retex_picture_depth_to_position(RetexImage *depth);
+/* Normals of a picture's positions: at right angles to the smaller of the differences to both sides. */
+int retex_picture_derive_normals(RetexImage *normal, const RetexImage *position, RetexError *err);
+/* Sort what was found: of a position the normal is known, and if there are two kinds of normals they are of two hits. */
+int retex_picture_guides_finish(RetexPictureGuides *guides, int has_depth, RetexError *err);
+void retex_picture_guides_close(RetexPictureGuides *guides);
+
+/* A set without terms, for retex_denoise: its beauty and the noise are those given; white where with_albedo is 0. */
+int retex_picture_set(RetexSet **set, const RetexImage *beauty, const RetexImage *noise,
+                      const RetexPictureGuides *guides, int with_albedo, RetexError *err);
+
+#endif
