@@ -40,7 +40,7 @@ static void check_denoiser(const Cli *cli, const CliOption *option)
 typedef struct Picture {
     RetexDenoisePictureParams params;
     const char **layers;
-    const char *first; /* the first option that is for pictures, or NULL */
+    const char *first;         /* the first option that is for pictures, or NULL */
     const char *first_of_sets; /* the same of options for sets */
 } Picture;
 
@@ -176,7 +176,6 @@ int main(int argc, char **argv)
     cli_input(&cli, input, "a set, as from retex-render");
     cli_reads(&cli, "the set", input);
     cli_writes(&cli, "the output", output);
-    check_ending(&cli, output);
     params.progress = progress;
     params.progress_context = &cli;
     params.near = output;
@@ -186,6 +185,7 @@ int main(int argc, char **argv)
     if (picture.first)
         cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", picture.first, input);
     free(picture.layers);
+    check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     const double began = retex_clock_seconds();

@@ -101,9 +101,10 @@ static int check_values(const PictureFile *file, int layer, const RetexImage *im
             for (int c = 0; c < 3; c++) {
                 const float value = image->pixels[retex_image_index(image, x, y) + (size_t)c];
                 if (!isfinite(value))
-                    return retex_fail(err, RETEX_EFORMAT, "%s: layer %s holds %s at %d,%d: --accept-damaged takes the mean "
-                                      "of the pixels around", retex_input_name(file->input),
-                                      retex_picture_layer_text(&file->layers, layer),
+                    return retex_fail(err, RETEX_EFORMAT,
+                                      "%s: layer %s holds %s at %d,%d: --accept-damaged takes the mean "
+                                      "of the pixels around",
+                                      retex_input_name(file->input), retex_picture_layer_text(&file->layers, layer),
                                       isnan(value) ? "NaN" : "infinity", x, y);
             }
     return RETEX_OK;
@@ -197,7 +198,7 @@ static int read_checked(RetexImage *image, const Picture *p, const PictureFile *
     if (code)
         return code;
     return p->params.access && p->params.access->accept_damaged ? repair(image, err)
-                                                                 : check_values(file, layer, image, err);
+                                                                : check_values(file, layer, image, err);
 }
 
 /* ---- guides ---- */
@@ -220,7 +221,8 @@ static int find_guide(const Picture *p, const char *name, RetexPictureGuide guid
 }
 
 /* Reads a guide, of both halves their mean. */
-static int load_guide(RetexImage *image, Picture *p, int layer, const char *as, char *used, size_t size, RetexError *err)
+static int load_guide(RetexImage *image, Picture *p, int layer, const char *as, char *used, size_t size,
+                      RetexError *err)
 {
     if (layer < 0)
         return RETEX_OK;
@@ -292,7 +294,8 @@ static int split_halves(RetexImage *image, RetexImage *noise, const Picture *p, 
 
 static int read_variance(RetexImage *noise, const Picture *p, RetexError *err)
 {
-    const int layer = retex_picture_layer_named(&p->file.layers, p->params.variance, retex_input_name(p->file.input), err);
+    const int layer =
+        retex_picture_layer_named(&p->file.layers, p->params.variance, retex_input_name(p->file.input), err);
     if (layer < 0)
         return layer;
     if (!has_size(p, &p->file, layer))
@@ -489,8 +492,7 @@ static int check_size(Picture *p, RetexError *err)
     if (most > 0 && (int64_t)p->width * p->height > most)
         return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels",
                           retex_input_name(p->file.input), p->width, p->height, most);
-    const uint64_t bytes =
-        (uint64_t)p->width * (uint64_t)p->height * (BYTES_A_PIXEL + 12 * ((uint64_t)p->njobs + 3));
+    const uint64_t bytes = (uint64_t)p->width * (uint64_t)p->height * (BYTES_A_PIXEL + 12 * ((uint64_t)p->njobs + 3));
     RetexBudget *budget = (RetexBudget *)p->filter.budget;
     const int code = budget ? retex_budget_charge(budget, bytes, "a picture to denoise", err) : RETEX_OK;
     p->charged = code || !budget ? 0 : bytes;
@@ -509,8 +511,9 @@ static int denoise_layers(Picture *p, RetexError *err)
     if (!code && !p->other.exr && p->params.variance)
         note(p, 0, "the layer %s is taken as the variance of each pixel's mean", p->params.variance);
     if (!code && !p->other.exr && !p->params.variance)
-        note(p, 1, "the noise is estimated from the picture itself: what no guide shows may be taken for noise; "
-                   "--other-half is better");
+        note(p, 1,
+             "the noise is estimated from the picture itself: what no guide shows may be taken for noise; "
+             "--other-half is better");
     const int several = p->njobs - (asked ? 1 : 0) > 1;
     const int alone = p->njobs == 1 || !asked || !several ? p->njobs : p->njobs - 1;
     for (int k = 0; k < alone && !code; k++)
@@ -553,7 +556,8 @@ static void close_picture(Picture *p)
 int retex_denoise_picture(const char *path, const char *output, const RetexDenoisePictureParams *picture,
                           const RetexDenoiseParams *params, int nthreads, RetexError *err)
 {
-    Picture p = {.params = RETEX_DENOISE_PICTURE_INIT, .filter = RETEX_DENOISE_INIT, .beauty = -1, .nthreads = nthreads};
+    Picture p = {
+        .params = RETEX_DENOISE_PICTURE_INIT, .filter = RETEX_DENOISE_INIT, .beauty = -1, .nthreads = nthreads};
     int code = RETEX_PARAMS_COPY(&p.params, picture, err);
     if (!code)
         code = RETEX_PARAMS_COPY(&p.filter, params, err);

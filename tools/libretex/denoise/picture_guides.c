@@ -116,7 +116,8 @@ static int add_guides(RetexSet *set, const RetexPictureGuides *g, int with_albed
                                                      [RETEX_FEATURE_SEEN_NORMAL] = &g->seen_normal,
                                                      [RETEX_FEATURE_SEEN_POSITION] = &g->seen_position,
                                                      [RETEX_FEATURE_SEEN_ALBEDO] = with_albedo ? &g->albedo : NULL};
-    const float values[RETEX_FEATURE_COUNT] = {[RETEX_FEATURE_SPECULAR] = g->has_first ? 1 : 0, /* it counts everywhere */
+    const float values[RETEX_FEATURE_COUNT] = {[RETEX_FEATURE_SPECULAR] =
+                                                   g->has_first ? 1 : 0, /* it counts everywhere */
                                                [RETEX_FEATURE_SEEN_ALBEDO] = 1};
     int code = RETEX_OK;
     for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++) {

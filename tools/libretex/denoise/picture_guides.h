@@ -7,13 +7,13 @@
 /* Images of three channels, of the picture's size; those that a picture lacks are not allocated. */
 typedef struct RetexPictureGuides {
     RetexImage normal, position;           /* of the first hit; used if has_first is 1 */
-    RetexImage seen_normal, seen_position; /* of the hit that is seen in mirrors and through glass, as far as known */
+    RetexImage seen_normal, seen_position; /* of what is seen in mirrors and through glass, as far as known */
     RetexImage albedo;
     int has_first;
 } RetexPictureGuides;
 
-/* Turn depths, of three equal channels, into positions of a camera whose field of view is not known: x and y in units
- * of the picture's width, and the logarithm of the depth. A plane stays about plane. */
+/* Turn depths, of three equal channels, into positions, where the field of view is not known: x and y in units of
+ * the picture's width, and the logarithm of the depth. A plane stays about plane. */
 void retex_picture_depth_to_position(RetexImage *depth);
 /* Normals of a picture's positions: at right angles to the smaller of the differences to both sides. */
 int retex_picture_derive_normals(RetexImage *normal, const RetexImage *position, RetexError *err);
@@ -21,7 +21,7 @@ int retex_picture_derive_normals(RetexImage *normal, const RetexImage *position,
 int retex_picture_guides_finish(RetexPictureGuides *guides, int has_depth, RetexError *err);
 void retex_picture_guides_close(RetexPictureGuides *guides);
 
-/* A set without terms, for retex_denoise: its beauty and the noise are those given; white where with_albedo is 0. */
+/* A set without terms, for retex_denoise, of this beauty and noise. with_albedo 0: surfaces are white. */
 int retex_picture_set(RetexSet **set, const RetexImage *beauty, const RetexImage *noise,
                       const RetexPictureGuides *guides, int with_albedo, RetexError *err);
 

@@ -10,8 +10,8 @@
 static const char *const triples[][3] = {{"R", "G", "B"}, {"red", "green", "blue"}, {"X", "Y", "Z"}};
 
 /* Of the picture, in the order in which they are looked for; "" is R,G,B without a name. */
-static const char *const beauties[] = {"", "Combined", "RGBA", "rgb", "beauty", "Ci", "C", "rgb_color", "Noisy Image",
-                                       "Y", NULL};
+static const char *const beauties[] = {"",  "Combined",  "RGBA",        "rgb", "beauty", "Ci",
+                                       "C", "rgb_color", "Noisy Image", "Y",   NULL};
 
 /* Of Cycles, Arnold, V-Ray, RenderMan, Octane, Mitsuba and our own renderer. */
 static const char *const known[RETEX_PICTURE_GUIDES][16] = {
@@ -185,8 +185,8 @@ int retex_picture_layer_beauty(const RetexPictureLayers *layers, const char *fil
         if (found >= 0)
             return found;
     }
-    return retex_fail(err, RETEX_ENOTFOUND, "%s has no channels R, G, B and no layer of a well known name: choose by --layer",
-                      file);
+    return retex_fail(err, RETEX_ENOTFOUND,
+                      "%s has no channels R, G, B and no layer of a well known name: choose by --layer", file);
 }
 
 int retex_picture_layer_known(const RetexPictureLayers *layers, RetexPictureGuide guide, int beauty)
@@ -214,7 +214,8 @@ int retex_picture_layer_color(const RetexPictureLayers *layers, int light)
     char name[2 * RETEX_EXR_NAME_MAX];
     const size_t length = strlen(layers->of[light].name);
     if (length < 3 || layers->of[light].count != 3 ||
-        (strcmp(layers->of[light].name + length - 3, "Dir") != 0 && strcmp(layers->of[light].name + length - 3, "Ind") != 0))
+        (strcmp(layers->of[light].name + length - 3, "Dir") != 0 &&
+         strcmp(layers->of[light].name + length - 3, "Ind") != 0))
         return -1;
     snprintf(name, sizeof name, "%.*sCol", (int)(length - 3), layers->of[light].name);
     for (int k = 0; k < layers->count; k++)

@@ -14,9 +14,9 @@ int retex_picture_estimate_variance(RetexImage *variance, const RetexImage *pict
 /* Replace variances by numbers drawn at random that have them, the same for all channels of a pixel but for their size.
  *
  * A pixel x with noise of variance V, and a number n drawn with variance V, make two halves x + n and x - n. Their mean
- * is x, and they are independent if the noise is Gaussian, since cov(x + n, x - n) = V - V. So each half can judge what
- * is made of the other, as with two renders. (Recorrupted-to-Recorrupted, Pang et al. 2021; coupled bootstrap, Oliveira
- * et al. 2021.) Each has twice the noise of a half of two renders. */
+ * is x, and they are independent if the noise is Gaussian, since cov(x + n, x - n) = V - V. Each has the variance 2V,
+ * as the mean of half of the samples has. So each can judge what is made of the other, as with two renders.
+ * (Recorrupted-to-Recorrupted, Pang et al. 2021; coupled bootstrap, Oliveira et al. 2021.) */
 void retex_picture_draw_noise(RetexImage *variance, uint32_t seed, int nthreads);
 
 #endif

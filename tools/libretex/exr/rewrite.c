@@ -1,5 +1,5 @@
-/* See rewrite.h. OpenEXRCore copies the attributes. Chunks of parts without a new channel are copied as they are. Others
- * are decoded, get the new samples, and are encoded again, some at a time on all threads. */
+/* See rewrite.h. OpenEXRCore copies the attributes. Chunks of parts without a new channel are copied as they are.
+ * Others are decoded, get the new samples, and are encoded again, some at a time on all threads. */
 #include "exr/rewrite.h"
 
 #include <stdlib.h>
@@ -84,9 +84,9 @@ static int has_replacement(const Copy *copy, int part)
 /* A compression without loss, with as many lines in a chunk. */
 static exr_compression_t lossless(exr_compression_t compression)
 {
-    return compression == EXR_COMPRESSION_PXR24                                             ? EXR_COMPRESSION_ZIP
+    return compression == EXR_COMPRESSION_PXR24                                        ? EXR_COMPRESSION_ZIP
            : compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A ? EXR_COMPRESSION_PIZ
-                                                                                        : compression;
+                                                                                       : compression;
 }
 
 static exr_result_t declare_part(const Copy *copy, int part)
@@ -160,7 +160,8 @@ static void replace_samples(const Batch *batch, unsigned char *samples, int x, i
     for (int line = 0; line < height; line++)
         for (int c = 0; c < plan->nchannels; c++) {
             for (int k = 0; k < batch->copy->count; k++)
-                if (batch->copy->replacements[k].part == plan->request->part && batch->copy->replacements[k].channel == c)
+                if (batch->copy->replacements[k].part == plan->request->part &&
+                    batch->copy->replacements[k].channel == c)
                     replace_line(samples, plan->channels[c].pixel_type, &batch->copy->replacements[k],
                                  (size_t)(y + line) * (size_t)plan->width + (size_t)x, width);
             samples += (size_t)width * retex_exr_channel_bytes(&plan->channels[c]);
@@ -244,8 +245,8 @@ static void encode_job(void *context, int index, int thread)
         return;
     unsigned char *samples = decoded == scratch->raw ? scratch->raw : scratch->packed; /* memory of the scratch */
     replace_samples(batch, samples, column * plan->chunk_width, row * plan->chunk_height, width, height);
-    piece->code = compress(piece, batch, column, row, samples, (size_t)width * (size_t)height * plan->pixel_bytes,
-                           &scratch->zip);
+    piece->code =
+        compress(piece, batch, column, row, samples, (size_t)width * (size_t)height * plan->pixel_bytes, &scratch->zip);
 }
 
 static exr_result_t write_chunk(const Copy *copy, const RetexExrPlan *plan, int column, int row, const void *data,
@@ -390,8 +391,8 @@ static int send(RetexOutput **memory, const char *path, RetexError *err)
     return code;
 }
 
-int retex_exr_rewrite(RetexExr *exr, const RetexExrReplacement *replacements, int count, const char *path,
-                      int nthreads, RetexError *err)
+int retex_exr_rewrite(RetexExr *exr, const RetexExrReplacement *replacements, int count, const char *path, int nthreads,
+                      RetexError *err)
 {
     Copy copy = {.exr = exr, .replacements = replacements, .count = count, .nthreads = retex_threads(nthreads)};
     Target target = {.output = NULL};

@@ -17,7 +17,7 @@ int retex_exr_rewrite_check(RetexExr *exr, RetexError *err);
 /* Write the file again to path ("-" = standard output). All other channels keep their bits; parts keep their names,
  * windows, pixel types and attributes, apart from these of parts with a new channel: where the compression loses
  * something it becomes one that loses nothing, ZIP or PIZ, and lines stand in increasing order. */
-int retex_exr_rewrite(RetexExr *exr, const RetexExrReplacement *replacements, int count, const char *path,
-                      int nthreads, RetexError *err);
+int retex_exr_rewrite(RetexExr *exr, const RetexExrReplacement *replacements, int count, const char *path, int nthreads,
+                      RetexError *err);
 
 #endif

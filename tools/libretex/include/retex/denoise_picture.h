@@ -1,5 +1,5 @@
-/* Denoising a picture that is no set: an EXR file of any renderer. Its layers are filtered as sets are, by the noise that
- * a second render, a variance or the picture itself tells, and with its normals, albedo and positions as guides. */
+/* Denoising a picture that is no set: an EXR file of any renderer. Its layers are filtered as sets are, by the noise
+ * that a second render, a variance or the picture itself tells, with its normals, albedo and positions as guides. */
 #ifndef RETEX_DENOISE_PICTURE_H
 #define RETEX_DENOISE_PICTURE_H
 
@@ -36,8 +36,8 @@ typedef struct RetexDenoisePictureParams {
 /* 1 if the file is an EXR without the manifest of a set; of what cannot be read, 0. "-" is not read, and so 0. */
 int retex_is_picture(const char *path, const RetexAccess *access);
 
-/* Denoise layers of the EXR file `path` ("-" is standard input) into the EXR file `output` ("-" is standard output). All
- * other channels keep their bits. Where several layers add up to the picture, the picture becomes the sum of the
+/* Denoise layers of the EXR file `path` ("-" is standard input) into the EXR file `output` ("-" is standard output).
+ * All other channels keep their bits. Where several layers add up to the picture, the picture becomes the sum of the
  * denoised ones. The same to the bit for every nthreads. */
 int retex_denoise_picture(const char *path, const char *output,
                           const RetexDenoisePictureParams *picture /* NULL = defaults */,
