@@ -127,7 +127,7 @@ static int fit(const RetexPictureLayer *layer, const char *name)
         return 4;
     if (is_same(layer->name, name))
         return 4;
-    if (ends_in(layer->name, name))
+    if (ends_in(layer->name, name) && (layer->count > 1 || strchr(name, '.')))
         return 3;
     if (layer->count == 1 && *stem && is_same(stem, name))
         return 2;

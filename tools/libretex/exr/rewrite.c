@@ -168,48 +168,15 @@ static void replace_samples(const Batch *batch, unsigned char *samples, int x, i
         }
 }
 
-/* Compresses by OpenEXRCore. */
-static exr_result_t compress_with_core(Piece *piece, const Batch *batch, int column, int row, unsigned char *samples,
-                                       size_t bytes)
+/* Core compresses a chunk only where it writes it: see write_by_core. */
+static int is_core_compression(exr_compression_t compression)
 {
-    const RetexExrPlan *plan = batch->plan;
-    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
-    exr_chunk_info_t chunk;
-    exr_result_t code;
-
-    if (plan->storage == EXR_STORAGE_SCANLINE)
-        code = exr_write_scanline_chunk_info(batch->copy->to, plan->request->part, plan->top + row * plan->chunk_height,
-                                             &chunk);
-    else
-        code = exr_write_tile_chunk_info(batch->copy->to, plan->request->part, column, row, 0, 0, &chunk);
-    if (!code)
-        code = exr_encoding_initialize(batch->copy->to, plan->request->part, &chunk, &pipeline);
-    if (code)
-        return code;
-    for (int c = 0; c < pipeline.channel_count; c++) { /* only to let Core choose: samples are packed already */
-        exr_coding_channel_info_t *channel = &pipeline.channels[c];
-        channel->encode_from_ptr = samples;
-        channel->user_pixel_stride = channel->bytes_per_element;
-        channel->user_line_stride = channel->bytes_per_element * channel->width;
-    }
-    code = exr_encoding_choose_default_routines(batch->copy->to, plan->request->part, &pipeline);
-    pipeline.convert_and_pack_fn = NULL;
-    pipeline.write_fn = NULL;
-    pipeline.packed_buffer = samples;
-    pipeline.packed_bytes = bytes;
-    if (!code)
-        code = exr_encoding_run(batch->copy->to, plan->request->part, &pipeline);
-    if (!code && pipeline.compressed_buffer && pipeline.compressed_bytes < bytes) {
-        memcpy(piece->data, pipeline.compressed_buffer, pipeline.compressed_bytes);
-        piece->bytes = pipeline.compressed_bytes;
-    }
-    pipeline.packed_buffer = NULL; /* it is not Core's */
-    exr_encoding_destroy(batch->copy->to, &pipeline);
-    return code;
+    return compression != EXR_COMPRESSION_NONE && compression != EXR_COMPRESSION_ZIP &&
+           compression != EXR_COMPRESSION_ZIPS;
 }
 
-static exr_result_t compress(Piece *piece, const Batch *batch, int column, int row, unsigned char *samples,
-                             size_t bytes, RetexZip *zip)
+static exr_result_t compress(Piece *piece, const Batch *batch, const unsigned char *samples, size_t bytes,
+                             RetexZip *zip)
 {
     if (!(piece->data = malloc(bytes)))
         return EXR_ERR_OUT_OF_MEMORY;
@@ -218,10 +185,6 @@ static exr_result_t compress(Piece *piece, const Batch *batch, int column, int r
         if (!retex_zip_reserve(zip, bytes))
             return EXR_ERR_OUT_OF_MEMORY;
         piece->bytes = retex_zip_pack(zip, piece->data, samples, bytes);
-    } else if (batch->compression != EXR_COMPRESSION_NONE) {
-        const exr_result_t code = compress_with_core(piece, batch, column, row, samples, bytes);
-        if (code)
-            return code;
     }
     if (!piece->bytes) { /* nothing is gained: chunks are stored as they are */
         memcpy(piece->data, samples, bytes);
@@ -245,8 +208,7 @@ static void encode_job(void *context, int index, int thread)
         return;
     unsigned char *samples = decoded == scratch->raw ? scratch->raw : scratch->packed; /* memory of the scratch */
     replace_samples(batch, samples, column * plan->chunk_width, row * plan->chunk_height, width, height);
-    piece->code =
-        compress(piece, batch, column, row, samples, (size_t)width * (size_t)height * plan->pixel_bytes, &scratch->zip);
+    piece->code = compress(piece, batch, samples, (size_t)width * (size_t)height * plan->pixel_bytes, &scratch->zip);
 }
 
 static exr_result_t write_chunk(const Copy *copy, const RetexExrPlan *plan, int column, int row, const void *data,
@@ -259,7 +221,60 @@ static exr_result_t write_chunk(const Copy *copy, const RetexExrPlan *plan, int 
                : exr_write_tile_chunk(copy->to, part, column, row, 0, 0, data, bytes);
 }
 
+/* In place of Core's packing: the samples are packed already. */
+static exr_result_t pack_nothing(exr_encode_pipeline_t *pipeline)
+{
+    const Piece *piece = pipeline->encoding_user_data;
+
+    if (piece->bytes > pipeline->packed_alloc_size)
+        return EXR_ERR_INVALID_ARGUMENT;
+    memcpy(pipeline->packed_buffer, piece->data, piece->bytes);
+    pipeline->packed_bytes = piece->bytes;
+    return EXR_ERR_SUCCESS;
+}
+
+/* Has OpenEXRCore compress and write a chunk. */
+static exr_result_t write_by_core(const Copy *copy, const RetexExrPlan *plan, int column, int row, Piece *piece)
+{
+    const int part = plan->request->part;
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_chunk_info_t chunk;
+    exr_result_t code =
+        plan->storage == EXR_STORAGE_SCANLINE
+            ? exr_write_scanline_chunk_info(copy->to, part, plan->top + row * plan->chunk_height, &chunk)
+            : exr_write_tile_chunk_info(copy->to, part, column, row, 0, 0, &chunk);
+
+    if (!code)
+        code = exr_encoding_initialize(copy->to, part, &chunk, &pipeline);
+    if (code)
+        return code;
+    for (int c = 0; c < pipeline.channel_count; c++) { /* only to let Core choose its functions */
+        exr_coding_channel_info_t *channel = &pipeline.channels[c];
+        channel->encode_from_ptr = piece->data;
+        channel->user_pixel_stride = channel->bytes_per_element;
+        channel->user_line_stride = channel->bytes_per_element * channel->width;
+    }
+    code = exr_encoding_choose_default_routines(copy->to, part, &pipeline);
+    pipeline.convert_and_pack_fn = pack_nothing;
+    pipeline.encoding_user_data = piece;
+    if (!code)
+        code = exr_encoding_run(copy->to, part, &pipeline);
+    exr_encoding_destroy(copy->to, &pipeline);
+    return code;
+}
+
 /* ---- parts ---- */
+
+static exr_result_t write_piece(Batch *batch, int index)
+{
+    const RetexExrPlan *plan = batch->plan;
+    Piece *piece = &batch->pieces[index];
+    const int column = (batch->first + index) % plan->across, row = (batch->first + index) / plan->across;
+
+    return is_core_compression(batch->compression)
+               ? write_by_core(batch->copy, plan, column, row, piece)
+               : write_chunk(batch->copy, plan, column, row, piece->data, piece->bytes);
+}
 
 static exr_result_t encode_part(const Copy *copy, const RetexExrPlan *plan, exr_result_t *reading)
 {
@@ -278,8 +293,7 @@ static exr_result_t encode_part(const Copy *copy, const RetexExrPlan *plan, exr_
             if (!*reading)
                 *reading = batch.pieces[k].code;
             if (!code && !*reading)
-                code = write_chunk(copy, plan, (batch.first + k) % plan->across, (batch.first + k) / plan->across,
-                                   batch.pieces[k].data, batch.pieces[k].bytes);
+                code = write_piece(&batch, k);
             free(batch.pieces[k].data);
         }
     }
