@@ -2,10 +2,11 @@
 
     denoise_pictures.py make              writes pictures of a scene that is computed here, with noise, and their truth
     denoise_pictures.py render SCENE      joins renders of retex-render into pictures with AOVs
-    denoise_pictures.py gain FILE NOISY TRUTH [LAYER]     prints by how many dB FILE is nearer to TRUTH than NOISY is
+    denoise_pictures.py gain FILE NOISY TRUTH [LAYER] least=DB   whether FILE is nearer to TRUTH than NOISY, by so much
+    denoise_pictures.py changed A B       prints the channels that differ
     denoise_pictures.py same A B LAYER…   prints the channels that differ in bits, but for those of the layers; and what
                                           differs in the headers
-    denoise_pictures.py sum FILE          the largest difference of Combined from what the layers add up to
+    denoise_pictures.py sum FILE          whether Combined is what the layers add up to, to the rounding of a half
 """
 
 import sys
@@ -177,10 +178,18 @@ def render():
     write("rt.exr", {"": aov("rt", "beauty")}, "float")
 
 
-def gain(path, before, truth, name=""):
+def gain(path, before, truth, *rest):
+    name = rest[0] if len(rest) > 1 else ""
+    least = float(rest[-1].partition("=")[2])
     reference = layer(truth, name)
     errors = [np.mean((layer(p, name) - reference) ** 2) for p in (before, path)]
-    print("%.2f" % (10 * np.log10(errors[0] / errors[1])))
+    by = 10 * np.log10(errors[0] / errors[1])
+    print("nearer" if by >= least else "nearer by %.2f dB only" % by)
+
+
+def changed(a, b):
+    first, second = read(a), read(b)
+    print(*(name for name in first if not np.array_equal(first[name], second[name], equal_nan=True)))
 
 
 def header(path):
@@ -213,12 +222,13 @@ def total(path):
     sums = layer(path, view + "DiffCol") * (layer(path, view + "DiffDir") + layer(path, view + "DiffInd"))
     sums += layer(path, view + "Emit")
     difference = np.abs(sums - layer(path, view + "Combined")) / np.maximum(sums, 1e-3)
-    print("%.2g" % (difference.max() * 2048))
+    print("adds up" if difference.max() * 2048 <= 1.01 else "differs by %g of the last bit" % (difference.max() * 2048))
 
 
 def main():
     command, arguments = sys.argv[1], sys.argv[2:]
-    {"make": make, "render": render, "gain": gain, "same": same, "sum": total}[command](*arguments)
+    {"make": make, "render": render, "gain": gain, "same": same, "changed": changed,
+     "sum": total}[command](*arguments)
 
 
 if __name__ == "__main__":

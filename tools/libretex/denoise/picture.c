@@ -41,6 +41,7 @@ typedef struct Picture {
     int width, height, nthreads;
     PictureJob *jobs;
     int njobs, done;
+    int halves_differ; /* 1: somewhere */
     RetexPictureGuides guides;
     RetexImage sum, denoised_sum; /* of several layers */
     uint64_t charged;
@@ -280,7 +281,7 @@ static int load_guides(Picture *p, RetexError *err)
 /* ---- noise ---- */
 
 /* The mean of both halves, and half of their difference. */
-static int split_halves(RetexImage *image, RetexImage *noise, const Picture *p, int layer, RetexError *err)
+static int split_halves(RetexImage *image, RetexImage *noise, Picture *p, int layer, RetexError *err)
 {
     const int other = find_in_other(p, layer, err);
     int code = other < 0 ? other : read_checked(noise, p, &p->other, other, err);
@@ -288,6 +289,7 @@ static int split_halves(RetexImage *image, RetexImage *noise, const Picture *p, 
         const float a = image->pixels[i], b = noise->pixels[i];
         image->pixels[i] = 0.5f * (a + b);
         noise->pixels[i] = 0.5f * (a - b);
+        p->halves_differ |= a != b;
     }
     return code;
 }
@@ -304,7 +306,7 @@ static int read_variance(RetexImage *noise, const Picture *p, RetexError *err)
     return read_checked(noise, p, &p->file, layer, err);
 }
 
-static int find_noise(RetexImage *image, RetexImage *noise, const Picture *p, const PictureJob *job, int with_albedo,
+static int find_noise(RetexImage *image, RetexImage *noise, Picture *p, const PictureJob *job, int with_albedo,
                       RetexError *err)
 {
     int code;
@@ -518,7 +520,12 @@ static int denoise_layers(Picture *p, RetexError *err)
     const int alone = p->njobs == 1 || !asked || !several ? p->njobs : p->njobs - 1;
     for (int k = 0; k < alone && !code; k++)
         code = denoise_layer(p, &p->jobs[k], several, err);
-    return code || !several ? code : finish_picture(p, asked, err);
+    if (!code && several)
+        code = finish_picture(p, asked, err);
+    if (!code && p->other.exr && !p->halves_differ)
+        code = retex_fail(err, RETEX_EINVAL, "%s is the same render as %s: the other half needs another seed",
+                          retex_input_name(p->other.input), retex_input_name(p->file.input));
+    return code;
 }
 
 /* ---- the output ---- */
