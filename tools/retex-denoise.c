@@ -98,14 +98,16 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory,
     return input;
 }
 
-/* The output is a set. Refuse names of picture formats, which suggest that retex-combine is meant. */
-static void check_ending(const Cli *cli, const char *output)
+/* The output is a set, or an EXR picture. Refuse names of other formats. */
+static void check_ending(const Cli *cli, const char *output, const char *picture)
 {
     static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (cli_ends_with(output, others[i]))
+        if (cli_ends_with(output, others[i]) && !picture)
             cli_die(cli, "%s: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine",
                     output);
+        else if (cli_ends_with(output, others[i]) || (picture && cli_ends_with(output, ".retex")))
+            cli_die(cli, "%s: a denoised picture is an OpenEXR file, .exr, as %s is", output, picture);
 }
 
 static void progress(void *context, double done)
@@ -129,8 +131,7 @@ static int denoise_picture(Cli *cli, Picture *picture, const RetexDenoiseParams 
     RetexError err = {0};
     if (picture->first_of_sets)
         cli_die(cli, "--%s: %s is a picture, not a set", picture->first_of_sets, input);
-    if (strcmp(output, "-") != 0 && !cli_ends_with(output, ".exr"))
-        cli_die(cli, "%s: a denoised picture is an OpenEXR file, .exr, as %s is", output, input);
+    check_ending(cli, output, input);
     if (p->other_half) {
         cli_input(cli, p->other_half, "the other half");
         cli_reads(cli, "--other-half", p->other_half);
@@ -157,7 +158,7 @@ static int write_set(const Cli *cli, RetexSet *set, const char *output, RetexErr
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-denoise",
-               .usage = "SET|PICTURE [--strength F] [--radius N] [--other-half FILE] [--layer NAME …] -o FILE",
+               .usage = "SET [--strength F] [--radius N] [--other-half FILE] -o SET",
                .about = "Remove the noise from a set once, and so from all its retextures; or from an EXR picture.",
                .options = options,
                .argc = argc,
@@ -185,7 +186,7 @@ int main(int argc, char **argv)
     if (picture.first)
         cli_die(&cli, "--%s is for pictures: %s is a set, or no OpenEXR file", picture.first, input);
     free(picture.layers);
-    check_ending(&cli, output);
+    check_ending(&cli, output, NULL);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     const double began = retex_clock_seconds();

@@ -132,8 +132,8 @@ $ retex-denoise none.exr -o x.exr
 $ retex-sample -q s.exr --texture 'floor=rgb(1,0,0)' -o samples.exr; retex-denoise samples.exr -o x.exr
 ! retex-denoise: error: samples.exr holds samples, no set
 = 2
-$ make_picture p.exr; retex-denoise p.exr -o x.exr
-! retex-denoise: error: p.exr is not a set (no `retex` attribute)
+$ make_picture p.png; retex-denoise p.png -o x.exr
+! retex-denoise: error: p.png is not a set: neither an OpenEXR file nor a pack
 = 2
 $ : >empty.exr; retex-denoise empty.exr -o x.exr
 ! retex-denoise: error: empty.exr is not a set: it is empty

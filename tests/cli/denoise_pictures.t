@@ -108,6 +108,12 @@ $ retex-denoise -q one.exr --other-half small.exr -o no.exr; retex-denoise -q a.
 ! retex-denoise: error: a.exr: the output would replace the set
 ! retex-denoise: error: standard input is not a set (no `retex` attribute)
 = 2
+$ oiiotool bare.exr --compression dwaa:45 -o dwaa.exr; oiiotool bare.exr -otex levels.exr; for f in dwaa levels; do retex-denoise -q $f.exr -o no.exr; done; retex-denoise -q bare.exr -o no.retex; retex-denoise -q bare.exr -o /dev/full
+! retex-denoise: error: dwaa.exr: part 0 cannot be copied: its compression, DWA, is not read; `oiiotool IN --compression zip -o OUT` changes it
+! retex-denoise: error: levels.exr: part 0 cannot be copied: its levels of detail would be lost
+! retex-denoise: error: no.retex: a denoised picture is an OpenEXR file, .exr, as bare.exr is
+! retex-denoise: error: cannot write /dev/full: No space left on device
+= 2
 $ RETEX_MAX_MEMORY=2M retex-denoise -q a.exr -o no.exr
 ! retex-denoise: error: a picture to denoise: this takes more than the 2 MB of --max-memory
 = 2

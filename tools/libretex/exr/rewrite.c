@@ -350,6 +350,7 @@ int retex_exr_rewrite_check(RetexExr *exr, RetexError *err)
         uint32_t width, height;
         exr_tile_level_mode_t levels = EXR_TILE_ONE_LEVEL;
         exr_tile_round_mode_t round;
+        exr_compression_t compression;
         exr_storage_t storage;
         const char *reason;
         int readable = retex_exr_part_readable(exr, part, &reason);
@@ -359,6 +360,9 @@ int retex_exr_rewrite_check(RetexExr *exr, RetexError *err)
             reason = "its levels of detail would be lost";
             readable = 0;
         }
+        if (!readable && !exr_get_compression(exr->context, part, &compression) &&
+            (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB))
+            reason = "its compression, DWA, is not read; `oiiotool IN --compression zip -o OUT` changes it";
         if (!readable)
             return retex_fail(err, RETEX_EUNSUPPORTED, "%s: part %d cannot be copied: %s", retex_input_name(exr->input),
                               part, reason);
