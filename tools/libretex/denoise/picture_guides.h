@@ -17,7 +17,7 @@ typedef struct RetexPictureGuides {
 void retex_picture_depth_to_position(RetexImage *depth);
 /* Normals of a picture's positions: at right angles to the smaller of the differences to both sides. */
 int retex_picture_derive_normals(RetexImage *normal, const RetexImage *position, RetexError *err);
-/* Sort what was found: of a position the normal is known, and if there are two kinds of normals they are of two hits. */
+/* Sort what was found: a position gets the normals that belong to it; two kinds of normals are of two hits. */
 int retex_picture_guides_finish(RetexPictureGuides *guides, int has_depth, RetexError *err);
 void retex_picture_guides_close(RetexPictureGuides *guides);
 
