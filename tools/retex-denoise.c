@@ -159,7 +159,7 @@ int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-denoise",
                .usage = "SET [--strength F] [--radius N] [--other-half FILE] -o SET",
-               .about = "Remove the noise from a set once, and so from all its retextures; or from an EXR picture.",
+               .about = "Remove the noise from a set once, and so from all its retextures.",
                .options = options,
                .argc = argc,
                .argv = argv,

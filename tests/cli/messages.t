@@ -79,7 +79,7 @@ $ for o in t target replace map variants input set samples spp width jobs force 
 ! retex-serve: error: unknown option -p; is --port meant?
 ! retex-serve: error: unknown option --host; is --listen meant?
 ! retex-pack: error: unknown option --texture; retex-sample and retex-combine put textures on a set
-! retex-denoise: error: unknown option --samples; what it reads is named without an option: retex-denoise SET [--strength F] [--radius N] [--no-footprints] -o SET
+! retex-denoise: error: unknown option --samples; what it reads is named without an option: retex-denoise SET [--strength F] [--radius N] [--other-half FILE] -o SET
 ! retex-info: error: unknown option --display; retex-combine makes pictures for a display
 ! retex-combine: error: unknown option -f; a file that exists is replaced when the new one is complete
 ! retex-render: error: unknown option -n; is --dry-run meant?
