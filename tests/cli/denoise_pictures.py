@@ -4,8 +4,8 @@
     denoise_pictures.py render SCENE      joins renders of retex-render into pictures with AOVs
     denoise_pictures.py gain FILE NOISY TRUTH [LAYER] least=DB   whether FILE is nearer to TRUTH than NOISY, by so much
     denoise_pictures.py changed A B       prints the channels that differ
-    denoise_pictures.py same A B LAYER…   prints the channels that differ in bits, but for those of the layers; and what
-                                          differs in the headers
+    denoise_pictures.py same A B LAYER…   prints the channels that differ in bits, but for those of the layers, and
+                                          what differs in the headers
     denoise_pictures.py sum FILE          whether Combined is what the layers add up to, to the rounding of a half
 """
 
@@ -18,7 +18,7 @@ WIDTH, HEIGHT = 120, 90
 
 
 def write(path, layers, kind="half", parts=False, **attributes):
-    """Writes {name: array of 1 or 3 channels}, as one part or one a layer; a name with letters after a colon has those."""
+    """Writes {name: array of 1 or 3 channels}, as one part or one a layer. Letters of channels may follow a colon."""
     specs, images = [], []
     for name, image in layers.items():
         name, _, letters = name.partition(":")
@@ -197,7 +197,8 @@ def header(path):
     specs, number = [], 0
     while file.seek_subimage(number, 0):
         s = file.spec()
-        specs.append({"channels": s.channelnames, "formats": [str(f) for f in s.channelformats], "format": str(s.format),
+        specs.append({"channels": s.channelnames, "formats": [str(f) for f in s.channelformats],
+                      "format": str(s.format),
                       "window": (s.x, s.y, s.width, s.height, s.full_x, s.full_y, s.full_width, s.full_height),
                       "tile": (s.tile_width, s.tile_height), **{a.name: a.value for a in s.extra_attribs}})
         number += 1

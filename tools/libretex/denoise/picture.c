@@ -17,7 +17,7 @@
 #include "set/set.h"
 
 #define SUM_TOLERANCE 2e-3 /* mean difference, over the mean, of a picture from the sum of its layers */
-#define BYTES_A_PIXEL 260  /* of what is kept while a layer is filtered */
+#define BYTES_A_PIXEL 190  /* of guides, a layer, its noise and its set */
 enum { REPAIR_RADIUS = 3 };
 
 /* An open file. */
