@@ -55,6 +55,8 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     RetexDenoisePassed passed = {0};
     int code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
     if (!code)
+        retex_set_round_to_types(set, nthreads);
+    if (!code)
         code = retex_denoise_result_open(&result, d, err);
     if (!code)
         code = retex_denoise_passed_open(&passed, d, d->roi.y1 - d->roi.y0, err);
@@ -86,8 +88,6 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     const int in_strips = !roi && retex_denoise_can_use_strips(set);
     if (!code && !in_strips)
         code = retex_set_load(set, nthreads, err);
-    if (!code && !in_strips)
-        retex_set_round_to_types(set, nthreads);
     if (!code)
         code = retex_denoise_totals_open(&d.totals, &d, nthreads, err);
     if (!code)

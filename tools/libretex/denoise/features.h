@@ -18,8 +18,8 @@ void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int pa
 
 /* Coverage of a target below which it counts as not seen. */
 #define DENOISE_LEAST_COVER 0.02f
-/* Load which pixels may be compared, around the tile: 1, or -1 where the signal is of what is seen sharply, and its target
- * is not. */
+/* Load which pixels may be compared, around the tile: 1, or -1 where the signal is of what is seen sharply, and its
+ * target is not. */
 void retex_denoise_load_kind(float *restrict kind, const RetexDenoiser *denoiser, const RetexSignal *signal, int x0,
                              int y0);
 

@@ -103,30 +103,37 @@ static void show_progress(const Strips *s, double done)
         params->progress(params->progress_context, done);
 }
 
-/* Filters one strip, loaded with the rows around it that the filter reads. */
-static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
+/* The denoiser of the strip from row y on, loaded with the rows around it that a pass reads. */
+static int load_strip(RetexDenoiser *strip, const Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int end = y + STRIP < set->height ? y + STRIP : set->height;
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
-    RetexDenoiser strip = *s->denoiser;
-    RetexDenoisePassed passed;
-    int code = retex_denoise_passed_open(&passed, s->denoiser, end - y, err);
+    *strip = *s->denoiser;
+    strip->roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
+    strip->first_row = first;
+    strip->params.progress = NULL;
+    return retex_set_strip_load(&strip->set, loaded, first, last - first, s->nthreads, err);
+}
+
+static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
+{
+    RetexDenoiser strip;
+    RetexDenoisePassed passed = {0};
+    int code = load_strip(&strip, s, loaded, y, err);
+    const int from = strip.roi.y0, count = strip.roi.y1 - from;
     if (!code)
-        code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
-    strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
-    strip.first_row = first;
-    strip.params.progress = NULL;
-    strip.passed = &passed, passed.first = y - first;
+        code = retex_denoise_passed_open(&passed, s->denoiser, count, err);
+    strip.passed = &passed, passed.first = from;
     if (!code)
         code = retex_denoise_filter(&strip, &s->result, s->nthreads, err);
     if (!code && !s->stores[0])
         code = open_store(&s->stores[0], s->images[0], s->denoiser, s->result.written, 1, err);
     if (!code)
-        code = store_rows(s->stores[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+        code = store_rows(s->stores[0], s->images[0], strip.set, from, count, y, s->nthreads, err);
     for (int k = 0; k < PASSED_FACTOR && !code; k++)
-        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, 0, end - y, y, err);
+        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, 0, count, y, err);
     retex_denoise_passed_close(&passed, s->denoiser);
     return code;
 }
@@ -146,26 +153,20 @@ static int filter_all(Strips *s, RetexError *err)
     return code;
 }
 
-/* The second pass of one strip, loaded with the rows around it. */
 static int second_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 {
-    const RetexSet *set = s->denoiser->set;
-    const int end = y + STRIP < set->height ? y + STRIP : set->height;
-    const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
-    const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
-    RetexDenoiser strip = *s->denoiser;
-    RetexDenoisePassed passed;
-    int code = retex_denoise_passed_open(&passed, s->denoiser, last - first, err);
+    RetexDenoiser strip;
+    RetexDenoisePassed passed = {0};
+    int code = load_strip(&strip, s, loaded, y, err);
+    const int from = strip.roi.y0, count = strip.roi.y1 - from;
     if (!code)
-        code = retex_set_strip_load(&strip.set, loaded, first, last - first, s->nthreads, err);
-    strip.first_row = first;
-    strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
+        code = retex_denoise_passed_open(&passed, s->denoiser, strip.set->height, err);
     for (int k = 0; k < PASSED_FACTOR && !code; k++)
-        code = retex_passed_store_load(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, first, err);
+        code = retex_passed_store_load(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, strip.first_row, err);
     if (!code)
         code = retex_denoise_second(&strip, &passed, s->result.sums, s->nthreads, err);
     if (!code)
-        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, PASSED_FACTOR, y - first, end - y, y, err);
+        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, PASSED_FACTOR, from, count, y, err);
     retex_denoise_passed_close(&passed, s->denoiser);
     return code;
 }
