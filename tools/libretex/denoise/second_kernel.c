@@ -64,37 +64,65 @@ RETEX_CPU_INLINE void clear_sums(RowSums *sums, int n)
         }
 }
 
-/* Weights by how much the other half differs at both pixels, beyond its noise; 0 for pixels of another kind. */
-RETEX_CPU_INLINE void weigh_row(Row weight, const RetexDenoiseLight *from, int half, const float *restrict kind,
-                                const Row tap, size_t p, ptrdiff_t o, int n)
+/* How much one half differs in one colour at a pixel and another, beyond its noise and in units of it. */
+RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v_there)
 {
-    Row distance;
+    const float d = here - there, expected = v_here + (v_here < v_there ? v_here : v_there);
+    return (d * d - expected) / (v_here + v_there);
+}
+
+/* The same of all colours, the mean. */
+RETEX_CPU_INLINE void find_distances(float *restrict to, const float *restrict a, const float *restrict b,
+                                     const float *restrict c, const float *restrict va, const float *restrict vb,
+                                     const float *restrict vc, ptrdiff_t o, int n)
+{
     for (int i = 0; i < n; i++)
-        distance[i] = 0;
-    for (int c = 0; c < 3; c++) {
-        const float *restrict a = from->half[!half][c] + p, *restrict v = from->variance[c] + p;
-        for (int i = 0; i < n; i++) {
-            float d = a[i] - a[i + o], vp = v[i], vq = v[i + o], least = vp < vq ? vp : vq;
-            distance[i] += (d * d - (vp + least)) / (vp + vq);
-        }
-    }
+        to[i] = (difference(a[i], a[i + o], va[i], va[i + o]) + difference(b[i], b[i + o], vb[i], vb[i + o]) +
+                 difference(c[i], c[i + o], vc[i], vc[i + o])) *
+                (1.0f / 3);
+}
+
+RETEX_CPU_INLINE void weigh(float *restrict weight, const float *restrict distance, const float *restrict kind,
+                            const float *restrict tap, ptrdiff_t o, int n)
+{
     for (int i = 0; i < n; i++) {
-        float d = distance[i] * (1.0f / 3), w = tap[i] * denoise_falloff(d > 0 ? d : 0);
-        weight[i] = kind[i] * kind[i + o] > 0 ? w : 0;
+        float d = distance[i], same = kind[i] * kind[i + o]; /* 1, or -1 of different kinds */
+        d = d > 0 ? d : 0, same = same > 0 ? same : 0;
+        weight[i] = same * tap[i] * denoise_falloff(d);
     }
 }
 
-RETEX_CPU_INLINE void add_row(RowSums *sums, const RetexDenoiseLight *from, int half, const Row weight, size_t q, int n)
+/* Weights of each half by how much the other one differs; 0 for pixels of another kind. */
+RETEX_CPU_INLINE void weigh_row(Row weights[2], const RetexDenoiseLight *from, const float *kind, const Row tap,
+                                size_t p, ptrdiff_t o, int n)
 {
-    for (int c = 0; c < 3; c++) {
-        const float *restrict a = from->half[half][c] + q, *restrict v = from->variance[c] + q;
-        for (int i = 0; i < n; i++) {
-            sums->half[half][c][i] += weight[i] * a[i];
-            sums->variance[half][c][i] += weight[i] * weight[i] * v[i];
-        }
+    const float *const *v = (const float *const *)from->variance;
+    for (int h = 0; h < 2; h++) {
+        const float *const *other = (const float *const *)from->half[!h];
+        Row distance;
+        find_distances(distance, other[0] + p, other[1] + p, other[2] + p, v[0] + p, v[1] + p, v[2] + p, o, n);
+        weigh(weights[h], distance, kind, tap, o, n);
     }
-    for (int i = 0; i < n; i++)
-        sums->norm[half][i] += weight[i];
+}
+
+RETEX_CPU_INLINE void add_weighted(float *restrict sum, float *restrict variance, const float *restrict weight,
+                                   const float *restrict a, const float *restrict v, int n)
+{
+    for (int i = 0; i < n; i++) {
+        sum[i] += weight[i] * a[i];
+        variance[i] += weight[i] * weight[i] * v[i];
+    }
+}
+
+RETEX_CPU_INLINE void add_row(RowSums *sums, const RetexDenoiseLight *from, Row weights[2], size_t q, int n)
+{
+    for (int h = 0; h < 2; h++) {
+        for (int c = 0; c < 3; c++)
+            add_weighted(sums->half[h][c], sums->variance[h][c], weights[h], from->half[h][c] + q,
+                         from->variance[c] + q, n);
+        for (int i = 0; i < n; i++)
+            sums->norm[h][i] += weights[h][i];
+    }
 }
 
 /* A pixel outside of the picture has no neighbours and keeps what it has. */
@@ -118,9 +146,10 @@ RETEX_CPU_INLINE void store_row(const RetexDenoiseLight *to, const RetexDenoiseL
     }
 }
 
-RETEX_CPU_INLINE void level_body(const RetexDenoiseLevel *level)
+/* n: pixels of a row, a constant and a multiple of all vectors' lengths, so that loops over them become vectors; what is
+ * beyond the level's square is not read. */
+RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
 {
-    const int n = DENOISE_TILE + 2 * level->around;
     for (int y = -level->around; y < DENOISE_TILE + level->around; y++) {
         const size_t p = denoise_at(-level->around, y);
         Row taps[DENOISE_TAPS];
@@ -136,15 +165,24 @@ RETEX_CPU_INLINE void level_body(const RetexDenoiseLevel *level)
                 const int dx = (k % DENOISE_TAPS_SIDE - 2) * level->step,
                           dy = (k / DENOISE_TAPS_SIDE - 2) * level->step;
                 const ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
-                for (int h = 0; h < 2; h++) {
-                    Row weight;
-                    weigh_row(weight, &level->from[s], h, level->kinds[s] + p, taps[k], p, o, n);
-                    add_row(&sums, &level->from[s], h, weight, (size_t)((ptrdiff_t)p + o), n);
-                }
+                Row weights[2];
+                weigh_row(weights, &level->from[s], level->kinds[s] + p, taps[k], p, o, n);
+                add_row(&sums, &level->from[s], weights, (size_t)((ptrdiff_t)p + o), n);
             }
             store_row(&level->to[s], &level->from[s], &sums, level->epsilons[s], p, n);
         }
     }
+}
+
+RETEX_CPU_INLINE void level_body(const RetexDenoiseLevel *level)
+{
+    const int n = DENOISE_TILE + 2 * level->around;
+    if (n <= DENOISE_TILE)
+        level_rows(level, DENOISE_TILE);
+    else if (n <= DENOISE_TILE + 16)
+        level_rows(level, DENOISE_TILE + 16);
+    else
+        level_rows(level, DENOISE_PITCH);
 }
 
 RETEX_CPU_KERNEL(level, (const RetexDenoiseLevel *level), (level))
