@@ -68,29 +68,42 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
 
 /* ---- colors ---- */
 
-/* Squared differences of one row, for both halves, in units of their noise; 0 for pixels that do not count. */
-RETEX_CPU_INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first,
-                                     float *restrict second, float *restrict counts)
+/* The squared difference of two pixels in one colour, beyond what their noise explains, in units of it. */
+RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v_there, float epsilon, float strength)
 {
-    const float *restrict kind = s->kind + p;
+    const float scale = 1 / (epsilon + strength * (v_here + v_there));
+    const float d = here - there, expected = v_here + (v_here < v_there ? v_here : v_there);
+    return (d * d - expected) * scale;
+}
+
+/* The sum over colours of the differences of one row; all colours in one loop, so that it becomes one of vectors. */
+RETEX_CPU_INLINE void difference_row(float *restrict to, const float *restrict a, const float *restrict b,
+                                     const float *restrict c, const float *restrict va, const float *restrict vb,
+                                     const float *restrict vc, const float *restrict both, float epsilon,
+                                     float strength, ptrdiff_t o)
+{
     for (int i = 0; i < WIDE; i++)
-        first[i] = second[i] = 0;
-    for (int c = 0; c < 3; c++) {
-        const float *restrict a = s->half[0][c] + p, *restrict b = s->half[1][c] + p, *restrict v = s->variance[c] + p;
-        for (int i = 0; i < WIDE; i++) {
-            float vp = v[i], vq = v[i + o], least = vp < vq ? vp : vq;
-            float scale = 1 / (s->epsilon + s->strength * (vp + vq)), expected = vp + least;
-            float da = a[i] - a[i + o], db = b[i] - b[i + o];
-            first[i] += (da * da - expected) * scale;
-            second[i] += (db * db - expected) * scale;
-        }
-    }
+        to[i] = both[i] * (difference(a[i], a[i + o], va[i], va[i + o], epsilon, strength) +
+                           difference(b[i], b[i + o], vb[i], vb[i + o], epsilon, strength) +
+                           difference(c[i], c[i + o], vc[i], vc[i + o], epsilon, strength));
+}
+
+/* Which pixels of one row count: 1 where both are of one kind. */
+RETEX_CPU_INLINE void counts_row(float *restrict counts, const float *restrict kind, ptrdiff_t o)
+{
     for (int i = 0; i < WIDE; i++) {
         float both = kind[i] * kind[i + o];
-        both = both > 0 ? both : 0;
-        first[i] *= both, second[i] *= both;
-        counts[i] = both;
+        counts[i] = both > 0 ? both : 0;
     }
+}
+
+/* Differences of one row, for both halves; 0 for pixels that do not count. */
+RETEX_CPU_INLINE void difference_rows(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float rows[3][WIDE])
+{
+    counts_row(rows[2], s->kind + p, o);
+    for (int h = 0; h < 2; h++)
+        difference_row(rows[h], s->half[h][0] + p, s->half[h][1] + p, s->half[h][2] + p, s->variance[0] + p,
+                       s->variance[1] + p, s->variance[2] + p, rows[2], s->epsilon, s->strength, o);
 }
 
 RETEX_CPU_INLINE void box_row(float *restrict out, const float *restrict in)
@@ -132,23 +145,46 @@ RETEX_CPU_INLINE void weight_row(float *restrict weight, const float *restrict d
 /* One row of weights for each displacement of a batch; unused displacements have weight 0. */
 typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
 
-/* Adds the weighted pixels of one row, beginning at q, to the sums of a half. All displacements of the batch are added
- * in one pass, because the sums would otherwise be read and written once for each. */
+/* Adds the weighted pixels of one row of one plane, beginning at q, for all displacements of the batch in one pass,
+ * because the sums would otherwise be read and written once for each. */
+RETEX_CPU_INLINE void add_plane(float *restrict sum, const float *restrict value, const size_t q[DENOISE_BATCH],
+                                float w[restrict DENOISE_BATCH][DENOISE_TILE])
+{
+    const float *restrict v0 = value + q[0], *restrict v1 = value + q[1], *restrict v2 = value + q[2],
+                          *restrict v3 = value + q[3];
+    for (int i = 0; i < DENOISE_TILE; i++)
+        sum[i] = sum[i] + w[0][i] * v0[i] + w[1][i] * v1[i] + w[2][i] * v2[i] + w[3][i] * v3[i];
+}
+_Static_assert(DENOISE_BATCH == 4, "as many as add_plane and multiply_rows name");
+
+/* Weights times the modulation, and their sum over the batch added to the sum of weights. */
+RETEX_CPU_INLINE void multiply_rows(float to[restrict DENOISE_BATCH][DENOISE_TILE], float *restrict norm,
+                                    const float *restrict modulation, const size_t q[DENOISE_BATCH],
+                                    float w[restrict DENOISE_BATCH][DENOISE_TILE])
+{
+    for (int n = 0; n < DENOISE_BATCH; n++) {
+        const float *restrict m = modulation + q[n];
+        for (int i = 0; i < DENOISE_TILE; i++)
+            to[n][i] = w[n][i] * m[i];
+    }
+    for (int i = 0; i < DENOISE_TILE; i++)
+        norm[i] = norm[i] + to[0][i] + to[1][i] + to[2][i] + to[3][i];
+}
+
+/* Adds the weighted pixels of one row to the sums of a half. */
 RETEX_CPU_INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, int half,
                                const size_t q[DENOISE_BATCH], size_t at, float w[restrict DENOISE_BATCH][DENOISE_TILE])
 {
-    const float *restrict a = s->half[half][0], *restrict b = s->half[half][1], *restrict c = s->half[half][2],
-                          *restrict m = s->modulation;
-    float *restrict x = to->sum[half][0] + at, *restrict y = to->sum[half][1] + at, *restrict z = to->sum[half][2] + at,
-                    *restrict norm = to->norm[half] + at;
-    for (size_t i = 0; i < DENOISE_TILE; i++) {
-        float xs = x[i], ys = y[i], zs = z[i], ns = norm[i];
-        for (int n = 0; n < DENOISE_BATCH; n++) {
-            float v = w[n][i] * m[q[n] + i];
-            xs += v * a[q[n] + i], ys += v * b[q[n] + i], zs += v * c[q[n] + i], ns += v;
-        }
-        x[i] = xs, y[i] = ys, z[i] = zs, norm[i] = ns;
-    }
+    Weights weighted;
+    multiply_rows(weighted, to->norm[half] + at, s->modulation, q, w);
+    for (int c = 0; c < 3; c++)
+        add_plane(to->sum[half][c] + at, s->half[half][c], q, weighted);
+}
+
+RETEX_CPU_INLINE void mean_weights(float *restrict mean, const float *restrict first, const float *restrict second)
+{
+    for (int i = 0; i < DENOISE_TILE; i++)
+        mean[i] = 0.5f * (first[i] + second[i]);
 }
 
 RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch,
@@ -156,18 +192,9 @@ RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoise
 {
     Weights mean;
     for (int n = 0; n < DENOISE_BATCH; n++)
-        for (int i = 0; i < DENOISE_TILE; i++)
-            mean[n][i] = 0.5f * (w[0][n][i] + w[1][n][i]);
-    for (int k = 0; k < s->nplanes; k++) {
-        const float *restrict value = s->planes[k];
-        float *restrict sum = s->sums[k] + at;
-        for (size_t i = 0; i < DENOISE_TILE; i++) {
-            float all = sum[i];
-            for (int n = 0; n < DENOISE_BATCH; n++)
-                all += mean[n][i] * value[q[n] + i];
-            sum[i] = all;
-        }
-    }
+        mean_weights(mean[n], w[0][n], w[1][n]);
+    for (int k = 0; k < s->nplanes; k++)
+        add_plane(s->sums[k] + at, s->planes[k], q, mean);
     for (int n = 0; n < DENOISE_BATCH; n++)
         if (batch->weights[n])
             memcpy(batch->weights[n] + at, mean[n], sizeof mean[n]);
@@ -179,7 +206,7 @@ RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, f
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
     for (int y = 0; y < WIDE; y++) {
         float row[3][WIDE];
-        difference_row(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row[0], row[1], row[2]);
+        difference_rows(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row);
         for (int k = 0; k < 3; k++)
             box_row(boxed[k] + y * DENOISE_TILE, row[k]);
     }

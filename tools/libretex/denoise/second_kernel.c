@@ -146,8 +146,8 @@ RETEX_CPU_INLINE void store_row(const RetexDenoiseLight *to, const RetexDenoiseL
     }
 }
 
-/* n: pixels of a row, a constant and a multiple of all vectors' lengths, so that loops over them become vectors; what is
- * beyond the level's square is not read. */
+/* n: pixels of a row, a constant and a multiple of all vectors' lengths, so that loops over them become vectors. What
+ * is beyond the level's square is not read. */
 RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
 {
     for (int y = -level->around; y < DENOISE_TILE + level->around; y++) {
