@@ -197,7 +197,13 @@ def strip(work, scene, texture):
                    ("Compression", "jpeg:92"))
 
 
-def main(work, head, size, truth_samples, notes):
+def copy(text):
+    if os.path.exists(text):
+        with open(text, encoding="utf-8") as file:
+            print(file.read())
+
+
+def main(work, head, size, truth_samples, notes, tried):
     t = Table(f"{work}/denoise.csv")
     print(f"""# Denoised sets compared with rendering again
 
@@ -245,13 +251,12 @@ fewer than 60 pixels are left out. The table has the PSNR of the set, and gains 
     by_scene_and_region(t, least_cell(t, MANY_DENOISED, MANY))
     print("## Compared with rendering again and denoising\n\n128 samples, whole pictures, mean of scenes:")
     against_rival(t)
-    if os.path.exists(notes):
-        with open(notes, encoding="utf-8") as file:
-            print(file.read())
+    copy(notes)
     print("## Layout paper\n\n128 samples, one seed, whole pictures:")
     table(["scene", "set", "denoised", "gain"],
           [[s, plain(t.mean(("paper", 128), scenes=[s])), plain(t.mean(("paper-denoised", 128), scenes=[s])),
             signed(t.gain(("paper-denoised", 128), ("paper", 128), scenes=[s]))] for s in t.scenes])
+    copy(tried)
     print("""## Pictures
 
 From left to right: the converged picture, the set, the denoised set, rendered again with 512 samples, and rendered

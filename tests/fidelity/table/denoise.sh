@@ -139,7 +139,8 @@ done
 awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
 shown="parts of 144x112 pixels of pictures of $size"
 [ -z "${DENOISE_SIZE:-}" ] || shown="$size pixels"
-"$python" "$here/table/denoise-report.py" "$work" "$(figures_head fidelity-denoise)" "$shown" "$truth_spp" "$here/table/denoise-notes.md" \
+"$python" "$here/table/denoise-report.py" "$work" "$(figures_head fidelity-denoise)" "$shown" "$truth_spp" \
+    "$here/table/denoise-notes.md" "$here/table/denoise-tried.md" \
     >"$work/denoise.new"
 mv "$work/denoise.new" "$work/denoise.md"
 if [ "${BENCH_DOCS:-}" = 1 ]; then
