@@ -33,13 +33,18 @@ static void brighten(Tile *t, int half, int x, int y, float by)
         t->half[half][c][denoise_at(x, y)] *= by;
 }
 
-static void lower(Tile *t)
+static void lower_unknown(Tile *t, float unknown)
 {
     float *half[2][3], *kept[2] = {t->kept[0], t->kept[1]};
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < 3; c++)
             half[h][c] = t->half[h][c];
-    retex_denoise_lower_fireflies(half, kept, t->kind, t->valid);
+    retex_denoise_lower_fireflies(half, kept, t->kind, t->valid, unknown);
+}
+
+static void lower(Tile *t)
+{
+    lower_unknown(t, 0);
 }
 
 /* A half of a pixel has so many times the light 1, and this share of what it had. */
@@ -128,22 +133,25 @@ static void test_how_far_neighbours_count(void **state)
         }
 }
 
-/* Both halves saw it: that is light of the scene. Of a half that is more than twice the other, no less is left than the
- * other half has. */
+/* Both halves saw it: that is light of the scene, unless the other half is so small that it is not known. */
 static void test_a_spike_in_both_halves(void **state)
 {
     (void)state;
-    static const float others[] = {100, 60, 3, 1.5f};
-    for (int k = 0; k < 4; k++) {
-        Tile *t = even_tile(1);
-        brighten(t, 0, 30, 30, 100);
-        brighten(t, 1, 30, 30, others[k]);
-        lower(t);
-        const int kept = k < 3; /* at 3, the limit of 2 would be less than the other half */
-        expect_light(t, 0, 30, 30, kept ? 100 : 2, kept ? 1 : 0.02f);
-        expect_light(t, 1, 30, 30, others[k], 1);
-        free(t);
-    }
+    static const struct {
+        float unknown, other, left, other_left;
+    } cases[] = {{0, 100, 100, 100},    {0, 60, 100, 60},       {0, 3, 100, 3},
+                 {0, 1.5f, 2, 1.5f},    {0.125f, 60, 100, 60},  {0.125f, 12.6f, 100, 12.6f},
+                 {0.125f, 12.4f, 2, 2}, {0.125f, 1.5f, 2, 1.5f}};
+    for (int k = 0; k < 8; k++)
+        for (int half = 0; half < 2; half++) {
+            Tile *t = even_tile(1);
+            brighten(t, half, 30, 30, 100);
+            brighten(t, !half, 30, 30, cases[k].other);
+            lower_unknown(t, cases[k].unknown);
+            expect_light(t, half, 30, 30, cases[k].left, cases[k].left / 100);
+            expect_light(t, !half, 30, 30, cases[k].other_left, cases[k].other_left / cases[k].other);
+            free(t);
+        }
 }
 
 /* Pixels of another kind, or outside of the picture, do not support; outside of it nothing is lowered. */
@@ -199,8 +207,8 @@ static float brightness(const Tile *t, int half, size_t p)
     return t->half[half][0][p] + t->half[half][1][p] + t->half[half][2][p];
 }
 
-/* The share of a half that stays. */
-static float kept_reference(const Tile *t, int half, int x, int y)
+/* The limit of a half that is a firefly, or 0. */
+static float limit_reference(const Tile *t, int half, int x, int y, float unknown)
 {
     const size_t p = denoise_at(x, y);
     const float value = brightness(t, half, p), other = brightness(t, !half, p);
@@ -215,8 +223,17 @@ static float kept_reference(const Tile *t, int half, int x, int y)
                 around[count++] = brightness(t, 0, q), around[count++] = brightness(t, 1, q);
         }
     qsort(around, (size_t)count, sizeof *around, falling);
-    const float limit = count < 3 ? 0 : 2 * around[2];
-    return t->valid[p] > 0 && value > 2 * other && value > limit && limit > other ? limit / value : 1;
+    const float limit = 2 * around[2];
+    const int is_brighter = value > 2 * other && value > limit, is_sure = limit > other || other < unknown * value;
+    return t->valid[p] > 0 && is_brighter && is_sure ? limit : 0;
+}
+
+/* The share of a half that stays. */
+static float kept_reference(const Tile *t, int half, int x, int y, float unknown)
+{
+    const float own = limit_reference(t, half, x, y, unknown), others = limit_reference(t, !half, x, y, unknown),
+                limit = own > 0 ? own : others, value = brightness(t, half, denoise_at(x, y));
+    return limit > 0 && value > limit ? limit / value : 1;
 }
 
 /* Light of many sizes, of two kinds, with and without pixels that do not count. */
@@ -241,13 +258,14 @@ static void test_as_sorted(void **state)
     (void)state;
     for (uint32_t seed = 1; seed <= 4; seed++) {
         Tile *before = random_tile(seed), *t = random_tile(seed);
+        const float unknown = seed > 2 ? DENOISE_UNKNOWN_HALF : 0;
         int lowered = 0;
-        lower(t);
+        lower_unknown(t, unknown);
         for (int h = 0; h < 2; h++)
             for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++)
                 for (int x = -DENOISE_HALO; x < DENOISE_PITCH - DENOISE_HALO; x++) {
                     const size_t p = denoise_at(x, y);
-                    const float kept = kept_reference(before, h, x, y);
+                    const float kept = kept_reference(before, h, x, y, unknown);
                     lowered += kept < 1;
                     if (t->kept[h][p] != kept)
                         fail_msg("half %d at %d,%d: %g is left instead of %g", h, x, y, (double)t->kept[h][p],

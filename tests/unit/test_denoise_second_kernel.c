@@ -189,10 +189,10 @@ static int reference(double to[VALUES], const Input *in, const RetexDenoiseLevel
     for (int c = 0; c < 3; c++) {
         for (int h = 0; h < 2; h++)
             to[3 * h + c] = norm[h] > 0 ? to[3 * h + c] / norm[h] : from->half[h][c][p];
-        to[6 + c] = norm[0] > 0 && norm[1] > 0 ? 0.5 * (variance[0][c] / (norm[0] * norm[0]) +
-                                                        variance[1][c] / (norm[1] * norm[1])) +
-                                                     level->epsilons[s]
-                                               : from->variance[c][p];
+        to[6 + c] = norm[0] > 0 && norm[1] > 0
+                        ? 0.5 * (variance[0][c] / (norm[0] * norm[0]) + variance[1][c] / (norm[1] * norm[1])) +
+                              level->epsilons[s]
+                        : from->variance[c][p];
     }
     return between;
 }
@@ -311,8 +311,8 @@ static void test_pixels_that_do_not_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scalar_and_vector),         cmocka_unit_test(test_reference),
-        cmocka_unit_test(test_variance_falls),            cmocka_unit_test(test_weights_of_the_other_half),
+        cmocka_unit_test(test_scalar_and_vector),        cmocka_unit_test(test_reference),
+        cmocka_unit_test(test_variance_falls),           cmocka_unit_test(test_weights_of_the_other_half),
         cmocka_unit_test(test_pixels_that_do_not_count),
     };
     return cmocka_run_group_tests_name("denoise_second_kernel", tests, NULL, NULL);

@@ -18,7 +18,7 @@ static void add_largest(float largest[SUPPORT], float value)
         }
 }
 
-/* The limit of a half that is a firefly; else 0. */
+/* Twice the third largest half around one that is a firefly; else 0. */
 static float find_limit(const Brightness *b, int half, const float *kind, const float *valid, int x, int y)
 {
     const int x0 = x < RADIUS ? 0 : x - RADIUS, x1 = x + RADIUS < DENOISE_PITCH ? x + RADIUS : DENOISE_PITCH - 1,
@@ -38,11 +38,11 @@ static float find_limit(const Brightness *b, int half, const float *kind, const 
             if (FACTOR * largest[SUPPORT - 1] >= value)
                 return 0;
         }
-    const float limit = FACTOR * largest[SUPPORT - 1];
-    return limit > b->of[!half][p] ? limit : 0;
+    return FACTOR * largest[SUPPORT - 1];
 }
 
-void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const float *kind, const float *valid)
+void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const float *kind, const float *valid,
+                                   float unknown)
 {
     Brightness b;
     for (int h = 0; h < 2; h++)
@@ -54,9 +54,11 @@ void retex_denoise_lower_fireflies(float *half[2][3], float *kept[2], const floa
         for (int y = 0; y < DENOISE_ROWS; y++)
             for (int x = 0; x < DENOISE_PITCH; x++) {
                 const int p = y * DENOISE_PITCH + x;
-                const float limit = valid[p] > 0 ? find_limit(&b, h, kind, valid, x, y) : 0;
-                if (limit > 0)
+                const float limit = valid[p] > 0 ? find_limit(&b, h, kind, valid, x, y) : 0, other = b.of[!h][p];
+                if (limit > 0 && (limit > other || other < unknown * b.of[h][p])) {
                     kept[h][p] = limit / b.of[h][p];
+                    kept[!h][p] = other > limit ? limit / other : 1;
+                }
             }
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < 3; c++)

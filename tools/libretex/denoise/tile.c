@@ -228,17 +228,26 @@ static float first_part(const RetexDenoiser *d)
     return (float)(d->set->spp / 2) / (float)d->set->spp;
 }
 
-/* Computes both halves from the total and its noise. */
+/* 1 if noise is rounded to two bits, see retex_set_round. */
+static int has_rounded_noise(const RetexDenoiser *d)
+{
+    return d->set->nterms > 0;
+}
+
+/* Computes both halves from the total and its noise. Rounded noise may be more than the total: it is limited to that, so
+ * that no half is less than 0. */
 static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
     const float second = 2 * first_part(d), first = 2 - second;
+    const int is_rounded = has_rounded_noise(d);
     for (int c = 0; c < 3; c++) {
         float *restrict a = r->half[0][c], *restrict b = r->half[1][c];
         const float *restrict m = r->modulation[c];
         retex_denoise_load_plane(work->spare, d->set, signal->noise, c, x0, y0);
         for (int i = 0; i < DENOISE_PLANE; i++) {
-            float total = a[i] / m[i], noise = work->spare[i] / m[i];
+            const float total = a[i] / m[i], light = is_rounded ? fmaxf(0, total) : INFINITY,
+                        noise = fminf(fmaxf(work->spare[i] / m[i], -light / first), light / second);
             a[i] = total + first * noise, b[i] = total - second * noise;
         }
     }
@@ -248,7 +257,7 @@ static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const Rete
 static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const float *valid)
 {
     const float part = first_part(d);
-    retex_denoise_lower_fireflies(r->half, work->kept, r->kind, valid);
+    retex_denoise_lower_fireflies(r->half, work->kept, r->kind, valid, has_rounded_noise(d) ? DENOISE_UNKNOWN_HALF : 0);
     for (int i = 0; i < DENOISE_PLANE; i++) {
         const float first = work->kept[0][i], second = work->kept[1][i];
         for (int c = 0; c < 3; c++)
