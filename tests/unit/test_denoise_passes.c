@@ -103,7 +103,7 @@ static RetexSet *even_set(const char *layout, int width, int height)
     return set;
 }
 
-/* Rounded noise is up to a quarter more or less than it was. That darkens nothing around, nor does it keep a firefly. */
+/* Rounded noise is up to a quarter more or less: that darkens nothing around, nor does it keep a firefly. */
 static void test_fireflies_of_rounded_noise(void **state)
 {
     (void)state;
@@ -277,7 +277,7 @@ static void test_region_from_afar(void **state)
     }
 }
 
-/* What the first pass leaves is there of the region only: whatever else lies in memory, the second pass does not take. */
+/* What the first pass leaves is there of the region only: the second pass takes nothing else that lies in memory. */
 static void test_second_pass_of_a_region(void **state)
 {
     (void)state;

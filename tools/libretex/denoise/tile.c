@@ -234,8 +234,8 @@ static int has_rounded_noise(const RetexDenoiser *d)
     return d->set->nterms > 0;
 }
 
-/* Computes both halves from the total and its noise. Rounded noise may be more than the total: it is limited to that, so
- * that no half is less than 0. */
+/* Computes both halves from the total and its noise. Rounded noise may be more than the total: it is limited to that,
+ * so that no half is less than 0. */
 static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
