@@ -130,6 +130,33 @@ static void test_fireflies_of_rounded_noise(void **state)
         }
 }
 
+/* Next to no light, beside one pixel of so much that a share of it is no number of its own, nor is a scale. */
+static void test_fireflies_of_all_sizes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++)
+        for (int size = 23; size <= 28; size += 5) {
+            RetexSet *set = even_set(layouts[k], 50, 40);
+            RetexSignals signals = denoise_signals(set);
+            denoise_add_noise(set, 9);
+            for (int part = 0; part < set->nparts; part++)
+                set->parts[part].type = RETEX_FLOAT;
+            for (int s = 0; s < signals.count; s++)
+                for (int m = 0; m < signals.of[s].nmembers; m++) {
+                    float *pixels = set->parts[signals.of[s].members[m].part].image.pixels,
+                          *noise = set->parts[signals.of[s].noise].image.pixels;
+                    for (int i = 0; i < 3 * 50 * 40; i++)
+                        pixels[i] *= 1e-20f, noise[i] *= m ? 1 : 1e-20f;
+                    for (int i = 3 * 1025; i < 3 * 1026; i++)
+                        pixels[i] = noise[i] = powf(10, (float)size);
+                }
+            denoise_all(set, &denoise_exactly, 2);
+            denoise_expect_finite(set);
+            retex_signals_close(&signals);
+            retex_set_close(&set);
+        }
+}
+
 /* Of one signal, in which members have the same proportions in every pixel. */
 static void test_proportions_of_terms(void **state)
 {
@@ -330,10 +357,10 @@ static void test_second_pass_of_a_region(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_means_with_fireflies),    cmocka_unit_test(test_fireflies_of_rounded_noise),
-        cmocka_unit_test(test_proportions_of_terms),    cmocka_unit_test(test_even_surface),
-        cmocka_unit_test(test_detail_above_noise),      cmocka_unit_test(test_region_from_afar),
-        cmocka_unit_test(test_second_pass_of_a_region),
+        cmocka_unit_test(test_means_with_fireflies),   cmocka_unit_test(test_fireflies_of_rounded_noise),
+        cmocka_unit_test(test_fireflies_of_all_sizes), cmocka_unit_test(test_proportions_of_terms),
+        cmocka_unit_test(test_even_surface),           cmocka_unit_test(test_detail_above_noise),
+        cmocka_unit_test(test_region_from_afar),       cmocka_unit_test(test_second_pass_of_a_region),
     };
     return cmocka_run_group_tests_name("denoise_passes", tests, NULL, NULL);
 }

@@ -10,6 +10,14 @@
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;
 
+static const double LARGEST = 1e30; /* by which light is multiplied */
+
+/* By what a signal is multiplied so that its sum is what it was. */
+static float scale_of(double before, double after)
+{
+    return after > 0 && before > 0 && before / after < LARGEST ? (float)(before / after) : 1;
+}
+
 /* Multiplies members by the factors of the second pass, and signals so that their means are as before filtering. */
 static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *result, int y)
 {
@@ -18,7 +26,7 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
         const float *factors = retex_denoise_passed_at(d->passed, d, s, 0, y) + DENOISE_PASSED_TOTAL;
         float scale[3];
         for (int c = 0; c < 3; c++)
-            scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
+            scale[c] = scale_of(sums->before[c], sums->after[c]);
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
             if (d->signals.of[s].members[k].corrects)
                 continue;
