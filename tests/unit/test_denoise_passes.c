@@ -10,6 +10,7 @@
 #include "denoise/filter.h"
 #include "denoise/second.h"
 #include "lib_footprints.h"
+#include "set/parts.h"
 
 #define LEAST_GAIN 55 /* of an even surface: 61 to 68 were measured, 47 without the second pass */
 
@@ -267,6 +268,30 @@ static void test_detail_above_noise(void **state)
     }
 }
 
+/* ---- sets in memory ---- */
+
+/* Numbers of a set in memory that are stored as halves are taken as they would be read from its file. */
+static void test_numbers_are_those_of_a_file(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        RetexSet *sets[2];
+        for (int n = 0; n < 2; n++) {
+            sets[n] = denoise_set(layouts[k], 60, 50);
+            denoise_add_noise(sets[n], 7);
+            for (int part = 0; part < sets[n]->nparts; part++)
+                if (strncmp(sets[n]->parts[part].name, "guide_", 6) != 0)
+                    sets[n]->parts[part].type = RETEX_HALF;
+        }
+        retex_set_round_to_types(sets[1], 1);
+        for (int n = 0; n < 2; n++)
+            denoise_all(sets[n], NULL, 2);
+        denoise_expect_same(sets[0], sets[1]);
+        retex_set_close(&sets[0]);
+        retex_set_close(&sets[1]);
+    }
+}
+
 /* ---- regions ---- */
 
 /* Pixels beyond those that a tile is loaded with are of no matter. */
@@ -357,10 +382,15 @@ static void test_second_pass_of_a_region(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_means_with_fireflies),   cmocka_unit_test(test_fireflies_of_rounded_noise),
-        cmocka_unit_test(test_fireflies_of_all_sizes), cmocka_unit_test(test_proportions_of_terms),
-        cmocka_unit_test(test_even_surface),           cmocka_unit_test(test_detail_above_noise),
-        cmocka_unit_test(test_region_from_afar),       cmocka_unit_test(test_second_pass_of_a_region),
+        cmocka_unit_test(test_means_with_fireflies),
+        cmocka_unit_test(test_fireflies_of_rounded_noise),
+        cmocka_unit_test(test_fireflies_of_all_sizes),
+        cmocka_unit_test(test_proportions_of_terms),
+        cmocka_unit_test(test_even_surface),
+        cmocka_unit_test(test_detail_above_noise),
+        cmocka_unit_test(test_numbers_are_those_of_a_file),
+        cmocka_unit_test(test_region_from_afar),
+        cmocka_unit_test(test_second_pass_of_a_region),
     };
     return cmocka_run_group_tests_name("denoise_passes", tests, NULL, NULL);
 }
