@@ -147,7 +147,7 @@ RETEX_CPU_INLINE void store_row(const RetexDenoiseLight *to, const RetexDenoiseL
 }
 
 /* n: pixels of a row, a constant and a multiple of all vectors' lengths, so that loops over them become vectors. What
- * is beyond the level's square is not read. */
+ * is beyond the level's square is not stored. */
 RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
 {
     for (int y = -level->around; y < DENOISE_TILE + level->around; y++) {
@@ -169,7 +169,7 @@ RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
                 weigh_row(weights, &level->from[s], level->kinds[s] + p, taps[k], p, o, n);
                 add_row(&sums, &level->from[s], weights, (size_t)((ptrdiff_t)p + o), n);
             }
-            store_row(&level->to[s], &level->from[s], &sums, level->epsilons[s], p, n);
+            store_row(&level->to[s], &level->from[s], &sums, level->epsilons[s], p, DENOISE_TILE + 2 * level->around);
         }
     }
 }
