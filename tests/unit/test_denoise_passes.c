@@ -52,14 +52,17 @@ static void round_noise(RetexSet *set)
         }
 }
 
+/* Means are kept where fireflies are few, in one pixel of 6000. Where they are many, most of their light is not shared
+ * by all pixels. */
 static void test_means_with_fireflies(void **state)
 {
     (void)state;
     for (int k = 0; k < 3; k++)
-        for (int rounded = 0; rounded < 2; rounded++) {
+        for (int n = 0; n < 4; n++) {
+            const int rounded = n % 2, many = n / 2;
             RetexSet *set = denoise_set(layouts[k], 150, 130), *before = denoise_set(layouts[k], 150, 130);
-            denoise_add_noise(set, 5), add_fireflies(set, 300, 8);
-            denoise_add_noise(before, 5), add_fireflies(before, 300, 8);
+            denoise_add_noise(set, 5), add_fireflies(set, many ? 300 : 6000, 8);
+            denoise_add_noise(before, 5), add_fireflies(before, many ? 300 : 6000, 8);
             if (rounded)
                 round_noise(set);
             RetexSignals signals = denoise_signals(before);
@@ -68,7 +71,7 @@ static void test_means_with_fireflies(void **state)
                 for (int c = 0; c < 3; c++) {
                     const double was = denoise_mean(before, &signals.of[s], c),
                                  is = denoise_mean(set, &signals.of[s], c);
-                    if (!(fabs(is - was) <= 1e-4 * was))
+                    if (many ? !(is <= was && is >= 0.7 * was) : !(fabs(is - was) <= 1e-4 * was))
                         fail_msg("%s: the mean of %d, %d was %g and is %g", layouts[k], s, c, was, is);
                 }
             retex_signals_close(&signals);
@@ -337,7 +340,7 @@ static void test_second_pass_of_a_region(void **state)
     RetexSet *set = denoise_set("footprints", 150, 130);
     RetexDenoiser d = {.set = set, .params = RETEX_DENOISE_INIT, .roi = {33, 21, 119, 100, 0, 3}};
     RetexDenoisePassed passed = {0}, first = {0};
-    RetexSignalSums sums[8] = {{{0}, {0}}}, first_sums[8] = {{{0}, {0}}};
+    RetexSignalSums sums[8] = {{{0}, {0}, {0}}}, first_sums[8] = {{{0}, {0}, {0}}};
     RetexError err = {0};
     d.signals = denoise_signals(set);
     for (int k = 0; k < RETEX_FEATURE_COUNT; k++)

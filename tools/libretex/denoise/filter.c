@@ -81,8 +81,10 @@ static void add_sums(Filter *w)
 {
     int count = w->denoiser->signals.count;
     for (int k = 0; k < w->tiles_x * count; k++)
-        for (int c = 0; c < 3; c++)
+        for (int c = 0; c < 3; c++) {
             w->result->sums[k % count].before[c] += w->sums[k].before[c];
+            w->result->sums[k % count].lost[c] += w->sums[k].lost[c];
+        }
 }
 
 static int open_filter(Filter *w, RetexError *err)

@@ -10,11 +10,15 @@
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;
 
+/* Light of fireflies, as a share of a signal's other light, that its pixels share: more would be seen. */
+static const double FIREFLIES = 0.03;
+
 static const double LARGEST = 1e30; /* by which light is multiplied */
 
-/* By what a signal is multiplied so that its sum is what it was. */
-static float scale_of(double before, double after)
+/* By what a signal is multiplied so that its sum is what it was, apart from many or large fireflies. */
+static float scale_of(double before, double lost, double after)
 {
+    before += lost < FIREFLIES * before ? lost : FIREFLIES * before;
     return after > 0 && before > 0 && before / after < LARGEST ? (float)(before / after) : 1;
 }
 
@@ -26,7 +30,7 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
         const float *factors = retex_denoise_passed_at(d->passed, d, s, 0, y) + DENOISE_PASSED_TOTAL;
         float scale[3];
         for (int c = 0; c < 3; c++)
-            scale[c] = scale_of(sums->before[c], sums->after[c]);
+            scale[c] = scale_of(sums->before[c], sums->lost[c], sums->after[c]);
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
             if (d->signals.of[s].members[k].corrects)
                 continue;

@@ -490,8 +490,8 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     retex_denoise_mix_total(total, d, (int)(signal - d->signals.of), at->x, at->y);
     for (int c = 0; c < 3; c++) {
         members[c] = total_of_members(r, signal, at, c);
-        sums->before[c] +=
-            r->modulation[c][at->p] * (0.5f * (r->half[0][c][at->p] + r->half[1][c][at->p]) + r->lost[c][at->p]);
+        sums->before[c] += r->modulation[c][at->p] * (0.5f * (r->half[0][c][at->p] + r->half[1][c][at->p]));
+        sums->lost[c] += r->modulation[c][at->p] * r->lost[c][at->p];
         light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
     }
     for (int k = 0; k < signal->nmembers; k++) {

@@ -41,10 +41,11 @@ typedef struct RetexDenoiseParams {
 /* Filter a set in place. A set that is open (retex_set_open) is filtered strip by strip into a band store if roi is
  * NULL. Filtered are terms, with `footprints` also broad footprints and, as far as they are near to each other,
  * interreflections; the beauty becomes the recombination with the original textures. The mean of each signal over roi
- * (NULL = all) is preserved, apart from rounding. Pixels outside roi keep their terms and footprints. The data that
- * only denoising reads are removed from the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such
- * data. With denoiser oidn or both, RETEX_EUNSUPPORTED where Open Image Denoise 2 cannot be opened or fails. The same
- * to the bit for every nthreads, as far as that library's result is. */
+ * (NULL = all) is preserved, apart from rounding and what fireflies have beyond 3% of the rest. Pixels
+ * outside roi keep their terms and footprints. The data that only denoising reads are removed from the set, and
+ * set->denoised is 1. RETEX_ENOTFOUND where the set has no such data. With denoiser oidn or both, RETEX_EUNSUPPORTED
+ * where Open Image Denoise 2 cannot be opened or fails. The same to the bit for every nthreads, as far as that
+ * library's result is. */
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params /* NULL = defaults */, const RetexRoi *roi,
                   int nthreads, RetexError *err);
 
