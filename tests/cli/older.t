@@ -35,6 +35,8 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_combine: ok
 > retex_image_write: ok
 > retex_texture_create: ok
+> retex_is_picture: 1
+> retex_denoise_picture: ok
 > retex_set_get_info: 48 x 32, paper, lib_test
 > retex_set_describe: ok
 > retex_set_describe: older
@@ -42,5 +44,5 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_pack_write: ok
 > retex_web_write: this set cannot be written for browsers: its layout is not footprints
 > retex_denoise: the set lacks the part guide_normal: it was rendered or packed without what denoising needs, or is denoised already
-> 9 files were opened
+> 10 files were opened
 $ retex-combine -q room.exr --texture Wall='rgb(0.1,0.2,0.3)' --texture:scale=3 Floor=wood.png -o expected.exr && cmp expected.exr older.exr

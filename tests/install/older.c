@@ -161,6 +161,16 @@ static void call_sets(RetexSet *set, const char *folder)
     CALL(retex_denoise, set, OLDER(RetexDenoiseParams, RETEX_DENOISE_INIT), NULL, 1);
 }
 
+/* A picture that is no set, denoised into FOLDER. */
+static void call_denoise_picture(const char *picture, const char *folder)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/clean.exr", folder);
+    printf("retex_is_picture: %d\n", retex_is_picture(picture, access_of_all()));
+    CALL(retex_denoise_picture, picture, path, OLDER(RetexDenoisePictureParams, RETEX_DENOISE_PICTURE_INIT),
+         OLDER(RetexDenoiseParams, RETEX_DENOISE_INIT), 1);
+}
+
 int main(int argc, char **argv)
 {
     RetexSet *set = NULL;
@@ -173,6 +183,7 @@ int main(int argc, char **argv)
     call_files(strchr(argv[2], '=') + 1, path);
     snprintf(path, sizeof path, "%s/older.exr", argv[3]);
     call_textures(set, argv[2], path);
+    call_denoise_picture(path, argv[3]);
     call_sets(set, argv[3]);
     printf("%d files were opened\n", files_opened);
     retex_set_close(&set);
