@@ -41,7 +41,7 @@ $ make_compact s.exr fine.exr broad=1 interreflection=1 gain=1; retex-pack fine.
 # Recombined, it is the picture of retex-combine: originals, one texture, two, colours, placed ones.
 $ ln -s "$SCENES/textures" T; cp "$TESTS"/../web/*.py .
 $ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 40; near one 40 Floor=T/walnut-herringbone.jpg; near one 38 Wall=T/brick.jpg; near packed 40 Floor=T/fans.jpg Wall=T/travertine.jpg
-$ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 38 Floor=T/terrazzo.jpg Wall=T/damask.jpg; near one 40 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7; near one 38 Floor=T/walnut-herringbone.jpg:scale=3,2:rotate=30:offset=0.2,0.5
+$ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 38 Floor=T/terrazzo.jpg Wall=T/damask.jpg; near one 40 Floor=0.8,0.1,0.1 Wall=0.2,0.3,0.7; near one 40 Floor=T/brick.jpg:scale=3,2:rotate=30:offset=0.2,0.5
 
 # Lamps that can be changed: as rendered, and as in a set that was rendered so.
 $ make_lamps s.exr lamps.exr; make_lamps s.exr other.exr 0.25,1,0; retex-pack -q lamps.exr --web lamps; /usr/bin/python3 near.py lamps.exr lamps 38 Floor=T/walnut-herringbone.jpg

@@ -197,12 +197,16 @@ class Texture:
                 out[i] = out[i] * (1 - f) + self.bilinear(min(level + 1, len(self.levels) - 1), u[i], v[i]) * f
         return out
 
+    def placed(self, uv):
+        """Where surface UV lies in the image."""
+        return self.turn @ (self.scale[:, None] * uv) + self.offset[:, None]
+
     def filtered(self, uv, sigma, rho, disc, bounds):
         """The mean over a disc or a bell of these means and covariances; bounds: of UV, where a bell is cut off."""
         height, width = self.levels[0].shape[:2]
         turn = np.diag([width, height]) @ self.turn @ np.diag(self.scale)
         back = np.linalg.inv(turn)
-        mean = self.turn @ (self.scale[:, None] * uv) + self.offset[:, None]
+        mean = self.placed(uv)
         cross = rho * sigma[0] * sigma[1]
         covariance = np.array([[sigma[0]**2, cross], [cross, sigma[1]**2]])
         covariance = np.einsum("ij,jkn,lk->iln", turn, covariance, turn)
@@ -247,7 +251,7 @@ class Texture:
         place = lambda p: self.turn @ (self.scale[:, None] * p)
         sides = [place(np.array([axes[0][k], axes[1][k]])) for k in range(2)]
         cell = np.sqrt(np.abs(np.linalg.norm(sides[0] * shape, axis=0) * np.linalg.norm(sides[1] * shape, axis=0))) / grid
-        lod, mean = np.log2(np.maximum(cell, 1)), place(uv) + self.offset[:, None]
+        lod, mean = np.log2(np.maximum(cell, 1)), self.placed(uv)
         sum_ = np.zeros((uv.shape[1], 3))
         for j in range(grid):
             for i in range(grid):
