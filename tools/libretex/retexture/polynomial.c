@@ -28,6 +28,7 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
     for (int t = 0; t < set->ntargets; t++)
         count += p->edited[t];
     const int corrected = !p->apart && p->cross == ALL_CROSS_TERMS;
+    p->lamps = retex_set_has_role(set, RETEX_ROLE_LAMP);
     for (int i = 0; i < set->nparameters; i++) {
         const RetexParameter *parameter = &set->parameters[i];
         const int corrects = parameter->kind == RETEX_PARAMETER_CORRECTION;
@@ -37,6 +38,7 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
             const float value = params->parameters ? params->parameters[3 * i + c] : parameter->value[c];
             p->parameters[i][c] = corrects ? (float)weight : value;
             changed |= !corrects && value != parameter->value[c];
+            p->relit |= p->lamps && !corrects && value != parameter->kept[c];
         }
     }
     p->picture = !params->terms_only && corrected && !count && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE);

@@ -130,13 +130,23 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
                      "radiance", part_name(set, term->radiance), "factors", factors);
 }
 
+static json_t *write_color(const float color[3], int *finite)
+{
+    return json_pack("[o, o, o]", real((double)color[0], finite), real((double)color[1], finite),
+                     real((double)color[2], finite));
+}
+
 static json_t *write_parameter(const RetexParameter *parameter, int *finite)
 {
-    const float *value = parameter->value;
+    json_t *json = json_pack("{s:o, s:s, s:o, s:o}", "name", text(parameter->name), "kind",
+                             retex_parameter_kind_name(parameter->kind), "target", target_number(parameter->target),
+                             "value", write_color(parameter->value, finite));
 
-    return json_pack("{s:o, s:s, s:o, s:[o, o, o]}", "name", text(parameter->name), "kind",
-                     retex_parameter_kind_name(parameter->kind), "target", target_number(parameter->target), "value",
-                     real((double)value[0], finite), real((double)value[1], finite), real((double)value[2], finite));
+    if (memcmp(parameter->kept, parameter->value, sizeof parameter->kept) != 0)
+        retex_json_put(&json, "kept", write_color(parameter->kept, finite));
+    if (parameter->several)
+        retex_json_put(&json, "several", json_true());
+    return json;
 }
 
 static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)

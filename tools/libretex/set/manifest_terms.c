@@ -61,17 +61,26 @@ static void read_term(Reading *reading, const json_t *json, RetexSet *set)
         reading->status = retex_set_add_term(set, &term, NULL, reading->err);
 }
 
+static void read_color(Reading *reading, const json_t *json, const char *key, float color[3])
+{
+    const json_t *numbers = retex_reading_array(reading, json, key, 3);
+
+    for (size_t c = 0; c < 3; c++)
+        color[c] = (float)retex_reading_real(reading, json_array_get(numbers, c), key);
+}
+
 static void read_parameter(Reading *reading, const json_t *json, RetexSet *set)
 {
-    const json_t *value = retex_reading_array(reading, json, "value", 3);
     RetexParameter parameter = {.kind = (RetexParameterKind)retex_reading_named(reading, json, "kind", "parameter",
                                                                                 retex_parameter_kind_name,
                                                                                 RETEX_PARAMETER_KINDS),
-                                .target = get_target(reading, set, json)};
+                                .target = get_target(reading, set, json),
+                                .several = json_is_true(json_object_get(json, "several"))};
 
     retex_reading_text(reading, json, "name", parameter.name, sizeof parameter.name);
-    for (size_t c = 0; c < 3; c++)
-        parameter.value[c] = (float)retex_reading_real(reading, json_array_get(value, c), "value");
+    read_color(reading, json, "value", parameter.value);
+    if (json_object_get(json, "kept"))
+        read_color(reading, json, "kept", parameter.kept);
     if (!reading->status)
         reading->status = retex_set_add_parameter(set, &parameter, NULL, reading->err);
 }

@@ -365,13 +365,16 @@ static int check_role(const RetexSet *set, const RetexTerm *term, RetexError *er
     if (term->role == RETEX_ROLE_PICTURE &&
         (term->radiance || term->nfactors || retex_set_has_role(set, RETEX_ROLE_PICTURE)))
         return retex_fail(err, RETEX_EINVAL, "one term may be the picture: part 0, without factors");
-    int weights = 0;
+    int weights = 0, colors = 0;
     for (int k = 0; k < term->nfactors; k++) {
         const RetexParameter *parameter =
             term->factors[k].kind == RETEX_FACTOR_PARAMETER ? &set->parameters[term->factors[k].index] : NULL;
         if (parameter && parameter->kind == RETEX_PARAMETER_CORRECTION)
             weights += corrects && parameter->target == term->target ? 1 : 2;
+        colors += parameter && parameter->kind == RETEX_PARAMETER_COLOR;
     }
+    if (term->role == RETEX_ROLE_LAMP && colors != 1)
+        return retex_fail(err, RETEX_EINVAL, "a lamp's light has one parameter of kind color, not %d", colors);
     return weights == corrects
                ? RETEX_OK
                : retex_fail(err, RETEX_EINVAL, "corrections, and only they, have their target's weight");
@@ -435,9 +438,17 @@ int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int 
         if (!(parameter->value[c] >= 0 && parameter->value[c] <= (corrects ? 0 : FLT_MAX)))
             return retex_fail(err, RETEX_EINVAL, "the parameter %s has the value %g", parameter->name,
                               (double)parameter->value[c]);
+    const int kept = parameter->kept[0] != 0 || parameter->kept[1] != 0 || parameter->kept[2] != 0;
+    for (int c = 0; c < 3 && kept; c++)
+        if (corrects || !(parameter->kept[c] >= 0 && parameter->kept[c] <= FLT_MAX))
+            return retex_fail(err, RETEX_EINVAL, "the parameter %s is kept with the value %g", parameter->name,
+                              (double)parameter->kept[c]);
     if (index)
         *index = set->nparameters;
-    set->parameters[set->nparameters++] = *parameter;
+    RetexParameter *own = &set->parameters[set->nparameters++];
+    *own = *parameter;
+    if (!kept)
+        memcpy(own->kept, own->value, sizeof own->kept);
     return 0;
 }
 
