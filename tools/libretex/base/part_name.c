@@ -49,8 +49,7 @@ static int character_length(const unsigned char *text)
 
 int retex_target_name_is_valid(const char *name)
 {
-    static const char *const allowed =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-.+()";
+    static const char *const allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-.+()";
     const size_t length = strlen(name);
 
     if (length == 0 || length >= RETEX_NAME_MAX || strchr(" .", name[0]) || name[length - 1] == ' ')
@@ -88,6 +87,24 @@ void retex_target_word(char word[RETEX_NAME_MAX], const char *name)
         if (!retex_name_is_valid((char[]){*letter, 0}))
             *letter = '_';
     snprintf(word, RETEX_NAME_MAX, "%s_%08x", kept, (unsigned)checksum(name));
+}
+
+void retex_lamp_word(char word[RETEX_NAME_MAX], const char *lamp, const char *target)
+{
+    enum { KEPT = 64, LONGEST = 90 };
+    char names[2 * RETEX_NAME_MAX], plain[sizeof names + 8];
+
+    snprintf(names, sizeof names, "%s%s%s", lamp, target ? "/" : "", target ? target : "");
+    snprintf(plain, sizeof plain, "lamp_%s%s%s", lamp, target ? "_" : "", target ? target : "");
+    if (strlen(plain) <= LONGEST && retex_name_is_valid(plain) && !(target && strchr(names, '_'))) {
+        snprintf(word, RETEX_NAME_MAX, "%.*s", LONGEST, plain);
+        return;
+    }
+    plain[KEPT] = 0;
+    for (char *letter = plain; *letter; letter++)
+        if (!retex_name_is_valid((char[]){*letter, 0}))
+            *letter = '_';
+    snprintf(word, RETEX_NAME_MAX, "%.*s_%08x", KEPT, plain, (unsigned)checksum(names));
 }
 
 int retex_target_index(const RetexTargetNames *names, const char *name)

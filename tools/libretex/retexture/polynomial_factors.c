@@ -25,21 +25,12 @@ int retex_polynomial_weight(const RetexPolynomial *p, const RetexTerm *term, flo
     return weighted;
 }
 
-/* Whether a term is light of one lamp, or a correction of that. */
-static int is_of_lamp(const RetexSet *set, const RetexTerm *term)
-{
-    int colored = 0;
-    for (int k = 0; k < term->nfactors; k++)
-        colored |= term->factors[k].kind == RETEX_FACTOR_PARAMETER &&
-                   set->parameters[term->factors[k].index].kind == RETEX_PARAMETER_COLOR;
-    return term->role == RETEX_ROLE_LAMP || (term->role == RETEX_ROLE_CORRECTION && colored);
-}
-
 int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
 {
     float weight[3];
     if (p->picture || term->role == RETEX_ROLE_PICTURE || (term->role == RETEX_ROLE_CROSS2 && p->cross < 2) ||
-        (term->role == RETEX_ROLE_CROSS3 && p->cross < 3) || (p->lamps && is_of_lamp(p->set, term) != p->relit))
+        (term->role == RETEX_ROLE_CROSS3 && p->cross < 3) ||
+        (p->lamps && (retex_set_term_lamp(p->set, term) >= 0) != p->relit))
         return 0;
     retex_polynomial_weight(p, term, weight);
     return weight[0] != 0 || weight[1] != 0 || weight[2] != 0;

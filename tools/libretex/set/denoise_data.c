@@ -34,6 +34,13 @@ void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const 
         snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%s", signal);
 }
 
+void retex_lamp_noise_part_name(char name[RETEX_NAME_MAX], const char *lamp, const char *target, const char *signal)
+{
+    char word[RETEX_NAME_MAX];
+    retex_lamp_word(word, lamp, target);
+    snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%.90s_%s", word, signal);
+}
+
 int retex_name_is_noise(const char *name)
 {
     return strncmp(name, RETEX_NOISE_PREFIX, strlen(RETEX_NOISE_PREFIX)) == 0;

@@ -9,7 +9,10 @@
 
 #include "set/set.h"
 
-#define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
+/* Of all light, and of each lamp. */
+#define SIGNALS_OF_LIGHT_MAX (1 + 2 * RETEX_MAX_TARGETS)
+#define LAMPS_MAX 17
+#define SIGNALS_MAX (SIGNALS_OF_LIGHT_MAX * (1 + LAMPS_MAX))
 
 void retex_factor_target(const RetexSet *set, RetexFactor factor, int *target, RetexFootprintKind *kind)
 {
@@ -30,31 +33,50 @@ static int cluster_of(const RetexTerm *term)
     return -1;
 }
 
-static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
+static void noise_name(const RetexSet *set, const RetexSignal *signal, char name[RETEX_NAME_MAX])
 {
-    if (target < 0)
-        retex_noise_part_name(name, NULL, set->nterms ? RETEX_SIGNAL_INDEP : RETEX_SIGNAL_BEAUTY);
+    const char *target = signal->target < 0 ? NULL : set->targets[signal->target].name;
+    const char *light = target        ? retex_footprint_kind_name(signal->kind)
+                        : set->nterms ? RETEX_SIGNAL_INDEP
+                                      : RETEX_SIGNAL_BEAUTY;
+    if (signal->lamp < 0)
+        retex_noise_part_name(name, target, light);
     else
-        retex_noise_part_name(name, set->targets[target].name, retex_footprint_kind_name(kind));
+        retex_lamp_noise_part_name(name, set->parameters[signal->lamp].name, target, light);
 }
 
-/* The target that the light of a term meets first; -1 where it meets none, and of corrections. */
-static void find_first_target(const RetexTerm *term, int *target, RetexFootprintKind *kind)
+/* The kind of the footprint or mixture that a lamp's light meets first. */
+static RetexFootprintKind first_kind(const RetexSet *set, const RetexTerm *term)
 {
-    *target = term && retex_term_is_light(term) ? term->target : -1;
-    *kind = !term || *target < 0                       ? RETEX_FOOTPRINT_HIT
-            : term->role == RETEX_ROLE_SHARP           ? RETEX_FOOTPRINT_SHARP
-            : term->role == RETEX_ROLE_BROAD           ? RETEX_FOOTPRINT_BROAD
-            : term->role == RETEX_ROLE_INTERREFLECTION ? RETEX_FOOTPRINT_INTERREFLECTION
-                                                       : RETEX_FOOTPRINT_HIT;
+    RetexFootprintKind kind = RETEX_FOOTPRINT_HIT;
+    for (int k = 0, target; k < term->nfactors; k++)
+        if (retex_factor_is_hit(term->factors[k])) {
+            retex_factor_target(set, term->factors[k], &target, &kind);
+            break;
+        }
+    return kind;
+}
+
+/* A signal without members for the light of a term: the target that it meets first, -1 where it meets none, and of
+ * corrections. */
+static RetexSignal signal_for(const RetexSet *set, const RetexTerm *term)
+{
+    RetexSignal signal = {.target = -1, .lamp = term ? retex_set_term_lamp(set, term) : -1, .noise = -1, .cover = -1};
+    if (term && (retex_term_is_light(term) || term->role == RETEX_ROLE_LAMP))
+        signal.target = term->target;
+    signal.kind = signal.target < 0                          ? RETEX_FOOTPRINT_HIT
+                  : term->role == RETEX_ROLE_LAMP            ? first_kind(set, term)
+                  : term->role == RETEX_ROLE_SHARP           ? RETEX_FOOTPRINT_SHARP
+                  : term->role == RETEX_ROLE_BROAD           ? RETEX_FOOTPRINT_BROAD
+                  : term->role == RETEX_ROLE_INTERREFLECTION ? RETEX_FOOTPRINT_INTERREFLECTION
+                                                             : RETEX_FOOTPRINT_HIT;
+    return signal;
 }
 
 void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
-    int target;
-    RetexFootprintKind kind;
-    find_first_target(term, &target, &kind);
-    noise_name(set, target, kind, name);
+    const RetexSignal signal = signal_for(set, term);
+    noise_name(set, &signal, name);
 }
 
 int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err)
@@ -71,26 +93,27 @@ int retex_signals_find_part(const RetexSet *set, const char *name, int channels,
 }
 
 /* The signal of a term; created for its first term. */
-static RetexSignal *signal_of(RetexSignals *signals, const RetexTerm *term)
+static RetexSignal *signal_of(RetexSignals *signals, const RetexSet *set, const RetexTerm *term)
 {
-    int target;
-    RetexFootprintKind kind;
-    find_first_target(term, &target, &kind);
-    for (int k = 0; k < signals->count; k++)
-        if (signals->of[k].target == target && signals->of[k].kind == kind)
+    const RetexSignal wanted = signal_for(set, term);
+    int of_light = 0;
+    for (int k = 0; k < signals->count; k++) {
+        const RetexSignal *signal = &signals->of[k];
+        if (signal->target == wanted.target && signal->kind == wanted.kind && signal->lamp == wanted.lamp)
             return &signals->of[k];
-    if (signals->count == SIGNALS_MAX)
+        of_light += signal->lamp == wanted.lamp;
+    }
+    if (of_light == SIGNALS_OF_LIGHT_MAX || signals->count == SIGNALS_MAX)
         return NULL;
-    RetexSignal *signal = &signals->of[signals->count++];
-    *signal = (RetexSignal){.target = target, .kind = kind, .noise = -1, .cover = -1};
-    return signal;
+    signals->of[signals->count] = wanted;
+    return &signals->of[signals->count++];
 }
 
-/* The parts of the signal of a target and kind. */
+/* The parts of a signal. */
 static int find_parts_of(RetexSignal *signal, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
-    noise_name(set, signal->target, signal->kind, name);
+    noise_name(set, signal, name);
     if ((signal->noise = retex_signals_find_part(set, name, 3, err)) < 0)
         return signal->noise;
     if (signal->target < 0)
@@ -118,13 +141,14 @@ static int is_member(const RetexTerm *term)
     return term->role != RETEX_ROLE_PICTURE;
 }
 
-/* Further hits are taken as grey, parameters as rendered; corrections, of either sign, do not count. */
+/* Further hits are taken as grey, parameters as rendered, but those of lamps as 1; corrections, of either sign, do not
+ * count. */
 static float member_weight(const RetexSet *set, const RetexTerm *term)
 {
-    float weight = retex_term_is_light(term) ? 1 : 0;
+    float weight = term->role == RETEX_ROLE_CORRECTION ? 0 : 1;
     for (int n = 1; n < retex_term_hits(term); n++)
         weight *= 0.5f;
-    for (int k = 0; k < term->nfactors; k++)
+    for (int k = 0; k < term->nfactors && term->role != RETEX_ROLE_LAMP; k++)
         if (term->factors[k].kind == RETEX_FACTOR_PARAMETER && weight > 0)
             weight *= retex_luminance(set->parameters[term->factors[k].index].value[0],
                                       set->parameters[term->factors[k].index].value[1],
@@ -137,23 +161,27 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
 {
     int used = 0;
     for (int t = 0; t < set->nterms; t++)
-        if (is_member(&set->terms[t]) && !signal_of(signals, &set->terms[t]))
+        if (is_member(&set->terms[t]) && !signal_of(signals, set, &set->terms[t]))
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
     if (!set->nterms) {
         signals->members[0] = (RetexSignalMember){.weight = 1, .term = -1, .cluster = -1};
-        *signal_of(signals, NULL) =
-            (RetexSignal){.target = -1, .noise = -1, .cover = -1, .nmembers = 1, .members = signals->members};
+        RetexSignal *beauty = signal_of(signals, set, NULL);
+        beauty->nmembers = 1;
+        beauty->members = signals->members;
     }
     for (int k = 0; set->nterms && k < signals->count; k++) {
         RetexSignal *signal = &signals->of[k];
         signal->members = signals->members + used;
         for (int t = 0; t < set->nterms; t++) {
             const RetexTerm *term = &set->terms[t];
-            if (!is_member(term) || signal_of(signals, term) != signal)
+            if (!is_member(term) || signal_of(signals, set, term) != signal)
                 continue;
-            signal->members[signal->nmembers++] =
-                (RetexSignalMember){term->radiance,        member_weight(set, term),   t,
-                                    retex_term_hits(term), !retex_term_is_light(term), cluster_of(term)};
+            signal->members[signal->nmembers++] = (RetexSignalMember){term->radiance,
+                                                                      member_weight(set, term),
+                                                                      t,
+                                                                      retex_term_hits(term),
+                                                                      term->role == RETEX_ROLE_CORRECTION,
+                                                                      cluster_of(term)};
             used++;
         }
     }
@@ -170,7 +198,7 @@ int retex_signals_sort(RetexSignals *signals, const RetexSet *set, RetexError *e
     int code = signals->of && signals->members ? sort_terms(signals, set, err)
                                                : retex_fail(err, RETEX_ENOMEM, "no memory for the signals of a set");
     for (int k = 0; k < signals->count && !code; k++) {
-        noise_name(set, signals->of[k].target, signals->of[k].kind, name);
+        noise_name(set, &signals->of[k], name);
         signals->of[k].noise = retex_set_find_part(set, name);
     }
     if (code)
@@ -193,8 +221,7 @@ int retex_signals_are_there(const RetexSet *set)
     int there = 1;
     for (int t = 0; t < (set->nterms ? set->nterms : 1) && there; t++) {
         const RetexTerm *term = set->nterms ? &set->terms[t] : NULL;
-        RetexSignal signal;
-        find_first_target(term, &signal.target, &signal.kind);
+        RetexSignal signal = signal_for(set, term);
         there = (term && !is_member(term)) || !find_parts_of(&signal, set, NULL);
     }
     return there;

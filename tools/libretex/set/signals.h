@@ -16,6 +16,7 @@ typedef struct RetexSignalMember {
 } RetexSignalMember;
 
 typedef struct RetexSignal {
+    int lamp;                /* the parameter of the lamp whose light it is, for its value 1; -1: all light */
     int target;              /* -1: light that no target's texture multiplies */
     RetexFootprintKind kind; /* of its first hit's footprint */
     int noise;               /* part noise_… */

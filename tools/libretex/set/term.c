@@ -75,6 +75,19 @@ int retex_set_find_parameter(const RetexSet *set, const char *name)
     return -1;
 }
 
+int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term)
+{
+    int lamp = -1;
+
+    if (term->role != RETEX_ROLE_LAMP && term->role != RETEX_ROLE_CORRECTION)
+        return -1;
+    for (int k = 0; k < term->nfactors && lamp < 0; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER &&
+            set->parameters[term->factors[k].index].kind == RETEX_PARAMETER_COLOR)
+            lamp = term->factors[k].index;
+    return term->role == RETEX_ROLE_LAMP || retex_set_has_role(set, RETEX_ROLE_LAMP) ? lamp : -1;
+}
+
 int retex_set_has_role(const RetexSet *set, RetexRole role)
 {
     for (int t = 0; t < set->nterms; t++)

@@ -7,9 +7,10 @@
  *
  *     total = sum over the terms t of the signal of  C_t L_t / 2^(hits of t - 1)
  *
- * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered. Corrections do not
- * count. Signals are `indep`, the terms without hits; by target and kind of the first hit's footprint TARGET_sharp and
- * TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all.
+ * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered, of terms of role LAMP
+ * 1. Corrections do not count. Signals are `indep`, the terms without hits; by target and kind of the first hit's
+ * footprint TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all. The
+ * light of each lamp has such signals of its own: lamp_LAMP_indep, lamp_LAMP_TARGET_sharp and so on.
  *
  * Features: guide_NAME, see the table, and guide_cover_TARGET, R, half: how much of the target is seen: share of the
  * pixel times the luminance that the mirrors and glass before it leave, 0..1.
@@ -86,6 +87,8 @@ void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target);
 /* The part of a signal's noise. target: NULL for the signals indep and beauty; else signal is the kind of footprint, as
  * retex_footprint_kind_name has it. */
 void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const char *signal);
+/* The same of the light of one lamp, for the value 1 of its parameter. target: NULL for the signal indep. */
+void retex_lamp_noise_part_name(char name[RETEX_NAME_MAX], const char *lamp, const char *target, const char *signal);
 /* Remove from a set all data that only retex_denoise reads. */
 void retex_denoise_drop_data(RetexSet *set);
 
