@@ -83,7 +83,9 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     sdl.declares = declares.data(), sdl.ndeclares = int(declares.size());
     sdl.message = keep_warning, sdl.message_context = warnings;
     warnings->clear();
-    must(job_open_scene(&scene, path.c_str(), &sdl, &options.render, targets.data(), int(targets.size()), &err), err);
+    JobNames names{};
+    names.targets = targets.data(), names.ntargets = int(targets.size());
+    must(job_open_scene(&scene, path.c_str(), &sdl, &options.render, &names, &err), err);
     job_warn_dark(scene, &sdl);
     return {scene, close_scene};
 }

@@ -13,6 +13,10 @@
 enum {
     OPT_TARGET,
     OPT_LIST,
+    OPT_LAMP,
+    OPT_LAMPS,
+    OPT_LIST_LAMPS,
+    OPT_LIGHT_SHARE,
     OPT_REPLACE,
     OPT_VARIANTS,
     OPT_CONTROL,
@@ -61,6 +65,17 @@ static const CliOption options[] = {
                   "print the identifiers that can be targets, with their share of the picture, and stop; with -v also "
                   "objects, colours and images; FILE gets a picture with the numbers of objects",
                   0},
+    [OPT_LAMP] = {"lamp", 'l', "NAME[=IDENT,…]",
+                  "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light "
+                  "source, what emits, as of --target, light_source#N or sky; repeatable",
+                  0},
+    [OPT_LAMPS] = {"lamps", 0, "each", "the same of each light that has a name, each light source, and the sky", 0},
+    [OPT_LIST_LAMPS] = {"list-lamps", 0, NULL,
+                        "print the lamps that there are, or those of -l, with their share of the picture's light, and "
+                        "stop",
+                        0},
+    [OPT_LIGHT_SHARE] = {"light-share", 0, "X",
+                         "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.2", 0},
     [OPT_REPLACE] =
         {"replace", 0, "NAME=IMAGE",
          "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
@@ -178,6 +193,16 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_LIST:
         a->list = 1;
         a->sheet = cli->value;
+        break;
+    case OPT_LAMP:
+        push(cli, a->lamps, &a->nlamps, o->name);
+        break;
+    case OPT_LAMPS:
+        choose(cli, o, 1, (const char *const[]){"each"});
+        a->each_lamp = 1;
+        break;
+    case OPT_LIST_LAMPS:
+        a->list_lamps = 1;
         break;
     case OPT_REPLACE:
         parse_replace(a);
@@ -297,12 +322,27 @@ static void check_denoise(const Arguments *a)
         return;
     if (a->no_denoise_data)
         cli_die(a->cli, "--denoise needs the data that --no-denoise-data omits");
-    if (a->list || a->tracing || a->variants || a->control)
-        cli_die(a->cli, "--denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control");
+    if (answers(a) || a->variants || a->control)
+        cli_die(
+            a->cli,
+            "--denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control");
     if (a->render.control_data)
         cli_die(a->cli, "--denoise and --control-data exclude each other");
     if (a->render.spp < 2)
         cli_die(a->cli, "--denoise needs at least two samples per pixel: one does not show the noise");
+}
+
+static void check_lamps(const Arguments *a)
+{
+    const int lamps = a->nlamps || a->each_lamp;
+    if (a->nlamps && a->each_lamp)
+        cli_die(a->cli, "--lamps each and -l exclude each other");
+    if (lamps && a->render.paper)
+        cli_die(a->cli, "--layout paper keeps no lamps apart");
+    if (lamps && (a->render.control_data || a->control))
+        cli_die(a->cli, "lamps cannot be combined with --control or --control-data");
+    if (a->list + a->list_lamps + a->tracing > 1)
+        cli_die(a->cli, "--list-targets, --list-lamps and --trace-pixel exclude each other");
 }
 
 static void check_noise(const Arguments *a)
@@ -319,9 +359,9 @@ static void check_pieces(const Arguments *a)
     const char *option = r->nshards ? "shard" : r->resume ? "resume" : a->nmerged ? "merge" : NULL;
     if (!option)
         return;
-    if (a->list || a->tracing || a->variants || a->control || r->control_data)
+    if (answers(a) || a->variants || a->control || r->control_data)
         cli_die(a->cli, "--%s cannot be combined with %s", option,
-                "--list-targets, --trace-pixel, --variants, --control or --control-data");
+                "--list-targets, --list-lamps, --trace-pixel, --variants, --control or --control-data");
     if (a->nmerged && (r->resume || r->nshards))
         cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
@@ -382,20 +422,23 @@ void parse_arguments(Arguments *a)
         a->render.plain = 1;
     if (a->variants && cli->output)
         cli_die(cli, "the table of --variants names the outputs: no -o");
-    if (a->variants && (a->list || a->tracing || a->render.aovs || a->stats))
-        cli_die(cli, "--variants makes pictures only: no --list-targets, --trace-pixel, --aov or --stats");
+    if (a->variants && (answers(a) || a->render.aovs || a->stats))
+        cli_die(cli, "--variants makes pictures only: no --list-targets, --list-lamps, --trace-pixel, --aov or "
+                     "--stats");
     if (a->control && (!a->nreplacements || a->variants))
         cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
     check_denoise(a);
+    check_lamps(a);
     check_noise(a);
     check_pieces(a);
-    if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
-        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control");
+    if (a->aov_dir && (answers(a) || a->variants || a->control))
+        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or "
+                     "--control");
     if (a->aov_dir && !a->render.aovs)
         a->render.aovs = RETEX_AOV_ALL;
-    const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
+    const char *answer = a->list ? "list-targets" : a->list_lamps ? "list-lamps" : a->tracing ? "trace-pixel" : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);
     if (answer && a->stats)

@@ -40,7 +40,7 @@ void plan_frames(Arguments *a)
         cli_die(a->cli, "more than %d of --declare with frames", LIST_MAX - ANIMATION_DECLARES);
     if (a->variants)
         cli_die(a->cli, "--variants makes one table of pictures: no frames");
-    if (a->list || a->tracing) /* at the first frame */
+    if (answers(a)) /* at the first frame */
         range->last = range->first;
     check_names(a);
 }

@@ -171,7 +171,8 @@ void refuse_columns(Arguments *a)
     SdlOptions sdl = a->sdl;
     Scene *scene = NULL;
     sdl.message = NULL; /* they have been printed */
-    if (job_open_scene(&scene, a->scene, &sdl, &a->render, NULL, 0, NULL))
+    const JobNames none = {.ntargets = 0};
+    if (job_open_scene(&scene, a->scene, &sdl, &a->render, &none, NULL))
         return;
     for (int k = 0; k < table->ncolumns; k++) {
         RetexError err = {0};

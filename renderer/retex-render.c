@@ -14,7 +14,7 @@
 /* Announce all files of the command line. Files that the scene names are not among them. */
 static void announce_files(Arguments *a)
 {
-    const char *output = a->list || a->tracing ? "-" : a->output;
+    const char *output = answers(a) ? "-" : a->output;
     char path[4096];
     cli_reads(a->cli, "the scene", a->scene);
     for (int k = 0; k < a->ini.files.count; k++)
@@ -26,7 +26,7 @@ static void announce_files(Arguments *a)
         cli_reads(a->cli, "the file of --merge", a->merged[k]);
     }
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
-    cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", output);
+    cli_writes(a->cli, answers(a) ? "the answer" : "the output", output);
     cli_writes(a->cli, "--stats", a->stats);
     cli_writes(a->cli, "the file of --list-targets", a->sheet);
     for (int k = 0; a->aov_dir && aov_files_path(path, sizeof path, a->aov_dir, k); k++)
@@ -232,7 +232,12 @@ static int finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, dou
 static int open_scene(Arguments *a, Scene **scene, RetexError *err)
 {
     RetexError why;
-    int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, a->targets, a->ntargets, err);
+    const JobNames names = {.targets = a->targets,
+                            .ntargets = a->ntargets,
+                            .lamps = a->lamps,
+                            .nlamps = a->nlamps,
+                            .each_lamp = a->each_lamp};
+    int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, &names, err);
     if (code && a->variants && !a->named)
         refuse_columns(a);
     if (!code)
@@ -241,7 +246,7 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
         code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
     if (code)
         return code;
-    if (!a->list)
+    if (!a->list && !a->list_lamps)
         job_warn_dark(*scene, &a->sdl);
     check_targets(a, *scene);
     return !a->list || lists_pixels(a) ? job_check_size(*scene, &a->render, err) : RETEX_OK;
@@ -255,6 +260,8 @@ static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *s
     int code = RETEX_OK;
     if (a->list)
         list_targets(a, scene);
+    else if (a->list_lamps)
+        list_lamps(a, scene);
     else if (a->variants)
         *status = make_variants(a, scene);
     else if (a->control)

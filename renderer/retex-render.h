@@ -23,6 +23,8 @@ typedef struct Arguments {
     int seeded;
     Batch batch; /* the table of --variants */
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
+    const char *lamps[LIST_MAX];
+    int nlamps, each_lamp, list_lamps;
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
     RenderVariant replaced;
@@ -43,6 +45,9 @@ typedef struct Arguments {
     FrameRange frames;     /* the frames of it that are rendered; step 0: one picture without a number */
     char checkpoint[4096]; /* OUTPUT.partial, or "" if the output is not a file */
 } Arguments;
+
+/* Whether it prints an answer, and makes no picture. */
+static inline int answers(const Arguments *a) { return a->list || a->list_lamps || a->tracing; }
 
 /* ---- arguments.c ---- */
 
@@ -87,6 +92,11 @@ void check_sheet(const Arguments *arguments);
 /* Whether it takes memory for each pixel. */
 static inline int lists_pixels(const Arguments *a) { return a->sheet || a->cli->verbose; }
 void list_targets(Arguments *arguments, const Scene *scene);
+
+/* ---- list_lamps.c ---- */
+
+/* The scene's lamps are others after it. */
+void list_lamps(Arguments *arguments, Scene *scene);
 
 /* ---- fingerprint.c ---- */
 

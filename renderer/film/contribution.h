@@ -32,7 +32,7 @@ static inline Float4 factor_of_variant(const Factor *f, int variant)
 }
 
 typedef struct Contribution {
-    int lamp;              /* of the scene's lamps, or LAMP_NONE */
+    int lamp;              /* of the scene's lamps */
     Rgb light;             /* without the factors */
     const Factor *factors; /* from the path's end to the light */
     int nfactors;

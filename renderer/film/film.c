@@ -415,7 +415,7 @@ float *film_image_pixel(FilmPixel *p, int image, int x, int y)
 
 long film_floats(const FilmParams *params, int ntargets)
 {
-    long layout = params->split && ntargets > 0 ? params->layout->floats(params, ntargets) : 0;
+    long layout = params->split && (ntargets > 0 || params->nlamps > 0) ? params->layout->floats(params, ntargets) : 0;
     return 3 + 3 * noise_count(params, ntargets) + layout;
 }
 

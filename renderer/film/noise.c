@@ -6,13 +6,19 @@ int noise_count(const FilmParams *params, int ntargets)
 {
     if (!params->noise || params->spp < 2)
         return 0;
-    return !params->split ? 1 : 1 + ntargets * params->layout->nsignals;
+    return !params->split ? 1 : (1 + ntargets * params->layout->nsignals) * (1 + params->nlamps);
 }
 
-static void signal_name(const Scene *scene, const FilmParams *params, int signal, char name[RETEX_NAME_MAX])
+static void signal_name(const Scene *scene, const FilmParams *params, int number, char name[RETEX_NAME_MAX])
 {
     const FilmLayout *layout = params->layout;
-    if (signal == 0)
+    const int own = params->split ? 1 + scene->ntargets * layout->nsignals : 1;
+    const int lamp = number / own - 1, signal = number % own;
+    if (lamp >= 0)
+        retex_lamp_noise_part_name(name, scene->lamps[lamp].name,
+                                   signal ? scene->targets[(signal - 1) / layout->nsignals].name : NULL,
+                                   signal ? layout->signals[(signal - 1) % layout->nsignals] : RETEX_SIGNAL_INDEP);
+    else if (signal == 0)
         retex_noise_part_name(name, NULL, params->split ? RETEX_SIGNAL_INDEP : RETEX_SIGNAL_BEAUTY);
     else
         retex_noise_part_name(name, scene->targets[(signal - 1) / layout->nsignals].name,

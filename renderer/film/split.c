@@ -2,18 +2,23 @@
 #include <stdlib.h>
 #include "film/split.h"
 
-int split_open(SplitSink *s, FilmPixel *pixel, size_t paths, RetexError *err)
+int split_open(SplitSink *s, FilmPixel *pixel, size_t paths, int nlamps, RetexError *err)
 {
     s->pixel = pixel, s->count = 0;
+    s->has_lamps = nlamps > 0, s->nlamp_light = 0;
     film_hit_limits(pixel, &s->orders, &s->most_hits);
     s->nodes = aligned_alloc(sizeof *s->nodes, paths * TARGET_NODES_MAX * sizeof *s->nodes);
-    return s->nodes ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
+    if (nlamps > 0)
+        s->lamp_light =
+            aligned_alloc(sizeof(Float4), paths * (TARGET_NODES_MAX + 1) * (size_t)nlamps * sizeof *s->lamp_light);
+    return s->nodes && (s->lamp_light || !nlamps) ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
 }
 
 void split_close(SplitSink *s)
 {
     free(s->nodes);
-    s->nodes = NULL;
+    free(s->lamp_light);
+    s->nodes = NULL, s->lamp_light = NULL;
 }
 
 /* ---- hits ---- */
@@ -87,6 +92,22 @@ static Float4 with_white_targets(const TargetNode *hit, Float4 dependent, Float4
     return light;
 }
 
+/* Add light of a lamp to that which it has at the same hit. */
+static void add_lamp_light(SplitSink *s, SplitPath *p, int lamp, const TargetNode *hit, Float4 d, Float4 i,
+                           Float4 light)
+{
+    LampLight *same = p->tree.lamp_light;
+    while (same && (same->lamp != lamp || same->hit != hit))
+        same = (LampLight *)same->earlier;
+    if (same) {
+        same->dependent += d, same->independent += i, same->light += light;
+        return;
+    }
+    LampLight *added = &s->lamp_light[s->nlamp_light++];
+    *added = (LampLight){d, i, light, hit, p->tree.lamp_light, lamp};
+    p->tree.lamp_light = added;
+}
+
 int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
 {
     const Factor *kept[TARGET_NODES_MAX];
@@ -105,6 +126,8 @@ int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
         last = k == 0 ? find_current_hit(s, p, kept[0]) : add_hit(s, p, kept[k], last, d, i);
         d = kept[k]->d, i = kept[k]->i;
     }
+    if (s->has_lamps)
+        add_lamp_light(s, p, c->lamp, last, last ? d * rest : splat(0), last ? i * rest : rest, light);
     if (last)
         target_node_add_light(last, d, i, rest);
     else

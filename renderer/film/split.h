@@ -13,6 +13,9 @@ typedef struct SplitSink {
     int orders, most_hits; /* of one target, and of all together, that are kept apart */
     TargetNode *nodes;     /* memory for the trees of all paths that are traced side by side */
     int count;             /* of them in use */
+    int has_lamps;
+    LampLight *lamp_light; /* memory for the light of lamps, of all these paths */
+    int nlamp_light;       /* in use */
 } SplitSink;
 
 /* Of one path. */
@@ -26,8 +29,8 @@ typedef struct SplitPath {
     TargetNode *current_hit; /* the hit of the current vertex, once light came by it; or NULL */
 } SplitPath;
 
-/* paths: that are traced side by side. */
-int split_open(SplitSink *sink, FilmPixel *pixel, size_t paths, RetexError *err);
+/* paths: that are traced side by side; nlamps: of the scene. */
+int split_open(SplitSink *sink, FilmPixel *pixel, size_t paths, int nlamps, RetexError *err);
 void split_close(SplitSink *sink);
 static inline void split_start(SplitPath *path)
 {

@@ -68,8 +68,18 @@ typedef struct SeenTarget {
     float place[2]; /* within the pixel, 0..1 from its upper left corner */
 } SeenTarget;
 
+/* Light of one lamp: D and I at a hit, or without one. */
+typedef struct LampLight {
+    Float4 dependent, independent;
+    Float4 light;                    /* with all factors */
+    const TargetNode *hit;           /* NULL: independent is light without a hit */
+    const struct LampLight *earlier; /* or NULL */
+    int lamp;
+} LampLight;
+
 typedef struct TargetTree {
     TargetNode *last; /* that was added, or NULL */
+    LampLight *lamp_light; /* the last that was added, of scenes with lamps; or NULL. D and I of nodes are their sums */
     int count;
     SeenTarget seen;
     Float4 without_hit; /* sum of contributions without a hit */

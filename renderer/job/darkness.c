@@ -32,7 +32,7 @@ void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
     const char *why = NULL, *advice = "";
     if (is_empty)
         why = glows ? "no object in the scene" : "no object and no sky: the picture will be black";
-    else if (!glows && !any_light_source(scene) && scene->nlamps == scene->nlights + 1)
+    else if (!glows && !any_light_source(scene) && !scene_has_emitters(scene))
         why = scene->nlights
                   ? "its light sources are black, nothing shines and there is no sky: the picture will be black"
                   : "no light source, nothing that shines and no sky: the picture will be black";

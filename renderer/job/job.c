@@ -13,11 +13,13 @@ int job_target_is_empty(const Scene *scene, int t)
 }
 
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
-                   const char *const *targets, int ntargets, RetexError *err)
+                   const JobNames *names, RetexError *err)
 {
     int code = sdl_parse_file(scene, path, sdl, err);
     if (!code)
-        code = job_resolve_targets(*scene, render, targets, ntargets, err);
+        code = job_resolve_targets(*scene, render, names->targets, names->ntargets, err);
+    if (!code)
+        code = job_resolve_lamps(*scene, render, names, err);
     if (code)
         scene_close(scene);
     return code;

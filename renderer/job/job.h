@@ -18,14 +18,23 @@ int job_numbers(const char *text, char separator, int count, int *numbers);
  * which nobody means. Values of built-in names must be numbers. */
 int job_check_declare(const char *declare, RetexError *err);
 
-/* Read a scene and find its targets, each in the form of -t. render: the size of the picture whose pixels targets may
- * name. */
+/* What of a scene is to be changed later: targets, each in the form of -t, and lamps, each in the form of -l.
+ * each_lamp: 1: all that have a name, instead, and light sources without one, and the sky. */
+typedef struct JobNames {
+    const char *const *targets, *const *lamps;
+    int ntargets, nlamps, each_lamp;
+} JobNames;
+
+/* Read a scene and find its targets and lamps. render: the size of the picture whose pixels they may name. */
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
-                   const char *const *targets, int ntargets, RetexError *err);
+                   const JobNames *names, RetexError *err);
 
 /* The second half of it: targets by pixels, and then the others. */
 int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
                         RetexError *err);
+
+/* The same of lamps. */
+int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *names, RetexError *err);
 
 /* Whether no surface belongs to target t. A surface belongs to the first target that names it, so a target without
  * surfaces is a mistake. */

@@ -47,16 +47,15 @@ static int set_seed(const Option *o)
     return code;
 }
 
-static int set_noise(const Option *o)
+static int set_real(const Option *o, double low, double high, double *field)
 {
     char *end;
-    const double low = 1e-6, high = 10;
     double value = strtod(o->value, &end);
     if (end == o->value || *end || isspace((unsigned char)o->value[0]) || !isfinite(value) || value < low ||
         value > high)
         return retex_fail(o->err, RETEX_EPARSE, "%s: expected a number from %g to %g, not '%s'", o->name, low, high,
                           o->value);
-    o->render->noise = value;
+    *field = value;
     return RETEX_OK;
 }
 
@@ -150,7 +149,9 @@ static int set_value(const Option *o)
     if (!strcmp(o->name, "seed"))
         return set_seed(o);
     if (!strcmp(o->name, "noise"))
-        return set_noise(o);
+        return set_real(o, 1e-6, 10, &r->noise);
+    if (!strcmp(o->name, "light-share"))
+        return set_real(o, 0, 1, &r->light_share);
     if (!strcmp(o->name, "size"))
         return set_size(o);
     if (!strcmp(o->name, "crop"))

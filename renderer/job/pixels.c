@@ -1,8 +1,9 @@
-/* Targets by what pixels show. `@X:Y` becomes the number of the object there, which a set keeps: at another size the
- * same pixel would show another one. */
+/* Targets and lamps by what pixels show. `@X:Y` becomes the number of the object there, which a set keeps: at another
+ * size the same pixel would show another one. */
 #include <stdio.h>
 #include <string.h>
 #include "job/job.h"
+#include "light/environment.h"
 #include "path/target_units.h"
 
 enum { PIXELS_MAX = 64 };
@@ -66,26 +67,46 @@ static int name_objects(Scene *scene, const Pixels *pixels, int *k, const char *
     return RETEX_OK;
 }
 
+/* Copies of the specs, in which numbers of objects stand for pixels. */
+static int name_pixels(Scene *scene, const RenderParams *render, const char *const *specs, int nspecs,
+                       const char **named, RetexError *err)
+{
+    Pixels pixels = {.count = 0};
+    int code = RETEX_OK, next = 0;
+    for (int k = 0; k < nspecs && !code; k++)
+        code = find_pixels(&pixels, specs[k], err);
+    if (!code && pixels.count)
+        code = render_pick(scene, render, pixels.count, (const int(*)[2])pixels.at, pixels.shown, err);
+    for (int k = 0; k < nspecs && !code; k++) {
+        named[k] = specs[k];
+        if (pixels.count && first_selector(specs[k]))
+            code = name_objects(scene, &pixels, &next, specs[k], &named[k], err);
+    }
+    return code;
+}
+
 int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
                         RetexError *err)
 {
     const char *named[RETEX_MAX_TARGETS];
-    Pixels pixels = {.count = 0};
-    int code = RETEX_OK, next = 0;
     if (ntargets > RETEX_MAX_TARGETS)
         return scene_resolve_targets(scene, targets, ntargets, err);
-    for (int k = 0; k < ntargets && !code; k++)
-        code = find_pixels(&pixels, targets[k], err);
-    if (!code && pixels.count)
-        code = render_pick(scene, render, pixels.count, (const int(*)[2])pixels.at, pixels.shown, err);
-    for (int k = 0; k < ntargets && !code; k++) {
-        named[k] = targets[k];
-        if (pixels.count && first_selector(targets[k]))
-            code = name_objects(scene, &pixels, &next, targets[k], &named[k], err);
-    }
+    int code = name_pixels(scene, render, targets, ntargets, named, err);
     if (!code)
         code = scene_resolve_targets(scene, named, ntargets, err);
     if (!code)
         target_units_choose(scene);
     return code;
+}
+
+int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *names, RetexError *err)
+{
+    const char *named[LAMPS_MAX], *const *specs = names->lamps;
+    int count = names->nlamps, code = RETEX_OK;
+    if (names->each_lamp)
+        code = scene_each_lamp(scene, sky_shines(scene) || !rgb_is_black(scene->background), &specs, &count, err);
+    if (code || count > LAMPS_MAX)
+        return code ? code : scene_resolve_lamps(scene, specs, count, err);
+    code = name_pixels(scene, render, specs, count, named, err);
+    return code ? code : scene_resolve_lamps(scene, named, count, err);
 }

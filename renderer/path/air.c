@@ -50,7 +50,7 @@ static int pass(PathWorker *w, Path *path, const char *what, Rgb passing, Rgb ow
 {
     if (w->context->trace)
         fprintf(w->context->trace, "%s lets %.5g %.5g %.5g pass, adds\n", what, passing.r, passing.g, passing.b);
-    path_contribute(w, path, &(Contribution){LAMP_NONE, own, NULL, 0, NULL});
+    path_contribute(w, path, &(Contribution){scene_rest_lamp(w->context->scene), own, NULL, 0, NULL});
     path->beta_neutral *= at_most(rgb_max(passing), 1);
     return path_scale(w, path, passing);
 }

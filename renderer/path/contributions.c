@@ -6,7 +6,7 @@
 
 int path_worker_open(PathWorker *w, RetexError *err)
 {
-    return w->context->split ? split_open(&w->split, w->pixel, PATHS_MAX, err) : RETEX_OK;
+    return w->context->split ? split_open(&w->split, w->pixel, PATHS_MAX, w->context->scene->nlamps, err) : RETEX_OK;
 }
 
 void path_worker_close(PathWorker *w)
@@ -62,19 +62,37 @@ int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Flo
     return path_is_alive(w, path);
 }
 
+/* The control film has the picture, in which lamps are as shown. */
+static void add_to_control(PathWorker *w, Path *path, const Contribution *c, Float4 shown)
+{
+    const Scene *scene = w->context->scene;
+    Rgb variants[VARIANTS_MAX];
+    Contribution own = *c;
+    if (scene->nlamps) {
+        own.light = rgb_mul(c->light, scene->lamps[c->lamp].shown);
+        for (int v = 0; c->variants && v < w->context->nvariants; v++)
+            variants[v] = rgb_mul(c->variants[v], scene->lamps[c->lamp].shown);
+        own.variants = c->variants ? variants : NULL;
+    }
+    control_add(w->control, path->control, &own, shown);
+}
+
 void path_contribute(PathWorker *w, Path *path, const Contribution *c)
 {
     const PathContext *context = w->context;
     Float4 light = path->beta * color4(c->light);
     for (int k = 0; k < c->nfactors; k++)
         light *= factor_whole(&c->factors[k]);
+    const Scene *scene = context->scene;
+    const Float4 shown = scene->nlamps ? light * color4(scene->lamps[c->lamp].shown) : light;
     if (context->trace)
-        fprintf(context->trace, "  light %.6g %.6g %.6g of lamp %d\n", light[0], light[1], light[2], c->lamp);
+        fprintf(context->trace, "  light %.6g %.6g %.6g%s%s\n", shown[0], shown[1], shown[2],
+                scene->nlamps ? " of lamp " : "", scene->nlamps ? scene->lamps[c->lamp].name : "");
     if (w->control)
-        control_add(w->control, path->control, c, light);
+        add_to_control(w, path, c, shown);
     if (context->split ? split_add(&w->split, &path->split, c, light) : rgb_is_finite(rgb_of4(light)))
         for (int k = 0; k < 3; k++)
-            path->light[k] += (double)light[k];
+            path->light[k] += (double)shown[k];
     else
         film_drop(w->pixel);
 }

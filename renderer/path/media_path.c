@@ -272,7 +272,8 @@ static MediumEvent cross_uniform(PathWorker *w, Path *path, Ray *ray, const Medi
     float u, v;
     if (set->emits)
         path_contribute(w, path,
-                        &(Contribution){LAMP_NONE, rgb_of4(uniform_glow(&set->sums, distance)), NULL, 0, NULL});
+                        &(Contribution){scene_rest_lamp(w->context->scene),
+                                        rgb_of4(uniform_glow(&set->sums, distance)), NULL, 0, NULL});
     if (is_black4(scattering))
         return pass(w, path, exp4(extinction * splat(-(float)distance)));
     segment_pair(w, path, PAIR_DISTANCE, &u, &v);
@@ -309,7 +310,7 @@ static MediumEvent cross_varying(PathWorker *w, Path *path, Ray *ray, const Medi
             break;
     }
     if (set->emits)
-        path_contribute(w, path, &(Contribution){LAMP_NONE, rgb_of4(glow), NULL, 0, NULL});
+        path_contribute(w, path, &(Contribution){scene_rest_lamp(w->context->scene), rgb_of4(glow), NULL, 0, NULL});
     if (scattered)
         return scatter_at(w, path, ray, set, t, weight, media_draw(w, path));
     return t < distance ? MEDIUM_ENDED : pass(w, path, weight);

@@ -305,7 +305,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
 {
     Wavefront wave;
     wave.count = count;
-    w->split.count = 0;
+    w->split.count = w->split.nlamp_light = 0;
     for (int i = 0; i < count; i++) {
         Path *path = wave.live[i] = &wave.paths[i];
         wave.rays[i] = rays[i];

@@ -106,7 +106,7 @@ static void add_surface_emission(PathWorker *w, Path *path, const Hit *hit, cons
     const Split light = surface_emission(s);
     Factor factor = shading_factor(s, color4(light.d), color4(light.i));
     set_seen(&factor, path);
-    path_contribute(w, path, &(Contribution){s->surface.primitive->lamp, rgb_grey(weight), &factor, 1, NULL});
+    path_contribute(w, path, &(Contribution){surface_lamp(&s->surface), rgb_grey(weight), &factor, 1, NULL});
 }
 
 static void add_sky(PathWorker *w, Path *path, Vec3 direction)

@@ -52,7 +52,7 @@ const Texture *instance_target_texture(const Scene *scene, const Instance *insta
     return NULL;
 }
 
-/* ---- lamps ---- */
+/* ---- emitters ---- */
 
 static int texture_emits(const Texture *texture)
 {
@@ -62,7 +62,7 @@ static int texture_emits(const Texture *texture)
     return 0;
 }
 
-static int primitive_emits(const Primitive *p)
+int primitive_emits(const Primitive *p)
 {
     const Texture *texture;
     int target, emits = 0;
@@ -71,22 +71,23 @@ static int primitive_emits(const Primitive *p)
     return emits;
 }
 
-void scene_number_lamps(Scene *scene)
+int scene_has_emitters(const Scene *scene)
 {
-    scene->nlamps = 0;
-    for (int k = 0; k < scene->nlights; k++)
-        scene->lights[k].lamp = scene->nlamps++;
     for (int k = 0; k < scene->nprimitives; k++)
-        scene->primitives[k].lamp = primitive_emits(&scene->primitives[k]) ? scene->nlamps++ : LAMP_NONE;
-    for (int i = 0; i < scene->ninstances; i++) {
-        const Instance *instance = &scene->instances[i];
-        Primitive *p = scene->primitives + instance->prototype->first;
-        const int emits = instance->texture && texture_emits(instance->texture);
-        for (int k = 0; emits && k < instance->prototype->count; k++)
-            if (p[k].inherits && p[k].lamp == LAMP_NONE)
-                p[k].lamp = scene->nlamps++;
-    }
-    scene->sky_lamp = scene->nlamps++;
+        if (primitive_emits(&scene->primitives[k]))
+            return 1;
+    for (int i = 0; i < scene->ninstances; i++)
+        if (instance_emits(scene, &scene->instances[i]))
+            return 1;
+    return 0;
+}
+
+int instance_emits(const Scene *scene, const Instance *instance)
+{
+    int emits = instance->texture && texture_emits(instance->texture);
+    for (int k = 0; k < instance->prototype->count && !emits; k++)
+        emits = primitive_emits(&scene->primitives[instance->prototype->first + k]);
+    return emits;
 }
 
 /* ---- closing ---- */

@@ -421,6 +421,7 @@ typedef struct Instance {
     const IdentList *idents;
     const PlaceList *places;
     int target, texture_target; /* by idents; by the texture. -1: none */
+    int lamp;                /* that its emission is of; -1: those of its primitives */
     int line;
 } Instance;
 
@@ -444,7 +445,7 @@ typedef struct Primitive {
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
     const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
-    int lamp;                /* see scene_number_lamps; -1: it emits nothing */
+    int lamp;                /* of the scene's lamps, that its emission is of */
     const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit, else NULL */
 } Primitive;
 
@@ -461,7 +462,9 @@ typedef struct LightGroup {
 typedef struct LightOps LightOps; /* light/source.h */
 typedef struct Light {
     const LightOps *ops;
-    int lamp;                /* see scene_number_lamps */
+    int lamp;                /* of the scene's lamps */
+    const IdentList *idents; /* names of the objects it is part of */
+    const PlaceList *places; /* their statements */
     Vec3 location, point_at;
     Rgb color;               /* irradiance pi * color on a surface that faces it */
     double radius, falloff;  /* spot: half-angles in degrees; cylinder: lengths */
@@ -572,6 +575,19 @@ typedef struct Target {
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
 } Target;
 
+/* Emitters whose light can be changed after rendering: light sources, surfaces that emit, the sky. A lamp has one
+ * colour where the light of all its emitters differs in strength only. */
+#define LAMPS_MAX 16
+typedef struct Lamp {
+    char name[RETEX_NAME_MAX];
+    char idents[512]; /* its selectors, comma-separated */
+    int several;      /* 1: it has several colours, or an image */
+    Rgb value;        /* the colour of its light in the scene; white where it has several */
+    Rgb kept;         /* the colour that its light has while paths are traced: value, but where that has a channel of 0,
+                         which nothing could be made of: then white of the same luminance, or what it would be if on */
+    Rgb shown;        /* by which traced light is multiplied in the picture */
+} Lamp;
+
 /* What an identifier is called where it comes from, which identifiers cannot be called. */
 typedef struct SceneName {
     const char *ident, *name;
@@ -603,7 +619,9 @@ typedef struct Scene {
     const Prototype **prototypes;
     Instance *instances;
     Light *lights;
-    int nlamps, sky_lamp;    /* see scene_number_lamps */
+    int nlamps;              /* whose light is kept apart; 0, or those asked for and the rest, which is the last */
+    Lamp lamps[LAMPS_MAX + 1];
+    int sky_lamp;            /* the lamp of sky and background */
     ImageMap **images;
     WorkingSpace working_space;
     int number_of_waves;     /* of ripples and waves */
@@ -634,10 +652,23 @@ const Texture *primitive_target_texture(const Primitive *primitive, int target);
 const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
 /* Each of one -t of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see selector.h. */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
-/* Number the lamps, whose light may be mixed after rendering: each light source, each primitive that emits, and sky and
- * background together. Light of the air, that of fog for example, is of no lamp: LAMP_NONE. */
-enum { LAMP_NONE = -1 };
-void scene_number_lamps(Scene *scene);
+/* Each of one -l of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see scene/lamps.c. Without any, all light is
+ * of lamp 0, and there is nothing to keep apart. */
+int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
+/* The specs of --lamps each: every light source and every emitter that has a name, and the sky, if it shines. They are
+ * in the scene's arena. RETEX_ELIMIT, with all of them, where there are more than LAMPS_MAX. */
+int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int *nspecs, RetexError *err);
+/* Show a lamp in the picture with that value. */
+void scene_show_lamp(Lamp *lamp, Rgb value);
+/* The light of the air, such as fog, is of the lamp that is the rest. */
+static inline int scene_rest_lamp(const Scene *scene)
+{
+    return scene->nlamps > 0 ? scene->nlamps - 1 : 0;
+}
+/* Whether any surface emits; whether the primitive does, or something of the instance. */
+int scene_has_emitters(const Scene *scene);
+int primitive_emits(const Primitive *primitive);
+int instance_emits(const Scene *scene, const Instance *instance);
 int scene_caustic_sources(const Scene *scene); /* how many light sources have caustics */
 void scene_close(Scene **scene); /* textures of image maps, then the arena */
 

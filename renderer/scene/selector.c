@@ -481,7 +481,12 @@ static int check_match(const Selector *selector, const Scene *scene, RetexError 
     return search.found ? RETEX_OK : fail_no_match(&search, err);
 }
 
-int selector_read(Selector *selector, const Scene *scene, const char *text, RetexError *err)
+Selector selector_named(const char *ident)
+{
+    return (Selector){.form = &forms[sizeof forms / sizeof *forms - 1], .text = ident, .name = ident};
+}
+
+int selector_parse(Selector *selector, const Scene *scene, const char *text, RetexError *err)
 {
     const SelectorForm *form = forms;
     while (!form->begins(text))
@@ -489,6 +494,11 @@ int selector_read(Selector *selector, const Scene *scene, const char *text, Rete
     *selector = (Selector){.form = form, .text = arena_string(scene->arena, text, strlen(text))};
     if (!selector->text)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
-    int code = form->read(selector, scene, err);
+    return form->read(selector, scene, err);
+}
+
+int selector_read(Selector *selector, const Scene *scene, const char *text, RetexError *err)
+{
+    int code = selector_parse(selector, scene, text, err);
     return code ? code : check_match(selector, scene, err);
 }

@@ -27,6 +27,10 @@ typedef struct Selector {
 
 /* The length of the first selector of a list, up to a comma outside parentheses. */
 size_t selector_length(const char *list);
+/* Read a selector, whether or not it selects anything; but an identifier must be one of textures and objects. */
+int selector_parse(Selector *selector, const Scene *scene, const char *text, RetexError *err);
+/* The selector of an identifier, which stays the caller's. */
+Selector selector_named(const char *ident);
 /* RETEX_ENOTFOUND, with the nearest that there are, where it selects nothing. */
 int selector_read(Selector *selector, const Scene *scene, const char *text, RetexError *err);
 /* texture: a plain one, or NULL; of layers and maps as a whole nothing is known. object: or NULL. */

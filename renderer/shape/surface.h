@@ -40,6 +40,12 @@ typedef struct SurfaceUv {
     int has_natural;         /* 0: plane, mesh without UVs */
 } SurfaceUv;
 
+/* The lamp that its emission is of. */
+static inline int surface_lamp(const Surface *surface)
+{
+    const Instance *instance = surface->instance;
+    return instance && instance->lamp >= 0 ? instance->lamp : surface->primitive->lamp;
+}
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
 /* Prefetch what surface_at reads of a mesh: its face, and once that is there, its corners. */
 static inline void surface_prefetch_face(const Scene *scene, const Hit *hit)

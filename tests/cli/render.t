@@ -96,12 +96,12 @@ $ retex-render --list-targets --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --list-targets goes to standard output: no -o
 = 2
 # Each contribution is of a lamp: light sources, things that shine (too small a mesh for paths to hit), the sky.
-$ printf '#version 3.7; camera { location <0,3,-6> look_at 0 } light_source { <-3,4,0> 1 } light_source { <3,4,0> 1 spotlight point_at 0 radius 40 falloff 60 } plane { y, 0 pigment { rgb .5 } } mesh { triangle { <-2,1,0>, <-1.99,1,0>, <-2,1.01,.005> } pigment { rgb 1 } finish { emission 1e7 } } sphere { <2,1,0>, .5 pigment { rgb 1 } finish { emission 30 } } sky_sphere { pigment { gradient y color_map { [0 rgb .1] [1 rgb 1] } } }\n' >lamps.pov; for s in $(seq 0 31); do retex-render --trace-pixel 4,3,$s --size 8x6 --plain lamps.pov; done | grep -o 'of lamp.*' | sort -u
-> of lamp 0
-> of lamp 1
-> of lamp 2
-> of lamp 3
-> of lamp 4
+$ printf '#version 3.7; camera { location <0,3,-6> look_at 0 } light_source { <-3,4,0> 1 } light_source { <3,4,0> 1 spotlight point_at 0 radius 40 falloff 60 } plane { y, 0 pigment { rgb .5 } } mesh { triangle { <-2,1,0>, <-1.99,1,0>, <-2,1.01,.005> } pigment { rgb 1 } finish { emission 1e7 } } sphere { <2,1,0>, .5 pigment { rgb 1 } finish { emission 30 } } sky_sphere { pigment { gradient y color_map { [0 rgb .1] [1 rgb 1] } } }\n' >lamps.pov; for s in $(seq 0 31); do retex-render --trace-pixel 4,3,$s --size 8x6 --plain -l one=light_source#1 -l two=light_source#2 -l mesh='#2' -l sky lamps.pov; done | grep -o 'of lamp.*' | sort -u
+> of lamp mesh
+> of lamp one
+> of lamp rest
+> of lamp sky
+> of lamp two
 $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2
@@ -128,7 +128,7 @@ $ retex-render -q --size 8x6 --spp 1 --aov depth,irradiance --aov-dir guides bal
 > 6
 $ retex-render -q --size 8x6 --spp 1 --aov-dir nowhere/guides ball.pov -o y.png; retex-render -q --size 8x6 --aov-dir guides --list-targets ball.pov
 ! retex-render: error: --aov-dir: cannot make the folder nowhere/guides: No such file or directory
-! retex-render: error: --aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --aov-dir cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control
 = 2
 
 # A scene without any object is a picture as in POV-Ray: black, or its background or sky.
@@ -244,10 +244,10 @@ $ set -- --denoise --size 2000x2000 --spp 4096 ball.pov; for o in --no-denoise-d
 > 2
 > 2
 ! retex-render: error: --denoise needs the data that --no-denoise-data omits
-! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control
 ! retex-render: error: --denoise and --control-data exclude each other
 ! retex-render: error: --denoise needs at least two samples per pixel: one does not show the noise
 

@@ -87,25 +87,127 @@ static void test_light_kinds_written_twice(void **state)
     }
 }
 
-/* Each light source is a lamp, and so is each thing that shines, and the sky; nothing else is. */
+static const char LAMPS[] =
+    V37 "#declare T = texture{pigment{rgb 1} finish{emission <4,2,1>}} #declare Bulb = sphere{0,1 texture{T}}"
+        "#declare Spot = light_source{-y <1,.5,.25> spotlight} #declare Red = light_source{z <2,0,0>}"
+        "light_source{y 1} object{Bulb} sphere{0,1} light_source{Spot} light_source{Red}"
+        "box{0,1 texture{pigment{checker color rgb 0 color rgb 1} finish{ambient 2}}}"
+        "mesh{triangle{0,x,y} triangle{0,x,z texture{T}}} light_source{x 0} background{rgb <.5,1,.5>}";
+
+static Scene *parse_lamps(const char *const *specs, int nspecs)
+{
+    RetexError err = {0};
+    Scene *scene = parse(LAMPS);
+    if (scene_resolve_lamps(scene, specs, nspecs, &err))
+        fail_msg("%s", err.message);
+    return scene;
+}
+
 static void test_lamps(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "#declare T = texture{pigment{rgb 1} finish{emission 1}}"
-                             "light_source{y 1} sphere{0,1 finish{emission 1}} sphere{0,1}"
-                             "box{0,1 texture{pigment{checker color rgb 0 color rgb 1} finish{ambient 2}}}"
-                             "mesh{triangle{0,x,y} triangle{0,x,z texture{T}}}"
-                             "light_source{-y 1 spotlight} background{rgb 1}");
-    assert_int_equal(scene->nlights, 2);
-    assert_int_equal(scene->lights[0].lamp, 0);
-    assert_int_equal(scene->lights[1].lamp, 1);
-    assert_int_equal(scene->nprimitives, 4);
-    assert_int_equal(scene->primitives[0].lamp, 2);
-    assert_int_equal(scene->primitives[1].lamp, LAMP_NONE);
-    assert_int_equal(scene->primitives[2].lamp, 3);
-    assert_int_equal(scene->primitives[3].lamp, 4);
-    assert_int_equal(scene->sky_lamp, 5);
-    assert_int_equal(scene->nlamps, 6);
+    const char *specs[] = {"spot", "Ball=#1", "T", "sky", "box=#3", "one=light_source#1"};
+    Scene *scene = parse_lamps(specs, 6);
+    assert_int_equal(scene->nlamps, 7);
+    assert_int_equal(scene->lights[0].lamp, 5);
+    assert_int_equal(scene->lights[1].lamp, 0);
+    assert_int_equal(scene->lights[2].lamp, 6); /* the rest */
+    assert_int_equal(scene->lights[3].lamp, 6);
+    assert_int_equal(scene->primitives[0].lamp, 1); /* the first that was asked for */
+    assert_int_equal(scene->primitives[1].lamp, 6);
+    assert_int_equal(scene->primitives[2].lamp, 4);
+    assert_int_equal(scene->primitives[3].lamp, 2); /* by the texture of a face */
+    assert_int_equal(scene->sky_lamp, 3);
+    assert_string_equal(scene->lamps[6].name, "rest");
+    scene_close(&scene);
+    scene = parse_lamps(NULL, 0);
+    assert_int_equal(scene->nlamps, 0);
+    assert_int_equal(scene->lights[1].lamp, 0);
+    assert_int_equal(scene->sky_lamp, 0);
+    scene_close(&scene);
+}
+
+static void assert_color_near(Rgb c, double r, double g, double b)
+{
+    assert_color((Rgbft){c.r, c.g, c.b, 0, 0}, r, g, b);
+}
+
+/* The colour of a lamp, and what its light is while paths are traced. */
+static void test_lamp_colors(void **state)
+{
+    (void)state;
+    const char *specs[] = {"Spot", "Red", "Bulb", "box=#3", "sky", "off=light_source#4", "both=light_source#1,T"};
+    Scene *scene = parse_lamps(specs, 7);
+    const Lamp *lamps = scene->lamps;
+    for (int l = 0; l < 7; l++)
+        assert_int_equal(lamps[l].several, l == 3 || l == 6);
+    assert_color_near(lamps[0].value, 1, 0.5, 0.25);
+    assert_color_near(lamps[0].kept, 1, 0.5, 0.25);
+    assert_color_near(lamps[0].shown, 1, 1, 1);
+    const float red = 2 * rgb_luminance(rgb(1, 0, 0));
+    assert_color_near(lamps[1].value, 2, 0, 0);
+    assert_color_near(lamps[1].kept, red, red, red);
+    assert_color_near(lamps[1].shown, 2 / red, 0, 0);
+    assert_color_near(scene->lights[2].color, red, red, red);
+    assert_color_near(lamps[2].value, 4, 2, 1);
+    assert_color_near(lamps[3].value, 1, 1, 1);
+    assert_color_near(lamps[4].value, 0.5, 1, 0.5);
+    assert_color_near(lamps[5].value, 0, 0, 0);
+    assert_color_near(lamps[5].kept, 1, 1, 1);
+    assert_color_near(lamps[5].shown, 0, 0, 0);
+    assert_color_near(scene->lights[3].color, 1, 1, 1);
+    assert_color_near(lamps[6].kept, 1, 1, 1);
+    scene_close(&scene);
+}
+
+static void test_each_lamp(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "light_1=light_source#1", "Spot", "Red", "light_4=light_source#4", "Bulb", "T", "sky"};
+    const char *const *specs;
+    int count;
+    Scene *scene = parse(LAMPS);
+    assert_int_equal(scene_each_lamp(scene, 1, &specs, &count, NULL), 0);
+    assert_int_equal(count, 7);
+    for (int k = 0; k < 7; k++)
+        assert_string_equal(specs[k], names[k]);
+    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), 0);
+    assert_int_equal(count, 6);
+    scene_close(&scene);
+    scene = parse(V37 "#for (K, 1, 17) light_source{K*y 1} #end");
+    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), RETEX_ELIMIT);
+    scene_close(&scene);
+}
+
+static void test_lamps_refused(void **state)
+{
+    (void)state;
+    const struct {
+        const char *spec, *message;
+    } cases[] = {{"Spt", "nearest: Spot"},
+                 {"=Spot", "a name has"},
+                 {"a/b=Spot", "letters, digits"},
+                 {"Rest=Spot", "all other light"},
+                 {"A=", "missing"},
+                 {"A=Spot,,Red", "missing"},
+                 {"A=light_source#0", "the number of a light source"},
+                 {"A=light_source#5", "has 4 light sources"},
+                 {"A=#2", "nothing that shines"}, /* a sphere that does not */
+                 {"A=#9", "no object `#9`"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        RetexError err = {0};
+        Scene *scene = parse(LAMPS);
+        assert_true(scene_resolve_lamps(scene, &cases[k].spec, 1, &err) < 0);
+        if (!strstr(err.message, cases[k].message))
+            fail_msg("%s: %s", cases[k].spec, err.message);
+        scene_close(&scene);
+    }
+    const char *twice[] = {"A=Spot", "a=Red"}, *taken[] = {"A=Spot", "Spot"};
+    RetexError err = {0};
+    Scene *scene = parse(LAMPS);
+    assert_true(scene_resolve_lamps(scene, twice, 2, &err) < 0 && strstr(err.message, "named twice"));
+    assert_true(scene_resolve_lamps(scene, taken, 2, &err) < 0 && strstr(err.message, "named before it"));
     scene_close(&scene);
 }
 
@@ -309,6 +411,9 @@ int main(void)
         cmocka_unit_test(test_lights),
         cmocka_unit_test(test_light_kinds_written_twice),
         cmocka_unit_test(test_lamps),
+        cmocka_unit_test(test_lamp_colors),
+        cmocka_unit_test(test_each_lamp),
+        cmocka_unit_test(test_lamps_refused),
         cmocka_unit_test(test_photons),
         cmocka_unit_test(test_names_of_insides),
         cmocka_unit_test(test_sky),

@@ -2,7 +2,9 @@
  * have. What none has, retex_set_prune leaves out. */
 #include <retex/host/set_build.h>
 
-#include "film/footprints/images.h"
+#include <stdio.h>
+
+#include "film/footprints/lamps.h"
 
 /* A footprint of three parts; index: its number in the set. */
 static int finish_footprint(FootprintFilm *film, RetexSet *set, const FootprintImages *images, RetexFootprint *f,
@@ -16,7 +18,7 @@ static int finish_footprint(FootprintFilm *film, RetexSet *set, const FootprintI
     return code ? code : retex_set_add_footprint(set, f, index, err);
 }
 
-/* A term of the factors that it has already. */
+/* A term of the factors that it has already; its radiance becomes known. */
 static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int image, RetexError *err)
 {
     int code = bands_move_part(film->bands, image, set, &term->radiance, err);
@@ -25,7 +27,8 @@ static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int 
 
 /* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
 typedef struct Places {
-    RetexFactor kinds[RETEX_MAX_TARGETS][2];         /* all clusters of a kind */
+    RetexFactor kinds[RETEX_MAX_TARGETS][2];         /* all clusters of a kind, by interreflected light */
+    RetexFactor lamp_kinds[RETEX_MAX_TARGETS][2];    /* the same by light that meets no other target */
     RetexFactor interreflections[RETEX_MAX_TARGETS]; /* further hits of a target */
     RetexFactor any;                                 /* further hits of all targets */
 } Places;
@@ -53,23 +56,29 @@ static RetexRole role_of(int kind)
     return kind ? RETEX_ROLE_BROAD : RETEX_ROLE_SHARP;
 }
 
+/* All footprints of a kind. */
+typedef struct KindMixtures {
+    RetexMixture interreflected, light;
+} KindMixtures;
+
 /* A footprint of a kind: its own light, and its place in the mixture of all. */
 static int finish_member(FootprintFilm *film, RetexSet *set, const RetexFootprint *f, int index, int light, int share,
-                         RetexMixture *all, RetexError *err)
+                         KindMixtures *all, RetexError *err)
 {
     RetexTerm term = {.role = role_of(f->kind == RETEX_FOOTPRINT_BROAD), .target = f->target};
     int weight;
     add_factors(&term, retex_factor(RETEX_FACTOR_FOOTPRINT, index), 1);
     int code = finish_term(film, set, &term, light, err);
+    add_share(&all->light, index, term.radiance);
     if (code || film->plan.count == 1)
         return code;
     code = bands_move_part(film->bands, share, set, &weight, err);
-    add_share(all, index, weight);
+    add_share(&all->interreflected, index, weight);
     return code;
 }
 
 /* The quarters of pixels, which share all but light. */
-static int finish_quadrants(FootprintFilm *film, RetexSet *set, int t, RetexMixture *all, RetexError *err)
+static int finish_quadrants(FootprintFilm *film, RetexSet *set, int t, KindMixtures *all, RetexError *err)
 {
     const QuadrantImages *images = &film->targets[t].quadrants;
     RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_SHARP};
@@ -91,7 +100,7 @@ static int finish_quadrants(FootprintFilm *film, RetexSet *set, int t, RetexMixt
 /* The clusters of one kind, each with the light that meets no other target. */
 static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Places *places, RetexError *err)
 {
-    RetexMixture all = {0};
+    KindMixtures all = {0};
     int code = RETEX_OK;
     for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++) {
         const FootprintImages *images = &film->targets[t].kinds[kind].of[k];
@@ -104,7 +113,10 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
     }
     if (!code && kind == 0 && film->quadrants)
         code = finish_quadrants(film, set, t, &all, err);
-    return code || film->plan.count == 1 ? code : finish_mixture(set, &all, &places->kinds[t][kind], err);
+    if (!code && film->lamps)
+        code = finish_mixture(set, &all.light, &places->lamp_kinds[t][kind], err);
+    return code || film->plan.count == 1 ? code
+                                         : finish_mixture(set, &all.interreflected, &places->kinds[t][kind], err);
 }
 
 static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, RetexMixture *any, Places *places,
@@ -135,24 +147,81 @@ static int goes_on(const FootprintFilm *film, int coefficient)
            (film->scene->ntargets == 1 || film->plan.coefficients[coefficient].mixed);
 }
 
-/* The interreflected light of one kind. */
+/* The factors of interreflected light of one kind. */
+static void add_interreflected_factors(RetexTerm *term, const FootprintFilm *film, int t, int kind, int coefficient,
+                                       const Places *places)
+{
+    const PlanCoefficient *c = &film->plan.coefficients[coefficient];
+    add_factors(term, places->kinds[t][kind], 1);
+    add_factors(term, places->any, c->mixed);
+    for (int b = 0; b < film->scene->ntargets; b++)
+        add_factors(term, places->interreflections[b], c->powers[b]);
+    if (goes_on(film, coefficient)) {
+        RetexFactor further = term->factors[term->nfactors - 1];
+        further.quantity = RETEX_QUANTITY_FURTHER;
+        add_factors(term, further, 1);
+    }
+}
+
 static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places,
                                  RetexError *err)
 {
     int code = RETEX_OK;
     for (int i = 1; i < film->plan.count && !code; i++) {
-        const PlanCoefficient *c = &film->plan.coefficients[i];
         RetexTerm term = {.role = role_of(kind), .target = t};
-        add_factors(&term, places->kinds[t][kind], 1);
-        add_factors(&term, places->any, c->mixed);
-        for (int b = 0; b < film->scene->ntargets; b++)
-            add_factors(&term, places->interreflections[b], c->powers[b]);
-        if (goes_on(film, i)) {
-            RetexFactor further = term.factors[term.nfactors - 1];
-            further.quantity = RETEX_QUANTITY_FURTHER;
-            add_factors(&term, further, 1);
-        }
+        add_interreflected_factors(&term, film, t, kind, i, places);
         code = finish_term(film, set, &term, film->targets[t].kinds[kind].interreflected[i], err);
+    }
+    return code;
+}
+
+/* ---- lamps ---- */
+
+static int finish_lamp_parameter(RetexSet *set, const Lamp *lamp, int *index, RetexError *err)
+{
+    RetexParameter parameter = {.kind = RETEX_PARAMETER_COLOR,
+                                .target = -1,
+                                .value = {lamp->value.r, lamp->value.g, lamp->value.b},
+                                .kept = {lamp->kept.r, lamp->kept.g, lamp->kept.b},
+                                .several = lamp->several};
+    snprintf(parameter.name, sizeof parameter.name, "%s", lamp->name);
+    return retex_set_add_parameter(set, &parameter, index, err);
+}
+
+/* A lamp's light whose first hit is of a kind, in the order of the plan. */
+static int finish_lamp_kind(FootprintFilm *film, RetexSet *set, const int *images, int t, int kind, int parameter,
+                            const Places *places, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 0; i < film->plan.count && !code; i++) {
+        RetexTerm term = {.role = RETEX_ROLE_LAMP, .target = t};
+        if (i == 0)
+            add_factors(&term, places->lamp_kinds[t][kind], 1);
+        else
+            add_interreflected_factors(&term, film, t, kind, i, places);
+        add_factors(&term, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
+        code = finish_term(film, set, &term, images[i], err);
+    }
+    return code;
+}
+
+static int finish_lamps(FootprintFilm *film, RetexSet *set, const Places *places, RetexError *err)
+{
+    int code = RETEX_OK, parameter;
+    for (int l = 0; l < film->scene->nlamps && !code; l++) {
+        const LampImages *images = &film->lamps[l];
+        RetexTerm picture = {.role = RETEX_ROLE_LAMP_PICTURE, .target = -1},
+                  indep = {.role = RETEX_ROLE_LAMP, .target = -1};
+        code = finish_lamp_parameter(set, &film->scene->lamps[l], &parameter, err);
+        add_factors(&picture, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
+        add_factors(&indep, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
+        if (!code && film->scene->ntargets)
+            code = finish_term(film, set, &picture, images->picture, err);
+        if (!code)
+            code = finish_term(film, set, &indep, images->indep, err);
+        for (int t = 0; t < film->scene->ntargets; t++)
+            for (int kind = 0; kind < 2 && !code; kind++)
+                code = finish_lamp_kind(film, set, images->kinds[t][kind], t, kind, parameter, places, err);
     }
     return code;
 }
@@ -201,5 +270,7 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
     for (int t = 0; t < film->scene->ntargets; t++)
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_interreflected(film, set, t, kind, &places, err);
-    return code ? code : finish_corrections(film, set, &places, err);
+    if (!code)
+        code = finish_corrections(film, set, &places, err);
+    return code ? code : finish_lamps(film, set, &places, err);
 }

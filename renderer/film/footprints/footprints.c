@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "film/footprints/footprints.h"
-#include "film/footprints/pixel.h"
+#include "film/footprints/lamps.h"
 
 #define LEAST_ALBEDO 1e-3f /* of other hits, as weights of a hit's albedo */
 
@@ -14,6 +14,7 @@ static void close_pixel(void **pixel)
     FootprintPixel *p = *pixel;
     if (!p)
         return;
+    lamps_pixel_close(&p->lamps);
     free(p->targets);
     free(p);
     *pixel = NULL;
@@ -29,10 +30,11 @@ static int create_pixel(void **out, void *layout, LightSums *light, UvRange *ran
         p->light = light, p->range = range;
         p->quadrants.target = QUADRANTS_NONE;
     }
-    if (p && p->targets)
-        return RETEX_OK;
-    close_pixel(out);
-    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    const int code = p && p->targets ? lamps_pixel_create(&p->lamps, film, err)
+                                     : retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    if (code)
+        close_pixel(out);
+    return code;
 }
 
 /* ---- light ---- */
@@ -207,11 +209,9 @@ static void end_single(FootprintPixel *p, const TargetTree *path, Float4 *indep,
         add_range(p, hit);
 }
 
-static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *indep, Float4 *white)
+static void end_several(FootprintPixel *p, const TargetTree *path, const TargetNode *const *hits, Float4 *indep,
+                        Float4 *white)
 {
-    const TargetNode *hits[TARGET_NODES_MAX];
-    for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
-        hits[hit->number] = hit;
     for (int k = 0; k < path->count; k++) {
         const TargetNode *before = hits[k]->before;
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
@@ -230,13 +230,18 @@ static void end_several(FootprintPixel *p, const TargetTree *path, Float4 *indep
 static void end_path(void *pixel, const TargetTree *path)
 {
     FootprintPixel *p = pixel;
+    const TargetNode *hits[TARGET_NODES_MAX];
     Float4 indep = path->without_hit, white = path->without_hit;
     if (p->film->quadrants)
         quadrants_start_path(&p->quadrants, &path->seen, p->film->params.periodic);
+    for (const TargetNode *hit = path->last; hit; hit = hit->earlier)
+        hits[hit->number] = hit;
     if (path->count == 1)
         end_single(p, path, &indep, &white);
     else if (path->count)
-        end_several(p, path, &indep, &white);
+        end_several(p, path, hits, &indep, &white);
+    if (p->lamps)
+        lamps_end_path(p->lamps, path, hits, p->nodes);
     for (int c = 0; c < 3; c++)
         p->indep[c] += (double)indep[c];
     p->light->total_white += luminance4(white);
@@ -261,6 +266,8 @@ static void sum_signals(const void *pixel, SignalTotals *totals)
         signal_total(totals->of[1 + 2 * t], &p->targets[t].sharp, &p->film->plan);
         signal_total(totals->of[2 + 2 * t], &p->targets[t].broad, &p->film->plan);
     }
+    if (p->lamps)
+        lamps_totals(p->lamps, totals, 1 + 2 * p->film->scene->ntargets);
 }
 
 static int most_hits(int ntargets)

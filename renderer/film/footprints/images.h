@@ -53,6 +53,7 @@ typedef struct FootprintFilm {
     int quadrants; /* it has them */
     int indep;     /* C0 */
     TargetImages *targets;
+    struct LampImages *lamps; /* NULL where the scene has none */
 } FootprintFilm;
 
 /* Most clusters of a kind that a pixel may have on a target: sharp (kind 0), extra ones too, or broad (1). */

@@ -177,6 +177,7 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double indep[3];
     TargetClusters *targets;
+    struct LampPixel *lamps; /* NULL where the scene has none */
     Quadrants quadrants;
     Node nodes[TARGET_NODES_MAX];
     LightSums *light; /* of contributions */

@@ -1,5 +1,6 @@
 /* Choosing coefficients; see plan.h. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include "film/footprints/plan.h"
 
@@ -61,7 +62,7 @@ static void complete(Plan *plan, int ntargets, int first_mixed)
 void plan_make(Plan *plan, int ntargets, int orders, int factors)
 {
     unsigned char powers[RETEX_MAX_TARGETS] = {0};
-    int most = ntargets == 1 ? orders - 1 : factors - 1, together = combined(ntargets);
+    int most = ntargets == 0 ? 0 : ntargets == 1 ? orders - 1 : factors - 1, together = combined(ntargets);
     *plan = (Plan){.count = 0};
     for (int hits = 0; hits <= most && hits <= together; hits++)
         add_combinations(plan, ntargets, 0, hits, powers);
@@ -69,4 +70,17 @@ void plan_make(Plan *plan, int ntargets, int orders, int factors)
     for (int hits = together + 1; hits <= most; hits++)
         plan->coefficients[plan->count++].mixed = (unsigned char)hits;
     complete(plan, ntargets, first_mixed);
+}
+
+void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *word, int kind, int coefficient)
+{
+    const PlanCoefficient *c = &plan->coefficients[coefficient];
+    int used = snprintf(name, RETEX_NAME_MAX, "%.90s_%s%s", word,
+                        retex_footprint_kind_name(kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP),
+                        coefficient ? "_" : "");
+    if (c->mixed)
+        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        if (c->powers[t])
+            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + t, c->powers[t]);
 }

@@ -26,7 +26,12 @@ typedef struct Plan {
 /* Further hits that a coefficient stands for. */
 int plan_hits(const PlanCoefficient *coefficient);
 
-/* orders: most factors of one target, the first hit included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
+/* dep_Floor_sharp_a2b1: light of sharp clusters, then two hits of the first target and one of the second;
+ * dep_Floor_sharp_m5: then five of any. word: what it begins with, as dep_Floor; kind: 0 sharp, 1 broad. */
+void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *word, int kind, int coefficient);
+
+/* Without targets there is one coefficient, of light that meets none. orders: most factors of one target, the first hit
+ * included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
 void plan_make(Plan *plan, int ntargets, int orders, int factors);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <retex/host/rounding.h>
 #include <retex/target_name.h>
-#include "film/footprints/pixel.h"
+#include "film/footprints/lamps.h"
 
 #define PARTS_MAX 1490   /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
 #define PARTS_EXTRA 1024 /* extra clusters are given up beyond: half of what readers of EXR files take */
@@ -71,21 +71,6 @@ static int add_quadrants(FootprintFilm *film, QuadrantImages *q, int t, RetexErr
     return code;
 }
 
-/* dep_Floor_sharp_a2b1: sharp clusters, then two hits of the first target and one of the second;
- * dep_Floor_sharp_m5: then five of any. */
-static void interreflected_name(const Scene *scene, int t, int kind, const PlanCoefficient *c,
-                                char name[RETEX_NAME_MAX])
-{
-    char word[RETEX_NAME_MAX];
-    retex_target_word(word, scene->targets[t].name);
-    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", word, kind_name(kind));
-    if (c->mixed)
-        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
-    for (int other = 0; other < scene->ntargets; other++)
-        if (c->powers[other])
-            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + other, c->powers[other]);
-}
-
 /* correction_Floor, correction_Floor_sharp1 and so on: the number is that of the target's hits. */
 static int add_corrections(FootprintFilm *film, int t, RetexError *err)
 {
@@ -105,13 +90,15 @@ static int add_corrections(FootprintFilm *film, int t, RetexError *err)
 static int add_target(FootprintFilm *film, int t, RetexError *err)
 {
     TargetImages *target = &film->targets[t];
-    char name[RETEX_NAME_MAX];
+    char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX], light[RETEX_NAME_MAX];
     int code = RETEX_OK;
+    retex_target_word(word, film->scene->targets[t].name);
+    snprintf(light, sizeof light, "dep_%.80s", word);
     for (int kind = 0; kind < 2; kind++) {
         for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++)
             code = add_footprint(film, &target->kinds[kind].of[k], t, kind, k, err);
         for (int i = 1; i < film->plan.count && !code; i++) {
-            interreflected_name(film->scene, t, kind, &film->plan.coefficients[i], name);
+            plan_light_name(name, &film->plan, light, kind, i);
             code = bands_add(film->bands, name, "RGB", RETEX_HALF, &target->kinds[kind].interreflected[i], err);
         }
     }
@@ -129,7 +116,8 @@ static int parts_needed(const FootprintFilm *film)
 {
     const FilmParams *p = &film->params;
     return film->scene->ntargets * (CLUSTER_PARTS * (p->sharp + p->extra + p->broad) + 2 * film->plan.count +
-                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS);
+                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
+           film->scene->nlamps * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
 }
 
 int footprints_create(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
@@ -143,16 +131,18 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
-    while (film->params.extra > 0 && parts_needed(film) > PARTS_EXTRA)
+    const int most = scene->nlamps ? PARTS_MAX : PARTS_EXTRA;
+    while (film->params.extra > 0 && parts_needed(film) > most)
         film->params.extra--;
     if (parts_needed(film) > PARTS_MAX)
-        return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
-                          parts_needed(film), PARTS_MAX);
+        return retex_fail(err, RETEX_ELIMIT,
+                          "the set may need %d parts, more than %d: take fewer targets%s or clusters",
+                          parts_needed(film), PARTS_MAX, scene->nlamps ? ", lamps" : "");
     film->quadrants = params->quadrants && parts_needed(film) + scene->ntargets * QUADRANT_IMAGES <= PARTS_MAX;
     int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
     for (int t = 0; t < scene->ntargets && !code; t++)
         code = add_target(film, t, err);
-    return code;
+    return code ? code : lamps_create(film, err);
 }
 
 void footprints_close(void **out)
@@ -160,6 +150,7 @@ void footprints_close(void **out)
     FootprintFilm *film = *out;
     if (!film)
         return;
+    lamps_close(film);
     free(film->targets);
     free(film);
     *out = NULL;
@@ -170,7 +161,7 @@ long footprints_floats(const FilmParams *params, int ntargets)
     Plan plan;
     plan_make(&plan, ntargets, params->orders, RETEX_MAX_HITS);
     /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
-    return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1));
+    return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1)) + 3 * params->nlamps * (1 + 2 * ntargets);
 }
 
 /* ---- the finished pixel ---- */
@@ -358,6 +349,8 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     }
     p->quadrants.target = covered; /* corrections look at the stored images */
     store_interreflections(p, &at);
+    if (p->lamps)
+        lamps_store(p->lamps, rows, spp, x, y);
     corrections_store(p, rows, unit, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
         TargetClusters *target = &p->targets[t];

@@ -328,6 +328,7 @@ static void add_name(Sdl *sdl, Value *value, const char *name, int line)
         value->data = material;
         break;
     }
+    case VALUE_LIGHT:
     case VALUE_OBJECT: {
         Object *object = sdl_alloc(sdl, sizeof *object);
         *object = *(const Object *)value->data;

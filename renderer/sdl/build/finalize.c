@@ -337,6 +337,5 @@ void finalize_scene(Sdl *sdl)
     set_emission(sdl);
     find_caustics(sdl);
     complete_air(sdl);
-    scene_number_lamps(sdl_scene(sdl));
     list_all_names(sdl);
 }

@@ -180,6 +180,7 @@ static void add_instance(Sdl *sdl, const Object *object, const Inherited *around
                                                        .places = places_join(sdl, object->places, around->places),
                                                        .target = -1,
                                                        .texture_target = -1,
+                                                       .lamp = -1,
                                                        .line = object->line};
 }
 

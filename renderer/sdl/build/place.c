@@ -203,6 +203,7 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
     if (light->ops->settle)
         light->ops->settle(light);
     light->light_group = here->light_group;
+    light->idents = here->idents, light->places = here->places;
     if (object->projector)
         light->projected_through = placed_projector(sdl, object->projector, to_world);
 }

@@ -63,7 +63,7 @@ int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *er
     for (int i = 0; i < set->nmixtures && !code; i++)
         code = retex_set_add_mixture(copy, &set->mixtures[i], NULL, err);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (set->terms[i].role != RETEX_ROLE_PICTURE)
+        if (!retex_term_is_picture(&set->terms[i]))
             code = retex_set_add_term(copy, &set->terms[i], NULL, err);
     return code;
 }

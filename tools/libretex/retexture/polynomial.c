@@ -41,7 +41,9 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
             p->relit |= p->lamps && !corrects && value != parameter->kept[c];
         }
     }
-    p->picture = !params->terms_only && corrected && !count && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE);
+    const int original = !params->terms_only && corrected && !count;
+    p->picture = original && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE);
+    p->lamp_pictures = original && p->relit && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
 }
 
 /* ---- opening ---- */

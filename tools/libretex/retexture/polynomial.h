@@ -18,7 +18,8 @@ typedef struct RetexPolynomial {
                                                  corrections; 0: terms are grouped */
     char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
     int picture;                               /* 1: part 0 is the result, and there are no terms */
-    int lamps, relit;                          /* 1: the set has terms of lamps; they stand for all others */
+    int lamps, relit;                          /* 1: the set has terms of lamps; they stand for all others, */
+    int lamp_pictures;                         /* or the lamps' pictures do */
     RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
     float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
     RetexImage *reduced;                       /* factors that are smaller than the picture, by slot */

@@ -373,8 +373,10 @@ static int check_role(const RetexSet *set, const RetexTerm *term, RetexError *er
             weights += corrects && parameter->target == term->target ? 1 : 2;
         colors += parameter && parameter->kind == RETEX_PARAMETER_COLOR;
     }
-    if (term->role == RETEX_ROLE_LAMP && colors != 1)
+    if ((term->role == RETEX_ROLE_LAMP || term->role == RETEX_ROLE_LAMP_PICTURE) && colors != 1)
         return retex_fail(err, RETEX_EINVAL, "a lamp's light has one parameter of kind color, not %d", colors);
+    if (term->role == RETEX_ROLE_LAMP_PICTURE && term->nfactors != 1)
+        return retex_fail(err, RETEX_EINVAL, "a lamp's picture has no factor but its parameter");
     return weights == corrects
                ? RETEX_OK
                : retex_fail(err, RETEX_EINVAL, "corrections, and only they, have their target's weight");

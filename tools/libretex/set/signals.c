@@ -138,7 +138,7 @@ static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *er
 /* The light of all terms is in signals, and their corrections. */
 static int is_member(const RetexTerm *term)
 {
-    return term->role != RETEX_ROLE_PICTURE;
+    return !retex_term_is_picture(term);
 }
 
 /* Further hits are taken as grey, parameters as rendered, but those of lamps as 1; corrections, of either sign, do not

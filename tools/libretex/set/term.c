@@ -14,9 +14,18 @@ const char *retex_footprint_kind_name(int kind)
 
 const char *retex_role_name(int role)
 {
-    static const char *const names[RETEX_ROLES] = {"full",       "indep",   "dep",   "cross2",
-                                                   "cross3",     "sharp",   "broad", "interreflection",
-                                                   "correction", "picture", "lamp"};
+    static const char *const names[RETEX_ROLES] = {"full",
+                                                   "indep",
+                                                   "dep",
+                                                   "cross2",
+                                                   "cross3",
+                                                   "sharp",
+                                                   "broad",
+                                                   "interreflection",
+                                                   "correction",
+                                                   "picture",
+                                                   "lamp",
+                                                   "lamp_picture"};
 
     return names[role];
 }

@@ -129,11 +129,14 @@ typedef enum RetexRole {
     RETEX_ROLE_PICTURE,         /* part 0, without factors: the picture with all originals and all parameters as
                                    rendered. It is not added to the others: where nothing is edited it stands for their
                                    sum, from which rounding has not taken anything. At most one term has it */
-    RETEX_ROLE_LAMP             /* light of one lamp, for the value 1 of its parameter of kind COLOR, which is a factor.
+    RETEX_ROLE_LAMP,            /* light of one lamp, for the value 1 of its parameter of kind COLOR, which is a factor.
                                    Terms of this role are not added to the others: where a parameter has another value
                                    than `kept`, they stand for them all, but for corrections */
+    RETEX_ROLE_LAMP_PICTURE     /* the picture by one lamp with all originals, for the value 1 of its parameter of kind
+                                   COLOR, its only factor. Where no target is edited they stand for those of role LAMP,
+                                   as PICTURE does for all light */
 } RetexRole;
-enum { RETEX_ROLES = RETEX_ROLE_LAMP + 1 };
+enum { RETEX_ROLES = RETEX_ROLE_LAMP_PICTURE + 1 };
 
 typedef struct RetexTerm {
     RetexRole role;
@@ -155,8 +158,9 @@ typedef struct RetexParameter {
     RetexParameterKind kind;
     int target;     /* of CORRECTION: which is edited; else -1 */
     float value[3]; /* as rendered; not negative. CORRECTION: 0 */
-    float kept[3];  /* of COLOR, in sets with terms of role LAMP: its value in all other terms. It is `value`, but where
-                       that has a channel of 0: of a lamp that is off it is what makes it shine. 0 0 0 becomes `value` */
+    float kept[3];  /* of COLOR, in sets with terms of role LAMP: its value in all other terms. It is `value`, but
+                       where that has a channel of 0: of a lamp that is off it is what makes it shine. 0 0 0 becomes
+                       `value` */
     int several;    /* of COLOR: 1: the lamp has light of several colours, by which its value is multiplied; 0: the
                        value is the colour of its light */
 } RetexParameter;
@@ -250,10 +254,15 @@ static inline int retex_factor_is_hit(RetexFactor factor)
 {
     return retex_factor_is_texture(factor) && factor.quantity == RETEX_QUANTITY_COLOR;
 }
-/* 1: the term is part of the sum that is the picture as rendered; 0: a correction, the picture itself, or a lamp. */
+/* 1: the term is part of the sum that is the picture as rendered; 0: a correction, a picture, or a lamp. */
 static inline int retex_term_is_light(const RetexTerm *term)
 {
-    return term->role != RETEX_ROLE_CORRECTION && term->role != RETEX_ROLE_PICTURE && term->role != RETEX_ROLE_LAMP;
+    return term->role < RETEX_ROLE_CORRECTION;
+}
+/* 1: the term is a picture, of all light or of one lamp, that stands for the sum of others. */
+static inline int retex_term_is_picture(const RetexTerm *term)
+{
+    return term->role == RETEX_ROLE_PICTURE || term->role == RETEX_ROLE_LAMP_PICTURE;
 }
 /* The number of hits of a term: of its footprints and mixtures of quantity COLOR. */
 int retex_term_hits(const RetexTerm *term);

@@ -16,8 +16,8 @@ int retex_target_name_is_valid(const char *name);
 /* The target's name as names of parts have it: the name itself, if it has letters, digits, `_` and `-` only; else
  * these, with others replaced by `_`, and a checksum of the name. word: at most 79 bytes if it is not the name. */
 void retex_target_word(char word[RETEX_NAME_MAX], const char *name);
-/* The same of a lamp, and of a lamp's light that meets a target (or NULL) first: `lamp_LAMP` or `lamp_LAMP_TARGET`, with
- * a checksum where their names might be divided in another way or are long. word: at most 90 bytes. */
+/* The same of a lamp, and of a lamp's light that meets a target (or NULL) first: `lamp_LAMP` or `lamp_LAMP_TARGET`,
+ * with a checksum where their names might be divided in another way or are long. word: at most 90 bytes. */
 void retex_lamp_word(char word[RETEX_NAME_MAX], const char *lamp, const char *target);
 
 /* The targets of a set, or of a scene. */

@@ -7,8 +7,8 @@
  *
  *     total = sum over the terms t of the signal of  C_t L_t / 2^(hits of t - 1)
  *
- * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered, of terms of role LAMP
- * 1. Corrections do not count. Signals are `indep`, the terms without hits; by target and kind of the first hit's
+ * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered, of terms of role
+ * LAMP 1. Corrections do not count. Signals are `indep`, the terms without hits; by target and kind of the first hit's
  * footprint TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all. The
  * light of each lamp has such signals of its own: lamp_LAMP_indep, lamp_LAMP_TARGET_sharp and so on.
  *
