@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/half.h"
+#include "set/signals.h"
 
 /* Add a part of the set's size; returns its index. */
 static int add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type)
@@ -162,6 +163,38 @@ void test_divide_light(RetexSet *set)
         }
 }
 
+void test_add_lamp_terms(RetexSet *set, int off, int several)
+{
+    enum { LAMPS = 3 };
+    const RetexParameter lamps[LAMPS] = {
+        {"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}, {1, 0.5f, 2}, several},
+        {"Window", RETEX_PARAMETER_COLOR, -1, {(float)!off, (float)!off, (float)!off}, {1, 1, 1}, 0},
+        {"rest", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}, {1, 1, 1}, 0}};
+    RetexError err = {0};
+    const int nterms = set->nterms;
+    for (int k = 0; k < LAMPS; k++) {
+        int number;
+        test_must(retex_set_add_parameter(set, &lamps[k], &number, &err), &err);
+        for (int t = 0; t < nterms; t++) {
+            RetexTerm term = set->terms[t];
+            char name[64];
+            if (!retex_term_is_light(&term))
+                continue;
+            snprintf(name, sizeof name, "lamp%d_%d", k, t);
+            term.role = RETEX_ROLE_LAMP, term.radiance = add_part(set, name, "RGB", RETEX_HALF);
+            const RetexImage *from = &set->parts[set->terms[t].radiance].image;
+            const RetexImage *to = &set->parts[term.radiance].image;
+            for (int y = 0; y < set->height; y++)
+                for (int x = 0; x < set->width; x++)
+                    for (size_t c = 0, i = retex_image_index(from, x, y); c < 3; c++)
+                        to->pixels[i + c] = (float)(share_of_lamp(set, &term, k, x, y) * (double)from->pixels[i + c] /
+                                                    (double)lamps[k].kept[c]);
+            test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, number), &err), &err);
+            test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+        }
+    }
+}
+
 static void add_term(RetexSet *set, RetexRole role, int radiance, const int *factors, int nfactors)
 {
     RetexTerm term = test_term(set, radiance, nfactors, factors);
@@ -313,7 +346,15 @@ static void name_signal(const RetexSet *set, const RetexTerm *term, char name[RE
     static const char *const kinds[RETEX_ROLES] = {
         [RETEX_ROLE_DEP] = "hit",     [RETEX_ROLE_CROSS2] = "hit",  [RETEX_ROLE_CROSS3] = "hit",
         [RETEX_ROLE_SHARP] = "sharp", [RETEX_ROLE_BROAD] = "broad", [RETEX_ROLE_INTERREFLECTION] = "interreflection"};
-    if (kinds[term->role])
+    if (term->role == RETEX_ROLE_LAMP) {
+        const char *lamp = set->parameters[term->factors[term->nfactors - 1].index].name;
+        RetexFootprintKind kind;
+        int target = term->target;
+        if (target >= 0)
+            retex_factor_target(set, term->factors[0], &target, &kind);
+        retex_lamp_noise_part_name(name, lamp, target < 0 ? NULL : set->targets[target].name,
+                                   target < 0 ? RETEX_SIGNAL_INDEP : retex_footprint_kind_name((int)kind));
+    } else if (kinds[term->role])
         retex_noise_part_name(name, set->targets[term->target].name, kinds[term->role]);
     else
         retex_noise_part_name(name, NULL, RETEX_SIGNAL_INDEP);

@@ -43,6 +43,9 @@ void test_add_lamp(RetexSet *set, const char *name);
  * has no parameter: by where its first hit is on the target or, of mixtures, by the place in the picture. The picture
  * as rendered stays the same. */
 void test_divide_light(RetexSet *set);
+/* Add the light of each lamp, 'Lamp', 'Window' and 'rest', as terms of role LAMP. The second is off where `off` is 1:
+ * its value is 0, and it is kept as 1. The first has light of several colours where `several` is 1. */
+void test_add_lamp_terms(RetexSet *set, int off, int several);
 /* Give terms with hits the roles that follow from their footprints' kinds. */
 void test_renew_roles(RetexSet *set);
 

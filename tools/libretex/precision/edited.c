@@ -61,7 +61,7 @@ static int list_terms(Corrections *list, const RetexSet *set, int target)
         list->first[n] = count;
         for (int t = 0; t < set->nterms; t++)
             if (set->terms[t].role == RETEX_ROLE_CORRECTION && set->terms[t].target == target &&
-                retex_term_hits(&set->terms[t]) == n)
+                retex_term_hits(&set->terms[t]) == n && retex_set_term_lamp(set, &set->terms[t]) < 0)
                 list->terms[count++] = t, list->powers = n;
         list->first[n + 1] = count;
     }

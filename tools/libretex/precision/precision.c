@@ -43,7 +43,7 @@ struct RetexPrecision {
 
 /* Memory of one job. */
 typedef struct Scratch {
-    float *noise;       /* variances by signal, then of all together: of a band's pixels */
+    float *noise;       /* variances by signal, then of all light together: of a band's pixels */
     float *row;         /* sums over columns */
     double *deviations; /* of the pixel's noise, in the same order */
     double *light;      /* by footprint: light that it multiplies in the pixel */
@@ -69,7 +69,7 @@ static float rounded(RetexPrecisionKind kind, double value, double scale, double
 static int signal_of(const RetexPrecision *p, const RetexFootprint *f)
 {
     for (int s = 0; s < p->signals.count; s++)
-        if (p->signals.of[s].target == f->target && p->signals.of[s].kind == f->kind)
+        if (p->signals.of[s].target == f->target && p->signals.of[s].kind == f->kind && p->signals.of[s].lamp < 0)
             return s;
     return -1;
 }
@@ -207,7 +207,7 @@ static void find_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows
     for (int k = 0; k < p->signals.count && p->has_noise; k++) {
         float *one = s->noise + (size_t)k * pixels;
         average_noise(one, s->row, rows, p->signals.of[k].noise, y0, lines, p->remaining);
-        for (size_t i = 0; i < (size_t)rows->width * (size_t)lines; i++)
+        for (size_t i = 0; i < (size_t)rows->width * (size_t)lines && p->signals.of[k].lamp < 0; i++)
             all[i] += one[i];
     }
 }
@@ -227,13 +227,14 @@ static double noise_of(const RetexPrecision *p, const Scratch *s, int signal)
 
 /* ---- one pixel ---- */
 
-/* How much light every footprint and every mixture multiplies, further hits being grey. */
+/* How much light every footprint and every mixture multiplies, further hits being grey. Light of lamps is the same
+ * light again. */
 static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at)
 {
     memset(s->light, 0, sizeof *s->light * (size_t)(p->nfootprints + 1));
     memset(s->mixed, 0, sizeof *s->mixed * (size_t)(p->nmixtures + 1));
     for (int k = 0; k < p->signals.count; k++)
-        for (int m = 0; m < p->signals.of[k].nmembers; m++) {
+        for (int m = 0; m < p->signals.of[k].nmembers && p->signals.of[k].lamp < 0; m++) {
             const RetexSignalMember *member = &p->signals.of[k].members[m];
             const RetexTerm *term = &rows->terms[member->term];
             const double light = retex_mean_size(retex_pixel_at(rows, member->part, at)) * (double)member->weight;

@@ -28,13 +28,34 @@ static float *radiance_of(const RetexPixelLight *p, int term)
     return retex_pixel_at(p->rows, p->rows->terms[term].radiance, p->at);
 }
 
+static double largest_channel(const double sum[3])
+{
+    return (double)(float)fmax(sum[0], fmax(sum[1], sum[2]));
+}
+
 static double white_pixel(const RetexPixelLight *p)
 {
     double sum[3] = {0, 0, 0};
     for (int t = 0; t < p->rows->nterms; t++)
         for (int c = 0; c < 3 && retex_term_is_light(&p->rows->terms[t]); c++)
             sum[c] += (double)radiance_of(p, t)[c];
-    return (double)(float)fmax(sum[0], fmax(sum[1], sum[2]));
+    return largest_channel(sum);
+}
+
+static double white_pixel_of_lamp(const RetexPixelLight *p, int lamp)
+{
+    double sum[3] = {0, 0, 0};
+    for (int k = 0; k < p->signals->count; k++)
+        for (int m = 0; m < p->signals->of[k].nmembers && p->signals->of[k].lamp == lamp; m++)
+            for (int c = 0; c < 3 && !p->signals->of[k].members[m].corrects; c++)
+                sum[c] += (double)retex_pixel_at(p->rows, p->signals->of[k].members[m].part, p->at)[c];
+    return largest_channel(sum);
+}
+
+/* What a signal's light is part of. */
+static double white_of(const RetexPixelLight *p, const RetexSignal *signal)
+{
+    return signal->lamp < 0 ? p->white : p->whites[signal->lamp];
 }
 
 /* ---- light ---- */
@@ -42,18 +63,18 @@ static double white_pixel(const RetexPixelLight *p)
 /* The unit for a signal's light; 0: it stays as it is. */
 static double light_unit(const RetexPixelLight *p, int signal)
 {
-    const double noise = p->noise[signal];
+    const double noise = p->noise[signal], white = white_of(p, &p->signals->of[signal]);
     if (p->has_noise ? !(noise > 0) : p->signals->of[signal].target < 0)
         return 0;
-    return retex_round_unit(p->white > 0 ? retex_precision_step(RETEX_PRECISION_LIGHT, p->white, noise / p->white) : 0);
+    return retex_round_unit(white > 0 ? retex_precision_step(RETEX_PRECISION_LIGHT, white, noise / white) : 0);
 }
 
 /* The unit for the number that closes the sum of a signal. */
 static double closing_unit(const RetexPixelLight *p, const RetexSignal *signal, const float light[3], double unit)
 {
     const double own = (double)fmaxf(fabsf(light[0]), fmaxf(fabsf(light[1]), fabsf(light[2])));
-    const double step = SUM_STEP * (signal->target < 0 ? own : p->white);
-    const double finest = retex_precision_step(RETEX_PRECISION_LIGHT, p->white, 0);
+    const double white = white_of(p, signal), step = SUM_STEP * (signal->target < 0 ? own : white);
+    const double finest = retex_precision_step(RETEX_PRECISION_LIGHT, white, 0);
     return fmin(unit, retex_round_unit(fmax(step, finest)));
 }
 
@@ -161,6 +182,8 @@ static void correct(const RetexPixelLight *p, int target)
 void retex_pixel_light_keep(RetexPixelLight *p)
 {
     p->white = white_pixel(p);
+    for (int i = 0; i < p->rows->nparameters; i++)
+        p->whites[i] = white_pixel_of_lamp(p, i);
     for (int t = 0; t < p->rows->ntargets; t++)
         retex_edited_light(p->edited, p->rows, t, p->at, p->before[t]);
 }
