@@ -136,8 +136,8 @@ static double share_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp
 
 void test_divide_light(RetexSet *set)
 {
-    RetexParameter lamps[2] = {{"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}},
-                               {"Window", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}}};
+    RetexParameter lamps[2] = {{"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}, {1, 0.5f, 2}, 0},
+                               {"Window", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}, {1, 1, 1}, 0}};
     RetexError err = {0};
     const int nterms = set->nterms;
     int numbers[2];

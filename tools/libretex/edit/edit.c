@@ -10,6 +10,7 @@
 #include <retex/nearest.h>
 
 #include "edit/edit.h"
+#include "edit/lights.h"
 #include "edit/statement.h"
 
 enum { STATEMENT_MAX = 4096 }; /* bytes of a statement, and of the options of a texture */
@@ -28,7 +29,7 @@ void retex_edit_close(RetexEdit **edit)
 
 void retex_edit_clear(RetexEdit *edit)
 {
-    edit->count = 0;
+    edit->count = edit->nlights = 0;
 }
 
 int retex_edit_count(const RetexEdit *edit)
@@ -69,7 +70,7 @@ static int find_texture(RetexEdit *edit, const char *target, int *index, RetexEr
 static const char *find_option(const char *key)
 {
     const char *dot = strrchr(key, '.');
-    return dot && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
+    return dot && !retex_edit_key_lamp(key) && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
 }
 
 int retex_edit_key_is_option(const char *key)
@@ -79,7 +80,8 @@ int retex_edit_key_is_option(const char *key)
 
 static int no_statement(const char *key, RetexError *err)
 {
-    return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE or TARGET.OPTION=VALUE", key);
+    return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE or light:LAMP=VALUE",
+                      key);
 }
 
 static int state(RetexEdit *edit, const char *target, const char *option /* or NULL */, const char *value,
@@ -105,7 +107,8 @@ int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexErr
     memcpy(target, key, length);
     target[length] = '\0';
     RetexEdit next = *edit;
-    const int code = state(&next, target, option, value, err);
+    const char *lamp = retex_edit_key_lamp(target);
+    const int code = lamp ? retex_edit_add_light(&next, lamp, value, err) : state(&next, target, option, value, err);
     if (!code)
         *edit = next;
     return code;
@@ -153,7 +156,10 @@ static int parse_statement(RetexEdit *edit, char *text, RetexError *err)
         option[-1] = '\0';
     decode(text);
     decode(value);
-    return *text && *value ? state(edit, text, option, value, err) : no_statement(text, err);
+    if (!*text || !*value)
+        return no_statement(text, err);
+    const char *lamp = retex_edit_key_lamp(text);
+    return lamp ? retex_edit_add_light(edit, lamp, value, err) : state(edit, text, option, value, err);
 }
 
 int retex_edit_parse(RetexEdit *edit, const char *text, RetexError *err)
@@ -280,7 +286,8 @@ int retex_target_find(int *target, const RetexTargetNames *names, const char *na
 
 int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err)
 {
-    RetexEdit next = {.count = 0};
+    RetexEdit next = *edit;
+    next.count = 0;
     for (int i = 0; i < edit->count; i++) {
         int target, at, code = retex_target_find(&target, names, edit->specs[i].target, err);
         if (!code)

@@ -54,6 +54,15 @@ int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError 
             write_key(file, edit->specs[i].target, retex_statement_kinds[k].word);
             write_encoded(file, value, NULL);
         }
+    for (int i = 0; i < edit->nlights && file; i++) {
+        char value[RETEX_LAMP_TEXT_MAX];
+        if (i || edit->count)
+            fputc(divider, file);
+        fputs("light:", file);
+        write_encoded(file, edit->lights[i].lamp, NULL);
+        retex_lamp_value_text(&edit->lights[i].value, value);
+        fprintf(file, "=%s", value);
+    }
     return close_text(file, text, err);
 }
 

@@ -97,6 +97,15 @@ int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term)
     return term->role == RETEX_ROLE_LAMP || retex_set_has_role(set, RETEX_ROLE_LAMP) ? lamp : -1;
 }
 
+int retex_set_has_lamps(const RetexSet *set)
+{
+    int lamps = 0;
+
+    for (int i = 0; i < set->nparameters; i++)
+        lamps |= set->parameters[i].kind == RETEX_PARAMETER_COLOR;
+    return lamps;
+}
+
 int retex_set_has_role(const RetexSet *set, RetexRole role)
 {
     for (int t = 0; t < set->nterms; t++)

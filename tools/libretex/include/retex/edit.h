@@ -7,14 +7,17 @@
  *     TARGET=COLOUR          a colour, see retex/color_text.h
  *     TARGET.OPTION=VALUE    how the texture lies; OPTION is scale, rotate, offset, flip, wrap, repeat, width or
  *                            colorspace, see RetexTextureSpec
+ *     light:LAMP=VALUE       a lamp's new value, see retex/lamp.h; LAMP `*` is all lamps that the edit does not name
  *
  * as in `Floor=oak.jpg;Floor.scale=2,1;Wall=tomato`. What follows the last point of a key is an option if it is the
  * word of one; else the point belongs to the name of the target. Calls that add to an edit leave it as it was where
  * they fail, with RETEX_EPARSE and a message that says what would be right, or RETEX_EINVAL for a second texture on one
- * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target. */
+ * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target, and then the values of lamps, sorted by
+ * lamp. */
 #ifndef RETEX_EDIT_H
 #define RETEX_EDIT_H
 
+#include <retex/lamp.h>
 #include <retex/target_name.h>
 #include <retex/texture.h>
 
@@ -45,6 +48,13 @@ int retex_edit_check(const RetexEdit *edit, RetexError *err);
 int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err);
 /* Add the texture of a cell of a table, for the target that its column has: IMAGE or `:opts IMAGE`. */
 int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err);
+/* Add the value of an option of a command line, --light NAME=VALUE. */
+int retex_edit_light(RetexEdit *edit, const char *arg, RetexError *err);
+/* Turn off all lamps that the edit does not name, but this one, which stays as it is: `light:*=0;light:LAMP=1`. A lamp
+ * that was rendered while it was off is turned on. */
+int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err);
+/* Add the lamps of another edit that this one does not name. */
+int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err);
 /* Whether a key is TARGET.OPTION. */
 int retex_edit_key_is_option(const char *key);
 
@@ -66,7 +76,10 @@ int retex_edit_count(const RetexEdit *edit);
  * become sizeof(RetexTextureSpec): the library may know more members than its caller. */
 RetexTextureSpec *retex_edit_texture(RetexEdit *edit, int index);
 
-/* ---- the targets that there are ---- */
+/* How many lamps it names, `*` among them. */
+int retex_edit_lights(const RetexEdit *edit);
+
+/* ---- the targets and lamps that there are ---- */
 
 /* The index of the target that a name means, as retex_target_index, or -1. RETEX_ENOTFOUND lists what there is, with
  * the nearest name; RETEX_EPARSE where it is a target's name with an option that there is not. */
@@ -74,6 +87,11 @@ int retex_target_find(int *target, const RetexTargetNames *names, const char *na
 /* Give the targets of an edit the names that the set, or scene, has them by. RETEX_EINVAL where two are one there.
  * After a failure the edit is as it was. */
 int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err);
+/* The same of its lamps, as retex_lamp_find finds them. */
+int retex_edit_bind_lamps(RetexEdit *edit, const RetexSet *set, RetexError *err);
+/* The values of a set's parameters, three numbers each, for RetexCombineParams: as rendered, but where the edit has
+ * another one for a lamp. Its lamps need not be bound. */
+int retex_edit_parameters(const RetexEdit *edit, const RetexSet *set, float *values, RetexError *err);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,7 @@
 #include <retex/file_sum.h>
 #include <retex/image.h>
 #include <retex/image_file.h>
+#include <retex/lamp.h>
 #include <retex/metrics.h>
 #include <retex/output_file.h>
 #include <retex/pack.h>

@@ -1,0 +1,137 @@
+/* The statements of an edit about lamps: see retex/edit.h. */
+#include "edit/lights.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "edit/edit.h"
+#include "set/set.h"
+
+#define PREFIX "light:"
+#define OTHERS "*"
+
+const char *retex_edit_key_lamp(const char *key)
+{
+    return strncmp(key, PREFIX, strlen(PREFIX)) == 0 ? key + strlen(PREFIX) : NULL;
+}
+
+/* The place of a lamp among the lights; *there: 1 if it has a value. */
+static int place_of(const RetexEdit *edit, const char *lamp, int *there)
+{
+    int at = 0, order = 1;
+    while (at < edit->nlights && (order = strcmp(edit->lights[at].lamp, lamp)) < 0)
+        at++;
+    *there = at < edit->nlights && order == 0;
+    return at;
+}
+
+static int insert(RetexEdit *edit, const char *lamp, const RetexLampValue *value, RetexError *err)
+{
+    int there, at = place_of(edit, lamp, &there);
+    if (there)
+        return retex_fail(err, RETEX_EPARSE, "light:%s is given twice", lamp);
+    if (edit->nlights == RETEX_EDIT_LIGHTS_MAX)
+        return retex_fail(err, RETEX_EPARSE, "values for more than %d lamps", RETEX_EDIT_LIGHTS_MAX);
+    memmove(edit->lights + at + 1, edit->lights + at, (size_t)(edit->nlights++ - at) * sizeof *edit->lights);
+    edit->lights[at] = (RetexEditLight){.value = *value};
+    snprintf(edit->lights[at].lamp, sizeof edit->lights[at].lamp, "%s", lamp);
+    return RETEX_OK;
+}
+
+int retex_edit_add_light(RetexEdit *edit, const char *lamp, const char *value, RetexError *err)
+{
+    RetexLampValue parsed;
+    if (!*lamp || strlen(lamp) >= sizeof edit->lights->lamp)
+        return retex_fail(err, RETEX_EPARSE, "`light:%.40s`: a lamp's name has 1 to %d bytes", lamp,
+                          (int)sizeof edit->lights->lamp - 1);
+    const int code = retex_lamp_value_parse(&parsed, value, err);
+    return code ? code : insert(edit, lamp, &parsed, err);
+}
+
+int retex_edit_light(RetexEdit *edit, const char *arg, RetexError *err)
+{
+    char lamp[RETEX_NAME_MAX + 1];
+    const char *equals = arg ? strrchr(arg, '=') : NULL;
+    if (!equals || equals == arg || !equals[1])
+        return retex_fail(err, RETEX_EPARSE, "light '%s': expected NAME=VALUE, a lamp and a number, colour or kelvins",
+                          arg ? arg : "");
+    snprintf(lamp, sizeof lamp, "%.*s", (int)(equals - arg), arg);
+    return retex_edit_add_light(edit, lamp, equals + 1, err);
+}
+
+int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int there, code = RETEX_OK;
+    place_of(&next, OTHERS, &there);
+    if (!there)
+        code = retex_edit_add_light(&next, OTHERS, "0", err);
+    place_of(&next, lamp, &there);
+    if (!code && !there)
+        code = retex_edit_add_light(&next, lamp, "1", err);
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+int retex_edit_lights(const RetexEdit *edit)
+{
+    return edit->nlights;
+}
+
+int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int code = RETEX_OK;
+    for (int i = 0; i < from->nlights && !code; i++) {
+        int there;
+        place_of(&next, from->lights[i].lamp, &there);
+        if (!there)
+            code = insert(&next, from->lights[i].lamp, &from->lights[i].value, err);
+    }
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+/* ---- the lamps that there are ---- */
+
+int retex_edit_bind_lamps(RetexEdit *edit, const RetexSet *set, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int code = RETEX_OK;
+    next.nlights = 0;
+    for (int i = 0; i < edit->nlights && !code; i++) {
+        const char *name = edit->lights[i].lamp;
+        int lamp = -1;
+        if (strcmp(name, OTHERS) != 0 || !retex_set_has_lamps(set))
+            code = retex_lamp_find(&lamp, set, name, err);
+        if (!code)
+            code = insert(&next, lamp < 0 ? name : set->parameters[lamp].name, &edit->lights[i].value, err);
+    }
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+int retex_edit_parameters(const RetexEdit *edit, const RetexSet *set, float *values, RetexError *err)
+{
+    RetexEdit *bound = malloc(sizeof *bound);
+    int code = bound ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for an edit");
+    if (!code) {
+        *bound = *edit;
+        code = retex_edit_bind_lamps(bound, set, err);
+    }
+    for (int i = 0; i < set->nparameters && !code; i++) {
+        const RetexParameter *lamp = &set->parameters[i];
+        int there, at = place_of(bound, lamp->name, &there);
+        if (!there)
+            at = place_of(bound, OTHERS, &there);
+        memcpy(values + 3 * i, lamp->value, sizeof lamp->value);
+        if (there && lamp->kind == RETEX_PARAMETER_COLOR)
+            code = retex_lamp_value_apply(values + 3 * i, &bound->lights[at].value, lamp, err);
+    }
+    free(bound);
+    return code;
+}
