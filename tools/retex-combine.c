@@ -9,6 +9,8 @@
 
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts as in retex-sample", 1},
+    {"light", 0, "NAME=VALUE", "give lamp NAME another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K", 0},
+    {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
     {"display", 0, "NAME", "OCIO display for the picture", 0},
     {"view", 0, "NAME", "OCIO view of that display", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
@@ -26,8 +28,17 @@ static const CliOption options[] = {
     {0},
 };
 
+static void check(const Cli *cli, int code, const RetexError *err)
+{
+    if (code)
+        cli_fail(cli, err);
+}
+
 static void parse(Cli *cli, Job *job)
 {
+    RetexError err = {0};
+    RetexEdit *solo = NULL;
+    check(cli, retex_edit_create(&job->lights, &err) || retex_edit_create(&solo, &err), &err);
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
             if (job->samples_path)
@@ -35,6 +46,10 @@ static void parse(Cli *cli, Job *job)
             *(job->set_path ? &job->samples_path : &job->set_path) = cli->value;
         } else if (strcmp(option->name, "texture") == 0) {
             texture_args_add(cli, &job->textures);
+        } else if (strcmp(option->name, "light") == 0) {
+            check(cli, retex_edit_light(job->lights, cli->value, &err), &err);
+        } else if (strcmp(option->name, "solo") == 0) {
+            check(cli, retex_edit_solo(solo, cli->value, &err), &err);
         } else if (strcmp(option->name, "display") == 0) {
             job->write.display = cli->value;
         } else if (strcmp(option->name, "view") == 0) {
@@ -63,6 +78,8 @@ static void parse(Cli *cli, Job *job)
             cli_take_progress(cli);
         }
     }
+    check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
+    retex_edit_close(&solo);
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
     const int keep_going = job->batch.keep_going;
@@ -142,5 +159,6 @@ int main(int argc, char **argv)
         cli_fail(&cli, &err);
     int status = job.table ? job_run_table(&cli, &job) : make_single(&cli, &job, began);
     job_close(&job);
+    retex_edit_close(&job.lights);
     return cli_close(&cli, status);
 }

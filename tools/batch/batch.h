@@ -45,6 +45,8 @@ typedef struct BatchTool {
     int (*check)(void *context, const RetexTextureSpec *spec, RetexError *err);
     /* Add the textures of the command line to those of a row; return their number. NULL = there are none. */
     int (*complete)(void *context, RetexTextureSpec specs[RETEX_MAX_TARGETS], int count);
+    /* Make the text, to be freed, of the lamps of a row, "" where it changes none; NULL = no row does. */
+    int (*lights)(void *context, int row, char **text, RetexError *err);
     /* List all new textures of the picture; return their number. */
     int (*describe)(void *context, const RetexTextureSpec *specs, int count, BatchTexture textures[RETEX_MAX_TARGETS]);
     /* batch_run: get ready for the rows that batch_is_wanted, of which there are some. */

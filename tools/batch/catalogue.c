@@ -86,7 +86,13 @@ static int sources_of(Batch *batch, int row, char **text, RetexError *err)
     int count = texture_table_textures(&batch->table, row, specs);
     if (batch->tool.complete)
         count = batch->tool.complete(batch->tool.context, specs, count);
-    return batch_sources_text(text, &batch->sources, texture_table_output(&batch->table, row), specs, count, err);
+    char *lights = NULL;
+    int code = batch->tool.lights ? batch->tool.lights(batch->tool.context, row, &lights, err) : RETEX_OK;
+    if (!code)
+        code = batch_sources_text(text, &batch->sources, texture_table_output(&batch->table, row), specs, count,
+                                  lights ? lights : "", err);
+    free(lights);
+    return code;
 }
 
 /* The state of a row's picture. In --verify, a source that cannot be read makes it stale; lack of memory says nothing

@@ -97,7 +97,7 @@ static int compare_targets(const void *a, const void *b)
 }
 
 static int print_sources(FILE *file, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
-                         RetexError *err)
+                         const char *lights, RetexError *err)
 {
     const char *set = "", *samples = "";
     int code = sum_file(&set, &sources->sums, sources->set, NULL, err);
@@ -121,16 +121,20 @@ static int print_sources(FILE *file, BatchSources *sources, const char *output, 
         code = print_texture(file, &sources->sums, &specs[i], err);
     }
     fprintf(file, "}");
+    if (*lights) {
+        fprintf(file, ", \"lights\": ");
+        json_text(file, lights);
+    }
     return code;
 }
 
 int batch_sources_text(char **text, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
-                       RetexError *err)
+                       const char *lights, RetexError *err)
 {
     size_t bytes;
     *text = NULL;
     FILE *file = open_memstream(text, &bytes);
-    int code = file ? print_sources(file, sources, output, specs, count, err) : RETEX_ENOMEM;
+    int code = file ? print_sources(file, sources, output, specs, count, lights, err) : RETEX_ENOMEM;
     if (!file || !close_text(file) || code == RETEX_ENOMEM)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for a line of the manifest");
     if (code) {

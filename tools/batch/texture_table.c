@@ -194,7 +194,7 @@ static int next_row(Reader *reader, TableRow *row)
     reader->fault = NULL;
     for (;;) {
         char *cell = next_cell(reader), end = *reader->at;
-        if (row->ncells == 1 + RETEX_MAX_TARGETS) {
+        if (row->ncells == 1 + TABLE_COLUMNS_MAX) {
             reader->fault = reader->fault ? reader->fault : "too many cells";
         } else {
             table->cells =
@@ -213,12 +213,22 @@ static int next_row(Reader *reader, TableRow *row)
     }
 }
 
+const char *texture_table_lamp(const TextureTable *table, int column)
+{
+    static const char prefix[] = "light:";
+    const char *name = table->columns[column];
+    return strncmp(name, prefix, sizeof prefix - 1) == 0 ? name + sizeof prefix - 1 : NULL;
+}
+
 /* Parse a cell that is not empty. */
 static int parse_cell(const TextureTable *table, RetexTextureSpec *spec, int column, const char *cell, RetexError *err)
 {
+    const char *name = table->columns[column];
+    const int is_lamp = texture_table_lamp(table, column) != NULL;
     retex_edit_clear(table->edit);
-    const int code = retex_edit_cell(table->edit, table->columns[column], cell, err);
-    if (!code)
+    const int code =
+        is_lamp ? retex_edit_set(table->edit, name, cell, err) : retex_edit_cell(table->edit, name, cell, err);
+    if (!code && !is_lamp)
         *spec = *retex_edit_texture(table->edit, 0);
     return code;
 }
@@ -256,9 +266,16 @@ static int read_columns(Reader *reader)
         texture_table_mistake(table, TABLE_ITSELF, "the first row must name the columns: output, then targets");
         return 0;
     }
-    table->ncolumns = row.ncells - 1;
-    for (int i = 0; i < table->ncolumns; i++)
+    int targets = 0;
+    for (int i = 0; i < row.ncells - 1; i++) {
         table->columns[i] = table->cells[1 + i];
+        targets += !texture_table_lamp(table, i);
+    }
+    if (targets > RETEX_MAX_TARGETS) {
+        texture_table_mistake(table, TABLE_ITSELF, "too many cells");
+        return 0;
+    }
+    table->ncolumns = row.ncells - 1;
     return 1;
 }
 
@@ -302,7 +319,7 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
 {
     const TableRow *r = &table->rows[row];
     char *cell = column + 1 < r->ncells ? table->cells[r->first + 1 + (size_t)column] : NULL;
-    if (!cell || !*cell)
+    if (!cell || !*cell || texture_table_lamp(table, column))
         return RETEX_ENOTFOUND;
     const int code = parse_cell(table, spec, column, cell, NULL);
     if (code)
@@ -319,6 +336,18 @@ int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec 
     for (int i = 0; i < table->ncolumns; i++)
         count += !texture_table_texture(table, row, i, &specs[count], &image);
     return count;
+}
+
+int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, RetexError *err)
+{
+    const TableRow *r = &table->rows[row];
+    int code = RETEX_OK;
+    for (int i = 0; i < table->ncolumns && i + 1 < r->ncells && !code; i++) {
+        const char *cell = table->cells[r->first + 1 + (size_t)i];
+        if (*cell && texture_table_lamp(table, i))
+            code = retex_edit_set(edit, table->columns[i], cell, err);
+    }
+    return code;
 }
 
 void texture_table_close(TextureTable *table)

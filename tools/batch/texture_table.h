@@ -1,6 +1,7 @@
 /* A table of pictures: comma-separated values (RFC 4180), or values between semicolons or tabs, as spreadsheets write
- * them in other countries. The first row names the columns: output, then targets. Each further row is a picture: its
- * file, then for each target a texture as retex_edit_cell reads it, or nothing. The whole table is read at once.
+ * them in other countries. The first row names the columns: output, then targets, and `light:LAMP`. Each further row is a
+ * picture: its file, then for each target a texture as retex_edit_cell reads it, for each lamp a value, or nothing. The
+ * whole table is read at once.
  * Mistakes are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H
@@ -12,6 +13,7 @@
 /* Maximum bytes of a table; maximum numbers of mistakes that are kept and that are printed. The others are only
  * counted. */
 enum { TABLE_BYTES_MAX = 64 << 20, TABLE_MISTAKES_MAX = 10000, TABLE_MISTAKES_TOLD = 20 };
+enum { TABLE_COLUMNS_MAX = RETEX_MAX_TARGETS + 32 };
 enum { TABLE_ITSELF = -1 }; /* in place of a row: the mistake concerns the whole table */
 
 /* One picture. */
@@ -39,8 +41,8 @@ typedef struct TextureTable {
     TableRow *rows;
     size_t ncells;
     int nrows;
-    int ncolumns;                           /* number of columns with targets */
-    const char *columns[RETEX_MAX_TARGETS]; /* names as in the file; the caller may replace them */
+    int ncolumns;                           /* number of columns with targets and lamps */
+    const char *columns[TABLE_COLUMNS_MAX]; /* names as in the file; the caller may replace those of targets */
     TableMistake *mistakes;                 /* sorted by texture_table_tell */
     size_t mistakes_capacity;
     int nmistakes; /* number of all mistakes */
@@ -54,11 +56,16 @@ void texture_table_close(TextureTable *table);
 
 /* The output of a row, as in the file. */
 const char *texture_table_output(const TextureTable *table, int row);
-/* The texture of a row for a column's target; RETEX_ENOTFOUND if the cell is empty, RETEX_EPARSE if it is wrong.
+/* The texture of a row for a column's target; RETEX_ENOTFOUND if the cell is empty or a lamp's,
+ * RETEX_EPARSE if it is wrong.
  * *image, its name, is valid until the table is closed. */
 int texture_table_texture(const TextureTable *table, int row, int column, RetexTextureSpec *spec, const char **image);
 /* All textures of a row that are not wrong; returns their number. */
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS]);
+/* The lamp of a column, or NULL. */
+const char *texture_table_lamp(const TextureTable *table, int column);
+/* Add the lamps of a row to an edit. */
+int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, RetexError *err);
 
 /* Add a mistake of a row, or of the table itself, which line 1 stands for. */
 void texture_table_mistake(TextureTable *table, int row, const char *fmt, ...) RETEX_PRINTF(3, 4);

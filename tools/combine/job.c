@@ -91,6 +91,17 @@ int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count,
     return code;
 }
 
+int job_light(Job *job, const RetexEdit *lights, RetexError *err)
+{
+    job->combine.parameters = NULL;
+    if (!retex_edit_lights(lights))
+        return RETEX_OK;
+    const int code = retex_edit_parameters(lights, job->set, job->parameters, err);
+    if (!code)
+        job->combine.parameters = job->parameters;
+    return code;
+}
+
 void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS])
 {
     const int ntargets = retex_set_info(job->set).ntargets;

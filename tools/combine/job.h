@@ -18,6 +18,8 @@ typedef struct Job {
     uint64_t memory; /* bytes of the set that --batch may keep in memory */
     RetexWriteParams write;
     RetexCombineParams combine;
+    RetexEdit *lights; /* of the command line */
+    float parameters[3 * RETEX_PARAMETERS_MAX];
     RetexSet *set;         /* rows are read when they are needed */
     RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
 } Job;
@@ -35,6 +37,8 @@ int job_open(const Cli *cli, Job *job, RetexError *err);
 void job_close(Job *job);
 /* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
 int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
+/* Give the parameters of the set the values that an edit has for its lamps. */
+int job_light(Job *job, const RetexEdit *lights, RetexError *err);
 /* Add the targets whose corrections a picture with these textures uses. */
 void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS]);
 /* Keep the open set in memory if it fits. */
@@ -47,6 +51,7 @@ typedef struct Row {
     const RetexTextureSpec *specs;
     int count;
     RetexTexture *const *textures; /* by target */
+    const RetexEdit *lights;
 } Row;
 
 /* List the new textures of a picture; return their number. */

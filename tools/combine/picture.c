@@ -35,12 +35,18 @@ int job_describe(const Job *job, const RetexTextureSpec *specs, int count, Batch
 static const char *describe(const Job *job, const Row *row, char *text, size_t size)
 {
     BatchTexture textures[RETEX_MAX_TARGETS];
+    char *lights = NULL;
     const int count = job_describe(job, row->specs, row->count, textures);
     size_t used = 0;
     for (int i = 0; i < count && used < size; i++)
         used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", i ? ", " : "", textures[i].target,
                                  textures[i].texture);
-    return used ? text : "original textures";
+    if (!used)
+        used += (size_t)snprintf(text, size, "original textures");
+    if (retex_edit_lights(row->lights) && used < size && !retex_edit_text(row->lights, ';', &lights, NULL))
+        snprintf(text + used, size - used, ", %s", lights);
+    free(lights);
+    return text;
 }
 
 static int write_rows(void *picture, int y0, int y1, const float *rows, RetexError *err)
@@ -145,8 +151,10 @@ void job_report(const Cli *cli, const char *output, double began, int done, int 
 
 int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err)
 {
-    const Row row = {job->textures.specs, job->textures.count, kept->textures};
-    int code = kept_textures_load(kept, job->set, row.specs, row.count, cli->threads, err);
+    const Row row = {job->textures.specs, job->textures.count, kept->textures, job->lights};
+    int code = job_light(job, job->lights, err);
+    if (!code)
+        code = kept_textures_load(kept, job->set, row.specs, row.count, cli->threads, err);
     if (!code) {
         cli_detail(cli, "ready after %.2f s", retex_clock_seconds() - began);
         code = job_make_picture(cli, job, &row, job->output, began, err);

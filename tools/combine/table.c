@@ -29,6 +29,8 @@ static void find_columns(TextureTable *table, const RetexSet *set)
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
         int t;
+        if (texture_table_lamp(table, i))
+            continue;
         if (retex_target_find(&t, &names, table->columns[i], &err)) {
             texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
             continue;
@@ -39,12 +41,52 @@ static void find_columns(TextureTable *table, const RetexSet *set)
     }
 }
 
+/* Find the columns of lamps, each by itself: all mistakes are told. */
+static void find_lamps(TextureTable *table, const RetexSet *set)
+{
+    int taken[RETEX_PARAMETERS_MAX] = {0};
+    for (int i = 0; i < table->ncolumns; i++) {
+        RetexError err = {0};
+        const char *name = texture_table_lamp(table, i);
+        int lamp = -1;
+        if (!name || (strcmp(name, "*") == 0 && retex_set_has_lamps(set)))
+            continue;
+        if (retex_lamp_find(&lamp, set, name, &err))
+            texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
+        else if (taken[lamp]++)
+            texture_table_mistake(table, TABLE_ITSELF, "lamp '%s' has two columns", name);
+    }
+}
+
 /* The context of a batch. */
 typedef struct Table {
     const Cli *cli;
     Job *job;
     KeptTextures kept;
 } Table;
+
+/* The lamps of a row, and those of --light that it does not name. */
+static int light_row(const Job *job, int row, RetexEdit **lights, RetexError *err)
+{
+    int code = retex_edit_create(lights, err);
+    if (!code)
+        code = texture_table_lights(&job->batch.table, row, *lights, err);
+    if (!code)
+        code = retex_edit_bind_lamps(*lights, job->set, err);
+    if (!code)
+        code = retex_edit_complete_lights(*lights, job->lights, err);
+    return code;
+}
+
+static int lights_text(void *context, int row, char **text, RetexError *err)
+{
+    RetexEdit *lights = NULL;
+    int code = light_row(((const Table *)context)->job, row, &lights, err);
+    if (!code)
+        code = retex_edit_text(lights, ';', text, err);
+    retex_edit_close(&lights);
+    return code;
+}
 
 /* A target that the set has not is a mistake of its column. */
 static int check_texture(void *context, const RetexTextureSpec *spec, RetexError *err)
@@ -91,13 +133,21 @@ static int make_row(void *context, int number, size_t *trial, RetexError *err)
     char path[PATH_MAX];
     const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
-    const Row row = {specs, count, table->kept.textures};
-    int code = kept_textures_load(&table->kept, job->set, specs, count, table->cli->threads, err);
-    if (!code && trial)
-        return job_try_picture(table->cli, job, &row, texture_table_output(&job->batch.table, number), trial, err);
+    RetexEdit *lights = NULL;
+    int code = light_row(job, number, &lights, err);
     if (!code)
+        code = job_light(job, lights, err);
+    if (!code)
+        code = kept_textures_load(&table->kept, job->set, specs, count, table->cli->threads, err);
+    const Row row = {specs, count, table->kept.textures, lights};
+    if (!code && !trial)
         code = batch_output(&job->batch, number, path, err);
-    return code ? code : job_make_picture(table->cli, job, &row, path, began, err);
+    if (!code)
+        code = trial
+                   ? job_try_picture(table->cli, job, &row, texture_table_output(&job->batch.table, number), trial, err)
+                   : job_make_picture(table->cli, job, &row, path, began, err);
+    retex_edit_close(&lights);
+    return code;
 }
 
 /* The options that change pictures, in words, for the journal. */
@@ -124,9 +174,14 @@ int job_run_table(const Cli *cli, Job *job)
     char options_text[1024];
     batch_open(batch, cli, job->table);
     find_columns(&batch->table, job->set);
+    find_lamps(&batch->table, job->set);
+    RetexError err = {0};
+    if (retex_edit_bind_lamps(job->lights, job->set, &err))
+        cli_fail(cli, &err);
     batch->tool = (BatchTool){.context = &table,
                               .check = check_texture,
                               .complete = complete,
+                              .lights = lights_text,
                               .describe = describe_row,
                               .begin = begin,
                               .make = make_row};
