@@ -58,8 +58,9 @@ class PackSet
         });
         return *whole_;
     }
-    // The picture with these textures; without any, the picture as rendered, as far as the set has it.
-    RetexImage picture(std::vector<RetexTextureSpec> specs, const Budget &budget, int threads)
+    // The picture with these textures and parameters; without any, the picture as rendered, as far as the set has it.
+    RetexImage picture(std::vector<RetexTextureSpec> specs, const std::vector<float> &parameters, const Budget &budget,
+                       int threads)
     {
         for (RetexTextureSpec &spec : specs)
             spec.budget = budget.begin();
@@ -67,15 +68,17 @@ class PackSet
         RetexImage picture{};
         RetexTexture *textures[RETEX_MAX_TARGETS];
         const RetexSetInfo info = retex_set_info(set_);
-        if (!info.nterms && specs.empty()) {
+        if (!info.nterms && specs.empty() && parameters.empty()) {
             must(retex_image_copy(&picture, &retex_set_part(&whole(threads), 0)->image, &err), err);
             return picture;
         }
         int code = retex_textures_load(textures, set_, specs.data(), int(specs.size()), threads, &err);
         if (!code)
             code = retex_image_alloc(&picture, info.width, info.height, 3, &err);
+        RetexCombineParams params = RETEX_COMBINE_INIT;
+        params.parameters = parameters.empty() ? nullptr : parameters.data();
         if (!code)
-            code = retex_retexture(set_, nullptr, textures, nullptr, keep_rows, &picture, threads, &err);
+            code = retex_retexture(set_, nullptr, textures, &params, keep_rows, &picture, threads, &err);
         retex_textures_close(textures);
         if (code)
             retex_image_free(&picture);
@@ -160,6 +163,18 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
     return textures;
 }
 
+// The values of the set's parameters; empty where the edit has no lamps.
+std::vector<float> find_parameters(RetexEdit *edit, const RetexSet &set)
+{
+    RetexError err{};
+    if (!retex_edit_lights(edit))
+        return {};
+    must(retex_edit_bind_lamps(edit, &set, &err), err);
+    std::vector<float> values(3 * size_t(retex_set_info(&set).nparameters));
+    must(retex_edit_parameters(edit, &set, values.data(), &err), err);
+    return values;
+}
+
 // The edit as the rest of a name.
 std::string text_of(const RetexEdit *edit)
 {
@@ -201,6 +216,7 @@ class PackSource final : public Source
         const RetexSetInfo info = retex_set_info(&set_->description());
         budget_.check_size(info.width, info.height);
         textures_ = find_textures(edit_.get(), set_->description(), own_);
+        parameters_ = find_parameters(edit_.get(), set_->description());
         for (const RetexTextureSpec &texture : textures_)
             stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
         shown_ = text_of(edit_.get());
@@ -208,7 +224,7 @@ class PackSource final : public Source
     }
     int count() override
     {
-        return textures_.empty() ? retex_set_info(&set_->description()).nparts : 1;
+        return !is_edited() ? retex_set_info(&set_->description()).nparts : 1;
     }
     OIIO::ImageSpec spec(int index) override
     {
@@ -216,8 +232,8 @@ class PackSource final : public Source
         if (index > 0)
             return part_spec(set, index);
         OIIO::ImageSpec spec =
-            picture_spec(retex_set_info(&set), targets_of(set), textures_.empty() ? picture().manifest : "");
-        if (!textures_.empty())
+            picture_spec(retex_set_info(&set), targets_of(set), is_edited() ? "" : picture().manifest);
+        if (is_edited())
             spec.attribute("retex:textures", shown_);
         return spec;
     }
@@ -230,6 +246,10 @@ class PackSource final : public Source
     }
 
   private:
+    bool is_edited() const
+    {
+        return !textures_.empty() || !parameters_.empty();
+    }
     const Picture &picture()
     {
         static Cache<Picture> cache(pictures_kept);
@@ -241,8 +261,8 @@ class PackSource final : public Source
     std::shared_ptr<Picture> make_picture() const
     {
         auto picture = std::make_shared<Picture>();
-        picture->image = set_->picture(textures_, budget_, threads_);
-        if (textures_.empty())
+        picture->image = set_->picture(textures_, parameters_, budget_, threads_);
+        if (!is_edited())
             make_manifest(*picture, set_->whole(threads_));
         return picture;
     }
@@ -254,6 +274,7 @@ class PackSource final : public Source
     std::string key_, stamp_, shown_;
     const std::shared_ptr<PackSet> set_;
     std::vector<RetexTextureSpec> textures_;
+    std::vector<float> parameters_;
     std::mutex mutex_;
     std::shared_ptr<Picture> picture_;
 };

@@ -118,13 +118,23 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
 }
 
 /* Of a colour that can be changed; the weights of corrections follow from the edit. */
+static void print_color(FILE *out, const char *what, const float color[3])
+{
+    fprintf(out, "  %-11s  %.6g %.6g %.6g\n", what, (double)color[0], (double)color[1], (double)color[2]);
+}
+
 static void print_parameter(FILE *out, const RetexParameter *parameter)
 {
     char text[512];
 
-    if (parameter->kind == RETEX_PARAMETER_COLOR)
-        fprintf(out, "parameter %s\n  as rendered  %.6g %.6g %.6g\n", plain(text, parameter->name),
-                (double)parameter->value[0], (double)parameter->value[1], (double)parameter->value[2]);
+    if (parameter->kind != RETEX_PARAMETER_COLOR)
+        return;
+    fprintf(out, "parameter %s\n", plain(text, parameter->name));
+    print_color(out, "as rendered", parameter->value);
+    if (memcmp(parameter->kept, parameter->value, sizeof parameter->kept) != 0)
+        print_color(out, "shines with", parameter->kept);
+    if (parameter->several)
+        fprintf(out, "  light        of several colours, which a new one multiplies\n");
 }
 
 /* Layout footprints: print the highest number of clusters per pixel and target, for any target. */

@@ -136,3 +136,8 @@ $ iinfo picture.retex room.png
 $ oiiotool 'room.retex?Floor=rgb(255,128,0)' -d half -o x.exr && echo done
 > done
 ! retex: warning: Floor=rgb(255,128,0): a surface of a colour above 1 gives back more light than it gets; if numbers from 0 to 255 are meant, it is rgb(1,0.216,0)
+
+# Lamps: their values in the name, in one grammar with textures.
+$ make_set lit.exr 48 32; make_lamp_terms lit.exr lamps.exr; retex-pack -q --lossless lamps.exr -o lamps.retex; retex-combine -q lamps.retex --texture Floor=brick.jpg --light Lamp=2*3000K --light '*=0' -o x.exr; oiiotool "lamps.retex?Floor=brick.jpg&light:lamp=2*3000K&light:*=0" -d half -o y.exr; retex-diff -q x.exr y.exr --fail-psnr 90
+$ oiiotool 'lamps.retex?light:Lmap=2' -o y.exr 2>&1 | head -1
+> oiiotool ERROR: read : "lamps.retex?light:Lmap=2": no lamp is called 'Lmap'; the set has Lamp, Window, rest; is Lamp meant?

@@ -191,6 +191,30 @@ def test_cross():
                   combined("room.exr", "--texture", "Floor=" + OAK, "--cross", str(cross)))
 
 
+def test_lights():
+    """Lamps: each alone adds up to the whole; values in all their forms; unknown lamps"""
+    lib.run("make_lamp_terms", "room.exr", "lit.exr")
+    with retex.open("lit.exr") as room:
+        textures = {"Floor": TERRAZZO}
+        plain = room.combine(textures)
+        lamps = [p["name"] for p in room.manifest["parameters"] if p["kind"] == "color"]
+        assert lamps == ["Lamp", "Window", "rest"]
+        assert np.array_equal(plain, room.combine(textures, lights={"Lamp": 1}))
+        parts = [room.combine(textures, solo=lamp) for lamp in lamps]
+        np.testing.assert_allclose(sum(parts), plain, rtol=2e-2, atol=1e-5)
+        twice = room.combine(textures, lights={"lamp": 2, "*": 0})
+        np.testing.assert_allclose(twice, 2 * parts[0], rtol=1e-5)
+        assert np.array_equal(twice, room.combine(textures, solo="Lamp", lights={"Lamp": "2"}))
+        assert np.array_equal(twice, room.combine(f"Floor={TERRAZZO};light:Lamp=2;light:*=0"))
+        np.testing.assert_allclose(room.combine(lights={"Window": "red"}), room.combine(lights={"Window": (3, 0, 0)}))
+        assert "is Lamp meant?" in str(lib.fails(retex.Error, room.combine, lights={"Lmap": 1}))
+        lib.fails(retex.Error, room.combine, lights={"Lamp": -1})
+        lib.fails(ValueError, room.combine, lights={"Lamp": 1}, parameters={"Lamp": (1, 1, 1)})
+    with retex.open("room.exr") as room:
+        assert "has no lamps" in str(lib.fails(retex.Error, room.combine, solo="Lamp"))
+    assert retex.edit_text("light:b=2*1;Floor=#fff") == "Floor=rgb(1,1,1);light:b=2"
+
+
 def test_parameters():
     """Parameters: light is linear in a lamp's colour, by colour"""
     lib.run("make_set", "lamp.exr", "40", "30", "lamp:Lamp")

@@ -62,9 +62,11 @@ static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t
 {
     const RetexSetInfo info = retex_set_info(plan->set);
     Whole whole = {plan, NULL};
+    RetexCombineParams params = RETEX_COMBINE_INIT;
+    params.parameters = plan->parameters;
     int code = open_picture(&whole.picture, plan, info.width, info.height, err);
     if (!code)
-        code = retex_retexture(plan->set, NULL, plan->textures, NULL, write_rows, &whole, nthreads, err);
+        code = retex_retexture(plan->set, NULL, plan->textures, &params, write_rows, &whole, nthreads, err);
     return take_picture(&whole.picture, code, data, bytes, err);
 }
 
@@ -98,6 +100,7 @@ static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads
     params.y1 = place->y + place->height;
     params.x0 = place->x;
     params.x1 = place->x + place->width;
+    params.parameters = plan->parameters;
     int code = retex_image_alloc(&tall, place->scaled_width, place->height, 3, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);

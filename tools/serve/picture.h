@@ -10,6 +10,7 @@
 typedef struct PicturePlan {
     const RetexSet *set;
     RetexTexture *const *textures; /* by target */
+    const float *parameters;       /* of the set, as of RetexCombineParams */
     ServePlace place;
     int quarter_turns, mirror, gray;
     ServeFormat format;

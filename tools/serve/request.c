@@ -127,7 +127,7 @@ static int add_edits(ServeRequest *request, RetexEdit *edit, const char *text)
     return retex_edit_parse(edit, text, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
 }
 
-/* TARGET.OPTION=VALUE of a query. */
+/* TARGET.OPTION=VALUE or light:LAMP=VALUE of a query. */
 static int add_option(ServeRequest *request, RetexEdit *edit, const char *key, const char *value)
 {
     RetexError err = {0};
@@ -168,11 +168,12 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
-        } else if (retex_edit_key_is_option(query)) {
+        } else if (retex_edit_key_is_option(query) || strncmp(query, "light:", 6) == 0) {
             if (add_option(request, edit, query, value))
                 return request->status;
         } else {
-            return serve_refuse(request, 400, "`%s`: expected crop, quality or TARGET.OPTION, each once", query);
+            return serve_refuse(request, 400, "`%s`: expected crop, quality, TARGET.OPTION or light:LAMP, each once",
+                                query);
         }
     }
     return 0;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <retex/color_text.h>
+#include <retex/edit.h>
 #include <retex/version.h>
 
 #include "hash.h"
@@ -212,18 +213,37 @@ static void find_corrected(const ServeRequest *request, const RetexSet *set, int
     }
 }
 
+/* The values of the set's parameters as a request says; they stay NULL where it says nothing. */
+static int light_lamps(const ServeRequest *request, const RetexSet *set, float values[], const float **parameters,
+                       RetexError *err)
+{
+    RetexEdit *edit = NULL;
+    int code = retex_edit_create(&edit, err);
+    if (!code)
+        code = retex_edit_parse(edit, request->edits, err);
+    if (!code && retex_edit_lights(edit)) {
+        code = retex_edit_parameters(edit, set, values, err);
+        *parameters = values;
+    }
+    retex_edit_close(&edit);
+    return code;
+}
+
 /* The file of a picture: 0. Placing textures looks at the parts of the set, so that no other thread may decode them
  * meanwhile. */
 static int make_file(const Site *site, const ServeRequest *request, PicturePlan *plan, const Room *room,
                      Textures *textures, int nthreads, void **data, size_t *bytes, RetexError *err)
 {
     int corrected[RETEX_MAX_TARGETS];
+    float values[3 * RETEX_PARAMETERS_MAX];
     find_corrected(request, room->set, corrected);
     int code = rooms_begin_picture(site->rooms, room, corrected, err);
     const int is_begun = !code;
     plan->textures = textures->textures;
     if (!code)
         code = place_textures(request, room->set, textures, err);
+    if (!code)
+        code = light_lamps(request, room->set, values, &plan->parameters, err);
     if (!code)
         code = picture_make(plan, nthreads, data, bytes, err);
     retex_textures_close(textures->textures);
@@ -349,6 +369,15 @@ static void write_room(FILE *file, const ServeRequest *request, const RetexSet *
     for (int t = 0; t < info.ntargets; t++) {
         fputs(t ? ", " : "", file);
         write_target(file, retex_set_target(set, t));
+    }
+    const char *divider = "], \"lamps\": [";
+    for (int i = 0; i < info.nparameters; i++) {
+        const RetexParameter *parameter = retex_set_parameter(set, i);
+        if (parameter->kind != RETEX_PARAMETER_COLOR)
+            continue;
+        fputs(divider, file);
+        json_text(file, parameter->name);
+        divider = ", ";
     }
     fputs("]}\n", file);
 }

@@ -17,7 +17,7 @@ from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexDenoiseP
 from .library import RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes, text_bytes, threads_of
 from .library import warn
 from .pictures import Path, Picture, array_of, image_of
-from .texture import Texture, Textures, parse_edit
+from .texture import Light, Texture, Textures, parameters_of, parse_edit
 
 Crop = Tuple[int, int, int, int]
 MEGABYTE = 1 << 20
@@ -320,10 +320,14 @@ class Set:
 
     def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
               cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
-              parameters: Optional[Mapping[str, Sequence[float]]] = None) -> Picture:
+              parameters: Optional[Mapping[str, Sequence[float]]] = None,
+              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None) -> Picture:
         threads_of(threads)
         with self._shared() as pointer:
-            params, part = self._params(crop, cross, self._parameters(parameters))
+            values = parameters_of(pointer, len(self.manifest["parameters"]), textures, lights, solo)
+            if values is not None and parameters:
+                raise ValueError("parameters and lights exclude each other")
+            params, part = self._params(crop, cross, values if values is not None else self._parameters(parameters))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
             if out is None:
                 image = RetexImage()
@@ -339,24 +343,31 @@ class Set:
             return out[part]
 
     def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
+                lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
                 parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None, cross: int = 3,
                 out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
 
         textures  by target: a file's name, a colour, an array, or a Texture; or the text of an edit
         samples   of this set; `textures` override them
+        lights    new values by lamp: a number that multiplies its light, a colour, which keeps its luminance, or text,
+                  as in retex-edit(5): "3000K", "1.5*#ffd0a0"; "*" is all lamps that are not named
+        solo      turn off all lamps but this one and those of `lights`
         parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it
         cross     use cross terms of paths with at most this many hits, 0, 2 or 3
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
-        return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters)
+        return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters,
+                          lights=lights, solo=solo)
 
     def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
-              crop: Optional[Crop] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
+              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None, crop: Optional[Crop] = None,
+              cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
         difference to rendering again with these textures."""
-        return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads)
+        return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads, lights=lights,
+                          solo=solo)
 
     def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, cross: int = 3, threads: int = 0,
               memory: int = 2048 * MEGABYTE, texture_memory: int = 512 * MEGABYTE) -> Iterator[Picture]:

@@ -154,18 +154,52 @@ Textures = Union[Mapping[str, Union[Source, Texture]], str]
 
 
 def parse_edit(text: str) -> Dict[str, Texture]:
-    """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato"."""
+    """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato".
+    Its lamps are left out."""
     with _edit() as edit:
         call("retex_edit_parse", edit, path_bytes(text))
         specs = [lib.retex_edit_texture(edit, index)[0] for index in range(lib.retex_edit_count(edit))]
         return {os.fsdecode(spec.target): Texture._of_spec(spec) for spec in specs}
 
 
+#: A lamp's new value: a number that multiplies it, a colour of three numbers, or text, as in retex-edit(5).
+Light = Union[float, str, Sequence[float]]
+
+
+def _light_text(value: Light) -> str:
+    if isinstance(value, str):
+        return value
+    if np.ndim(value) == 0:
+        return repr(float(value))  # type: ignore[arg-type]
+    red, green, blue = (float(channel) for channel in value)  # type: ignore[union-attr]
+    return f"rgb({red!r},{green!r},{blue!r})"
+
+
+def parameters_of(pointer: c_void_p, count: int, textures: Optional[Textures], lights: Optional[Mapping[str, Light]],
+                  solo: Optional[str]) -> Any:
+    """The values of a set's parameters as C takes them, with these lamps and those of an edit; None: as rendered."""
+    with _edit() as edit:
+        if isinstance(textures, str):
+            call("retex_edit_parse", edit, path_bytes(textures))
+        for lamp, value in (lights or {}).items():
+            call("retex_edit_set", edit, b"light:" + text_bytes(lamp), text_bytes(_light_text(value)))
+        if solo is not None:
+            call("retex_edit_solo", edit, text_bytes(solo))
+        if not lib.retex_edit_lights(edit):
+            return None
+        values = (ctypes.c_float * max(3 * count, 1))()
+        call("retex_edit_parameters", edit, pointer, values)
+        return values
+
+
 def edit_text(textures: Textures) -> str:
     """The canonical text of an edit, which is the same for textures that look the same, however they were written. An
     array has none."""
     with _edit() as edit:
-        for target, source in (parse_edit(textures) if isinstance(textures, str) else textures).items():
+        if isinstance(textures, str):
+            call("retex_edit_parse", edit, path_bytes(textures))
+            textures = {}
+        for target, source in textures.items():
             texture = Texture.of(source)
             if texture.array is not None:
                 raise ValueError(f"{target}: an array cannot be written as text")

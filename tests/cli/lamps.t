@@ -1,0 +1,62 @@
+# Lamps of a set: values on the command line, in tables, in streams and in names that OpenImageIO opens.
+$ make_set s.exr 48 32; make_lamp_terms s.exr l.exr; cp "$SCENES/textures/brick.jpg" .; retex-info l.exr | grep -A1 ^param
+> parameter Lamp
+>   as rendered  1 0.5 2
+> parameter Window
+>   as rendered  1 1 1
+> parameter rest
+>   as rendered  1 1 1
+$ make_lamp_terms s.exr m.exr several; make_lamp_terms s.exr o.exr off; retex-info m.exr | grep several; retex-info o.exr | grep -A2 Window
+>   light        of several colours, which a new one multiplies
+> parameter Window
+>   as rendered  0 0 0
+>   shines with  1 1 1
+
+# Where no lamp is changed the picture is, to the byte, that of the set without lamps.
+$ for t in original brick.jpg; do for f in s l; do retex-combine -q $f.exr $(test $t = original || echo --texture Floor=$t) $(test $f = s || echo --light Lamp=1) -o $f-$t.exr; done; cmp s-$t.exr l-$t.exr; done
+$ retex-combine l.exr --light lamp=2*rgb'(1,1,1)' --light Window=0 -o a.exr 2>&1 | sed 's/, [0-9.]* s$//'
+> retex-combine: a.exr: original textures, light:Window=0;light:lamp=2*rgb(1,1,1), 48 x 32
+
+# Lamps add up: each alone, and all.
+$ for n in Lamp Window rest; do retex-combine -q l.exr --texture Floor=brick.jpg --solo $n -o $n.exr; done; oiiotool Lamp.exr Window.exr --add rest.exr --add -o sum.exr; retex-combine -q l.exr --texture Floor=brick.jpg --light '*=1*1' --light Lamp=1 -o all.exr; retex-diff -q sum.exr all.exr --fail-psnr 55; retex-diff -q Lamp.exr all.exr --fail-psnr 40
+= 1
+
+# A lamp that is off is not in the picture, and is turned on by its brightness.
+$ retex-combine -q o.exr -o off.exr; retex-combine -q l.exr --light Window=0 -o without.exr; retex-diff -q off.exr without.exr --fail-psnr 80; retex-combine -q o.exr --light Window=1 -o on.exr; retex-combine -q l.exr -o whole.exr; cmp on.exr s-original.exr
+
+# The same in one pass, from samples, from a stream, and in a table.
+$ V='--light Lamp=2*3000K --light *=0 --light Window=red'; retex-combine -q l.exr --texture Floor=brick.jpg $V -o one.exr; retex-sample -q l.exr --texture Floor=brick.jpg -o x.exr; retex-combine -q l.exr x.exr $V -o two.exr; cmp one.exr two.exr; retex-sample -q l.exr --texture Floor=brick.jpg | retex-combine -q - $V -o three.exr; cmp one.exr three.exr; retex-combine -q l.exr --threads 1 --texture Floor=brick.jpg $V -o four.exr; cmp one.exr four.exr
+$ printf 'output,Floor,light:lamp,light:*,light:Window\nfive.exr,brick.jpg,2*3000K,0,red\nsix.exr,,,,\n' >t.csv; retex-combine -q l.exr --batch t.csv; cmp one.exr five.exr; cmp six.exr s-original.exr
+$ printf 'output,Floor,light:lamp\nseven.exr,brick.jpg,2*3000K\neight.exr,brick.jpg,\n' >t.csv; retex-combine -q l.exr --batch t.csv --solo Lamp --light Window=red; cmp one.exr seven.exr; retex-diff -q one.exr eight.exr --fail-psnr 60
+= 1
+$ retex-combine -q l.exr --texture Floor=brick.jpg --light Lamp=2*3000K --light '*=0' --light Window=red --error e.exr -o nine.exr; cmp one.exr nine.exr; retex-combine -q l.exr --texture Floor=brick.jpg --error f.exr -o nine.exr; cmp -s e.exr f.exr
+= 1
+
+# With a journal, a picture is made again where a lamp of its row has changed.
+$ retex-combine -q l.exr --batch t.csv --manifest j; retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'; sed -i s/2.3000K/3000K/ t.csv; retex-combine l.exr --batch t.csv --manifest j --resume 2>&1 | sed 's/, [0-9.]* s$//'
+> retex-combine: 0 pictures, 2 kept
+> retex-combine: seven.exr: Floor <- brick.jpg, light:Lamp=rgb(1.754746,0.8492223,0.27115253), 48 x 32
+> retex-combine: 1 picture, 1 kept
+
+# What is refused.
+$ retex-combine l.exr --light rets=0 -o y.exr
+! retex-combine: error: no lamp is called 'rets'; the set has Lamp, Window, rest; is rest meant?
+= 2
+$ retex-combine s.exr --light Lamp=0 -o y.exr
+! retex-combine: error: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamp
+= 2
+$ retex-combine l.exr --light Lamp=bleu -o y.exr
+! retex-combine: error: light 'bleu': expected numbers, colours and kelvins, as in 2.5, #ffd0a0 or 1.5*3000K; is blue meant?
+= 2
+$ retex-combine l.exr --light Lamp=1 --light Lamp=2 -o y.exr
+! retex-combine: error: light:Lamp is given twice
+= 2
+$ printf 'output,light:Lamp,light:lamp,light:Sun\ny.exr,-1,2,3\n' >w.csv; retex-combine l.exr --batch w.csv; ls y.exr
+! retex-combine: error: w.csv:1: lamp 'lamp' has two columns
+! retex-combine: error: w.csv:1: no lamp is called 'Sun'; the set has Lamp, Window, rest
+! retex-combine: error: w.csv:2: light '-1': expected numbers, colours and kelvins, as in 2.5, #ffd0a0, 3000K or 1.5*3000K
+! ls: cannot access 'y.exr': No such file or directory
+= 2
+$ printf 'output,light:Lamp\ny.exr,1\n' >w.csv; retex-combine s.exr --batch w.csv
+! retex-combine: error: w.csv:1: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamp
+= 2
