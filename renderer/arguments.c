@@ -17,6 +17,8 @@ enum {
     OPT_LAMPS,
     OPT_LIST_LAMPS,
     OPT_LIGHT_SHARE,
+    OPT_LIGHT,
+    OPT_SOLO,
     OPT_REPLACE,
     OPT_VARIANTS,
     OPT_CONTROL,
@@ -76,6 +78,11 @@ static const CliOption options[] = {
                         0},
     [OPT_LIGHT_SHARE] = {"light-share", 0, "X",
                          "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.2", 0},
+    [OPT_LIGHT] = {"light", 0, "NAME=VALUE",
+                   "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
+                   "retex-combine; repeatable",
+                   0},
+    [OPT_SOLO] = {"solo", 0, "NAME", "turn off all lamps but NAME and those of --light", 0},
     [OPT_REPLACE] =
         {"replace", 0, "NAME=IMAGE",
          "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
@@ -203,6 +210,12 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_LIST_LAMPS:
         a->list_lamps = 1;
+        break;
+    case OPT_LIGHT:
+        push(cli, a->lights, &a->nlights, o->name);
+        break;
+    case OPT_SOLO:
+        a->solo = cli->value;
         break;
     case OPT_REPLACE:
         parse_replace(a);
@@ -429,6 +442,7 @@ void parse_arguments(Arguments *a)
         cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
+    name_lamps(a);
     check_denoise(a);
     check_lamps(a);
     check_noise(a);

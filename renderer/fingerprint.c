@@ -79,6 +79,14 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
         d = digest_text(d, scene->targets[t].name);
         d = digest_text(d, scene->targets[t].idents);
     }
+    for (int l = 0; l < scene->nlamps; l++) {
+        const Lamp *lamp = &scene->lamps[l];
+        d = digest_text(d, lamp->name);
+        d = digest_text(d, lamp->idents);
+        d = digest_bytes(d, &lamp->value, sizeof lamp->value);
+        d = digest_bytes(d, &lamp->weight, sizeof lamp->weight);
+    }
+    d = digest_bytes(d, &r->light_share, sizeof r->light_share);
     for (int k = 0; k < a->nreplacements; k++)
         d = digest_texture(d, &a->replacements[k]);
     return d;

@@ -238,6 +238,8 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
                             .nlamps = a->nlamps,
                             .each_lamp = a->each_lamp};
     int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, &names, err);
+    if (!code && (code = light_lamps(a, *scene, err)))
+        scene_close(scene);
     if (code && a->variants && !a->named)
         refuse_columns(a);
     if (!code)

@@ -25,6 +25,8 @@ typedef struct Arguments {
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     const char *lamps[LIST_MAX];
     int nlamps, each_lamp, list_lamps;
+    const char *lights[LIST_MAX], *solo; /* values of lamps, as arguments of --light */
+    int nlights, lamps_by_light; /* 1: they name the lamps, too */
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
     RenderVariant replaced;
@@ -92,6 +94,13 @@ void check_sheet(const Arguments *arguments);
 /* Whether it takes memory for each pixel. */
 static inline int lists_pixels(const Arguments *a) { return a->sheet || a->cli->verbose; }
 void list_targets(Arguments *arguments, const Scene *scene);
+
+/* ---- lights.c ---- */
+
+/* Without -l, what --light and --solo name are the lamps; before the scene is read. */
+void name_lamps(Arguments *arguments);
+/* Give the scene's lamps the values of --light and --solo. */
+int light_lamps(const Arguments *arguments, Scene *scene, RetexError *err);
 
 /* ---- list_lamps.c ---- */
 

@@ -29,9 +29,7 @@ typedef struct LightEntry {
     Vec3 center;     /* of the bounds */
     double radius, area;
     int is_sphere;   /* sampled by the cone it is seen in */
-    /* of the list: */
-    int leaf;        /* its first leaf of the tree: it has one, or one for each of nfaces; -1: it is infinite */
-    int infinite;    /* index among the infinite lights */
+    float weight;    /* of the list: by which its estimates are multiplied, as its lamp has it */
 } LightEntry;
 
 /* The list while it is made. */

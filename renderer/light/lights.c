@@ -15,18 +15,34 @@ typedef struct Leaf {
     int entry, face; /* face: of the entry's nfaces, or -1: the whole entry */
 } Leaf;
 
+/* What one light is chosen among: all entries, or those of one lamp. */
+typedef struct Choice {
+    const LightEntries *list;
+    int lamp;  /* -1: of all */
+    int count; /* of its entries */
+    int first; /* of these */
+    /* many lights; tree is NULL for few */
+    LightTree *tree;
+    Leaf *leaves;
+    int *leaf_of;         /* of each entry: its first leaf, one for each of nfaces; -1: it has none */
+    int ninfinite;        /* lights that are infinitely far: sky and beams */
+    int *infinite;        /* their entries */
+    int *infinite_of;     /* of each entry: its number among them */
+    float *infinite_sums; /* running sums of their irradiance, ninfinite + 1 */
+} Choice;
+
 struct Lights {
     LightEntries list;
     int sky;              /* index of its entry, or -1 */
     int *of_primitive;    /* entry of each primitive, or -1 */
     int nemitters;        /* the first entries are the emitting shapes */
     double *emitter_sums; /* running sums of their power, nemitters + 1 */
-    /* many lights; tree is NULL for few */
-    LightTree *tree;
-    Leaf *leaves;
-    int ninfinite;        /* lights that are infinitely far: sky and beams */
-    int *infinite;        /* their entries */
-    float *infinite_sums; /* running sums of their irradiance, ninfinite + 1 */
+    Choice all;
+    /* of scenes with lamps: with this probability a lamp is chosen first, each alike, and then one of its lights */
+    float lamp_share;
+    int nchoices;
+    Choice lamps[LAMPS_MAX + 1];  /* those that have lights */
+    int choice_of[LAMPS_MAX + 1]; /* of each lamp of the scene, or -1 */
 };
 
 static const LightEntryOps *const ROWS[] = {
@@ -37,6 +53,11 @@ static const LightEntryOps *const ROWS[] = {
 
 /* ---- many lights ---- */
 
+static int has_entry(const Choice *choice, int k)
+{
+    return choice->lamp < 0 || choice->list->entries[k].lamp == choice->lamp;
+}
+
 /* The number of leaves of an entry in the tree. */
 static int leaf_count(const LightEntry *e)
 {
@@ -44,15 +65,16 @@ static int leaf_count(const LightEntry *e)
 }
 
 /* List the infinite lights, with running sums of their estimated irradiance. */
-static void sum_infinite(Lights *lights)
+static void sum_infinite(Choice *choice)
 {
     float sum = 0;
-    for (int k = 0; k < lights->list.count; k++) {
-        if (!lights->list.entries[k].is_infinite)
+    for (int k = 0; k < choice->list->count; k++) {
+        const LightEntry *e = &choice->list->entries[k];
+        if (!e->is_infinite || !has_entry(choice, k))
             continue;
-        lights->list.entries[k].infinite = lights->ninfinite;
-        lights->infinite[lights->ninfinite++] = k;
-        lights->infinite_sums[lights->ninfinite] = sum += fmaxf(lights->list.entries[k].strength, 1e-20f);
+        choice->infinite_of[k] = choice->ninfinite;
+        choice->infinite[choice->ninfinite++] = k;
+        choice->infinite_sums[choice->ninfinite] = sum += fmaxf(e->strength * e->weight, 1e-20f);
     }
 }
 
@@ -67,40 +89,88 @@ static int has_light_groups(const Scene *scene)
     return 0;
 }
 
-/* A tree, where there are many finite lights. */
-static int grow_tree(Lights *lights, RetexError *err)
+static LightBounds weighted_bounds(const LightEntry *e, int face)
 {
-    long leaves = 0;
-    int finite = 0, n = 0;
-    for (int k = 0; k < lights->list.count; k++) {
-        int of_entry = leaf_count(&lights->list.entries[k]);
-        lights->list.entries[k].leaf = -1;
-        leaves += of_entry, finite += of_entry > 0;
-    }
-    if (finite == leaves && lights->list.count <= (has_light_groups(lights->list.scene) ? EXACT_MOST : EXACT_MAX))
-        return RETEX_OK;
-    LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
-    lights->leaves = malloc((size_t)leaves * sizeof *lights->leaves + 1);
-    lights->infinite = malloc(((size_t)lights->list.count + 1) * sizeof *lights->infinite);
-    lights->infinite_sums = calloc((size_t)lights->list.count + 1, sizeof *lights->infinite_sums);
-    int code = RETEX_OK;
-    if (!bounds || !lights->leaves || !lights->infinite || !lights->infinite_sums || leaves > INT_MAX / 2)
-        code = retex_fail(err, RETEX_ENOMEM, "out of memory for %ld lights", leaves);
-    for (int k = 0; k < lights->list.count && !code; k++) {
-        LightEntry *e = &lights->list.entries[k];
-        int of_entry = leaf_count(e);
-        if (of_entry > 0)
-            e->leaf = n;
-        for (int f = 0; f < of_entry; f++) {
-            lights->leaves[n] = (Leaf){k, e->nfaces > 0 ? f : -1};
-            bounds[n] = e->ops->bounds(e, lights->leaves[n].face), n++;
+    LightBounds b = e->ops->bounds(e, face);
+    b.intensity *= e->weight, b.peak *= e->weight, b.constant *= e->weight;
+    return b;
+}
+
+static int list_leaves(Choice *choice, LightBounds *bounds)
+{
+    int n = 0;
+    for (int k = 0; k < choice->list->count; k++) {
+        const LightEntry *e = &choice->list->entries[k];
+        const int of_entry = has_entry(choice, k) ? leaf_count(e) : 0;
+        choice->leaf_of[k] = of_entry > 0 ? n : -1;
+        for (int f = 0; f < of_entry; f++, n++) {
+            choice->leaves[n] = (Leaf){k, e->nfaces > 0 ? f : -1};
+            bounds[n] = weighted_bounds(e, choice->leaves[n].face);
         }
     }
+    return n;
+}
+
+static void close_choice(Choice *choice)
+{
+    light_tree_close(&choice->tree);
+    free(choice->leaves);
+    free(choice->leaf_of);
+    free(choice->infinite);
+    free(choice->infinite_of);
+    free(choice->infinite_sums);
+}
+
+/* A tree, where there are many finite lights. */
+static int open_choice(Choice *choice, const LightEntries *list, int lamp, RetexError *err)
+{
+    const size_t entries = (size_t)list->count + 1;
+    long leaves = 0;
+    int finite = 0;
+    *choice = (Choice){.list = list, .lamp = lamp, .first = -1};
+    for (int k = 0; k < list->count; k++) {
+        if (!has_entry(choice, k))
+            continue;
+        const int of_entry = leaf_count(&list->entries[k]);
+        leaves += of_entry, finite += of_entry > 0;
+        choice->first = choice->count++ ? choice->first : k;
+    }
+    if (finite == leaves && choice->count <= (has_light_groups(list->scene) ? EXACT_MOST : EXACT_MAX) &&
+        list->count <= EXACT_MOST)
+        return RETEX_OK;
+    LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
+    choice->leaves = malloc((size_t)leaves * sizeof *choice->leaves + 1);
+    choice->leaf_of = malloc(entries * sizeof *choice->leaf_of);
+    choice->infinite = malloc(entries * sizeof *choice->infinite);
+    choice->infinite_of = malloc(entries * sizeof *choice->infinite_of);
+    choice->infinite_sums = calloc(entries, sizeof *choice->infinite_sums);
+    int code = RETEX_OK;
+    if (!bounds || !choice->leaves || !choice->leaf_of || !choice->infinite || !choice->infinite_of ||
+        !choice->infinite_sums || leaves > INT_MAX / 2)
+        code = retex_fail(err, RETEX_ENOMEM, "out of memory for %ld lights", leaves);
+    const int n = code ? 0 : list_leaves(choice, bounds);
     if (!code)
-        sum_infinite(lights);
+        sum_infinite(choice);
     if (!code && n > 0)
-        code = light_tree_create(&lights->tree, bounds, n, err);
+        code = light_tree_create(&choice->tree, bounds, n, err);
     free(bounds);
+    return code;
+}
+
+/* One for each lamp that has lights; of a single one they are not needed. */
+static int open_lamps(Lights *lights, RetexError *err)
+{
+    const Scene *scene = lights->list.scene;
+    int code = RETEX_OK, lit = 0;
+    for (int l = 0; l < scene->nlamps; l++) {
+        lights->choice_of[l] = -1;
+        for (int k = 0; k < lights->list.count; k++)
+            if (lights->list.entries[k].lamp == l)
+                lights->choice_of[l] = lit++, k = lights->list.count;
+    }
+    for (int l = 0; l < scene->nlamps && lit > 1 && !code; l++)
+        if (lights->choice_of[l] >= 0)
+            code = open_choice(&lights->lamps[lights->nchoices++], &lights->list, l, err);
     return code;
 }
 
@@ -127,7 +197,7 @@ static int index_entries(Lights *lights, RetexError *err)
     return RETEX_OK;
 }
 
-int lights_create(Lights **out, const Scene *scene, RetexError *err)
+int lights_create(Lights **out, const Scene *scene, double lamp_share, RetexError *err)
 {
     Lights *lights = calloc(1, sizeof *lights);
     *out = lights;
@@ -140,8 +210,13 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
         code = ROWS[k]->add ? ROWS[k]->add(&lights->list, err) : RETEX_OK;
     if (!code)
         code = index_entries(lights, err);
+    for (int k = 0; k < lights->list.count; k++)
+        lights->list.entries[k].weight = scene->nlamps ? scene->lamps[lights->list.entries[k].lamp].weight : 1;
     if (!code)
-        code = grow_tree(lights, err);
+        code = open_choice(&lights->all, &lights->list, -1, err);
+    if (!code && lamp_share > 0)
+        code = open_lamps(lights, err);
+    lights->lamp_share = lights->nchoices > 1 ? (float)lamp_share : 0;
     if (code)
         lights_close(out);
     return code;
@@ -156,13 +231,12 @@ void lights_close(Lights **lights)
         if (e->ops->close)
             e->ops->close(e);
     }
-    light_tree_close(&(*lights)->tree);
+    close_choice(&(*lights)->all);
+    for (int l = 0; l < (*lights)->nchoices; l++)
+        close_choice(&(*lights)->lamps[l]);
     free((*lights)->list.entries);
     free((*lights)->of_primitive);
     free((*lights)->emitter_sums);
-    free((*lights)->leaves);
-    free((*lights)->infinite);
-    free((*lights)->infinite_sums);
     free(*lights);
     *lights = NULL;
 }
@@ -176,21 +250,21 @@ int lights_count(const Lights *lights)
 
 static inline float entry_estimate(const LightEntry *e, Vec3 position)
 {
-    return e->ops->estimate ? e->ops->estimate(e, position) : e->strength;
+    return e->weight * (e->ops->estimate ? e->ops->estimate(e, position) : e->strength);
 }
 
 /* Probabilities of the entries at a point; their sum is 1, or 0 where none shines on the point's light group. */
-static void local_shares(const Lights *lights, const LightSampleContext *point, float *shares)
+static void local_shares(const Choice *choice, const LightSampleContext *point, float *shares)
 {
-    const LightEntries *list = &lights->list;
+    const LightEntries *list = choice->list;
     float total = 0, sum = 0;
     for (int k = 0; k < list->count; k++) {
         const LightEntry *e = &list->entries[k];
         shares[k] = -1;
-        if (!e->ops->reaches || e->ops->reaches(e, point->light_group))
+        if (has_entry(choice, k) && (!e->ops->reaches || e->ops->reaches(e, point->light_group)))
             total += shares[k] = entry_estimate(e, point->position);
     }
-    const float least = total > 0 ? total * CHOICE_FLOOR / (float)list->count : 1;
+    const float least = total > 0 ? total * CHOICE_FLOOR / (float)choice->count : 1;
     for (int k = 0; k < list->count; k++)
         sum += shares[k] = shares[k] >= 0 ? shares[k] + least : 0;
     for (int k = 0; k < list->count && sum > 0; k++)
@@ -198,56 +272,67 @@ static void local_shares(const Lights *lights, const LightSampleContext *point, 
 }
 
 /* Probability of the tree as a whole; the rest is that of the infinite lights. */
-static float tree_share(const Lights *lights, const LightSampleContext *point)
+static float tree_share(const Choice *choice, const LightSampleContext *point)
 {
-    if (lights->ninfinite == 0)
+    if (choice->ninfinite == 0)
         return 1;
-    if (!lights->tree)
+    if (!choice->tree)
         return 0;
-    float tree = light_tree_estimate(lights->tree, point), infinite = lights->infinite_sums[lights->ninfinite];
+    float tree = light_tree_estimate(choice->tree, point), infinite = choice->infinite_sums[choice->ninfinite];
     return fminf(1 - INFINITE_MIN, fmaxf(INFINITE_MIN, tree / (tree + infinite)));
 }
 
-static float infinite_share(const Lights *lights, int k)
+static float infinite_share(const Choice *choice, int k)
 {
-    return (lights->infinite_sums[k + 1] - lights->infinite_sums[k]) / lights->infinite_sums[lights->ninfinite];
+    return (choice->infinite_sums[k + 1] - choice->infinite_sums[k]) / choice->infinite_sums[choice->ninfinite];
 }
 
 /* Whether lights are chosen by an estimate of each. */
-static int is_exact(const Lights *lights)
+static int is_exact(const Choice *choice)
 {
-    return !lights->tree && lights->ninfinite == 0;
+    return !choice->tree && choice->ninfinite == 0;
 }
 
-static float exact_probability(const Lights *lights, const LightSampleContext *point, int entry)
+static float exact_probability(const Choice *choice, const LightSampleContext *point, int entry)
 {
-    if (lights->list.count == 1)
-        return 1;
+    if (choice->count == 1)
+        return choice->first == entry;
     float shares[EXACT_MOST];
-    local_shares(lights, point, shares);
+    local_shares(choice, point, shares);
     return shares[entry];
 }
 
 /* Probability of an entry, or of a face of its mesh where faces are lights of their own. */
-static float pick_probability(const Lights *lights, const LightSampleContext *point, int entry, int face)
+static float probability_within(const Choice *choice, const LightSampleContext *point, int entry, int face)
 {
-    if (is_exact(lights))
-        return exact_probability(lights, point, entry);
-    const LightEntry *e = &lights->list.entries[entry];
-    float share = tree_share(lights, point);
-    if (e->leaf < 0)
-        return (1 - share) * infinite_share(lights, e->infinite);
-    return share * light_tree_probability(lights->tree, point, e->leaf + (e->nfaces > 0 ? face : 0));
+    if (is_exact(choice))
+        return exact_probability(choice, point, entry);
+    const LightEntry *e = &choice->list->entries[entry];
+    const float share = tree_share(choice, point);
+    const int leaf = choice->leaf_of[entry];
+    if (leaf < 0)
+        return (1 - share) * infinite_share(choice, choice->infinite_of[entry]);
+    return share * light_tree_probability(choice->tree, point, leaf + (e->nfaces > 0 ? face : 0));
 }
 
-static LightPick exact_pick(const Lights *lights, const LightSampleContext *point, float u, float u_part)
+static float pick_probability(const Lights *lights, const LightSampleContext *point, int entry, int face)
 {
-    if (lights->list.count == 1)
-        return (LightPick){0, -1, 1, u_part};
+    const float of_all = probability_within(&lights->all, point, entry, face);
+    if (lights->lamp_share == 0)
+        return of_all;
+    const Choice *lamp = &lights->lamps[lights->choice_of[lights->list.entries[entry].lamp]];
+    return (1 - lights->lamp_share) * of_all +
+           lights->lamp_share / (float)lights->nchoices * probability_within(lamp, point, entry, face);
+}
+
+static LightPick exact_pick(const Choice *choice, const LightSampleContext *point, float u, float u_part)
+{
+    if (choice->count == 1)
+        return (LightPick){choice->first, -1, 1, u_part};
     float shares[EXACT_MOST], sum = 0;
-    local_shares(lights, point, shares);
+    local_shares(choice, point, shares);
     int k = 0;
-    while (k < lights->list.count - 1 && u >= sum + shares[k])
+    while (k < choice->list->count - 1 && u >= sum + shares[k])
         sum += shares[k++];
     while (k > 0 && shares[k] == 0)
         k--; /* u is just below 1: the last one that shines on the point */
@@ -256,34 +341,57 @@ static LightPick exact_pick(const Lights *lights, const LightSampleContext *poin
     return (LightPick){k, -1, shares[k], u_part};
 }
 
-static LightPick pick_infinite(const Lights *lights, float share, double u, float u_part)
+static LightPick pick_infinite(const Choice *choice, float share, double u, float u_part)
 {
-    const float *sums = lights->infinite_sums;
-    int low = 0, high = lights->ninfinite;
+    const float *sums = choice->infinite_sums;
+    int low = 0, high = choice->ninfinite;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (sums[middle] <= u * sums[lights->ninfinite])
+        if (sums[middle] <= u * sums[choice->ninfinite])
             low = middle;
         else
             high = middle;
     }
-    return (LightPick){lights->infinite[low], -1, share * infinite_share(lights, low), u_part};
+    return (LightPick){choice->infinite[low], -1, share * infinite_share(choice, low), u_part};
+}
+
+static LightPick pick_within(const Choice *choice, const LightSampleContext *point, float u_pick, float u_part)
+{
+    if (choice->count == 0)
+        return (LightPick){-1, -1, 1, u_part};
+    if (is_exact(choice))
+        return exact_pick(choice, point, u_pick, u_part);
+    /* both numbers together: a path down a large tree takes more bits than a float has */
+    double u = u_pick + u_part * 0x1p-24;
+    float share = tree_share(choice, point), probability;
+    if (u >= share)
+        return pick_infinite(choice, 1 - share, (u - share) / (1 - share), u_part);
+    u /= share;
+    const Leaf *leaf = &choice->leaves[light_tree_pick(choice->tree, point, &u, &probability)];
+    return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
+}
+
+/* A lamp is chosen by the first part of the random number, which is uniform again in each. */
+static LightPick pick_by_lamp(const Lights *lights, const LightSampleContext *point, float u, float u_part)
+{
+    const float most = 1 - 0x1p-24f, share = lights->lamp_share;
+    LightPick pick;
+    if (u < share) {
+        const float place = u / share * (float)lights->nchoices;
+        const int l = place < (float)(lights->nchoices - 1) ? (int)place : lights->nchoices - 1;
+        pick = pick_within(&lights->lamps[l], point, fminf(place - (float)l, most), u_part);
+    } else {
+        pick = pick_within(&lights->all, point, fminf((u - share) / (1 - share), most), u_part);
+    }
+    if (pick.entry >= 0)
+        pick.probability = pick_probability(lights, point, pick.entry, pick.face);
+    return pick;
 }
 
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part)
 {
-    if (lights->list.count == 0)
-        return (LightPick){-1, -1, 1, u_part};
-    if (is_exact(lights))
-        return exact_pick(lights, point, u_pick, u_part);
-    /* both numbers together: a path down a large tree takes more bits than a float has */
-    double u = u_pick + u_part * 0x1p-24;
-    float share = tree_share(lights, point), probability;
-    if (u >= share)
-        return pick_infinite(lights, 1 - share, (u - share) / (1 - share), u_part);
-    u /= share;
-    const Leaf *leaf = &lights->leaves[light_tree_pick(lights->tree, point, &u, &probability)];
-    return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
+    return lights->lamp_share > 0 ? pick_by_lamp(lights, point, u_pick, u_part)
+                                  : pick_within(&lights->all, point, u_pick, u_part);
 }
 
 int lights_lamp(const Lights *lights, const LightPick *pick)
@@ -377,13 +485,14 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
 
 float lights_estimate(const Lights *lights, const LightSampleContext *point)
 {
+    const Choice *all = &lights->all;
     float sum = 0;
-    if (is_exact(lights)) {
+    if (is_exact(all)) {
         for (int k = 0; k < lights->list.count; k++)
             sum += entry_estimate(&lights->list.entries[k], point->position);
         return sum;
     }
-    if (lights->tree)
-        sum = light_tree_estimate(lights->tree, point);
-    return lights->ninfinite > 0 ? sum + lights->infinite_sums[lights->ninfinite] : sum;
+    if (all->tree)
+        sum = light_tree_estimate(all->tree, point);
+    return all->ninfinite > 0 ? sum + all->infinite_sums[all->ninfinite] : sum;
 }

@@ -151,7 +151,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
     if (!code)
         code = accel_create_within(&r->accel, scene, r->params.nthreads, r->params.budget, err);
     if (!code)
-        code = lights_create(&r->lights, scene, err);
+        code = lights_create(&r->lights, scene, r->params.light_share, err);
     int split = !r->params.plain && (scene->ntargets > 0 || scene->nlamps > 0);
     r->context = (PathContext){.scene = scene,
                                .accel = r->accel,

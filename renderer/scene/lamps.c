@@ -11,7 +11,8 @@
 #include <retex/target_name.h>
 #include "scene/selector.h"
 
-#define SAME_COLOR 1e-4f /* difference of channels, at luminance 1, of colours that are one */
+#define SAME_COLOR 1e-4f   /* difference of channels, at luminance 1, of colours that are one */
+#define LEAST_WEIGHT 1e-6f /* of a lamp that is off, where lights are chosen */
 #define SKY "sky"
 #define SOURCE "light_source#"
 #define REST "rest"
@@ -411,13 +412,15 @@ int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, Rete
     if (nspecs)
         *rest = (Lamp){.name = REST, .several = 1, .value = rgb_grey(1), .kept = rgb_grey(1)};
     for (int l = 0; l < scene->nlamps; l++)
-        scene_show_lamp(&scene->lamps[l], scene->lamps[l].value);
+        scene_light_lamp(&scene->lamps[l], scene->lamps[l].value, 1);
     return code;
 }
 
-void scene_show_lamp(Lamp *lamp, Rgb value)
+void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept)
 {
+    lamp->value = value;
     lamp->shown = rgb(value.r / lamp->kept.r, value.g / lamp->kept.g, value.b / lamp->kept.b);
+    lamp->weight = is_kept ? 1 : fmaxf(LEAST_WEIGHT, rgb_luminance(value) / rgb_luminance(lamp->kept));
 }
 
 /* ---- each ---- */

@@ -586,6 +586,7 @@ typedef struct Lamp {
     Rgb kept;         /* the colour that its light has while paths are traced: value, but where that has a channel of 0,
                          which nothing could be made of: then white of the same luminance, or what it would be if on */
     Rgb shown;        /* by which traced light is multiplied in the picture */
+    float weight;     /* of its light where lights are chosen, 0 or more: 1 where its light is kept apart */
 } Lamp;
 
 /* What an identifier is called where it comes from, which identifiers cannot be called. */
@@ -658,8 +659,9 @@ int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, Rete
 /* The specs of --lamps each: every light source and every emitter that has a name, and the sky, if it shines. They are
  * in the scene's arena. RETEX_ELIMIT, with all of them, where there are more than LAMPS_MAX. */
 int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int *nspecs, RetexError *err);
-/* Show a lamp in the picture with that value. */
-void scene_show_lamp(Lamp *lamp, Rgb value);
+/* Give a lamp another value, in the picture and in what sets say of it. is_kept: its light is kept apart, so that lights
+ * are chosen as before; else by what it is now. */
+void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept);
 /* The light of the air, such as fog, is of the lamp that is the rest. */
 static inline int scene_rest_lamp(const Scene *scene)
 {

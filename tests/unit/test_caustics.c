@@ -26,7 +26,7 @@ static Caustics *make_guide(const Scene *scene, int nthreads)
     Accel *accel;
     Lights *lights;
     assert_int_equal(accel_create(&accel, scene, nthreads, NULL), 0);
-    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
     assert_int_equal(
         caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1 << 20, nthreads, NULL, NULL), 0);
     lights_close(&lights);
@@ -46,7 +46,7 @@ static void budget_ends_it(void **state)
     assert_int_equal(retex_budget_create(&budget, NULL), 0);
     retex_budget_stop(budget);
     assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
-    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
     assert_int_equal(caustics_create(&caustics, scene, accel, lights, CAUSTICS_OF_EMITTERS, 1L << 40, 2, budget, NULL),
                      RETEX_ESTOPPED);
     assert_null(caustics);
@@ -350,7 +350,7 @@ static void media_dim_caustics(void **state)
         Scene *scene = test_scene(text);
         RetexSet *set = render(scene, 64, 0, 0);
         assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
         const PhotonSources sources = {.scene = scene, .accel = accel, .lights = lights, .paths = 1};
         assert_int_equal(photons_trace(&photons, &sources, 1, NULL), 0);
         for (int i = 0; i < photons.count; i++)

@@ -84,7 +84,7 @@ static void emitters_shine_where_they_are_left(void **unused)
         Scene *scene = parse(text);
         assert_int_equal(scene->ncsgs, 1);
         assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
         for (int k = 0; k < 2; k++) {
             double sampled = sampled_angle(lights, accel, points[k], SAMPLES);
             double seen = seen_angle(scene, lights, accel, points[k], SAMPLES);

@@ -171,14 +171,16 @@ static const char *const SCENES[] = {
 };
 
 /* What is sampled has the density that hitting it is given. */
-static void densities_agree(void **state)
+static void expect_densities(double lamp_share)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof SCENES / sizeof *SCENES; i++) {
         Scene *scene = test_scene(SCENES[i]);
         Lights *lights;
         int found = 0;
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        const char *specs[] = {"Shine", "sky"};
+        if (lamp_share > 0 && scene_resolve_lamps(scene, specs, 2, NULL)) /* some scenes have one lamp only */
+            assert_int_equal(scene_resolve_lamps(scene, specs + (i + 1 == sizeof SCENES / sizeof *SCENES), 1, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, lamp_share, NULL), 0);
         for (int k = 0; k < 4000; k++) {
             LightSampleContext p = random_lit(k);
             LightSample s;
@@ -204,6 +206,40 @@ static void densities_agree(void **state)
     }
 }
 
+static void densities_agree(void **state)
+{
+    (void)state;
+    expect_densities(0);
+    expect_densities(0.3);
+}
+
+/* Lamps share a part of the samples alike; the rest goes by what lights give. */
+static void each_lamp_has_a_share(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 20000 };
+    Scene *scene = test_scene(HEAD "#declare Dim = light_source { <0, 3, 0> .001 } light_source { Dim }"
+                                   "light_source { <0, 3, 0> 1 } light_source { <0, 2, 0> 0 }");
+    const char *specs[] = {"Dim", "off=light_source#3"};
+    LightSampleContext p = {{0, 0, 0}, {0, 1, 0}, NULL};
+    int counts[3] = {0};
+    Lights *lights;
+    assert_int_equal(scene_resolve_lamps(scene, specs, 2, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0.6, NULL), 0);
+    for (int k = 0; k < SAMPLES; k++) {
+        LightPick pick = lights_pick(lights, &p, ((float)k + 0.5f) / SAMPLES, 0.5f);
+        LightSample s;
+        assert_true(lights_sample(lights, &p, &pick, 0.5f, 0.5f, &s));
+        counts[s.lamp]++;
+        if (s.lamp == 0)
+            assert_true(fabsf(pick.probability - 0.2f) < 0.02f);
+    }
+    assert_true(counts[0] > 0.2 * SAMPLES && counts[0] < 0.21 * SAMPLES);
+    assert_true(counts[1] > 0.2 * SAMPLES && counts[2] > 0.2 * SAMPLES); /* what is off would shine as the bright one */
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
 /* A sphere is sampled by the cone in which it is seen: evenly where a path meets its front, never behind. */
 static void spheres_are_sampled_where_they_are_seen(void **state)
 {
@@ -213,7 +249,7 @@ static void spheres_are_sampled_where_they_are_seen(void **state)
     LightSampleContext from = {{0, 0, -4}, {0, 0, 0}, NULL};
     Surface s = {.primitive = &scene->primitives[0]};
     const double whole = 2 * PI * (1 - sqrt(1 - 1.0 / 16)); /* the cone's solid angle */
-    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
     for (int k = 0; k < 10; k++) {
         double angle = 0.13 * k; /* seen up to acos(1/4) = 1.318 */
         s.position = vec3(sin(angle), 0, -cos(angle)), s.geometric_normal = s.position;
@@ -235,7 +271,7 @@ static void photons_carry_all_light(void **state)
     Lights *lights;
     double sum = 0, of_sphere = 0;
     Sampler sampler = sampler_start(1, 0, 0, 0);
-    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
     for (uint32_t k = 0; k < SAMPLES; k++) {
         EmissionPoint p;
         float u[4];
@@ -333,7 +369,7 @@ static void row_of_a_new_kind(void **state)
         double sum[2] = {0, 0};
         enum { N = 4000 };
         scene->lights[0].ops = &half_space, scene->lights[0].lamp = 7;
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
         for (int above = 0; above < 2; above++)
             for (int i = 0; i < N; i++) {
                 const LightSampleContext p = {.position = vec3(0, 8.0 * above, 0)};
@@ -402,7 +438,7 @@ static double mean_irradiance(const char *text, LightSampleContext p)
     Lights *lights;
     double sum = 0;
     enum { SAMPLES = 1 << 18 };
-    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
     Sampler sampler = sampler_start(1, 0, 0, 0);
     for (uint32_t k = 0; k < SAMPLES; k++) {
         LightSample s;
@@ -449,7 +485,7 @@ static void domes_are_left_to_paths(void **state)
         snprintf(text, sizeof text, "%s%s", HEAD, cases[k].shape);
         Scene *scene = test_scene(text);
         Lights *lights;
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
         assert_int_equal(lights_count(lights), cases[k].lights);
         lights_close(&lights);
         scene_close(&scene);
@@ -471,7 +507,7 @@ static void only_lights_of_the_group_are_chosen(void **state)
                  light_groups[k]);
         Scene *scene = test_scene(text);
         Lights *lights;
-        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
         for (int outside = 0; outside < 2; outside++) {
             const LightSampleContext p = {.position = vec3(outside, 1, 0),
                                           .light_group = scene->primitives[outside].light_group};
@@ -542,6 +578,7 @@ int main(void)
         cmocka_unit_test(row_of_a_new_kind),
         cmocka_unit_test(skies_are_sampled_by_luminance),
         cmocka_unit_test(densities_agree),
+        cmocka_unit_test(each_lamp_has_a_share),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
         cmocka_unit_test(photons_carry_all_light),
         cmocka_unit_test(met_sources_give_their_irradiance),

@@ -1,0 +1,73 @@
+#!/bin/sh
+# A set with new values of lamps, against the scene rendered so along the same paths: in a room with a sun, a bulb that
+# emits, a red lamp, one that is off, the sky, glass and a mirror. With original textures and constant ones, by default
+# and with all bits; and that keeping lamps apart changes nothing where none is changed.
+set -u
+. tests/lib/tap.sh
+
+cat >"$work/room.pov" <<'POV'
+#version 3.7;
+global_settings { assumed_gamma 1 }
+camera { location <0, 1.5, -4.5> look_at <0, 1, 0> angle 55 }
+background { rgb <.09, .12, .15> }
+#declare Floor = texture { pigment { checker rgb <.8, .5, .3> rgb <.3, .4, .6> scale .5 } finish { diffuse .9 } }
+#declare Wall = texture { pigment { rgb <.7, .75, .6> } finish { diffuse .8 } }
+plane { y, 0 texture { Floor } }
+box { <-3, 0, 3> <3, 3, 3.1> texture { Wall } }
+box { <-3.1, 0, -3> <-3, 3, 3> texture { Wall } }
+sphere { <-.8, .6, .3>, .6 pigment { rgbf 1 } finish { reflection .08 } interior { ior 1.5 } }
+sphere { <1, .5, .8>, .5 pigment { rgb .02 } finish { reflection .8 } }
+#declare Sun = light_source { <3, 4, -3> <1, .9, .7> }
+light_source { Sun }
+#declare Bulb = sphere { <-1.8, 2, 1.5>, .15 pigment { rgb 1 } finish { emission <8, 6, 4> diffuse 0 } }
+object { Bulb }
+light_source { <2, 2.5, 1> <.6, 0, 0> fade_distance 1 fade_power 2 }
+#declare Spare = light_source { <0, 2.5, -1> 0 }
+light_source { Spare }
+POV
+
+render() { retex-render -q --threads 2 --spp 32 --size 96x72 -t Floor -t Wall "$@" "$work/room.pov"; }
+
+# against LEAST OPTIONS-OF-THE-LAMPS TEXTURES NAME
+against() {
+    textures= replaced=
+    for statement in $3; do textures="$textures --texture $statement" replaced="$replaced --replace $statement"; done
+    # shellcheck disable=SC2086 # words wanted
+    retex-combine -q "$work/set.exr" $2 $textures -o "$work/new.exr"
+    # shellcheck disable=SC2086
+    render --lamps each $2 $replaced --plain -o "$work/again.exr"
+    psnr=$(figure "$work/new.exr" "$work/again.exr" psnr)
+    echo "# $4, $2, ${3:-originals}: $psnr dB"
+    result "$(at_least "$psnr" "$1")" "$4, $2, ${3:-originals}"
+}
+
+floor='Floor=rgb(.1,.6,.2)' both='Floor=rgb(.1,.6,.2) Wall=rgb(.5,.1,.8)'
+for precision in '' --full-precision; do
+    # shellcheck disable=SC2086
+    render --lamps each $precision -o "$work/set.exr"
+    least=55
+    [ -z "$precision" ] || least=60
+    for edit in '' "$floor" "$both"; do
+        for lamps in '--solo Sun' '--solo light_2' '--solo Bulb' '--solo Spare' '--solo sky' \
+            '--light Sun=.2*#ff4020 --light Bulb=6*3000K' '--light light_2=20*#4080ff --light Sun=0 --light sky=3' \
+            '--light rest=2 --light Spare=.5*tomato'; do
+            against $least "$lamps" "$edit" "${precision:-default}"
+        done
+    done
+done
+
+render --lamps each --light-share 0 -o "$work/set.exr"
+render -o "$work/none.exr"
+result "$(at_least "$(figure "$work/set.exr" "$work/none.exr" psnr)" 120)" 'the picture is the same'
+render -l Sun -l Bulb --light-share 0 -o "$work/set.exr"
+for edit in '' "$floor" "$both"; do
+    textures=
+    for statement in $edit; do textures="$textures --texture $statement"; done
+    for set in set none; do
+        # shellcheck disable=SC2086
+        retex-combine -q "$work/$set.exr" $textures -o "$work/$set.png"
+    done
+    cmp -s "$work/set.png" "$work/none.png"
+    result $((!$?)) "no lamp is changed: the same bytes, ${edit:-originals}"
+done
+finish
