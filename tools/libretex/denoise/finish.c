@@ -4,6 +4,7 @@
 #include <retex/combine.h>
 #include <retex/parallel.h>
 
+#include "denoise/residual.h"
 #include "precision/precision.h"
 #include "set/parts.h"
 
@@ -55,8 +56,10 @@ static void restore_row(void *context, int y, int thread)
     const Finish *f = context;
     const RetexDenoiser *d = f->denoiser;
     (void)thread;
-    if (y >= d->roi.y0 && y < d->roi.y1)
+    if (y >= d->roi.y0 && y < d->roi.y1) {
         restore_means(d, f->result, y);
+        retex_denoise_share_residual(d, y);
+    }
     for (int k = 0; k < d->set->nparts; k++)
         if (f->result->written[k])
             retex_part_round_row(&d->set->parts[k], y);

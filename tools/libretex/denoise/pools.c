@@ -22,6 +22,15 @@ static RetexFootprintImage find_image(const RetexSet *set, int part, int least, 
     return (RetexFootprintImage){.part = -1};
 }
 
+/* Light of a cluster that is its weight in a mixture, too, moves with the cluster. */
+static int is_light(const RetexSet *set, int part)
+{
+    for (int t = 0; t < set->nterms; t++)
+        if (set->terms[t].radiance == part)
+            return 1;
+    return 0;
+}
+
 /* The part that holds a footprint's weight in mixtures, or -1. Further such parts are counted as used by others. */
 static int find_share(const RetexSet *set, int footprint, int *uses)
 {
@@ -29,7 +38,7 @@ static int find_share(const RetexSet *set, int footprint, int *uses)
     for (int m = 0; m < set->nmixtures; m++)
         for (int k = 0; k < set->mixtures[m].nshares; k++) {
             int weight = set->mixtures[m].shares[k].weight;
-            if (set->mixtures[m].shares[k].footprint != footprint || !is_part(set, weight))
+            if (set->mixtures[m].shares[k].footprint != footprint || !is_part(set, weight) || is_light(set, weight))
                 continue;
             if (uses && (found < 0 || found != weight))
                 uses[weight] += 1 + (found >= 0);
@@ -170,7 +179,7 @@ static int find_all_interreflected_light(RetexDenoiseFootprints *f, const RetexD
     float **all = &f->interreflected[f->nsignals];
     int code = RETEX_OK;
     for (int s = 0; s < f->nsignals && !code; s++) {
-        if (d->signals.of[s].kind == RETEX_FOOTPRINT_HIT)
+        if (d->signals.of[s].kind == RETEX_FOOTPRINT_HIT || d->signals.of[s].lamp >= 0)
             continue;
         code = find_interreflected_light(&f->interreflected[s], d->set, &d->signals.of[s], f->pixels, err);
         if (!f->interreflected[s] || code)

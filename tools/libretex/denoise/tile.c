@@ -50,6 +50,7 @@ struct RetexDenoiseScratch {
     float *scratch, *errors[CHOICES], *neighbours;
     RetexDenoiseSimilarity *alike; /* DENOISE_BATCH */
     SignalScratch *signals;
+    RetexDenoiseSignal *sums; /* by signal */
     float **pointers;
 };
 
@@ -124,9 +125,10 @@ int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser 
         members += (size_t)d->signals.of[s].nmembers + 1;
     if (work) {
         work->signals = calloc((size_t)d->signals.count + 1, sizeof *work->signals);
+        work->sums = calloc((size_t)d->signals.count + 1, sizeof *work->sums);
         layout.pointers = work->pointers = calloc(6 * members + 1, sizeof *work->pointers);
     }
-    if (work && work->signals && work->pointers) {
+    if (work && work->signals && work->sums && work->pointers) {
         plan_scratch(work, &layout, d);
         layout.memory = work->memory = calloc(layout.used, sizeof(float));
     }
@@ -145,6 +147,7 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
         return;
     free(work->memory);
     free(work->signals);
+    free(work->sums);
     free(work->pointers);
     free(work);
     *out = NULL;
@@ -563,7 +566,7 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
 {
     int x0 = left - DENOISE_MARGIN, y0 = out->first - DENOISE_MARGIN;
     RetexDenoiseFeatures features;
-    RetexDenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
+    RetexDenoiseSignal *signals = work->sums;
     retex_denoise_load_features(&features, work->features, d, x0, y0);
     for (int s = 0; s < d->signals.count; s++) {
         SignalScratch *r = &work->signals[s];
