@@ -15,10 +15,11 @@
 #define SOFT_SIGMA 0.0625
 
 /* Terms whose radiance is black everywhere have no layer. The target is edited, so that corrections count in full, and
- * the picture as rendered does not. */
+ * the picture as rendered does not; light of single lamps is in the others' as well. */
 static int is_used(const RetexSet *set, const RetexTerm *term)
 {
-    return term->role != RETEX_ROLE_PICTURE && retex_set_is_layer(set, term->radiance);
+    return term->role != RETEX_ROLE_PICTURE && retex_set_term_lamp(set, term) < 0 &&
+           retex_set_is_layer(set, term->radiance);
 }
 
 static int hit_is_used(const RetexSet *set, int footprint)

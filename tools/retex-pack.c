@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <retex/host/set_build.h>
 #include <retex/output_file.h>
 #include <retex/pack.h>
 #include <retex/set_file.h>
@@ -18,6 +19,7 @@ static const CliOption options[] = {
     {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by use and the loss in pictures; - is standard output", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
     {0},
@@ -25,7 +27,7 @@ static const CliOption options[] = {
 
 typedef struct Job {
     RetexPackParams params;
-    int unpack, quality_given;
+    int unpack, quality_given, no_lamps;
     uint64_t memory; /* bytes */
     int threads;
     const char *input, *stats, *web;
@@ -49,6 +51,8 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
         } else if (strcmp(option->name, "stats") == 0) {
             job->stats = cli->value;
+        } else if (strcmp(option->name, "no-lamps") == 0) {
+            job->no_lamps = 1;
         } else if (strcmp(option->name, "web") == 0) {
             job->web = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
@@ -63,6 +67,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--quality and --lossless exclude each other");
     if (job->unpack && (job->params.lossless || job->quality_given))
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
+    if (job->unpack && job->no_lamps)
+        cli_die(cli, "--no-lamps is of packing");
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
     if (job->web && (job->unpack || job->params.lossless || job->stats || cli->output))
@@ -169,6 +175,17 @@ static void remove_player(const char *folder, unsigned added)
     }
 }
 
+/* Without its lamps a set is in memory. */
+static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
+{
+    const int whole = job->unpack || job->params.lossless || job->no_lamps;
+    int code = whole ? retex_set_read(job->input, set, NULL, cli->threads, err)
+                     : cli_open_set(cli, set, job->input, job->memory, err);
+    if (!code && job->no_lamps)
+        code = retex_set_drop_lamps(*set, err);
+    return code;
+}
+
 /* A folder for browsers: the player, and the set as it reads it. The manifest comes last, so an older room stays whole,
  * at most with a newer player, until the new one is. */
 static int run_web(Cli *cli, const Job *job)
@@ -185,7 +202,7 @@ static int run_web(Cli *cli, const Job *job)
     cli_reads(cli, "the set", job->input);
     cli_writes(cli, "--web", manifest);
     const int existed = access(job->web, F_OK) == 0;
-    int code = cli_open_set(cli, &set, job->input, job->memory, &err);
+    int code = open_set(cli, job, &set, &err);
     if (!code) {
         cli_check_pixels(cli, set, job->input);
         code = output_make_folders(manifest, &err);
@@ -242,8 +259,7 @@ int main(int argc, char **argv)
     check_stats(&cli, &job, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
-    int code = job.unpack || job.params.lossless ? retex_set_read(job.input, &set, NULL, cli.threads, &err)
-                                                 : cli_open_set(&cli, &set, job.input, job.memory, &err);
+    int code = open_set(&cli, &job, &set, &err);
     if (code)
         cli_fail(&cli, &err);
     cli_check_pixels(&cli, set, job.input);

@@ -38,6 +38,24 @@ $ retex-combine -q l.exr --batch t.csv --manifest j; retex-combine l.exr --batch
 > retex-combine: seven.exr: Floor <- brick.jpg, light:Lamp=rgb(1.754746,0.8492223,0.27115253), 48 x 32
 > retex-combine: 1 picture, 1 kept
 
+# Packs: without loss, with it, where a dim lamp stays as fine as a bright one, and without lamps.
+$ make_set n.exr 96 64 footprints denoise; make_lamp_terms n.exr f.exr; retex-pack -q f.exr --lossless -o a.retex; retex-pack -q f.exr -o b.retex 2>&1; for v in Lamp=20 Window=red rest=.01; do for p in f.exr a.retex b.retex; do retex-combine -q $p --light $v --light '*=0' -o $p.png --depth 16; done; cmp f.exr.png a.retex.png; retex-diff -q f.exr.png b.retex.png --fail-psnr 44; done
+> retex-pack: warning: the set cannot be made compact and takes more room: it has lamps
+$ retex-pack -q f.exr --no-lamps -o c.retex 2>&1; retex-pack -q n.exr -o d.retex 2>&1; cmp c.retex d.retex; retex-info c.retex 2>/dev/null | grep -c param; retex-pack -q f.exr --no-lamps --lossless -o c.retex; retex-pack -q n.exr --lossless -o d.retex; cmp c.retex d.retex
+> retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
+> retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
+> 0
+$ make_lamp_terms n.exr g.exr off; retex-pack g.exr --no-lamps -o e.retex
+! retex-pack: error: the lamp Window is off in the picture, which only a set with lamps can tell
+= 2
+$ retex-pack f.exr --web w; ls w
+! retex-pack: error: browsers cannot show a set with lamps; --no-lamps leaves them out
+! ls: cannot access 'w': No such file or directory
+= 2
+$ retex-pack --unpack b.retex --no-lamps -o y.exr
+! retex-pack: error: --no-lamps is of packing
+= 2
+
 # What is refused.
 $ retex-combine l.exr --light rets=0 -o y.exr
 ! retex-combine: error: no lamp is called 'rets'; the set has Lamp, Window, rest; is rest meant?

@@ -177,6 +177,8 @@ static void find_greys(RetexCompactLight *light)
 
 static const char *sort_all(RetexCompactLight *light)
 {
+    if (retex_set_has_role(light->set, RETEX_ROLE_LAMP))
+        return "it has lamps";
     if (!sort_footprints(light))
         return "its footprints are of another form than those of layout footprints";
     if (!sort_shares(light))

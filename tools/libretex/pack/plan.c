@@ -74,10 +74,10 @@ typedef struct Planning {
 
 /* --- roles --- */
 
-/* A part that is used in two different roles is stored without loss. */
+/* A part that is used in two different roles is stored without loss, but light that is a weight, too. */
 static void give_role(Planning *plan, int part, Role role)
 {
-    if (part >= 0)
+    if (part >= 0 && !(plan->roles[part] == ROLE_LIGHT && role == ROLE_WEIGHT))
         plan->roles[part] = plan->roles[part] == ROLE_NONE || plan->roles[part] == role ? role : ROLE_EXACT;
 }
 
@@ -154,7 +154,16 @@ static double rendered_value(const RetexSet *set, int part)
     return most > 0 ? most : 1;
 }
 
-/* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
+/* Whether radiance is of one lamp, which may be dim, and is made brighter. */
+static int is_of_lamp(const RetexSet *set, int part)
+{
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].radiance == part && set->terms[i].role == RETEX_ROLE_LAMP)
+            return 1;
+    return 0;
+}
+
+/* Choose the value at level 255 for a part of radiance. Light of a lamp is relative to itself. Radiance that textures multiply may exceed 1 and still give a
  * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed: the mean
  * plus two standard deviations. */
 static double white_of(const Planning *plan, int part)
@@ -164,8 +173,9 @@ static double white_of(const Planning *plan, int part)
     const double value = rendered_value(set, part);
     double count = 0, sum = 0, squares = 0;
     int darkened = part > 0;
+    const int of_lamp = is_of_lamp(set, part);
     for (int i = 0; i < set->nterms; i++)
-        darkened = darkened && (set->terms[i].radiance != part || retex_term_hits(&set->terms[i]) > 0);
+        darkened = darkened && (set->terms[i].radiance != part || of_lamp || retex_term_hits(&set->terms[i]) > 0);
     for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
         const double v = value * (double)im->pixels[i];
         if (!(v > 0) || !isfinite(v))
@@ -174,7 +184,8 @@ static double white_of(const Planning *plan, int part)
     }
     const double mean = count > 0 ? sum / count : 0;
     const double deviation = count > 0 ? sqrt(fmax(squares / count - mean * mean, 0)) : 0;
-    return fmin(fmax(mean + 2 * deviation, plan->white), BRIGHTER_MOST * plan->white);
+    const double own = fmin(mean + 2 * deviation, BRIGHTER_MOST * plan->white);
+    return of_lamp && own > 0 ? own : fmax(own, plan->white);
 }
 
 static void find_noise(void *context, int part, int thread)

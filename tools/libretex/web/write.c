@@ -543,6 +543,8 @@ int retex_web_write(const RetexSet *set, const char *folder, const RetexWebParam
     const int quality = own.quality;
     if (quality < 1 || quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", quality);
+    if (retex_set_has_role(set, RETEX_ROLE_LAMP))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "browsers cannot show a set with lamps; --no-lamps leaves them out");
     int code = RETEX_EUNSUPPORTED;
     for (size_t i = 0; i < sizeof SCALES / sizeof *SCALES && code == RETEX_EUNSUPPORTED; i++) {
         web_close(&web);

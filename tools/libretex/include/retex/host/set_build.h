@@ -53,6 +53,9 @@ void retex_set_remove_part(RetexSet *set, int part);
  * with hits are removed if their radiance or an image is empty, and noise parts of signals without terms. Parts that
  * something else refers to stay. All else keeps its order. */
 void retex_set_prune(RetexSet *set, const char *empty);
+/* Remove the terms and parameters of lamps: the set is, but for denoising data, as if it had been rendered without them.
+ * RETEX_EINVAL where a lamp is off in the picture, as it is on in all other terms. The set is in memory. */
+int retex_set_drop_lamps(RetexSet *set, RetexError *err);
 /* Round all numbers of a rendered set to what they are known to, by its noise parts; by less, if it has none: see
  * retex-set(5). Parts that are in a band store go into another one, which lies near the path `near` (NULL: in $TMPDIR
  * or /tmp). The set is in memory or in its band store. Sets without terms stay as they are. */
