@@ -20,8 +20,8 @@ typedef struct BatchSources {
     SourceSums sums;
 } BatchSources;
 
-/* Make the text, to be freed, of a picture with these textures and lamps, the text of an edit, or "". Textures are sorted
- * by target. */
+/* Make the text, to be freed, of a picture with these textures and lamps: the text of an edit, or "". Textures are
+ * sorted by target. */
 int batch_sources_text(char **text, BatchSources *sources, const char *output, RetexTextureSpec *specs, int count,
                        const char *lights, RetexError *err);
 void batch_sources_close(BatchSources *sources);

@@ -163,9 +163,9 @@ static int is_of_lamp(const RetexSet *set, int part)
     return 0;
 }
 
-/* Choose the value at level 255 for a part of radiance. Light of a lamp is relative to itself. Radiance that textures multiply may exceed 1 and still give a
+/* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
  * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed: the mean
- * plus two standard deviations. */
+ * plus two standard deviations. That of a lamp's light may be below the picture's. */
 static double white_of(const Planning *plan, int part)
 {
     const RetexSet *set = plan->set;

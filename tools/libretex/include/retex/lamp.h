@@ -7,8 +7,8 @@
  *     3000K                  the colour of a black body, from 1000 to 40000 kelvins
  *
  * Numbers multiply the lamp's value as rendered, or, of a lamp that is off, the value that makes it shine. Colours
- * replace its colour, and keep its luminance: of a colour only the hue and saturation count. Several colours in a product
- * filter each other. Light of several colours is multiplied by a colour of luminance 1. */
+ * replace its colour, and keep its luminance: of a colour only the hue and saturation count. Several colours in a
+ * product filter each other. Light of several colours is multiplied by a colour of luminance 1. */
 #ifndef RETEX_LAMP_H
 #define RETEX_LAMP_H
 
@@ -36,11 +36,11 @@ void retex_lamp_value_text(const RetexLampValue *value, char text[RETEX_LAMP_TEX
 /* What a parameter of kind COLOR becomes. RETEX_EINVAL where that is too large for a float. */
 int retex_lamp_value_apply(float color[3], const RetexLampValue *value, const RetexParameter *lamp, RetexError *err);
 
-/* The colour of a black body of so many kelvins, RETEX_KELVIN_MIN to RETEX_KELVIN_MAX, of luminance 1: Planck's law seen
- * by the CIE 1931 observer, in the fit of Wyman, Sloan and Shirley, 'Simple Analytic Approximations to the CIE XYZ Color
- * Matching Functions' (2013), equation 4; within .002 of its chromaticity from 2000 kelvins on. Channels below 0, of blue
- * under 1900 kelvins, become 0. White, 1 1 1, is D65, daylight: no black body is quite so, the nearest one, of 6500
- * kelvins, is a little more purple. */
+/* The colour of a black body of so many kelvins, RETEX_KELVIN_MIN to RETEX_KELVIN_MAX, of luminance 1: Planck's law
+ * seen by the CIE 1931 observer, in the fit of Wyman, Sloan and Shirley, 'Simple Analytic Approximations to the CIE XYZ
+ * Color Matching Functions' (2013), the multi-lobe one; within .003 of its chromaticity from 2000 kelvins on. Channels
+ * below 0, of blue under 1900 kelvins, become 0. White, 1 1 1, is D65, daylight: no black body is quite so, the nearest
+ * one, of 6500 kelvins, is a little more purple. */
 void retex_kelvin_color(float color[3], double kelvin);
 
 /* The parameter of the lamp that a name means: exactly, else ignoring case if that is unique. RETEX_ENOTFOUND lists the

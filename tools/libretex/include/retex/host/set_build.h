@@ -53,7 +53,7 @@ void retex_set_remove_part(RetexSet *set, int part);
  * with hits are removed if their radiance or an image is empty, and noise parts of signals without terms. Parts that
  * something else refers to stay. All else keeps its order. */
 void retex_set_prune(RetexSet *set, const char *empty);
-/* Remove the terms and parameters of lamps: the set is, but for denoising data, as if it had been rendered without them.
+/* Remove the terms and parameters of lamps, with the noise of their light: the set is as if rendered without them.
  * RETEX_EINVAL where a lamp is off in the picture, as it is on in all other terms. The set is in memory. */
 int retex_set_drop_lamps(RetexSet *set, RetexError *err);
 /* Round all numbers of a rendered set to what they are known to, by its noise parts; by less, if it has none: see
