@@ -192,24 +192,63 @@ static void test_pictures_alike(void **state)
     }
 }
 
-/* Needles are widened, and the reference skips texels along their length. */
+/* Whether the kernel filters all footprints itself. */
+static int filters_all(const RetexTexture *texture, RetexTextureFilter shape)
+{
+    return !retex_texture_filter_batches(retex_texture_batch_kernels[0], texture, shape, footprints.uv,
+                                         footprints.spread, 3, COUNT, footprints.other, 4);
+}
+
+/* Gaussian needles are widened, long discs are filtered on coarser levels, and the reference skips texels along the
+ * length of both. */
 static void test_needles_alike(void **state)
 {
     (void)state;
-    static const double longest[] = {16, 64, 300}, least[] = {58, 49, 47}; /* standard deviations; dB */
+    static const double longest[] = {16, 64, 300};                  /* standard deviations */
+    static const double least[2][3] = {{58, 49, 47}, {71, 71, 59}}; /* dB */
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexTexture *texture;
     RetexError err = {0};
     strcpy(spec.image, "scenes/textures/walnut-herringbone.jpg");
     test_must(retex_texture_load(&texture, &spec, 0, &err), &err);
-    for (int i = 0; i < 3; i++) {
-        scatter(1024, 1024, 0.2, 1, longest[i], 7);
-        Difference d = compare(texture, RETEX_TEXTURE_GAUSSIAN);
-        print_message("up to %g times as long as wide: %.1f dB, bias %+.6f %+.6f %+.6f\n", longest[i], d.psnr,
-                      d.bias[0], d.bias[1], d.bias[2]);
-        assert_true(d.psnr >= least[i]);
+    for (int i = 0; i < 6; i++) {
+        const RetexTextureFilter shape = i < 3 ? RETEX_TEXTURE_GAUSSIAN : RETEX_TEXTURE_DISC;
+        scatter(1024, 1024, 0.2, 1, longest[i % 3], 7);
+        Difference d = compare(texture, shape);
+        print_message("%s, up to %g times as long as wide: %.1f dB, bias %+.6f %+.6f %+.6f\n",
+                      i < 3 ? "Gaussian" : "disc", longest[i % 3], d.psnr, d.bias[0], d.bias[1], d.bias[2]);
+        assert_true(d.psnr >= least[i / 3][i % 3]);
         for (int c = 0; c < 3; c++)
             assert_true(fabs(d.bias[c]) < 3e-4);
+        assert_true(filters_all(texture, shape));
+    }
+    retex_texture_close(&texture);
+}
+
+/* What covers thousands of repeats, however narrow it is, has the mean of the texture. */
+static void test_far_surfaces(void **state)
+{
+    (void)state;
+    static const double deviations[] = {1100, 30000, 65504};
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexTexture *texture;
+    RetexError err = {0};
+    strcpy(spec.image, "scenes/textures/walnut-herringbone.jpg");
+    test_must(retex_texture_load(&texture, &spec, 0, &err), &err);
+    float mean[4];
+    retex_texture_gaussian(texture, 0.5, 0.5, (const double[3]){4, 0, 4}, mean);
+    for (int i = 0; i < COUNT; i++) {
+        for (int k = 0; k < 2; k++) {
+            footprints.uv[3 * i + k] = (float)(i * (k ? 37 : -53));
+            footprints.spread[3 * i + k] = (float)deviations[i / (k ? 3 : 1) % 3];
+        }
+        footprints.uv[3 * i + 2] = 1;
+        footprints.spread[3 * i + 2] = (float)(i / 9 % 3 - 1);
+    }
+    for (int shape = RETEX_TEXTURE_DISC; shape <= RETEX_TEXTURE_BROAD; shape++) {
+        assert_true(filters_all(texture, (RetexTextureFilter)shape));
+        for (int i = 0; i < 4 * COUNT; i++)
+            assert_float_equal(footprints.other[i], mean[i % 4], 2e-3f);
     }
     retex_texture_close(&texture);
 }
@@ -476,7 +515,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits),     cmocka_unit_test(test_pictures_alike),
-        cmocka_unit_test(test_needles_alike), cmocka_unit_test(test_broad),
+        cmocka_unit_test(test_needles_alike), cmocka_unit_test(test_far_surfaces),
+        cmocka_unit_test(test_broad),
         cmocka_unit_test(test_edges_alike),   cmocka_unit_test(test_borders_alike),
         cmocka_unit_test(test_cut_alike),     cmocka_unit_test(test_small_levels_padded),
         cmocka_unit_test(test_steady),        cmocka_unit_test(test_odd),

@@ -141,13 +141,13 @@ static inline void unassociate(const float in[4], float *out, int channels)
         memcpy(out, &color, 3 * sizeof *out);
 }
 
-void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
-                                  RetexTextureFilter shape, const float *uv, const float *spread, int spreads, size_t n,
-                                  float *colors, int channels)
+size_t retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
+                                    RetexTextureFilter shape, const float *uv, const float *spread, int spreads,
+                                    size_t n, float *colors, int channels)
 {
     RetexBatchTexture prepared;
     RetexBatch batch;
-    size_t from[BATCH_SIZE + 1];
+    size_t from[BATCH_SIZE + 1], left = 0;
     prepare(&prepared, texture, shape);
     memset(colors, 0, n * (size_t)channels * sizeof *colors);
     for (size_t i = 0; i < n;) {
@@ -167,6 +167,7 @@ void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTe
         kernel(&prepared, &batch);
         for (int k = 0; k < batch.count; k++)
             unassociate(batch.rgba[k], colors + (size_t)channels * from[k], channels);
+        left += (size_t)batch.nleft;
         for (int k = 0; k < batch.nleft; k++) {
             size_t at = from[batch.left[k]];
             float rgba[4];
@@ -174,14 +175,15 @@ void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTe
             memcpy(colors + (size_t)channels * at, rgba, (size_t)channels * sizeof *colors);
         }
     }
+    return left;
 }
 
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
                           int spreads, size_t n, float *colors, int channels)
 {
     if (texture->nlevels) {
-        retex_texture_filter_batches(retex_texture_batch_kernels[retex_cpu_level()], texture, shape, uv, spread,
-                                     spreads, n, colors, channels);
+        (void)retex_texture_filter_batches(retex_texture_batch_kernels[retex_cpu_level()], texture, shape, uv, spread,
+                                           spreads, n, colors, channels);
         return;
     }
     for (size_t i = 0; i < n; i++) {

@@ -57,10 +57,11 @@ typedef void RetexTextureBatchKernel(const RetexBatchTexture *texture, RetexBatc
 
 extern RetexTextureBatchKernel *const retex_texture_batch_kernels[RETEX_CPU_LEVELS];
 
-/* Like retex_texture_filter, with one of these kernels; not for constants. */
-void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
-                                  RetexTextureFilter shape, const float *uv, const float *spread, int spreads, size_t n,
-                                  float *colors, int channels);
+/* Like retex_texture_filter, with one of these kernels; not for constants. Returns how many footprints the kernel did
+ * not filter. */
+size_t retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
+                                    RetexTextureFilter shape, const float *uv, const float *spread, int spreads,
+                                    size_t n, float *colors, int channels);
 
 /* Copy the 4 x 4 texels from column x and row y on, as they are stored, where some are beyond the level's borders. */
 void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels);

@@ -39,6 +39,9 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 /* The smaller variance, in texels of the level, that remains for a disc: for round ones, and for very long ones. */
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
+/* The longer deviation, in texels of the level, that a disc has at most: its window has that many strips to each side.
+ */
+#define LONGEST_DEVIATION (MAX_STRIPS - 1.0f)
 /* The same for parallelograms, whose sides show where texels are coarse. */
 #define STRAIGHT_LEAST 1.5f
 #define STRAIGHT_LONG_LEAST 0.75f

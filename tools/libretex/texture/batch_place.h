@@ -136,6 +136,7 @@ RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Sprea
         *fine = smaller < STRAIGHT_BOX_FROM;
     } else {
         needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
+        deciding = MAX(deciding, larger * needed * (4 / (LONGEST_DEVIATION * LONGEST_DEVIATION)));
         *fine = smaller < BOX_FROM;
     }
     Mask level = (((Mask)((deciding + 0.25f) / needed) >> 23) - 127) >> 1;
@@ -282,7 +283,7 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
         far |= ~(MAX(x, -x) < 1e6f);
     }
     Spread s = t->straight ? NAME(spread_of_sides)(&sides) : NAME(find_spread)(t, su, sv, correlation);
-    far |= ~(s.xx + s.yy < 1e12f);
+    far |= ~(s.xx + s.yy < 1e18f);
     const Lanes none = NAME(all)(0);
     u = SELECT(far, none, u);
     v = SELECT(far, none, v);
