@@ -194,7 +194,7 @@ static double merge_cost(const Cluster *a, const Cluster *b, Rule rule, const in
     const double spread = b->uv.m2[0] + b->uv.m2[2], kept = a->varies + b->varies;
     if (rule == RULE_VARIATION)
         return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, spread, periodic) - kept;
-    const double ward = retex_uv_stats_ward(&a->uv, &b->uv, periodic);
+    const double ward = retex_uv_stats_point_ward(&a->uv, b->uv.weight, b->uv.mean, periodic);
     if (rule == RULE_WARD)
         return ward / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
     return light_error2(a->uv.weight + b->uv.weight, a->uv.m2[0] + a->uv.m2[2] + spread + ward) - kept;
@@ -211,21 +211,33 @@ static double join_cost(const Cluster *a, const FirstHit *q, Rule rule, const in
     return light_error2(a->uv.weight + q->weight, a->uv.m2[0] + a->uv.m2[2] + ward) - a->varies;
 }
 
+/* Compute the costs of merging those clusters that have changed with all others. */
+static void update_costs(Clusters *clusters, Rule rule, const int periodic[2])
+{
+    const Cluster *of = clusters->of;
+    for (unsigned left = clusters->changed & ((1u << clusters->count) - 1); left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        for (int i = 0; i < k; i++)
+            clusters->costs[i][k] = merge_cost(&of[i], &of[k], rule, periodic);
+        for (int i = k + 1; i < clusters->count; i++)
+            clusters->costs[k][i] = merge_cost(&of[k], &of[i], rule, periodic);
+    }
+    clusters->changed = 0;
+}
+
 /* Look among the clusters for a pair that is cheaper than the best so far. */
 static void find_pair(Pair *best, Clusters *clusters, Rule rule, const int periodic[2])
 {
-    clusters->merge_bound = INFINITY;
+    double least = INFINITY;
+    int a = 0, b = 0;
+    update_costs(clusters, rule, periodic);
     for (int i = 0; i < clusters->count; i++)
-        for (int k = i + 1; k < clusters->count; k++) {
-            if ((clusters->changed >> i | clusters->changed >> k) & 1)
-                clusters->costs[i][k] = merge_cost(&clusters->of[i], &clusters->of[k], rule, periodic);
-            const double cost = clusters->costs[i][k];
-            if (cost < best->cost)
-                *best = (Pair){clusters, rule, i, k, cost};
-            if (cost < clusters->merge_bound)
-                clusters->merge_bound = cost;
-        }
-    clusters->changed = 0;
+        for (int k = i + 1; k < clusters->count; k++)
+            if (clusters->costs[i][k] < least)
+                least = clusters->costs[i][k], a = i, b = k;
+    clusters->merge_bound = least;
+    if (least < best->cost)
+        *best = (Pair){clusters, rule, a, b, least};
 }
 
 static void mark_changed(Clusters *clusters, int k)
