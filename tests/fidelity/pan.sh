@@ -3,11 +3,7 @@
 # rendered again and denoised alike. table/frames.sh makes the frames; docs/frames.md has the figures of larger ones.
 set -u
 . tests/lib/tap.sh
-/usr/bin/python3 -c 'import numpy, OpenImageIO' 2>/dev/null || {
-    skip "the pans" "python3-numpy or python3-openimageio is not installed"
-    finish
-    exit
-}
+need_pictures "the pans"
 FRAMES_WORK=$work/frames FRAMES_HEIGHT=32 FRAMES_TRUTH_SPP=512 FRAMES_SEEDS=1 tests/fidelity/table/frames.sh 2>"$work/err" ||
     sed 's/^/# /' "$work/err"
 # temporal SCENE FRAMES: the figure.

@@ -18,6 +18,13 @@ skip() {
     number=$((number + 1))
     echo "ok $number - $1 # SKIP $2"
 }
+# need_pictures NAME: ends the test with one that is skipped if Python cannot read pictures.
+need_pictures() {
+    /usr/bin/python3 -c 'import numpy, OpenImageIO' 2>/dev/null && return
+    skip "$1" "python3-numpy or python3-openimageio is not installed"
+    finish
+    exit
+}
 # finish: prints the plan. To be called last.
 finish() { echo "1..$number"; }
 
