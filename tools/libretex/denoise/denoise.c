@@ -8,6 +8,7 @@
 #include "base/params.h"
 #include "base/image.h"
 #include "denoise/filter.h"
+#include "denoise/originals.h"
 #include "denoise/second.h"
 #include "denoise/strips.h"
 #include "denoise/totals.h"
@@ -47,6 +48,11 @@ static int check_params(const RetexDenoiseParams *p, RetexError *err)
     return RETEX_OK;
 }
 
+static int open_originals(RetexDenoiser *d, int nthreads, RetexError *err)
+{
+    return d->params.footprints ? retex_denoise_originals_open(&d->originals, d->set, nthreads, err) : RETEX_OK;
+}
+
 /* The region of a set in memory. */
 static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads, RetexError *err)
 {
@@ -56,6 +62,8 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     int code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
     if (!code)
         retex_set_round_to_types(set, nthreads);
+    if (!code)
+        code = open_originals(d, nthreads, err);
     if (!code)
         code = retex_denoise_result_open(&result, d, err);
     if (!code)
@@ -71,6 +79,12 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
     retex_denoise_passed_close(&passed, d);
     retex_denoise_result_close(&result);
     return code;
+}
+
+static int denoise_in_strips(RetexDenoiser *d, int nthreads, RetexError *err)
+{
+    const int code = open_originals(d, nthreads, err);
+    return code ? code : retex_denoise_strips(d, nthreads, err);
 }
 
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRoi *roi, int nthreads, RetexError *err)
@@ -91,8 +105,9 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (!code)
         code = retex_denoise_totals_open(&d.totals, &d, nthreads, err);
     if (!code)
-        code = in_strips ? retex_denoise_strips(&d, nthreads, err) : denoise_in_memory(&d, roi, nthreads, err);
+        code = in_strips ? denoise_in_strips(&d, nthreads, err) : denoise_in_memory(&d, roi, nthreads, err);
     retex_denoise_totals_close(&d.totals);
+    retex_denoise_originals_close(&d.originals);
     retex_signals_close(&d.signals);
     if (code)
         return code;

@@ -5,6 +5,7 @@
 #include <retex/parallel.h>
 
 #include "denoise/residual.h"
+#include "denoise/originals.h"
 #include "precision/precision.h"
 #include "set/parts.h"
 
@@ -83,7 +84,9 @@ int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *resul
     RetexCombineParams sum = RETEX_COMBINE_INIT;
     sum.terms_only = 1; /* the picture is that of the terms before they were filtered */
     retex_parallel(retex_threads(nthreads), set->height, restore_row, &finish);
-    int code = set->nterms && !d->params.full_precision ? round_all(d, nthreads, err) : RETEX_OK;
+    int code = retex_denoise_use_originals(d->originals, set, &d->roi, nthreads, err);
+    if (!code && set->nterms && !d->params.full_precision)
+        code = round_all(d, nthreads, err);
     if (!code && set->nterms)
         code = retex_combine(&set->parts[0].image, set, NULL, &sum, &d->roi, nthreads, err);
     for (int y = 0; y < set->height && !code; y++)

@@ -1,0 +1,183 @@
+/* Albedos by the original texture: as far as the difference is no more than noise explains. The original is a ramp along
+ * u, so that means and variances are known. */
+#include "lib_denoise.h"
+#include "lib_footprints.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "denoise/originals.h"
+
+enum { TEXELS = 512, SPP = 64 };
+#define COVER 0.25f
+#define U 0.4f
+#define SPREAD 0.05f
+
+/* Red is `low` at u = 0 and 0.5 more at u = 1 of the original's rectangle, green half of that, blue 0. */
+static void add_original(RetexSet *set, const double min[2], const double max[2])
+{
+    RetexError err = {0};
+    RetexTarget *t = &set->targets[0];
+    test_must(retex_set_add_part(set, "original_T0", "RGB", RETEX_FLOAT, TEXELS, 4, &t->original, &err), &err);
+    memcpy(t->original_min, min, sizeof t->original_min);
+    memcpy(t->original_max, max, sizeof t->original_max);
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < TEXELS; x++) {
+            const float red = 0.25f + 0.5f * ((float)x + 0.5f) / TEXELS;
+            put_rgb(set, t->original, x, y, red, 0.5f * red, 0);
+        }
+}
+
+/* A set of one footprint whose albedo's red differs by d from the mean. */
+static RetexSet *ramp_set(RetexFootprintKind kind, int is_whole, float d)
+{
+    static const double min[2] = {0, 0}, max[2] = {1, 1};
+    RetexSet *set = cluster_set(kind, 1);
+    set->spp = SPP;
+    if (is_whole)
+        set->footprints[0].spread = add_part(set, "RGBA", "axes", 0);
+    add_original(set, min, max);
+    put(set, 0, 2, 1, U, 0.5f, COVER);
+    float *spread = pixel(set, set->footprints[0].spread, 2, 1);
+    spread[0] = SPREAD, spread[1] = is_whole ? 0 : 0.01f, spread[2] = 0;
+    if (is_whole)
+        spread[3] = 0.01f;
+    put_rgb(set, set->footprints[0].albedo, 2, 1, 0.25f + 0.5f * U + d, 0.5f * (0.25f + 0.5f * U), 0);
+    put_rgb(set, set->footprints[0].albedo, 3, 1, 0.9f, 0.9f, 0.9f); /* where there is no footprint */
+    return set;
+}
+
+static void use(RetexSet *set)
+{
+    RetexDenoiseOriginals *originals = NULL;
+    RetexError err = {0};
+    const RetexRoi all = {0, 0, set->width, set->height, 0, 3};
+    test_must(retex_denoise_originals_open(&originals, set, 1, &err), &err);
+    test_must(retex_denoise_use_originals(originals, set, &all, 2, &err), &err);
+    retex_denoise_originals_close(&originals);
+    assert_null(originals);
+}
+
+/* The red of the albedo, beyond the mean of the original. */
+static float difference(const RetexSet *set)
+{
+    return pixel(set, set->footprints[0].albedo, 2, 1)[0] - (0.25f + 0.5f * U);
+}
+
+/* variance: of red and green within the footprint; explained: so many of it are noise of one sample. */
+static void expect_limit(RetexFootprintKind kind, int is_whole, float variance, float explained)
+{
+    const float limit = sqrtf(explained * variance / SPP);
+    const struct {
+        float before, after;
+    } cases[] = {{0, 0}, {0.7f, 0}, {-0.7f, 0}, {2, 1.5f}, {-2, -1.5f}, {10, 9.9f}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        RetexSet *set = ramp_set(kind, is_whole, cases[k].before * limit);
+        use(set);
+        assert_float_equal(difference(set) / limit, cases[k].after, 0.06);
+        assert_float_equal(pixel(set, set->footprints[0].albedo, 3, 1)[1], 0.9, 0);
+        retex_set_close(&set);
+    }
+}
+
+static void test_limits(void **state)
+{
+    (void)state;
+    const float slopes = 0.25f + 0.0625f, gaussian = slopes * SPREAD * SPREAD, even = gaussian / 12;
+    expect_limit(RETEX_FOOTPRINT_BROAD, 0, gaussian, 4 / COVER);
+    expect_limit(RETEX_FOOTPRINT_INTERREFLECTION, 0, gaussian, 4 / COVER);
+    expect_limit(RETEX_FOOTPRINT_SHARP, 0, gaussian, 1 / COVER);
+    expect_limit(RETEX_FOOTPRINT_SHARP, 1, even, 6 * 0.1f); /* a quarter is all that a quadrant can cover */
+}
+
+/* The less even the light, the more noise. */
+static void test_uneven_light(void **state)
+{
+    (void)state;
+    const float even = (0.25f + 0.0625f) * SPREAD * SPREAD / 12, limit = sqrtf(6 * 1.1f * even / SPP);
+    RetexSet *set = ramp_set(RETEX_FOOTPRINT_SHARP, 1, 2 * limit);
+    pixel(set, set->footprints[0].uv, 2, 1)[2] = COVER / 2;
+    use(set);
+    assert_float_equal(difference(set) / limit, 1.5, 0.06);
+    retex_set_close(&set);
+}
+
+/* The rectangle of UV that the original covers. */
+static void test_rectangle(void **state)
+{
+    (void)state;
+    static const double min[2] = {-1, 2}, max[2] = {3, 4};
+    const float mean = 0.25f + 0.5f * (U + 1) / 4;
+    RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
+    set->spp = 2;
+    add_original(set, min, max);
+    put(set, 0, 2, 1, U, 2.5f, 0.5f);
+    put_spread(set, 0, 2, 1, 0.2f, 0.01f, 0);
+    put_rgb(set, set->footprints[0].albedo, 2, 1, mean + 0.01f, 0.5f * mean, 0);
+    use(set);
+    assert_float_equal(pixel(set, set->footprints[0].albedo, 2, 1)[0], mean, 0.001);
+    retex_set_close(&set);
+}
+
+/* A footprint whose albedo is another one's, too, keeps it; quadrants of a pixel have one. */
+static void test_shared_albedos(void **state)
+{
+    (void)state;
+    for (int quadrants = 0; quadrants < 2; quadrants++) {
+        RetexSet *set = ramp_set(RETEX_FOOTPRINT_SHARP, 1, 0.01f);
+        const int other = add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 2, "RGB");
+        pixel(set, set->footprints[0].uv, 2, 1)[2] = 0.01f;
+        set->footprints[other].albedo = set->footprints[0].albedo;
+        if (quadrants)
+            set->footprints[other].uv = set->footprints[0].uv, set->footprints[other].spread = set->footprints[0].spread;
+        for (int k = 0; quadrants && k < 2; k++)
+            set->footprints[k ? other : 0].quadrant = 1 + k;
+        use(set);
+        assert_float_equal(difference(set), quadrants ? 0 : 0.01, 0.001);
+        retex_set_close(&set);
+    }
+}
+
+static void test_no_original(void **state)
+{
+    (void)state;
+    RetexDenoiseOriginals *originals = NULL;
+    RetexError err = {0};
+    RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
+    test_must(retex_denoise_originals_open(&originals, set, 1, &err), &err);
+    assert_null(originals);
+    retex_denoise_originals_close(&originals);
+    retex_set_close(&set);
+}
+
+/* Denoising does so, in memory. */
+static void test_denoising(void **state)
+{
+    (void)state;
+    static const double min[2] = {-1, -1}, max[2] = {1, 1};
+    RetexSet *set = denoise_set("footprints", 40, 32);
+    const int albedo = set->footprints[0].albedo;
+    set->spp = 2;
+    add_original(set, min, max);
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++) {
+            const float red = 0.5f + 0.25f * pixel(set, set->footprints[0].uv, x, y)[0];
+            put_rgb(set, albedo, x, y, red + 0.001f, 0.5f * red, 0);
+        }
+    denoise_all(set, &denoise_exactly, 1);
+    for (int y = 4; y < set->height - 4; y++) { /* where the target is seen, away from the ends of its UV */
+        const float *uv = pixel(set, set->footprints[0].uv, 8, y);
+        assert_float_equal(pixel(set, albedo, 8, y)[0], 0.5f + 0.25f * uv[0], 0.0005);
+    }
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_limits),         cmocka_unit_test(test_uneven_light), cmocka_unit_test(test_rectangle),
+        cmocka_unit_test(test_shared_albedos), cmocka_unit_test(test_no_original), cmocka_unit_test(test_denoising),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
