@@ -103,7 +103,7 @@ static const CliOption options[] = {
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of hits on a target kept apart, 1 to 6; default 6", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL,
                           "with --layout paper: drop mixed terms of four and more hits, as the paper does", 0},
-    [OPT_DENOISE] = {"denoise", 0, NULL, "denoise the result, as retex-denoise does", 0},
+    [OPT_DENOISE] = {"denoise", 0, "=preview|final", "denoise the result, as retex-denoise does", 0},
     [OPT_CAUSTICS] = {"caustics", 0, NULL,
                       "light sources throw caustics, as small lamps, through all glass and by all mirrors", 0},
     [OPT_NO_CAUSTICS] = {"no-caustics", 0, NULL,
@@ -234,6 +234,7 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_DENOISE:
         a->denoise = 1;
+        a->denoise_quality = cli->value;
         break;
     case OPT_NO_DENOISE_DATA:
         a->no_denoise_data = 1;
@@ -331,8 +332,11 @@ static void add_target(Arguments *a, const char *name)
 
 static void check_denoise(const Arguments *a)
 {
+    const char *quality = a->denoise_quality;
     if (!a->denoise)
         return;
+    if (quality && strcmp(quality, "preview") != 0 && strcmp(quality, "final") != 0)
+        cli_die(a->cli, "--denoise: expected preview or final, not '%s'", quality);
     if (a->no_denoise_data)
         cli_die(a->cli, "--denoise needs the data that --no-denoise-data omits");
     if (answers(a) || a->variants || a->control)

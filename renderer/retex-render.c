@@ -134,6 +134,7 @@ static void denoise_progress(void *context, double done)
 static int denoise(Arguments *a, RetexSet *set, RetexError *err)
 {
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.quality = a->denoise_quality;
     params.progress = denoise_progress, params.progress_context = a->cli;
     params.budget = a->cli->budget;
     params.full_precision = a->full_precision;

@@ -36,6 +36,7 @@ typedef struct Arguments {
     char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* the set's targets, as arguments of -t */
     int named;                                                 /* -t was given */
     int keep_going;                                            /* of frames */
+    const char *denoise_quality; /* NULL: final */
     int denoise, no_denoise_data, full_precision;
     const char *merged[LIST_MAX];
     int nmerged;

@@ -18,6 +18,7 @@ static const CliOption options[] = {
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
     {"denoiser", 0, "nlm|oidn|both",
      "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0},
+    {"quality", 0, "preview|final", "preview: half the time, for interactive use; default final", 0},
     {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
     {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
     {"layer", 0, "NAME", "of a picture that is no set: denoise this layer; may be repeated; default: the picture", 0},
@@ -34,6 +35,12 @@ static void check_denoiser(const Cli *cli, const CliOption *option)
 {
     if (strcmp(cli->value, "nlm") != 0 && strcmp(cli->value, "oidn") != 0 && strcmp(cli->value, "both") != 0)
         cli_die(cli, "--%s: expected nlm, oidn or both, not '%s'", option->name, cli->value);
+}
+
+static void check_quality(const Cli *cli, const CliOption *option)
+{
+    if (strcmp(cli->value, "preview") != 0 && strcmp(cli->value, "final") != 0)
+        cli_die(cli, "--%s: expected preview or final, not '%s'", option->name, cli->value);
 }
 
 /* What the options say of a picture that is no set. */
@@ -85,6 +92,9 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, uint64_t *memory,
         } else if (strcmp(option->name, "denoiser") == 0) {
             params->denoiser = cli->value;
             check_denoiser(cli, option);
+        } else if (strcmp(option->name, "quality") == 0) {
+            params->quality = cli->value;
+            check_quality(cli, option);
         } else if (strcmp(option->name, "full-precision") == 0) {
             params->full_precision = 1;
             picture->first_of_sets = option->name;

@@ -60,6 +60,13 @@ $ for o in '--strength 0.5' '--strength 1' '--strength 2' '--radius 2' '--radius
 > --radius 5 is the default
 $ for p in t1_uv1 t1_albedo1 t1_uv2 t1_spread2 t1_albedo2; do retex-diff -q --part $p kept.exr f.exr || echo $p; retex-diff -q --part $p fd.exr f.exr && echo "$p is not pooled"; done
 = 1
+$ retex-denoise -q s.exr --quality final -o x.exr; cmp d.exr x.exr; retex-denoise -q s.exr --quality preview -o p.exr; cmp -s p.exr x.exr; retex-denoise -q s.exr --radius 2 --no-footprints --full-precision -o x.exr; cmp p.exr x.exr; retex-denoise -q --memory 0 s.exr --quality preview -o x.exr; cmp p.exr x.exr; rm p.exr x.exr
+$ retex-denoise s.exr -o x.exr --quality draft
+! retex-denoise: error: --quality: expected preview or final, not 'draft'
+= 2
+$ retex-denoise --complete --quality '' | cut -f1
+> preview
+> final
 $ retex-denoise s.exr -o x.exr --strength 0
 ! retex-denoise: error: --strength: expected a number from 0.1 to 10, not '0'
 = 2
@@ -86,6 +93,12 @@ $ retex-denoise s.exr -o x.png
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# The preview of a render is that of its set; --denoise alone is final.
+$ printf 'camera { location -5*z } light_source { <9,9,-9> rgb 1 area_light x, y, 4, 4 } #declare Ball = texture { pigment { rgb 0.5 } } sphere { 0, 1 texture { Ball } }' >ball.pov; r='retex-render -q --size 40x30 --spp 4 -t Ball ball.pov'; $r -o n.exr; for q in preview final; do $r --denoise=$q -o r.exr; retex-denoise -q --quality $q n.exr -o x.exr; cmp r.exr x.exr; done; $r --denoise -o x.exr; cmp r.exr x.exr; rm n.exr r.exr x.exr ball.pov
+$ retex-render --denoise=draft absent.pov
+! retex-render: error: --denoise: expected preview or final, not 'draft'
 = 2
 
 # Pipes: in, out, both; and between the other tools.

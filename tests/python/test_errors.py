@@ -99,6 +99,7 @@ def test_numbers():
         lib.fails(Error, room.combine, cross=1)
         lib.fails(Error, room.denoise, radius=0)
         lib.fails(Error, room.denoise, denoiser="oid")
+        lib.fails(Error, room.denoise, quality="high")
         lib.fails(Error, room.pack, "x.retex", quality=0)
         picture = room.combine()
     lib.fails(Error, retex.write, picture, "x.jpg", quality=101)

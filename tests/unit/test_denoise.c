@@ -187,9 +187,28 @@ static void test_parameters(void **state)
         params.radius = radii[k];
         expect_refused(set, &params, RETEX_EINVAL, "radius");
     }
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.quality = "draft";
+    expect_refused(set, &params, RETEX_EINVAL, "quality of denoising must be preview or final, not 'draft'");
     for (set->spp = 0; set->spp < 2; set->spp++)
         expect_refused(set, NULL, RETEX_EINVAL, "two samples");
     retex_set_close(&set);
+}
+
+/* What a preview is made with; a radius of 1 stays. */
+static void test_quality(void **state)
+{
+    (void)state;
+    for (int radius = 1; radius <= 10; radius += 4) {
+        RetexSet *preview = noisy_set("footprints", 40, 30), *plain = noisy_set("footprints", 40, 30);
+        RetexDenoiseParams params = {sizeof params, 2, radius, 1, .quality = "preview"},
+                           same = {sizeof same, 2, radius < 2 ? radius : 2, 0, .full_precision = 1, .quality = "final"};
+        denoise_all(preview, &params, 2);
+        denoise_all(plain, &same, 1);
+        denoise_expect_same(preview, plain);
+        retex_set_close(&preview);
+        retex_set_close(&plain);
+    }
 }
 
 /* An older caller's params are shorter: what they lack is as by default. */
@@ -417,6 +436,7 @@ int main(void)
         cmocka_unit_test(test_beauty_is_the_recombination),
         cmocka_unit_test(test_progress),
         cmocka_unit_test(test_parameters),
+        cmocka_unit_test(test_quality),
         cmocka_unit_test(test_shorter_params),
         cmocka_unit_test(test_missing_parts),
         cmocka_unit_test(test_rare_light_is_kept),

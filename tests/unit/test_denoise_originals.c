@@ -1,5 +1,5 @@
-/* Albedos by the original texture: as far as the difference is no more than noise explains. The original is a ramp along
- * u, so that means and variances are known. */
+/* Albedos by the original texture: as far as the difference is no more than noise explains. The original is a ramp
+ * along u, so that means and variances are known. */
 #include "lib_denoise.h"
 #include "lib_footprints.h"
 #include <cmocka.h>
@@ -53,7 +53,7 @@ static void use(RetexSet *set)
     RetexDenoiseOriginals *originals = NULL;
     RetexError err = {0};
     const RetexRoi all = {0, 0, set->width, set->height, 0, 3};
-    test_must(retex_denoise_originals_open(&originals, set, 1, &err), &err);
+    test_must(retex_denoise_originals_open(&originals, set, NULL, 1, &err), &err);
     test_must(retex_denoise_use_originals(originals, set, &all, 2, &err), &err);
     retex_denoise_originals_close(&originals);
     assert_null(originals);
@@ -130,7 +130,7 @@ static void test_shared_albedos(void **state)
         pixel(set, set->footprints[0].uv, 2, 1)[2] = 0.01f;
         set->footprints[other].albedo = set->footprints[0].albedo;
         if (quadrants)
-            set->footprints[other].uv = set->footprints[0].uv, set->footprints[other].spread = set->footprints[0].spread;
+            set->footprints[other] = set->footprints[0];
         for (int k = 0; quadrants && k < 2; k++)
             set->footprints[k ? other : 0].quadrant = 1 + k;
         use(set);
@@ -145,7 +145,7 @@ static void test_no_original(void **state)
     RetexDenoiseOriginals *originals = NULL;
     RetexError err = {0};
     RetexSet *set = cluster_set(RETEX_FOOTPRINT_BROAD, 1);
-    test_must(retex_denoise_originals_open(&originals, set, 1, &err), &err);
+    test_must(retex_denoise_originals_open(&originals, set, NULL, 1, &err), &err);
     assert_null(originals);
     retex_denoise_originals_close(&originals);
     retex_set_close(&set);

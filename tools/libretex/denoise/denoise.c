@@ -14,6 +14,8 @@
 #include "denoise/totals.h"
 #include "set/parts.h"
 
+enum { PREVIEW_RADIUS = 2 };
+
 static int find_features(int parts[RETEX_FEATURE_COUNT], const RetexSet *set, RetexError *err)
 {
     for (int k = 0; k < RETEX_FEATURE_COUNT; k++)
@@ -36,6 +38,11 @@ void retex_denoise_drop_data(RetexSet *set)
             retex_set_remove_part(set, k);
 }
 
+static int is_preview(const RetexDenoiseParams *p)
+{
+    return p->quality && strcmp(p->quality, "preview") == 0;
+}
+
 static int check_params(const RetexDenoiseParams *p, RetexError *err)
 {
     if (!(p->strength >= 0.1f && p->strength <= 10))
@@ -45,12 +52,24 @@ static int check_params(const RetexDenoiseParams *p, RetexError *err)
                           p->radius);
     if (!retex_denoiser_is_known(p->denoiser))
         return retex_fail(err, RETEX_EINVAL, "the denoiser must be nlm, oidn or both, not '%s'", p->denoiser);
+    if (p->quality && !is_preview(p) && strcmp(p->quality, "final") != 0)
+        return retex_fail(err, RETEX_EINVAL, "the quality of denoising must be preview or final, not '%s'", p->quality);
     return RETEX_OK;
 }
 
 static int open_originals(RetexDenoiser *d, int nthreads, RetexError *err)
 {
-    return d->params.footprints ? retex_denoise_originals_open(&d->originals, d->set, nthreads, err) : RETEX_OK;
+    if (!d->params.footprints)
+        return RETEX_OK;
+    return retex_denoise_originals_open(&d->originals, d->set, d->params.budget, nthreads, err);
+}
+
+/* Leaves out what takes longest for what it gains: the second pass smooths even light without a wide window, too. */
+static void simplify(RetexDenoiseParams *p)
+{
+    p->radius = p->radius < PREVIEW_RADIUS ? p->radius : PREVIEW_RADIUS;
+    p->footprints = 0;
+    p->full_precision = 1;
 }
 
 /* The region of a set in memory. */
@@ -93,6 +112,8 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     int code = RETEX_PARAMS_COPY(&d.params, params, err);
     if (!code)
         code = check_params(&d.params, err);
+    if (!code && is_preview(&d.params))
+        simplify(&d.params);
     if (!code && set->spp < 2)
         code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
     if (!code)

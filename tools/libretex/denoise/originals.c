@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "base/jobs.h"
 #include "retexture/sample_row.h"
+#include "set/parts.h"
 #include "set/set.h"
 #include "set/strip.h"
 #include "texture/pyramid.h"
@@ -58,17 +59,27 @@ static int is_usable(const RetexSet *set, const RetexTarget *t)
     return usable;
 }
 
+/* The numbers that a file would have, whether the set comes from one or not. */
+static int copy_original(RetexImage *image, const RetexSet *set, int original, RetexError *err)
+{
+    RetexPart part = set->parts[original];
+    int code = retex_image_alloc(image, part.image.width, part.image.height, part.image.channels, err);
+    if (!code)
+        code = retex_set_part_rows(image, set, original, 0, err);
+    part.image = *image;
+    for (int y = 0; y < image->height && !code; y++)
+        retex_part_round_row(&part, y);
+    return code;
+}
+
 static int open_texture(RetexDenoiseOriginals *o, const RetexSet *set, int target, int nthreads, RetexError *err)
 {
     const RetexTarget *t = &set->targets[target];
     if (!is_usable(set, t))
         return RETEX_OK;
-    const RetexImage *part = &set->parts[t->original].image;
     const RetexTextureSpec spec = place_original(t);
     RetexImage image = {0};
-    int code = retex_image_alloc(&image, part->width, part->height, part->channels, err);
-    if (!code)
-        code = retex_set_part_rows(&image, set, t->original, 0, err);
+    int code = copy_original(&image, set, t->original, err);
     if (!code)
         code = retex_texture_create(&o->textures[target], &image, &spec, nthreads, err);
     if (!code)
@@ -116,14 +127,30 @@ static void find_places(RetexDenoiseOriginals *o, const RetexSet *set)
     }
 }
 
-int retex_denoise_originals_open(RetexDenoiseOriginals **out, const RetexSet *set, int nthreads, RetexError *err)
+/* Of all textures and their squares, with the levels of their pyramids. */
+static uint64_t texture_bytes(const RetexSet *set)
 {
-    int any = 0, code = RETEX_OK;
-    *out = NULL;
+    uint64_t bytes = 0;
     for (int t = 0; t < set->ntargets; t++)
-        any |= is_usable(set, &set->targets[t]);
-    if (!any)
+        if (is_usable(set, &set->targets[t])) {
+            const RetexImage *im = &set->parts[set->targets[t].original].image;
+            bytes += 2 * 21 * (uint64_t)im->width * (uint64_t)im->height;
+        }
+    return bytes;
+}
+
+int retex_denoise_originals_open(RetexDenoiseOriginals **out, const RetexSet *set, const RetexBudget *budget,
+                                 int nthreads, RetexError *err)
+{
+    const uint64_t bytes = texture_bytes(set);
+    int code = RETEX_OK;
+    *out = NULL;
+    if (!bytes)
         return RETEX_OK;
+    if (bytes > retex_budget_left(budget))
+        return retex_fail(err, RETEX_ELIMIT,
+                          "the set's original textures take more than is left of the %.0f MB of --max-memory",
+                          (double)retex_budget_memory(budget) / (1 << 20));
     RetexDenoiseOriginals *o = *out = calloc(1, sizeof *o);
     if (o)
         o->spp = set->spp, o->places = calloc((size_t)set->nfootprints + 1, sizeof *o->places);

@@ -2,13 +2,15 @@
 #ifndef RETEX_DENOISE_ORIGINALS_H
 #define RETEX_DENOISE_ORIGINALS_H
 
+#include <retex/budget.h>
 #include <retex/set.h>
 
 /* The textures, and which footprints lie on them. */
 typedef struct RetexDenoiseOriginals RetexDenoiseOriginals;
 
 /* *originals is NULL where the set has no original textures. The set may be open. */
-int retex_denoise_originals_open(RetexDenoiseOriginals **originals, const RetexSet *set, int nthreads, RetexError *err);
+int retex_denoise_originals_open(RetexDenoiseOriginals **originals, const RetexSet *set, const RetexBudget *budget,
+                                 int nthreads, RetexError *err);
 void retex_denoise_originals_close(RetexDenoiseOriginals **originals); /* NULL and pointers to NULL are fine */
 
 /* The mean albedo at a footprint is weighted by the light of few paths, and so has noise that stays when the light is

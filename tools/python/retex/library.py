@@ -95,7 +95,7 @@ class RetexCombineParams(ctypes.Structure):
 class RetexDenoiseParams(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("strength", c_float), ("radius", c_int), ("footprints", c_int), ("scalar", c_int),
                 ("progress", c_void_p), ("progress_context", c_void_p), ("near", c_char_p), ("budget", c_void_p),
-                ("full_precision", c_int), ("denoiser", c_char_p)]
+                ("full_precision", c_int), ("denoiser", c_char_p), ("quality", c_char_p)]
 
 
 class RetexPackParams(ctypes.Structure):

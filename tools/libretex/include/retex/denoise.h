@@ -35,8 +35,10 @@ typedef struct RetexDenoiseParams {
                             see retex-set(5) */
     const char *denoiser; /* of the light: "nlm", "oidn", which is Open Image Denoise 2, or "both", the mean of the two;
                              NULL, the default: nlm. oidn and both filter the light of the whole picture at once */
+    const char *quality; /* "final", or "preview": a radius of at most 2, footprints 0 and full_precision 1, in half the
+                            time; NULL, the default: final */
 } RetexDenoiseParams;
-#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0, NULL }
+#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0, NULL, NULL }
 
 /* Filter a set in place. A set that is open (retex_set_open) is filtered strip by strip into a band store if roi is
  * NULL. Filtered are terms, with `footprints` also broad footprints and, as far as they are near to each other,
