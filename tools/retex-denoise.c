@@ -18,7 +18,7 @@ static const CliOption options[] = {
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
     {"denoiser", 0, "nlm|oidn|both",
      "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0},
-    {"quality", 0, "preview|final", "preview: half the time, for interactive use; default final", 0},
+    {"quality", 0, "preview|final", "preview: less time, for interactive use; default final", 0},
     {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
     {"full-precision", 0, NULL, "keep all bits of the set's numbers, in a larger file", 0},
     {"layer", 0, "NAME", "of a picture that is no set: denoise this layer; may be repeated; default: the picture", 0},

@@ -59,7 +59,7 @@ static int check_params(const RetexDenoiseParams *p, RetexError *err)
 
 static int open_originals(RetexDenoiser *d, int nthreads, RetexError *err)
 {
-    if (!d->params.footprints)
+    if (!d->uses_originals)
         return RETEX_OK;
     return retex_denoise_originals_open(&d->originals, d->set, d->params.budget, nthreads, err);
 }
@@ -112,6 +112,7 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     int code = RETEX_PARAMS_COPY(&d.params, params, err);
     if (!code)
         code = check_params(&d.params, err);
+    d.uses_originals = d.params.footprints;
     if (!code && is_preview(&d.params))
         simplify(&d.params);
     if (!code && set->spp < 2)

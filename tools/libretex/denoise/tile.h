@@ -36,6 +36,7 @@ typedef struct RetexDenoiser {
     struct RetexDenoiseFootprints *footprints;
     RetexDenoisePassed *passed; /* rows of the region */
     RetexDenoiseTotals *totals; /* or NULL */
+    int uses_originals;                      /* 0: albedos of footprints stay as they are */
     struct RetexDenoiseOriginals *originals; /* or NULL */
     int first_row;              /* of the set's rows in the totals: above 0 where the set is a strip */
 } RetexDenoiser;

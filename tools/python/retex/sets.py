@@ -389,7 +389,7 @@ class Set:
                 denoiser: str = "nlm", quality: str = "final", threads: int = 0) -> None:
         """Remove the noise from the set, once, in place, as retex-denoise(1): every picture made of it is clean then.
         Error, Code.ENOTFOUND, where the set has no data for that. The denoiser is nlm, oidn, or both: these two need
-        Open Image Denoise 2. The quality is final, or preview, in half the time."""
+        Open Image Denoise 2. The quality is final, or preview, which is faster."""
         params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, footprints, 0, None, None, None, None,
                                     full_precision, denoiser.encode(), quality.encode())
         with self._exclusive() as pointer:

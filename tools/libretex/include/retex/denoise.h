@@ -24,7 +24,8 @@ typedef struct RetexDenoiseParams {
     float strength;      /* how unlike, in standard deviations of their noise, pixels may be and still help each other:
                             0.1..10, default 1 */
     int radius;          /* of the window in which they are looked for, 1..10 pixels; default 5 */
-    int footprints;      /* 1 (default): pool broad and later footprints of pixels; 0: leave all as they are */
+    int footprints;      /* 1 (default): pool broad and later footprints of pixels, and take their albedos from original
+                            textures; 0: leave all as they are */
     int scalar;          /* 1: plain code instead of the machine's vector unit, the same to the bit; default 0 */
     void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
     void *progress_context;
@@ -35,8 +36,8 @@ typedef struct RetexDenoiseParams {
                             see retex-set(5) */
     const char *denoiser; /* of the light: "nlm", "oidn", which is Open Image Denoise 2, or "both", the mean of the two;
                              NULL, the default: nlm. oidn and both filter the light of the whole picture at once */
-    const char *quality; /* "final", or "preview": a radius of at most 2, footprints 0 and full_precision 1, in half the
-                            time; NULL, the default: final */
+    const char *quality; /* "final", or "preview": a radius of at most 2, footprints 0 but for albedos, and
+                            full_precision 1, in three fifths of the time; NULL, the default: final */
 } RetexDenoiseParams;
 #define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0, NULL, NULL }
 
