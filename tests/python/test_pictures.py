@@ -1,6 +1,8 @@
 """Pictures of the package retex are those of the tools, to the bit."""
 import itertools
 import json
+import os
+import warnings
 
 import lib
 import numpy as np
@@ -283,6 +285,28 @@ def test_denoise_and_pack():
     with open("own.retex", "rb") as own, open("denoised.retex", "rb") as expected:
         assert own.read() == expected.read()
     check(lib_read("own.exr"), as_written(lib_read("denoised.exr")))
+
+
+def test_denoise_picture():
+    """Denoising pictures of other renderers"""
+    generator = np.random.default_rng(1)
+    light = np.linspace(0.2, 0.8, 48, dtype=np.float32)[None, :, None] * np.ones((32, 1, 3), np.float32)
+    for name in ("first.exr", "second.exr"):
+        retex.write(light * generator.exponential(1, light.shape).astype(np.float32), name)
+    lib.run("retex-denoise", "-q", "--other-half", "second.exr", "--strength", "2", "first.exr", "-o", "halves.exr")
+    lib.run("retex-denoise", "-q", "--quality", "preview", "first.exr", "-o", "alone.exr")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        retex.denoise_picture("first.exr", "own-halves.exr", other_half="second.exr", strength=2)
+        assert not told
+        retex.denoise_picture("first.exr", "own-alone.exr", quality="preview", threads=1)
+    assert [warning.category for warning in told] == [retex.RetexWarning] and "estimated" in str(told[0].message)
+    for name in ("halves.exr", "alone.exr"):
+        with open(name, "rb") as expected, open("own-" + name, "rb") as own:
+            assert own.read() == expected.read(), name
+    error = lib.fails(retex.Error, retex.denoise_picture, "first.exr", "x.exr", layers=["diffuse", "specular"])
+    assert "diffuse" in str(error) and not os.path.exists("x.exr")
+    lib.fails(retex.Error, retex.denoise_picture, "first.exr", "x.exr", normal="N", denoiser="oid")
 
 
 def test_metadata():

@@ -31,16 +31,26 @@ static int clamp(int x, int size)
     return x < 0 ? 0 : x < size ? x : size - 1;
 }
 
+/* One row of a plane, whose first pixel is pixel x0 of the picture's row. Pixels outside of it repeat its ends. */
+static void load_row(float *restrict to, const float *restrict row, int x0, int width, int channels)
+{
+    const int begin = clamp(-x0, DENOISE_PITCH), end = width - x0 < DENOISE_PITCH ? width - x0 : DENOISE_PITCH;
+    const float first = retex_denoise_finite(row[0]),
+                last = retex_denoise_finite(row[(ptrdiff_t)(width - 1) * channels]);
+    for (int x = 0; x < begin; x++)
+        to[x] = first;
+    for (int x = begin; x < end; x++)
+        to[x] = retex_denoise_finite(row[(ptrdiff_t)(x0 + x) * channels]);
+    for (int x = end > 0 ? end : 0; x < DENOISE_PITCH; x++)
+        to[x] = last;
+}
+
 void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0)
 {
     const RetexImage *im = &set->parts[part].image;
     for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++) {
         const float *row = im->pixels + retex_image_index(im, 0, clamp(y0 + y, im->height)) + channel;
-        float *restrict to = plane + denoise_at(-DENOISE_HALO, y);
-        for (int x = 0; x < DENOISE_PITCH; x++) {
-            float v = row[(size_t)clamp(x0 + x - DENOISE_HALO, im->width) * (size_t)im->channels];
-            to[x] = retex_denoise_finite(v);
-        }
+        load_row(plane + denoise_at(-DENOISE_HALO, y), row, x0 - DENOISE_HALO, im->width, im->channels);
     }
 }
 

@@ -341,29 +341,53 @@ static void box(float *restrict image, float *restrict spare, int radius)
     }
 }
 
+/* Turns the sums of the candidates into means. */
+static void find_means(SignalScratch *r)
+{
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        for (int h = 0; h < 2; h++)
+            for (int c = 0; c < 3; c++) {
+                float *restrict sum = r->candidates[k].sum[h][c];
+                const float *restrict norm = r->candidates[k].norm[h];
+                for (int i = 0; i < DENOISE_PIXELS; i++)
+                    sum[i] /= norm[i];
+            }
+}
+
 /* The value of a choice for one half and channel. */
 static float choice_value(const SignalScratch *r, int choice, int half, int c, size_t p, size_t i)
 {
-    const RetexDenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
-    return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
+    return choice ? r->candidates[choice - 1].sum[half][c][i] : r->half[half][c][p];
+}
+
+/* Adds the squared differences of both halves of a choice, one colour of a row, to the other halves. */
+static void add_errors(float *restrict errors, const float *restrict first, const float *restrict second,
+                       const float *restrict a, const float *restrict b, const float *restrict variance, float epsilon)
+{
+    for (int x = 0; x < DENOISE_TILE; x++) {
+        const float d = first[x] - b[x], e = second[x] - a[x];
+        errors[x] += (d * d + e * e) / (epsilon + variance[x]);
+    }
 }
 
 /* The squared difference of each choice to the other half, in units of noise, averaged around each pixel. */
 static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     for (int k = 0; k < CHOICES; k++) {
-        for (int y = 0; y < DENOISE_TILE; y++)
-            for (int x = 0; x < DENOISE_TILE; x++) {
-                size_t i = (size_t)y * DENOISE_TILE + (size_t)x, p = denoise_at(x, y);
-                float error = 0;
-                for (int c = 0; c < 3 && valid[p] > 0; c++) {
-                    const float a = choice_value(r, k, 0, c, p, i) - r->half[1][c][p],
-                                b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
-                    error += (a * a + b * b) / (epsilon + r->variance[c][p]);
-                }
-                work->errors[k][i] = error;
+        float *errors = work->errors[k];
+        memset(errors, 0, sizeof *errors * DENOISE_PIXELS);
+        for (int y = 0; y < DENOISE_TILE; y++) {
+            const size_t i = (size_t)y * DENOISE_TILE, p = denoise_at(0, y);
+            for (int c = 0; c < 3; c++) {
+                const float *a = r->half[0][c] + p, *b = r->half[1][c] + p,
+                            *first = k ? r->candidates[k - 1].sum[0][c] + i : a,
+                            *second = k ? r->candidates[k - 1].sum[1][c] + i : b;
+                add_errors(errors + i, first, second, a, b, r->variance[c] + p, epsilon);
             }
-        box(work->errors[k], work->spare, ERROR_RADIUS);
+            for (int x = 0; x < DENOISE_TILE; x++)
+                errors[i + (size_t)x] = valid[p + (size_t)x] > 0 ? errors[i + (size_t)x] : 0;
+        }
+        box(errors, work->spare, ERROR_RADIUS);
     }
 }
 
@@ -395,6 +419,7 @@ static int is_spike(const SignalScratch *r, size_t p)
 static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     unsigned char best[DENOISE_PIXELS];
+    find_means(r);
     find_errors(r, work, epsilon, valid);
     for (size_t i = 0; i < DENOISE_PIXELS; i++) {
         best[i] = (unsigned char)best_choice(work, i);

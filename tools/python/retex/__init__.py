@@ -18,10 +18,10 @@ All calls may be made from any thread, and long ones do not hold Python's lock. 
 several threads at the same time; what changes a set waits until they are done. Every failure of the library is an
 Error."""
 from .library import Code, Error, RetexWarning
-from .pictures import Picture, encode, read, write
+from .pictures import Picture, denoise_picture, encode, read, write
 from .sets import Samples, Set, Target, open  # pylint: disable=redefined-builtin
 from .texture import Source, Texture, edit_text, parse_edit
 
 __version__ = "0.1.0"
-__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture", "edit_text",
-           "encode", "open", "parse_edit", "read", "write"]
+__all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture",
+           "denoise_picture", "edit_text", "encode", "open", "parse_edit", "read", "write"]

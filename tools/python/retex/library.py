@@ -50,7 +50,7 @@ class Error(Exception):
 
 
 class RetexWarning(UserWarning):
-    """What is odd about the colours of a texture."""
+    """What is odd about the colours of a texture, or what is assumed of a picture."""
 
 
 class RetexError(ctypes.Structure):
@@ -98,12 +98,21 @@ class RetexDenoiseParams(ctypes.Structure):
                 ("full_precision", c_int), ("denoiser", c_char_p), ("quality", c_char_p)]
 
 
+NOTE = CFUNCTYPE(None, c_void_p, c_int, c_char_p)
+
+
+class RetexDenoisePictureParams(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("layers", POINTER(c_char_p)), ("nlayers", c_int), ("other_half", c_char_p),
+                ("variance", c_char_p), ("normal", c_char_p), ("albedo", c_char_p), ("position", c_char_p),
+                ("depth", c_char_p), ("access", c_void_p), ("note", NOTE), ("note_context", c_void_p)]
+
+
 class RetexPackParams(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int), ("warn", WARN), ("warn_context", c_void_p)]
 
 
 STRUCTURES = (RetexError, RetexImage, RetexRoi, RetexTextureSpec, RetexReadParams, RetexWriteParams, RetexCombineParams,
-              RetexDenoiseParams, RetexPackParams)
+              RetexDenoiseParams, RetexDenoisePictureParams, RetexPackParams)
 
 
 def _places() -> List[str]:
@@ -163,6 +172,8 @@ CALLS: Dict[str, List[Any]] = {
     "retex_set_write": [c_void_p, c_void_p, c_char_p, c_void_p, c_int],
     "retex_pack_write": [c_void_p, c_char_p, POINTER(RetexPackParams), POINTER(c_size_t), c_int],
     "retex_denoise": [c_void_p, POINTER(RetexDenoiseParams), POINTER(RetexRoi), c_int],
+    "retex_denoise_picture": [c_char_p, c_char_p, POINTER(RetexDenoisePictureParams), POINTER(RetexDenoiseParams),
+                              c_int],
     "retex_sample_textures": [_handle, c_void_p, _textures, POINTER(RetexTextureSpec), c_int, c_char_p, c_int],
     "retex_retexture": [c_void_p, c_void_p, _textures, POINTER(RetexCombineParams), c_void_p, c_void_p, c_int],
     "retex_estimate_error": [c_void_p, c_void_p, _textures, POINTER(RetexCombineParams), c_void_p, c_void_p, c_int],
@@ -236,6 +247,14 @@ _told = threading.local()
 def _keep_warning(_context: Any, text: bytes) -> None:
     _told.texts = getattr(_told, "texts", []) + [text.decode(errors="replace")]
 
+
+def _keep_note(context: Any, important: int, text: bytes) -> None:
+    if important:
+        _keep_warning(context, text)
+
+
+#: Keeps what matters of the library's notes, as a warning.
+note = NOTE(_keep_note)
 
 #: Keeps the library's warnings, which it tells in the calling thread.
 warn = WARN(_keep_warning)

@@ -3,13 +3,13 @@ import ctypes
 import os
 import weakref
 from ctypes import byref, sizeof
-from typing import Optional, Tuple, Union
+from typing import Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from .library import STRIP, RetexImage, RetexReadParams, RetexWriteParams, call, free, lib, pass_warnings
-from .library import path_bytes, text_bytes, threads_of, warn
+from .library import STRIP, RetexDenoiseParams, RetexDenoisePictureParams, RetexImage, RetexReadParams
+from .library import RetexWriteParams, call, free, lib, note, pass_warnings, path_bytes, text_bytes, threads_of, warn
 
 #: Rows from the top, pixels, channels; scene-linear.
 Picture = npt.NDArray[np.float32]
@@ -94,3 +94,24 @@ def encode(picture: npt.ArrayLike, format: str = "png", *, quality: int = 95,  #
         free(data)
         if handle:
             lib.retex_picture_close(byref(handle), 0, None)
+
+
+def denoise_picture(path: Path, output: Path, *, layers: Sequence[str] = (), other_half: Optional[Path] = None,
+                    variance: Optional[str] = None, normal: Optional[str] = None, albedo: Optional[str] = None,
+                    position: Optional[str] = None, depth: Optional[str] = None, strength: float = 1, radius: int = 5,
+                    denoiser: str = "nlm", quality: str = "final", threads: int = 0) -> None:
+    """Remove the noise from an EXR file of any renderer into another one, as retex-denoise(1) does with pictures that
+    are no sets. `layers` are denoised, by default the picture; all other channels stay. The noise is that between the
+    file and `other_half`, a second render of the frame, or the layer `variance`, or else it is estimated, with a
+    RetexWarning. The guides `normal`, `albedo`, `position` and `depth` are layers; by default those of well known
+    names."""
+    names = (ctypes.c_char_p * len(layers))(*[text_bytes(layer) for layer in layers])
+    picture = RetexDenoisePictureParams(sizeof(RetexDenoisePictureParams), names, len(layers),
+                                        None if other_half is None else path_bytes(other_half), text_bytes(variance),
+                                        text_bytes(normal), text_bytes(albedo), text_bytes(position), text_bytes(depth),
+                                        None, note, None)
+    params = RetexDenoiseParams(sizeof(RetexDenoiseParams), strength, radius, 1, 0, None, None, None, None, 0,
+                                text_bytes(denoiser), text_bytes(quality))
+    call("retex_denoise_picture", path_bytes(path), path_bytes(output), byref(picture), byref(params),
+         threads_of(threads))
+    pass_warnings()
