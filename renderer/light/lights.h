@@ -7,8 +7,8 @@
 
 typedef struct Lights Lights;
 
-/* lamp_share: of scenes with lamps: with this probability, 0..1, a lamp is chosen first, each alike, so that dim ones have
- * little noise. */
+/* lamp_share: of scenes with lamps: with this probability, 0..1, a lamp is chosen first, each alike, so that dim ones
+ * have little noise. */
 int lights_create(Lights **lights, const Scene *scene, double lamp_share, RetexError *err);
 void lights_close(Lights **lights);
 int lights_count(const Lights *lights);

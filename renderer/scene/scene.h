@@ -659,8 +659,8 @@ int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, Rete
 /* The specs of --lamps each: every light source and every emitter that has a name, and the sky, if it shines. They are
  * in the scene's arena. RETEX_ELIMIT, with all of them, where there are more than LAMPS_MAX. */
 int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int *nspecs, RetexError *err);
-/* Give a lamp another value, in the picture and in what sets say of it. is_kept: its light is kept apart, so that lights
- * are chosen as before; else by what it is now. */
+/* Give a lamp another value, in the picture and in what sets say of it. is_kept: its light is kept apart, so that
+ * lights are chosen as before; else by what it is now. */
 void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept);
 /* The light of the air, such as fog, is of the lamp that is the rest. */
 static inline int scene_rest_lamp(const Scene *scene)

@@ -77,19 +77,47 @@ static int round_all(const RetexDenoiser *d, int nthreads, RetexError *err)
     return code;
 }
 
+/* The picture of a term that is one: all light, or one lamp of value 1, as the terms have it now that they are filtered.
+ */
+static int make_picture(const RetexDenoiser *d, const RetexTerm *picture, int nthreads, RetexError *err)
+{
+    RetexSet *set = d->set;
+    RetexPart *part = &set->parts[picture->radiance];
+    RetexCombineParams sum = RETEX_COMBINE_INIT;
+    float values[RETEX_PARAMETERS_MAX][3] = {{0}};
+    sum.terms_only = 1;
+    if (picture->role == RETEX_ROLE_LAMP_PICTURE) {
+        for (int c = 0; c < 3; c++)
+            values[picture->factors[0].index][c] = 1;
+        sum.parameters = values[0];
+    }
+    const int code = retex_combine(&part->image, set, NULL, &sum, &d->roi, nthreads, err);
+    for (int y = 0; y < set->height && !code; y++)
+        retex_part_round_row(part, y);
+    return code;
+}
+
+/* Part 0 is one, whether a term says so or not. */
+static int make_pictures(const RetexDenoiser *d, int nthreads, RetexError *err)
+{
+    const RetexTerm all = {.role = RETEX_ROLE_PICTURE, .target = -1};
+    const int nterms = d->set->nterms;
+    int code = nterms ? make_picture(d, &all, nthreads, err) : RETEX_OK;
+    for (int t = 0; t < nterms && !code; t++)
+        if (d->set->terms[t].role == RETEX_ROLE_LAMP_PICTURE)
+            code = make_picture(d, &d->set->terms[t], nthreads, err);
+    for (int y = 0; y < d->set->height && !code && !nterms; y++)
+        retex_part_round_row(&d->set->parts[0], y);
+    return code;
+}
+
 int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *result, int nthreads, RetexError *err)
 {
     Finish finish = {d, result};
     RetexSet *set = d->set;
-    RetexCombineParams sum = RETEX_COMBINE_INIT;
-    sum.terms_only = 1; /* the picture is that of the terms before they were filtered */
     retex_parallel(retex_threads(nthreads), set->height, restore_row, &finish);
     int code = retex_denoise_use_originals(d->originals, set, &d->roi, nthreads, err);
     if (!code && set->nterms && !d->params.full_precision)
         code = round_all(d, nthreads, err);
-    if (!code && set->nterms)
-        code = retex_combine(&set->parts[0].image, set, NULL, &sum, &d->roi, nthreads, err);
-    for (int y = 0; y < set->height && !code; y++)
-        retex_part_round_row(&set->parts[0], y);
-    return code;
+    return code ? code : make_pictures(d, nthreads, err);
 }

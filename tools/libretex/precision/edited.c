@@ -39,16 +39,32 @@ static int has_values(const RetexSet *set, const RetexTerm *term)
     return values;
 }
 
+/* Whether a term is part of what corrections are computed from: of all light, not of lamps. */
+static int counts(const RetexSet *set, const RetexTerm *term)
+{
+    return (retex_term_is_light(term) || term->role == RETEX_ROLE_CORRECTION) && retex_set_term_lamp(set, term) < 0;
+}
+
+static int mixture_counts(const RetexSet *set, int mixture)
+{
+    for (int t = 0; t < set->nterms; t++)
+        for (int k = 0; k < set->terms[t].nfactors && counts(set, &set->terms[t]); k++)
+            if (set->terms[t].factors[k].kind == RETEX_FACTOR_MIXTURE && set->terms[t].factors[k].index == mixture)
+                return 1;
+    return 0;
+}
+
 static int is_plain(const RetexSet *set)
 {
     int plain = 1;
     for (int t = 0; t < set->nterms; t++)
-        plain = plain && !has_values(set, &set->terms[t]) && is_whole(set, set->terms[t].radiance, 3);
+        plain = plain && (!counts(set, &set->terms[t]) || !has_values(set, &set->terms[t])) &&
+                is_whole(set, set->terms[t].radiance, 3);
     for (int f = 0; f < set->nfootprints; f++)
         plain = plain && is_whole(set, set->footprints[f].uv, 3) && is_whole(set, set->footprints[f].albedo, 3);
     for (int m = 0; m < set->nmixtures; m++)
         for (int k = 0; k < set->mixtures[m].nshares; k++)
-            plain = plain && is_whole(set, set->mixtures[m].shares[k].weight, 1);
+            plain = plain && (!mixture_counts(set, m) || is_whole(set, set->mixtures[m].shares[k].weight, 1));
     return plain;
 }
 
