@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set/parts.h"
-
 static const char *const layouts[] = {"plain", "paper", "footprints"};
 
 static RetexSet *noisy_set(const char *layout, int width, int height)
@@ -16,41 +14,6 @@ static RetexSet *noisy_set(const char *layout, int width, int height)
     RetexSet *set = denoise_set(layout, width, height);
     denoise_add_noise(set, 7);
     return set;
-}
-
-/* The mean squared change by denoising, over that by the noise, which is 25% of the light times scale. */
-static double change_by_denoising(float scale)
-{
-    RetexSet *sets[3]; /* the truth, noisy, denoised */
-    double noise = 0, change = 0;
-    for (int k = 0; k < 3; k++) {
-        sets[k] = denoise_set("plain", 48, 40);
-        if (k)
-            denoise_add_noise(sets[k], 7);
-        for (int part = 0; part < sets[k]->nparts && k; part++) {
-            float *to = sets[k]->parts[part].image.pixels;
-            const int is_noise = retex_name_is_noise(sets[k]->parts[part].name);
-            for (size_t i = 0; i < 3 * 48 * 40 && (part == 0 || is_noise); i++)
-                to[i] = is_noise ? scale * to[i] : to[i] * scale + sets[0]->parts[0].image.pixels[i] * (1 - scale);
-        }
-    }
-    denoise_all(sets[2], &denoise_exactly, 1);
-    for (size_t i = 0; i < 3 * 48 * 40; i++) {
-        const float noisy = sets[1]->parts[0].image.pixels[i];
-        noise += pow(noisy - sets[0]->parts[0].image.pixels[i], 2);
-        change += pow(sets[2]->parts[0].image.pixels[i] - noisy, 2);
-    }
-    for (int k = 0; k < 3; k++)
-        retex_set_close(&sets[k]);
-    return change / noise;
-}
-
-/* Pixels change where there is noise to lose, and less where there is next to none. */
-static void test_little_noise(void **state)
-{
-    (void)state;
-    assert_true(change_by_denoising(1) > 0.7);
-    assert_true(change_by_denoising(0.01f) < 0.3);
 }
 
 /* ---- repeatable ---- */
@@ -467,7 +430,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_threads_and_vectors),
-        cmocka_unit_test(test_little_noise),
         cmocka_unit_test(test_budget_ends_it),
         cmocka_unit_test(test_region),
         cmocka_unit_test(test_data_is_gone),

@@ -77,8 +77,7 @@ static int round_all(const RetexDenoiser *d, int nthreads, RetexError *err)
     return code;
 }
 
-/* The picture of a term that is one: all light, or one lamp of value 1, as the terms have it now that they are filtered.
- */
+/* The picture of a term that is one: all light, or one lamp of value 1, as the filtered terms have it. */
 static int make_picture(const RetexDenoiser *d, const RetexTerm *picture, int nthreads, RetexError *err)
 {
     RetexSet *set = d->set;

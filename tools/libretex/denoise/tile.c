@@ -19,7 +19,6 @@
 #define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
 #define ERROR_RADIUS 2         /* radius of the patch over which candidates are compared */
 #define CHOICE_RADIUS 2        /* radius over which the choice is smoothed */
-#define FINE_NOISE 0.02f       /* relative noise at which a candidate must have half the error of the noisy pixel */
 #define SPIKE 40               /* times the variance around: such a squared difference of halves is a spike */
 #define NEIGHBOUR_STEP 3       /* footprints are pooled over a grid of pixels of this step, */
 #define NEIGHBOUR_REACH 2      /* so many steps to each side */
@@ -392,24 +391,11 @@ static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float
     }
 }
 
-/* How much of the noisy pixel's error a candidate may have, 0..1: where there is little noise, there is little to gain
- * by a filter, and detail that no half can tell from the other's noise is lost. */
-static float trusted_error(const SignalScratch *r, size_t p)
-{
-    float variance = 0, squared = 0;
-    for (int c = 0; c < 3; c++) {
-        const float light = 0.5f * (r->half[0][c][p] + r->half[1][c][p]);
-        variance += 0.5f * r->variance[c][p], squared += light * light;
-    }
-    const float sum = variance + FINE_NOISE * FINE_NOISE * squared;
-    return sum > 0 && sum < INFINITY ? variance / sum : 1;
-}
-
 /* The choice with the smallest estimated error. The halves differ by the variance of both, V each: without a filter the
  * squared difference, counted twice, is 4V; for a candidate it is twice its own error plus V. */
-static int best_choice(const SignalScratch *r, const RetexDenoiseScratch *work, size_t i, size_t p)
+static int best_choice(const RetexDenoiseScratch *work, size_t i)
 {
-    float variance = 0.25f * work->errors[0][i], least = trusted_error(r, p) * variance;
+    float variance = 0.25f * work->errors[0][i], least = variance;
     int best = 0;
     for (int k = 1; k < CHOICES; k++) {
         float error = 0.5f * work->errors[k][i] - variance;
@@ -436,8 +422,7 @@ static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon, c
     find_means(r);
     find_errors(r, work, epsilon, valid);
     for (size_t i = 0; i < DENOISE_PIXELS; i++) {
-        best[i] =
-            (unsigned char)best_choice(r, work, i, denoise_at((int)(i % DENOISE_TILE), (int)(i / DENOISE_TILE)));
+        best[i] = (unsigned char)best_choice(work, i);
         for (int k = 0; k < CHOICES; k++)
             r->chosen[k][i] = k == best[i];
     }
