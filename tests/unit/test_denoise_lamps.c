@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/host/set_build.h>
 #include <retex/retex.h>
 
 #include "denoise/residual.h"
@@ -28,12 +29,27 @@ static void add_lamps(RetexSet *set)
     }
 }
 
+static void add_lamp_pictures(RetexSet *set)
+{
+    RetexError err = {0};
+    for (int i = 0; i < set->nparameters; i++) {
+        RetexTerm term = {.role = RETEX_ROLE_LAMP_PICTURE, .target = -1};
+        char name[32];
+        snprintf(name, sizeof name, "picture%d", i);
+        test_must(retex_set_add_part(set, name, "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+        test_must(retex_term_add_factor(&term, retex_factor(RETEX_FACTOR_PARAMETER, i), &err), &err);
+        test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+    }
+}
+
 static RetexSet *noisy_set(const char *layout, int width, int height, int lamps, int noisy)
 {
     RetexSet *set = denoise_set(layout, width, height);
     set->spp = 16;
-    if (lamps)
+    if (lamps) {
         add_lamps(set);
+        add_lamp_pictures(set);
+    }
     if (noisy)
         denoise_add_noise(set, 7);
     return set;
@@ -197,6 +213,30 @@ static void each_lamp_becomes_cleaner(void **state)
     }
 }
 
+/* The picture of a lamp with all originals is that of its filtered terms. */
+static void pictures_of_lamps_are_renewed(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 70, 52, 1, 1);
+    RetexError err = {0};
+    denoise_all(set, NULL, 2);
+    for (int i = 0; i < LAMPS; i++) {
+        char name[32];
+        float values[3 * LAMPS] = {0};
+        RetexCombineParams params = RETEX_COMBINE_INIT;
+        RetexImage made = {0};
+        snprintf(name, sizeof name, "picture%d", i);
+        values[3 * i] = values[3 * i + 1] = values[3 * i + 2] = 1;
+        params.parameters = values, params.terms_only = 1;
+        test_must(retex_combine(&made, set, NULL, &params, NULL, 2, &err), &err);
+        const float *picture = set->parts[retex_set_find_part(set, name)].image.pixels;
+        for (int k = 0; k < 3 * 70 * 52; k++)
+            assert_float_equal(picture[k], made.pixels[k], 1e-3 * (double)made.pixels[k] + 1e-6);
+        retex_image_free(&made);
+    }
+    retex_set_close(&set);
+}
+
 static void strips_and_threads_change_nothing(void **state)
 {
     (void)state;
@@ -224,9 +264,13 @@ static void strips_and_threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_light_is_as_without_lamps), cmocka_unit_test(lamps_add_up_to_all_light),
-        cmocka_unit_test(the_residual_is_shared),        cmocka_unit_test(the_noisiest_lamp_takes_most),
-        cmocka_unit_test(each_lamp_becomes_cleaner),     cmocka_unit_test(strips_and_threads_change_nothing),
+        cmocka_unit_test(all_light_is_as_without_lamps),
+        cmocka_unit_test(lamps_add_up_to_all_light),
+        cmocka_unit_test(the_residual_is_shared),
+        cmocka_unit_test(the_noisiest_lamp_takes_most),
+        cmocka_unit_test(each_lamp_becomes_cleaner),
+        cmocka_unit_test(pictures_of_lamps_are_renewed),
+        cmocka_unit_test(strips_and_threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -14,18 +14,9 @@ const char *retex_footprint_kind_name(int kind)
 
 const char *retex_role_name(int role)
 {
-    static const char *const names[RETEX_ROLES] = {"full",
-                                                   "indep",
-                                                   "dep",
-                                                   "cross2",
-                                                   "cross3",
-                                                   "sharp",
-                                                   "broad",
-                                                   "interreflection",
-                                                   "correction",
-                                                   "picture",
-                                                   "lamp",
-                                                   "lamp_picture"};
+    static const char *const names[RETEX_ROLES] = {"full",       "indep",   "dep",   "cross2",
+                                                   "cross3",     "sharp",   "broad", "interreflection",
+                                                   "correction", "picture", "lamp",  "lamp_picture"};
 
     return names[role];
 }
@@ -88,13 +79,13 @@ int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term)
 {
     int lamp = -1;
 
-    if (term->role != RETEX_ROLE_LAMP && term->role != RETEX_ROLE_CORRECTION)
+    if (term->role != RETEX_ROLE_LAMP && term->role != RETEX_ROLE_LAMP_PICTURE && term->role != RETEX_ROLE_CORRECTION)
         return -1;
     for (int k = 0; k < term->nfactors && lamp < 0; k++)
         if (term->factors[k].kind == RETEX_FACTOR_PARAMETER &&
             set->parameters[term->factors[k].index].kind == RETEX_PARAMETER_COLOR)
             lamp = term->factors[k].index;
-    return term->role == RETEX_ROLE_LAMP || retex_set_has_role(set, RETEX_ROLE_LAMP) ? lamp : -1;
+    return term->role != RETEX_ROLE_CORRECTION || retex_set_has_role(set, RETEX_ROLE_LAMP) ? lamp : -1;
 }
 
 int retex_set_has_lamps(const RetexSet *set)
