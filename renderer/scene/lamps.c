@@ -470,7 +470,7 @@ int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int
         return retex_fail(err, RETEX_ENOMEM, "no memory for the lamps");
     *each = (EachLamp){.scene = scene};
     for (int k = 0; k < scene->nlights; k++) {
-        snprintf(text, sizeof text, "light_%d=" SOURCE "%d", k + 1, k + 1);
+        snprintf(text, sizeof text, "light%d=" SOURCE "%d", k + 1, k + 1);
         if (scene->lights[k].idents)
             add_each_named(each, scene->lights[k].idents);
         else

@@ -48,8 +48,8 @@ for precision in '' --full-precision; do
     least=55
     [ -z "$precision" ] || least=60
     for edit in '' "$floor" "$both"; do
-        for lamps in '--solo Sun' '--solo light_2' '--solo Bulb' '--solo Spare' '--solo sky' \
-            '--light Sun=.2*#ff4020 --light Bulb=6*3000K' '--light light_2=20*#4080ff --light Sun=0 --light sky=3' \
+        for lamps in '--solo Sun' '--solo light2' '--solo Bulb' '--solo Spare' '--solo sky' \
+            '--light Sun=.2*#ff4020 --light Bulb=6*3000K' '--light light2=20*#4080ff --light Sun=0 --light sky=3' \
             '--light rest=2 --light Spare=.5*tomato'; do
             case $lamps$edit in *20*Wall*) few=2 ;; *) few=0 ;; esac # many hits: as with two targets without lamps
             against $((least - few)) "$lamps" "$edit" "${precision:-default}"

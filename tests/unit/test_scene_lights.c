@@ -164,7 +164,7 @@ static void test_each_lamp(void **state)
 {
     (void)state;
     static const char *const names[] = {
-        "light_1=light_source#1", "Spot", "Red", "light_4=light_source#4", "Bulb", "T", "sky"};
+        "light1=light_source#1", "Spot", "Red", "light4=light_source#4", "Bulb", "T", "sky"};
     const char *const *specs;
     int count;
     Scene *scene = parse(LAMPS);

@@ -271,8 +271,8 @@ int retex_term_image(const RetexTerm *term);
 
 /* The parameter of that name, or -1. */
 int retex_set_find_parameter(const RetexSet *set, const char *name);
-/* The parameter of the lamp whose light or picture, or the correction of that, a term is; -1: all light. Only sets that have terms
- * of role LAMP have such terms. */
+/* The parameter of the lamp whose light or picture, or the correction of that, a term is; -1: all light. Only sets that
+ * have terms of role LAMP have such terms. */
 int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term);
 /* 1: the set has lamps: parameters of kind COLOR. */
 int retex_set_has_lamps(const RetexSet *set);
