@@ -452,6 +452,31 @@ static void add_each_named(EachLamp *each, const IdentList *idents)
         add_each(each, idents->name);
 }
 
+static int is_listed(void *each, const char *name)
+{
+    const EachLamp *list = each;
+    for (int k = 0; k < list->count; k++)
+        if (strcmp(list->specs[k], name) == 0)
+            return 1;
+    return 0;
+}
+
+/* Whether a lamp of the list has the primitive already, by any of its names. */
+static int has_primitive(EachLamp *each, const Primitive *p)
+{
+    const Texture *texture;
+    int target, listed = visit_names(p->idents, is_listed, each);
+    for (int i = 0; !listed && (texture = primitive_texture(p, i, &target)); i++)
+        listed = visit_texture_names(texture, is_listed, each);
+    return listed;
+}
+
+static int has_instance(EachLamp *each, const Instance *instance)
+{
+    return visit_names(instance->idents, is_listed, each) ||
+           (instance->texture && visit_texture_names(instance->texture, is_listed, each));
+}
+
 static const IdentList *texture_names(const Texture *texture)
 {
     for (int k = 0; k < texture_leaf_count(texture); k++)
@@ -471,21 +496,21 @@ int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int
     *each = (EachLamp){.scene = scene};
     for (int k = 0; k < scene->nlights; k++) {
         snprintf(text, sizeof text, "light%d=" SOURCE "%d", k + 1, k + 1);
-        if (scene->lights[k].idents)
-            add_each_named(each, scene->lights[k].idents);
-        else
+        if (!scene->lights[k].idents)
             add_each(each, text);
+        else if (!visit_names(scene->lights[k].idents, is_listed, each))
+            add_each_named(each, scene->lights[k].idents);
     }
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         const IdentList *names = p->prototype ? NULL : p->idents;
         for (int i = 0; !p->prototype && !names && (texture = primitive_texture(p, i, &target)); i++)
             names = texture_names(texture);
-        if (primitive_emits(p))
+        if (primitive_emits(p) && !has_primitive(each, p))
             add_each_named(each, names);
     }
     for (int k = 0; k < scene->ninstances; k++)
-        if (instance_emits(scene, &scene->instances[k]))
+        if (instance_emits(scene, &scene->instances[k]) && !has_instance(each, &scene->instances[k]))
             add_each_named(each, scene->instances[k].idents);
     if (sky_shines)
         add_each(each, SKY);

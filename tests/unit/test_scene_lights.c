@@ -175,6 +175,13 @@ static void test_each_lamp(void **state)
     assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), 0);
     assert_int_equal(count, 6);
     scene_close(&scene);
+    /* What a lamp has by one of its names needs no other: every lamp gets something. */
+    scene = parse(V37 "#declare T = texture{pigment{rgb 1} finish{emission 1}} #declare A = sphere{0,1 texture{T}}"
+                      "#declare B = object{A} #declare C = box{0,1 texture{T}} object{A} object{B} object{C}"
+                      "box{0,1 texture{T}} union{light_source{x 1} object{B}}");
+    assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), 0);
+    assert_int_equal(scene_resolve_lamps(scene, specs, count, NULL), 0);
+    scene_close(&scene);
     scene = parse(V37 "#for (K, 1, 17) light_source{K*y 1} #end");
     assert_int_equal(scene_each_lamp(scene, 0, &specs, &count, NULL), RETEX_ELIMIT);
     scene_close(&scene);
