@@ -477,6 +477,32 @@ static int has_instance(EachLamp *each, const Instance *instance)
            (instance->texture && visit_texture_names(instance->texture, is_listed, each));
 }
 
+/* What weak `ambient` gives is no lamp that anybody looks for. */
+static int texture_shines(const Texture *texture)
+{
+    int shines = 0;
+    for (int k = 0; k < texture_leaf_count(texture) && !shines; k++)
+        shines = finish_is_sampled(texture_leaf(texture, k)->finish);
+    return shines;
+}
+
+static int primitive_shines(const Primitive *p)
+{
+    const Texture *texture;
+    int target, shines = 0;
+    for (int i = 0; !shines && (texture = primitive_texture(p, i, &target)); i++)
+        shines = texture_shines(texture);
+    return shines;
+}
+
+static int instance_shines(const Scene *scene, const Instance *instance)
+{
+    int shines = instance->texture && texture_shines(instance->texture);
+    for (int k = 0; k < instance->prototype->count && !shines; k++)
+        shines = primitive_shines(&scene->primitives[instance->prototype->first + k]);
+    return shines;
+}
+
 static const IdentList *texture_names(const Texture *texture)
 {
     for (int k = 0; k < texture_leaf_count(texture); k++)
@@ -506,11 +532,11 @@ int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int
         const IdentList *names = p->prototype ? NULL : p->idents;
         for (int i = 0; !p->prototype && !names && (texture = primitive_texture(p, i, &target)); i++)
             names = texture_names(texture);
-        if (primitive_emits(p) && !has_primitive(each, p))
+        if (primitive_shines(p) && !has_primitive(each, p))
             add_each_named(each, names);
     }
     for (int k = 0; k < scene->ninstances; k++)
-        if (instance_emits(scene, &scene->instances[k]) && !has_instance(each, &scene->instances[k]))
+        if (instance_shines(scene, &scene->instances[k]) && !has_instance(each, &scene->instances[k]))
             add_each_named(each, scene->instances[k].idents);
     if (sky_shines)
         add_each(each, SKY);
