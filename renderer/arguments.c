@@ -77,7 +77,7 @@ static const CliOption options[] = {
                         "stop",
                         0},
     [OPT_LIGHT_SHARE] = {"light-share", 0, "X",
-                         "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.2", 0},
+                         "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0},
     [OPT_LIGHT] = {"light", 0, "NAME=VALUE",
                    "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
                    "retex-combine; repeatable",

@@ -50,14 +50,14 @@ typedef struct RenderParams {
     const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
     int nmerged;
     double light_share;      /* least share of direct-light samples that the lamps of a scene with lamps have together,
-                                each as much, 0..1; default 0.2 */
+                                each as much, 0..1; default 0.1 */
     RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
     int caustics_guide;      /* photons show paths where caustics come from, see caustics.h: 0 (default) those of light
                                 sources and, where it pays, of small emitters, 1 of all emitters too, -1 none */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 6, .sharp = 4, .broad = 2, .extra = 8, \
-      .orders = 6, .light_share = 0.2 }
+      .orders = 6, .light_share = 0.1 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
