@@ -112,6 +112,9 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >       --texture[:opts] NAME=IMAGE
 >                               put IMAGE, a file or a colour, on target NAME;
 >                               opts as in retex-sample
+>       --light NAME=VALUE      give lamp NAME another brightness or colour: 0,
+>                               2.5, #ffd0a0, 3000K, 1.5*3000K
+>       --solo NAME             turn off all lamps but NAME, and those of --light
 >       --display NAME          OCIO display for the picture
 >       --view NAME             OCIO view of that display
 >       --colorspace NAME       write in this OCIO colour space instead
