@@ -194,6 +194,18 @@ static void expect_refused(RetexEdit *edit, int code, const RetexError *err, con
     expect_text(edit, "light:lamp=2;light:rest=0");
 }
 
+static void textures_get_their_names_beside_lamps(void **state)
+{
+    (void)state;
+    const RetexTargetNames names = {1, {"Floor"}, {"Oak"}, "the room", ""};
+    RetexEdit *edit = edit_of("floor=tomato;light:Lamp=2");
+    RetexError err = {0};
+    test_must(retex_edit_bind(edit, &names, &err), &err);
+    assert_string_equal(retex_edit_texture(edit, 0)->target, "Floor");
+    assert_int_equal(retex_edit_lights(edit), 1);
+    retex_edit_close(&edit);
+}
+
 static void edits_name_the_lamps_of_a_set(void **state)
 {
     (void)state;
@@ -249,6 +261,7 @@ int main(void)
         cmocka_unit_test(what_is_no_value_is_refused),
         cmocka_unit_test(edits_have_canonical_texts),
         cmocka_unit_test(edits_name_the_lamps_of_a_set),
+        cmocka_unit_test(textures_get_their_names_beside_lamps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
