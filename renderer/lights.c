@@ -36,13 +36,7 @@ static int make_parameters(RetexSet **set, const Scene *scene, RetexError *err)
 {
     int code = retex_set_create(set, 1, 1, err);
     for (int l = 0; l < scene->nlamps && !code; l++) {
-        const Lamp *lamp = &scene->lamps[l];
-        RetexParameter parameter = {.kind = RETEX_PARAMETER_COLOR,
-                                    .target = -1,
-                                    .value = {lamp->value.r, lamp->value.g, lamp->value.b},
-                                    .kept = {lamp->kept.r, lamp->kept.g, lamp->kept.b},
-                                    .several = lamp->several};
-        snprintf(parameter.name, sizeof parameter.name, "%s", lamp->name);
+        const RetexParameter parameter = lamp_parameter(&scene->lamps[l]);
         code = retex_set_add_parameter(*set, &parameter, NULL, err);
     }
     return code;

@@ -423,6 +423,17 @@ void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept)
     lamp->weight = is_kept ? 1 : fmaxf(LEAST_WEIGHT, rgb_luminance(value) / rgb_luminance(lamp->kept));
 }
 
+RetexParameter lamp_parameter(const Lamp *lamp)
+{
+    RetexParameter parameter = {.kind = RETEX_PARAMETER_COLOR,
+                                .target = -1,
+                                .value = {lamp->value.r, lamp->value.g, lamp->value.b},
+                                .kept = {lamp->kept.r, lamp->kept.g, lamp->kept.b},
+                                .several = lamp->several};
+    snprintf(parameter.name, sizeof parameter.name, "%s", lamp->name);
+    return parameter;
+}
+
 /* ---- each ---- */
 
 #define EACH_MAX 64 /* so many are counted, for the message */

@@ -662,6 +662,7 @@ int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int
 /* Give a lamp another value, in the picture and in what sets say of it. is_kept: its light is kept apart, so that
  * lights are chosen as before; else by what it is now. */
 void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept);
+RetexParameter lamp_parameter(const Lamp *lamp); /* as sets have it */
 /* The light of the air, such as fog, is of the lamp that is the rest. */
 static inline int scene_rest_lamp(const Scene *scene)
 {

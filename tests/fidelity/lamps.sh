@@ -51,7 +51,7 @@ for precision in '' --full-precision; do
         for lamps in '--solo Sun' '--solo light2' '--solo Bulb' '--solo Spare' '--solo sky' \
             '--light Sun=.2*#ff4020 --light Bulb=6*3000K' '--light light2=20*#4080ff --light Sun=0 --light sky=3' \
             '--light rest=2 --light Spare=.5*tomato'; do
-            case $lamps$edit in *20*Wall*) few=10 ;; *) few=0 ;; esac # five pixels of very many hits, see fidelity/further
+            case $lamps$edit in *20*Wall*) few=10 ;; *) few=0 ;; esac # nearly all of it in five pixels; why is not known
             against $((least - few)) "$lamps" "$edit" "${precision:-default}"
         done
     done

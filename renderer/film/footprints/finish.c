@@ -2,8 +2,6 @@
  * have. What none has, retex_set_prune leaves out. */
 #include <retex/host/set_build.h>
 
-#include <stdio.h>
-
 #include "film/footprints/lamps.h"
 
 /* A footprint of three parts; index: its number in the set. */
@@ -177,17 +175,6 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
 
 /* ---- lamps ---- */
 
-static int finish_lamp_parameter(RetexSet *set, const Lamp *lamp, int *index, RetexError *err)
-{
-    RetexParameter parameter = {.kind = RETEX_PARAMETER_COLOR,
-                                .target = -1,
-                                .value = {lamp->value.r, lamp->value.g, lamp->value.b},
-                                .kept = {lamp->kept.r, lamp->kept.g, lamp->kept.b},
-                                .several = lamp->several};
-    snprintf(parameter.name, sizeof parameter.name, "%s", lamp->name);
-    return retex_set_add_parameter(set, &parameter, index, err);
-}
-
 /* A lamp's light whose first hit is of a kind, in the order of the plan. */
 static int finish_lamp_kind(FootprintFilm *film, RetexSet *set, const int *images, int t, int kind, int parameter,
                             const Places *places, RetexError *err)
@@ -212,7 +199,8 @@ static int finish_lamps(FootprintFilm *film, RetexSet *set, const Places *places
         const LampImages *images = &film->lamps[l];
         RetexTerm picture = {.role = RETEX_ROLE_LAMP_PICTURE, .target = -1},
                   indep = {.role = RETEX_ROLE_LAMP, .target = -1};
-        code = finish_lamp_parameter(set, &film->scene->lamps[l], &parameter, err);
+        const RetexParameter lamp = lamp_parameter(&film->scene->lamps[l]);
+        code = retex_set_add_parameter(set, &lamp, &parameter, err);
         add_factors(&picture, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
         add_factors(&indep, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
         if (!code && film->scene->ntargets)
