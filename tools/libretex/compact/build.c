@@ -12,6 +12,7 @@
 #include "compact/strips.h"
 #include "compact/clusters.h"
 #include "compact/gains.h"
+#include "compact/lamps.h"
 #include "set/strip.h"
 #include "set/parts.h"
 #include "set/signals.h"
@@ -68,7 +69,7 @@ int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *er
     return code;
 }
 
-/* Whether a term is copied as it is: light without hits. */
+/* Whether a term is copied as it is: light without hits, but not that of single lamps. */
 static int is_copied(const RetexTerm *term)
 {
     return retex_term_is_light(term) && !retex_term_hits(term);
@@ -237,6 +238,14 @@ static RetexImage *cached_gains(const Compaction *work, int number, RetexError *
                   err);
 }
 
+static int gain_scale(const Compaction *work, int number, int place)
+{
+    const RetexCompactLight *light = work->light;
+    const int lamps = retex_compact_term_lamps(light, &light->kinds[number], work->scales->mixed[number], place);
+    return light->lamps[lamps].alone ? *retex_compact_lamp_scale(work->scales, light, number, place)
+                                     : work->scales->gains[number];
+}
+
 static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
 {
     const RetexImage *sum = &work->set->parts[radiance].image;
@@ -245,8 +254,9 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
     if (!all)
         return RETEX_ENOMEM;
     if (!kept->pixels)
-        code = retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place,
-                                       work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
+        code =
+            retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place,
+                                    work->scales->mixed[number], gain_scale(work, number, place), work->nthreads, err);
     return code ? code : move_or_copy_image(gain, work, kept, err);
 }
 
@@ -430,7 +440,10 @@ static int add_gain(Compaction *work, int number, int radiance, int place, Retex
 static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
 {
     const RetexCompactKind *kind = &work->light->kinds[number];
-    RetexTerm term = {.role = kind->kind == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP : RETEX_ROLE_BROAD,
+    const int lamps = retex_compact_term_lamps(work->light, kind, work->scales->mixed[number], place);
+    RetexTerm term = {.role = work->light->lamps[lamps].alone       ? RETEX_ROLE_LAMP
+                              : kind->kind == RETEX_FOOTPRINT_SHARP ? RETEX_ROLE_SHARP
+                                                                    : RETEX_ROLE_BROAD,
                       .target = kind->target,
                       .radiance = radiance};
     const int gain = place - work->light->nlamps;
@@ -445,36 +458,93 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
-/* Add the terms of a kind's light of some lamps. */
-static int add_terms_of(Compaction *work, int number, int lamps, RetexError *err)
+/* Add the terms of a kind's light of some lamps; radiance: the part of their light, or, of a single lamp, of all. */
+static int add_terms_of(Compaction *work, int number, int lamps, int radiance, RetexError *err)
 {
     const RetexCompactLight *light = work->light;
     const RetexCompactKind *kind = &light->kinds[number];
-    const int single = retex_compact_has_single(kind, lamps), further = retex_compact_has_further(light, kind, lamps);
+    const int further = retex_compact_has_further(light, kind, lamps), alone = light->lamps[lamps].alone;
+    int code = RETEX_OK;
+    if (retex_compact_has_single(kind, lamps))
+        code = add_term(work, number, radiance, lamps, further || alone, err);
+    for (int i = light->nlamps; i < term_count(work, number) && !code; i++)
+        if (retex_compact_term_lamps(light, kind, work->scales->mixed[number], i) == lamps)
+            code = add_term(work, number, radiance, i, 1, err);
+    return code;
+}
+
+/* Add a kind's light of some lamps; -1: there is none. */
+static int add_radiance(Compaction *work, int number, int lamps, int *radiance, RetexError *err)
+{
+    const RetexCompactLight *light = work->light;
+    const RetexCompactKind *kind = &light->kinds[number];
     RetexImage sum = {0};
     char target[RETEX_NAME_MAX], name[RETEX_NAME_MAX];
-    int radiance;
-    if (!single && !further)
+    *radiance = -1;
+    if (!retex_compact_has_light(light, kind, lamps))
         return RETEX_OK;
     retex_target_word(target, work->set->targets[kind->target].name);
     int code = make_sum(&sum, work, number, lamps, err);
     if (!code)
-        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s%s", target,
+        code = move_image(work->set, &sum, "RGB", RETEX_HALF, radiance, err, "dep_%s_%s%s", target,
                           retex_footprint_kind_name(kind->kind), lamps_name(name, light, lamps));
-    if (!code && single)
-        code = add_term(work, number, radiance, lamps, further, err);
-    for (int i = light->nlamps; i < term_count(work, number) && !code; i++)
-        if (retex_compact_term_lamps(light, kind, work->scales->mixed[number], i) == lamps)
-            code = add_term(work, number, radiance, i, 1, err);
     retex_image_free(&sum);
     return code;
 }
 
 static int add_terms(Compaction *work, int number, RetexError *err)
 {
+    const RetexCompactLight *light = work->light;
+    int code = RETEX_OK, all = -1;
+    for (int i = 0; i < light->nlamps && !code; i++) {
+        int radiance = -1;
+        if (!light->lamps[i].alone)
+            code = add_radiance(work, number, i, &radiance, err);
+        all = i == light->all ? radiance : all;
+        if (!code && radiance >= 0)
+            code = add_terms_of(work, number, i, radiance, err);
+    }
+    for (int i = 0; i < light->nlamps && !code && all >= 0 && !work->trial; i++)
+        if (light->lamps[i].alone)
+            code = add_terms_of(work, number, i, all, err);
+    return code;
+}
+
+/* Make a term's share of all light that meets no target, and a factor of it. */
+static int add_share(Compaction *work, int all, RetexTerm *term, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    RetexImage own = {0}, share = {0};
+    const int lamp = retex_set_term_lamp(old, term);
+    int part, code = retex_image_alloc(&own, old->width, old->height, 3, err);
+    if (!code)
+        code = retex_set_part_rows(&own, old, term->radiance, 0, err);
+    term->radiance = work->set->terms[all].radiance;
+    if (!code)
+        code = retex_compact_share(&share, &own, &work->set->parts[term->radiance].image,
+                                   *retex_compact_share_scale(work->scales, work->light, lamp), work->nthreads, err);
+    if (!code)
+        code = move_image(work->set, &share, "RGB", RETEX_HALF, &part, err, "gain_lamp%d", 1 + lamp);
+    retex_image_free(&own);
+    retex_image_free(&share);
+    return code ? code : retex_term_add_image(term, work->set, part, err);
+}
+
+/* Add light of single lamps that meets no target. */
+static int add_lamp_shares(Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    const int all = retex_compact_light_without_hits(work->set);
     int code = RETEX_OK;
-    for (int i = 0; i < work->light->nlamps && !code; i++)
-        code = add_terms_of(work, number, i, err);
+    for (int t = 0; t < old->nterms && !code; t++) {
+        if (!retex_compact_is_lamp_share(&old->terms[t]))
+            continue;
+        RetexTerm term = old->terms[t];
+        code = all >= 0 ? add_share(work, all, &term, err)
+                        : retex_compact_copy_part(work->set, old, term.radiance, &term.radiance, err);
+        if (!code)
+            code = retex_set_add_term(work->set, &term, NULL, err);
+    }
     return code;
 }
 
@@ -512,12 +582,13 @@ static int begin_kind(const Compaction *work, int number, RetexError *err)
         return code ? code : RETEX_ENOMEM;
     for (int i = 0; i < term_count(work, number) && !code && kind->kind != RETEX_FOOTPRINT_INTERREFLECTION; i++) {
         const int lamps = retex_compact_term_lamps(light, kind, work->scales->mixed[number], i);
-        const int single = retex_compact_has_single(kind, lamps),
-                  further = retex_compact_has_further(light, kind, lamps);
-        if (i == lamps && (single || further))
+        const int alone = light->lamps[lamps].alone;
+        const int has_gain =
+            alone ? retex_compact_has_light(light, kind, light->all) : retex_compact_has_further(light, kind, lamps);
+        if (i == lamps && !alone && retex_compact_has_light(light, kind, lamps))
             code = retex_image_alloc(&sums[i], light->set->width, light->set->height, 3, err);
-        if (!code && further && (i != lamps || single))
-            code = retex_compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
+        if (!code && has_gain && (i != lamps || retex_compact_has_single(kind, lamps)))
+            code = retex_compact_gain_begin(&gains[i], light, gain_scale(work, number, i), err);
     }
     return code;
 }
@@ -534,11 +605,13 @@ static int make_rows(void *context, const RetexCompactLight *light, int first, R
         for (int k = 0; k < light->nlamps; k++)
             if (sums[k].pixels)
                 retex_compact_sum_rows(&sums[k], light, kind, k, first, work->nthreads);
-        for (int k = 0; k < term_count(work, i) && !code; k++)
+        for (int k = 0; k < term_count(work, i) && !code; k++) {
+            const int lamps = retex_compact_term_lamps(light, kind, mixed, k);
+            const RetexImage *sum = &sums[light->lamps[lamps].alone ? light->all : lamps];
             if (gains[k].pixels)
-                code = retex_compact_gain_rows(&gains[k], light, kind,
-                                               &sums[retex_compact_term_lamps(light, kind, mixed, k)], k, mixed,
-                                               work->scales->gains[i], first, work->nthreads, err);
+                code = retex_compact_gain_rows(&gains[k], light, kind, sum, k, mixed, gain_scale(work, i, k), first,
+                                               work->nthreads, err);
+        }
     }
     return code;
 }
@@ -584,6 +657,8 @@ int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const
     for (int i = 0; i < light->nkinds && !code; i++)
         if (light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_terms(&work, i, err);
+    if (!code)
+        code = add_lamp_shares(&work, err);
     if (!code)
         code = copy_corrections(&work, err);
     if (work.cache)

@@ -13,6 +13,7 @@ typedef struct RetexCompactScales {
     int clusters[RETEX_COMPACT_KINDS]; /* footprints and weights; equal for all interreflections */
     int gains[RETEX_COMPACT_KINDS];
     RetexCompactMixed mixed[RETEX_COMPACT_KINDS];
+    unsigned char *lamps; /* of gains of single lamps, see lamps.h; NULL: no term is of role LAMP */
 } RetexCompactScales;
 
 int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const RetexCompactScales *scales,

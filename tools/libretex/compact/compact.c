@@ -118,7 +118,7 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
 {
     static const RetexCompactParams defaults = RETEX_COMPACT_INIT;
     RetexCompactParams chosen = params ? *params : defaults;
-    RetexCompactScales scales;
+    RetexCompactScales scales = {0};
     RetexCompactLight light = {0};
     const int sortable = strcmp(set->layout, "footprints") == 0 && !is_compact(set);
     const char *unknown = NULL;
@@ -135,6 +135,7 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
     } else if (!code) {
         code = retex_compact_copy_set(compact, set, err);
     }
+    free(scales.lamps);
     retex_compact_light_close(&light);
     if (!code)
         round_corrections(*compact, chosen.psnr);

@@ -253,10 +253,11 @@ static void encode_row(void *context, int y, int thread)
         row[i] = encoded(row[i]);
 }
 
+/* What single lamps have of all light is not searched so, see lamps.h. */
 static int trial_count(const RetexSet *set)
 {
     int lamps = 0;
-    for (int i = 0; i < set->nparameters; i++)
+    for (int i = 0; i < set->nparameters && !retex_set_has_role(set, RETEX_ROLE_LAMP); i++)
         lamps += set->parameters[i].kind == RETEX_PARAMETER_COLOR;
     return RETEX_COMPACT_TEXTURE_TRIALS + 2 * (lamps < RETEX_COMPACT_LAMP_PARTS ? lamps : RETEX_COMPACT_LAMP_PARTS);
 }
@@ -412,15 +413,7 @@ void retex_compact_reference_close(RetexCompactReference *reference)
 
 /* ---- distortion ---- */
 
-typedef struct ReadWork {
-    const RetexCompactReference *reference;
-    const RetexImage *const *parts; /* for each part of the set, its pictures by trial */
-    int count, trial;
-    double *rows; /* by row: sum of squared errors */
-} ReadWork;
-
-/* The weight of a row of the tiled set; 0 in margins. */
-static double row_weight(const RetexCompactReference *reference, int y)
+double retex_compact_row_weight(const RetexCompactReference *reference, int y)
 {
     const int row = reference->tile ? y % reference->tile : 0;
     if (!reference->tile)
@@ -428,14 +421,26 @@ static double row_weight(const RetexCompactReference *reference, int y)
     return row >= MARGIN && row < reference->tile - MARGIN ? reference->weights[y / reference->tile] : 0;
 }
 
+int retex_compact_margin(const RetexCompactReference *reference)
+{
+    return reference->tile ? MARGIN : 0;
+}
+
+typedef struct ReadWork {
+    const RetexCompactReference *reference;
+    const RetexImage *const *parts; /* for each part of the set, its pictures by trial */
+    int count, trial;
+    double *rows; /* by row: sum of squared errors */
+} ReadWork;
+
 static void read_row(void *context, int y, int thread)
 {
     const ReadWork *work = context;
     const RetexImage *should = &work->reference->pictures[work->trial];
-    const int margin = work->reference->tile ? MARGIN : 0;
+    const int margin = retex_compact_margin(work->reference);
     double sum = 0;
     (void)thread;
-    for (int x = margin; x < should->width - margin && row_weight(work->reference, y) > 0; x++)
+    for (int x = margin; x < should->width - margin && retex_compact_row_weight(work->reference, y) > 0; x++)
         for (size_t c = retex_image_index(should, x, y), end = c + 3; c < end; c++) {
             float light = 0;
             for (int i = 0; i < work->count; i++)
@@ -449,7 +454,7 @@ static void read_row(void *context, int y, int thread)
 int retex_compact_distortions(const RetexCompactReference *reference, const RetexImage *const parts[], int count,
                               double squares[RETEX_COMPACT_TRIALS], int nthreads, RetexError *err)
 {
-    const int width = reference->set->width - (reference->tile ? 2 * MARGIN : 0), height = reference->set->height;
+    const int width = reference->set->width - 2 * retex_compact_margin(reference), height = reference->set->height;
     ReadWork work = {reference, parts, count, 0, calloc((size_t)height, sizeof(double))};
     if (!work.rows)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for sums");
@@ -458,8 +463,8 @@ int retex_compact_distortions(const RetexCompactReference *reference, const Rete
         double sum = 0, weights = 0;
         retex_parallel(nthreads, height, read_row, &work);
         for (int y = 0; y < height; y++) {
-            sum += row_weight(reference, y) * work.rows[y];
-            weights += row_weight(reference, y);
+            sum += retex_compact_row_weight(reference, y) * work.rows[y];
+            weights += retex_compact_row_weight(reference, y);
         }
         squares[work.trial] = sum / (weights * 3 * width);
     }

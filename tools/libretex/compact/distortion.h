@@ -23,6 +23,9 @@ typedef struct RetexCompactReference {
 int retex_compact_reference_open(RetexCompactReference *reference, const RetexCompactLight *light, int nthreads,
                                  RetexError *err);
 void retex_compact_reference_close(RetexCompactReference *reference);
+/* The weight of a row of the tiled set, 0 in margins; and how many columns on each side are margins. */
+double retex_compact_row_weight(const RetexCompactReference *reference, int y);
+int retex_compact_margin(const RetexCompactReference *reference);
 
 /* Linear pictures of a kind's terms in compact form: see retex_compact_build_kind. light is that of reference->set. */
 int retex_compact_trial_pictures(RetexImage pictures[RETEX_COMPACT_TRIALS], const RetexCompactLight *light, int kind,

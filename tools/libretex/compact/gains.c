@@ -14,16 +14,23 @@ typedef struct Source {
     double share;
 } Source;
 
+/* The old terms whose radiance a new term has. */
+typedef struct TermLight {
+    const RetexCompactLight *light;
+    const RetexCompactKind *kind;
+    int interreflected;
+    Source *sources;
+    int count;
+} TermLight;
+
 typedef struct GainWork {
     const RetexCompactLight *light;
     const RetexCompactKind *kind;
     RetexImage *sum, *gain; /* of the whole picture */
     int first;              /* the picture's row of the light's first row */
-    int number;             /* of a term, or, for a sum, lamps */
-    RetexCompactMixed mixed;
+    int lamps;              /* of a sum */
     int scale;
-    Source *sources;
-    int count;
+    TermLight of;
 } GainWork;
 
 static void sum_row(void *context, int y, int thread)
@@ -36,7 +43,7 @@ static void sum_row(void *context, int y, int thread)
         const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
         RetexCompactClusterLight of[RETEX_SHARES_MAX];
         double all[3] = {0};
-        retex_compact_cluster_light(work->light, work->kind, work->number, pixel, of);
+        retex_compact_cluster_light(work->light, work->kind, work->lamps, pixel, of);
         for (int k = 0; k < work->kind->count; k++)
             for (int c = 0; c < 3; c++)
                 all[c] += of[k].single[c] + of[k].interreflected[c];
@@ -48,7 +55,7 @@ static void sum_row(void *context, int y, int thread)
 void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,
                             int first, int nthreads)
 {
-    GainWork work = {.light = light, .kind = kind, .sum = sum, .first = first, .number = lamps};
+    GainWork work = {.light = light, .kind = kind, .sum = sum, .first = first, .lamps = lamps};
     retex_parallel(nthreads, light->set->height, sum_row, &work);
 }
 
@@ -61,43 +68,78 @@ int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, con
     return code;
 }
 
+/* ---- the light of a term ---- */
+
 /* List the old terms whose radiance a new term has, with their shares. Radiance with a footprint counts only where that
  * is covered. */
-static int list_sources(GainWork *work, RetexError *err)
+static int open_term_light(TermLight *of, const RetexCompactLight *light, const RetexCompactKind *kind,
+                           RetexCompactMixed mixed, int number, RetexError *err)
 {
-    const RetexSet *set = work->light->set;
-    const RetexCompactKind *kind = work->kind;
-    const int gain = work->number - work->light->nlamps;
-    work->sources = malloc((2 * (size_t)kind->ninterreflections + RETEX_SHARES_MAX) * sizeof *work->sources);
-    if (!work->sources)
+    const RetexSet *set = light->set;
+    const int gain = number - light->nlamps, alone = gain < 0 && light->lamps[number].alone;
+    *of = (TermLight){.light = light, .kind = kind, .interreflected = gain >= 0};
+    of->sources = malloc((2 * (size_t)kind->ninterreflections + RETEX_SHARES_MAX) * sizeof *of->sources);
+    if (!of->sources)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
-    for (int k = 0; k < kind->count && gain < 0; k++)
-        if (kind->single[work->number][k] >= 0)
-            work->sources[work->count++] =
-                (Source){set->parts[set->terms[kind->single[work->number][k]].radiance].image.pixels,
-                         set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
+    for (int k = 0; k < kind->count && gain < 0 && !(alone && of->count); k++)
+        if (kind->single[number][k] >= 0)
+            of->sources[of->count++] =
+                (Source){set->parts[set->terms[kind->single[number][k]].radiance].image.pixels,
+                         alone ? NULL : set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
     for (int i = 0; i < 2 * kind->ninterreflections && gain >= 0; i++) {
         const RetexCompactInterreflection *part = &kind->interreflections[i / 2];
-        if (part->in[work->mixed][i % 2].gain == gain)
-            work->sources[work->count++] = (Source){set->parts[set->terms[part->term].radiance].image.pixels, NULL,
-                                                    part->in[work->mixed][i % 2].share};
+        if (part->in[mixed][i % 2].gain == gain)
+            of->sources[of->count++] =
+                (Source){set->parts[set->terms[part->term].radiance].image.pixels, NULL, part->in[mixed][i % 2].share};
     }
     return RETEX_OK;
 }
 
 /* A new term's radiance in a pixel: the sum of its sources. */
-static void term_light(const GainWork *work, size_t pixel, double rgb[3])
+static void term_light(const TermLight *of, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (work->number >= work->light->nlamps && !retex_compact_has_interreflections(work->light, work->kind, pixel))
+    if (of->interreflected && !retex_compact_has_interreflections(of->light, of->kind, pixel))
         return;
-    for (int i = 0; i < work->count; i++) {
-        const Source *source = &work->sources[i];
+    for (int i = 0; i < of->count; i++) {
+        const Source *source = &of->sources[i];
         if (source->uv && !(source->uv[3 * pixel + 2] > 0))
             continue;
         for (size_t c = 0; c < 3; c++)
             rgb[c] += source->share * (double)source->radiance[3 * pixel + c];
     }
+}
+
+int retex_compact_term_light(RetexImage *image, const RetexCompactLight *light, const RetexCompactKind *kind,
+                             RetexCompactMixed mixed, int number, RetexError *err)
+{
+    TermLight of;
+    double rgb[3];
+    int code = retex_image_alloc(image, light->set->width, light->set->height, 3, err);
+    if (!code)
+        code = open_term_light(&of, light, kind, mixed, number, err);
+    if (code)
+        return code;
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        term_light(&of, i, rgb);
+        for (size_t c = 0; c < 3; c++)
+            image->pixels[3 * i + c] = (float)rgb[c];
+    }
+    free(of.sources);
+    return RETEX_OK;
+}
+
+/* ---- gains ---- */
+
+/* Add a pixel's light to that of its block. */
+static void add_pixel(const GainWork *work, int x, int y, double of[3], double all[3])
+{
+    const size_t pixel = (size_t)y * (size_t)work->light->set->width + (size_t)x;
+    const float *sum = work->sum->pixels + retex_image_index(work->sum, x, work->first + y);
+    double light[3];
+    term_light(&work->of, pixel, light);
+    for (int c = 0; c < 3; c++)
+        of[c] += light[c], all[c] += (double)sum[c];
 }
 
 /* Compute a row of gains. A gain of -1 marks a hole: a block without light. */
@@ -107,17 +149,10 @@ static void gain_row(void *context, int by, int thread)
     const RetexSet *set = work->light->set;
     (void)thread;
     for (int bx = 0; bx < work->gain->width; bx++) {
-        double of[3] = {0}, all[3] = {0}, light[3];
+        double of[3] = {0}, all[3] = {0};
         for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
-            for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
-                const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
-                const float *sum = work->sum->pixels + retex_image_index(work->sum, x, work->first + y);
-                term_light(work, pixel, light);
-                for (int c = 0; c < 3; c++) {
-                    of[c] += light[c];
-                    all[c] += (double)sum[c];
-                }
-            }
+            for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++)
+                add_pixel(work, x, y, of, all);
         float *gain = work->gain->pixels + retex_image_index(work->gain, bx, work->first / work->scale + by);
         for (int c = 0; c < 3; c++)
             gain[c] = all[c] > 0 ? (float)(of[c] / all[c]) : -1;
@@ -173,13 +208,12 @@ int retex_compact_gain_rows(RetexImage *gain, const RetexCompactLight *light, co
                             int nthreads, RetexError *err)
 {
     RetexImage borrowed = *sum;
-    GainWork work = {light, kind, &borrowed, gain, first, number, mixed, scale, NULL, 0};
-    int code = list_sources(&work, err);
-    if (code)
-        return code;
-    retex_parallel(nthreads, (light->set->height + scale - 1) / scale, gain_row, &work);
-    free(work.sources);
-    return RETEX_OK;
+    GainWork work = {.light = light, .kind = kind, .sum = &borrowed, .gain = gain, .first = first, .scale = scale};
+    int code = open_term_light(&work.of, light, kind, mixed, number, err);
+    if (!code)
+        retex_parallel(nthreads, (light->set->height + scale - 1) / scale, gain_row, &work);
+    free(work.of.sources);
+    return code;
 }
 
 int retex_compact_gain_end(RetexImage *gain, RetexError *err)
@@ -195,4 +229,19 @@ int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, co
     if (!code)
         code = retex_compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
     return code ? code : retex_compact_gain_end(gain, err);
+}
+
+int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImage *all, int scale, int nthreads,
+                        RetexError *err)
+{
+    RetexSet set = {.width = all->width, .height = all->height};
+    const RetexCompactLight light = {.set = &set};
+    RetexImage sum = *all;
+    Source source = {of->pixels, NULL, 1};
+    GainWork work = {.light = &light, .sum = &sum, .gain = share, .scale = scale};
+    work.of = (TermLight){.sources = &source, .count = 1};
+    int code = retex_compact_gain_begin(share, &light, scale, err);
+    if (!code)
+        retex_parallel(nthreads, share->height, gain_row, &work);
+    return code ? code : retex_compact_gain_end(share, err);
 }

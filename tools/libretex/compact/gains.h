@@ -15,10 +15,17 @@ static inline int retex_compact_term_lamps(const RetexCompactLight *light, const
     return number < light->nlamps ? number : kind->gains[mixed][number - light->nlamps].lamps;
 }
 
-/* The ratio of a term's light to the sum of its lamps, RGB, at a scale. */
+/* The ratio of a term's light to the sum of its lamps, of a single lamp to that of all, RGB, at a scale. */
 int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
                             RetexError *err);
+
+/* The light of a term, as an image of the set's size. */
+int retex_compact_term_light(RetexImage *image, const RetexCompactLight *light, const RetexCompactKind *kind,
+                             RetexCompactMixed mixed, int number, RetexError *err);
+/* The ratio of an image to another, RGB, at a scale. */
+int retex_compact_share(RetexImage *share, const RetexImage *of, const RetexImage *all, int scale, int nthreads,
+                        RetexError *err);
 
 /* The same in strips: light->set has rows of the picture from `first` on; sum and gain are of the whole picture. */
 void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int lamps,

@@ -45,12 +45,25 @@ static int sort_footprints(RetexCompactLight *light)
     return 1;
 }
 
+/* Whether light other than that of single lamps has a mixture. That of single lamps is spread as all light is. */
+static int is_mixture_of_all(const RetexSet *set, int mixture)
+{
+    for (int i = 0; i < set->nterms; i++)
+        for (int k = 0; k < set->terms[i].nfactors; k++)
+            if (set->terms[i].factors[k].kind == RETEX_FACTOR_MIXTURE && set->terms[i].factors[k].index == mixture &&
+                set->terms[i].role != RETEX_ROLE_LAMP)
+                return 1;
+    return 0;
+}
+
 /* Find the weights of footprints in mixtures. All footprints of a mixture must have one kind; those of interreflections
  * may be of several targets. */
 static int sort_shares(RetexCompactLight *light)
 {
     const RetexSet *set = light->set;
     for (int m = 0; m < set->nmixtures; m++) {
+        if (!is_mixture_of_all(set, m))
+            continue;
         const RetexMixture *mixture = &set->mixtures[m];
         const RetexFootprint *first = &set->footprints[mixture->shares[0].footprint];
         for (int k = 0; k < mixture->nshares; k++) {
@@ -72,11 +85,28 @@ static int sort_shares(RetexCompactLight *light)
     return 1;
 }
 
+/* Whether a term is light that meets a target, of all lamps or of one. */
+static int is_sorted(const RetexTerm *term)
+{
+    return (retex_term_is_light(term) || term->role == RETEX_ROLE_LAMP) && retex_term_hits(term);
+}
+
+/* Sorts a term of single hits. */
+static int sort_single(RetexCompactLight *light, RetexCompactKind *kind, RetexFactor hit, int number)
+{
+    const int lamps = light->lamps_of[number], alone = light->lamps[lamps].alone;
+    int *single = kind->single[lamps], found = 0;
+    for (int i = 0; i < kind->count; i++)
+        if ((hit.kind == RETEX_FACTOR_FOOTPRINT ? kind->footprints[i] == hit.index : alone) && single[i] < 0)
+            single[i] = number, found = 1;
+    return found;
+}
+
 /* Sorts a term. Its first hit is the factor that is no interreflection. */
 static int sort_term(RetexCompactLight *light, int number)
 {
     const RetexTerm *term = &light->set->terms[number];
-    if (!retex_term_is_light(term) || !retex_term_hits(term))
+    if (!is_sorted(term))
         return 1;
     RetexCompactKind *kind = NULL;
     RetexFactor first = {0};
@@ -102,24 +132,20 @@ static int sort_term(RetexCompactLight *light, int number)
         kind->interreflections[kind->ninterreflections++].term = number;
         return 1;
     }
-    int *single = kind->single[light->lamps_of[number]];
-    for (int i = 0; i < kind->count; i++)
-        if (first.kind == RETEX_FACTOR_FOOTPRINT && kind->footprints[i] == first.index && single[i] < 0) {
-            single[i] = number;
-            return 1;
-        }
-    return 0;
+    return sort_single(light, kind, first, number);
 }
 
-/* What a term has that is not made compact; NULL: nothing. */
-static const char *unknown_factor(const RetexTerm *term)
+/* What a term has that is not made compact; NULL: nothing. lamps: 1: there are terms of role LAMP. */
+static const char *unknown_factor(const RetexTerm *term, int lamps)
 {
     int parameters = 0;
-    for (int k = 0; k < term->nfactors && retex_term_is_light(term); k++) {
+    for (int k = 0; k < term->nfactors && (retex_term_is_light(term) || term->role == RETEX_ROLE_LAMP); k++) {
         if (term->factors[k].kind == RETEX_FACTOR_IMAGE)
             return "its terms have images as factors";
         parameters += term->factors[k].kind == RETEX_FACTOR_PARAMETER;
     }
+    if (lamps && parameters && retex_term_is_light(term))
+        return "it has lamps of two forms";
     return parameters > RETEX_COMPACT_PARAMETERS ? "its terms have too many parameters" : NULL;
 }
 
@@ -143,7 +169,9 @@ static int find_lamps(RetexCompactLight *light, const RetexTerm *term)
         if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
             own.factors[own.count++] = term->factors[k];
     retex_compact_rendered(light->set, term, own.value);
-    while (i < light->nlamps && memcmp(light->lamps[i].factors, own.factors, sizeof own.factors) != 0)
+    own.alone = term->role == RETEX_ROLE_LAMP;
+    while (i < light->nlamps && (light->lamps[i].alone != own.alone ||
+                                 memcmp(light->lamps[i].factors, own.factors, sizeof own.factors) != 0))
         i++;
     if (i == light->nlamps)
         light->lamps[light->nlamps++] = own;
@@ -153,8 +181,11 @@ static int find_lamps(RetexCompactLight *light, const RetexTerm *term)
 static int sort_lamps(RetexCompactLight *light, RetexError *err)
 {
     for (int i = 0; i < light->set->nterms; i++)
-        if (retex_term_is_light(&light->set->terms[i]) && retex_term_hits(&light->set->terms[i]))
+        if (is_sorted(&light->set->terms[i]))
             light->lamps_of[i] = find_lamps(light, &light->set->terms[i]);
+    light->all = -1;
+    for (int i = 0; i < light->nlamps && retex_set_has_role(light->set, RETEX_ROLE_LAMP); i++)
+        light->all = light->lamps[i].alone ? light->all : i;
     const size_t lists = (size_t)light->nkinds * (size_t)light->nlamps;
     light->singles = malloc((lists + 1) * sizeof *light->singles);
     if (!light->singles)
@@ -169,7 +200,7 @@ static void find_greys(RetexCompactLight *light)
 {
     for (int i = 0; i < light->set->nterms; i++) {
         const RetexTerm *term = &light->set->terms[i];
-        light->greys[i] = retex_term_is_light(term) && retex_term_hits(term) > 1 ? 1 : 0;
+        light->greys[i] = is_sorted(term) && retex_term_hits(term) > 1 ? 1 : 0;
         for (int k = retex_term_hits(term); k > 1; k--)
             light->greys[i] *= RETEX_COMPACT_GREY;
     }
@@ -177,8 +208,6 @@ static void find_greys(RetexCompactLight *light)
 
 static const char *sort_all(RetexCompactLight *light)
 {
-    if (retex_set_has_role(light->set, RETEX_ROLE_LAMP))
-        return "it has lamps";
     if (!sort_footprints(light))
         return "its footprints are of another form than those of layout footprints";
     if (!sort_shares(light))
@@ -192,7 +221,7 @@ int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, doub
     *light = (RetexCompactLight){.set = set, .noise = noise};
     *unknown = sort_all(light);
     for (int i = 0; i < set->nterms && !*unknown; i++)
-        *unknown = unknown_factor(&set->terms[i]);
+        *unknown = unknown_factor(&set->terms[i], retex_set_has_role(set, RETEX_ROLE_LAMP));
     if (*unknown)
         return RETEX_OK;
     light->interreflections = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->interreflections);
@@ -274,11 +303,18 @@ int retex_compact_has_further(const RetexCompactLight *light, const RetexCompact
     return further;
 }
 
+int retex_compact_has_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps)
+{
+    return lamps >= 0 && (retex_compact_has_single(kind, lamps) || retex_compact_has_further(light, kind, lamps));
+}
+
 /* What the light of some lamps counts. */
 static const double *value_of(const RetexCompactLight *light, int lamps, int wanted)
 {
     static const double one[3] = {1, 1, 1}, none[3] = {0};
-    return wanted == RETEX_COMPACT_ALL_LAMPS ? light->lamps[lamps].value : lamps == wanted ? one : none;
+    if (wanted == RETEX_COMPACT_ALL_LAMPS)
+        return light->lamps[lamps].alone ? none : light->lamps[lamps].value;
+    return lamps == wanted ? one : none;
 }
 
 void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps, size_t pixel,
@@ -290,6 +326,8 @@ void retex_compact_cluster_light(const RetexCompactLight *light, const RetexComp
         all += shares[k] = share_of(light, kind, k, pixel);
     for (int i = 0; i < kind->ninterreflections && all > 0; i++) {
         const int number = kind->interreflections[i].term;
+        if (light->lamps[light->lamps_of[number]].alone)
+            continue;
         const float *radiance = set->parts[set->terms[number].radiance].image.pixels + 3 * pixel;
         const double *value = value_of(light, light->lamps_of[number], lamps);
         const float grey = light->greys[number];
@@ -301,7 +339,7 @@ void retex_compact_cluster_light(const RetexCompactLight *light, const RetexComp
         for (int c = 0; c < 3 && all > 0; c++)
             of[k].interreflected[c] = interreflected[c] * shares[k] / all;
         for (int i = 0; i < light->nlamps && is_covered(set, kind->footprints[k], pixel); i++) {
-            const int number = kind->single[i][k];
+            const int number = light->lamps[i].alone ? -1 : kind->single[i][k];
             const float *own = number >= 0 ? set->parts[set->terms[number].radiance].image.pixels + 3 * pixel : NULL;
             for (int c = 0; c < 3 && own; c++)
                 of[k].single[c] += value_of(light, i, lamps)[c] * (double)own[c];

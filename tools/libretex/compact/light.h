@@ -17,6 +17,8 @@ typedef struct RetexCompactLamps {
     int count;
     RetexFactor factors[RETEX_COMPACT_PARAMETERS];
     double value[3]; /* the product of their values as rendered; 1 where that is black */
+    int alone;       /* 1: terms of role LAMP, whose light is in that of all light as well: it is stored as gains of the
+                        radiance of all light */
 } RetexCompactLamps;
 
 /* A term of the compact set: the kind's radiance times a gain. */
@@ -44,7 +46,8 @@ typedef struct RetexCompactKind {
     RetexFootprintKind kind;
     int count;
     int footprints[RETEX_SHARES_MAX];
-    int (*single)[RETEX_SHARES_MAX]; /* by lamps: the term with this footprint as only hit, or -1 */
+    int (*single)[RETEX_SHARES_MAX]; /* by lamps: the term with this footprint as only hit, or -1; of single lamps the
+                                        term of all footprints, of each of them */
     int share[RETEX_SHARES_MAX];     /* the part of its weight in a mixture, or -1 */
     RetexFactor first;               /* the first hit of terms with interreflections */
     int ninterreflections;           /* terms whose first hit is of this kind, with more hits */
@@ -61,6 +64,7 @@ typedef struct RetexCompactLight {
     RetexCompactInterreflection *interreflections; /* of all kinds */
     int nlamps, *lamps_of;                         /* by term with hits: its number in lamps */
     RetexCompactLamps *lamps;
+    int all; /* the lamps that light of single ones is a part of; -1: no term is of role LAMP */
     int (*singles)[RETEX_SHARES_MAX]; /* of all kinds */
     float *greys; /* by term with interreflections: its radiance's factor if all of these meet RETEX_COMPACT_GREY; 0 of
                      other terms */
@@ -77,12 +81,13 @@ typedef struct RetexCompactClusterLight {
     double single[3], interreflected[3];
 } RetexCompactClusterLight;
 enum { RETEX_COMPACT_ALL_LAMPS = -1 };
-/* Light of each of a kind's clusters; not for interreflection footprints. lamps: the light that these multiply, or
- * RETEX_COMPACT_ALL_LAMPS, all light with parameters as rendered. */
+/* Light of each of a kind's clusters; not for interreflection footprints. lamps: the light that these multiply, not of a
+ * single lamp; or RETEX_COMPACT_ALL_LAMPS, all light with parameters as rendered. */
 void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps, size_t pixel,
                                  RetexCompactClusterLight of[RETEX_SHARES_MAX]);
-/* Whether a kind has light of single hits of these lamps; and of interreflections. */
+/* Whether a kind has light of single hits of these lamps; of interreflections; and any. */
 int retex_compact_has_single(const RetexCompactKind *kind, int lamps);
+int retex_compact_has_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps);
 int retex_compact_has_further(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps);
 /* The product of a term's parameters as rendered; 1 where that is black. */
 void retex_compact_rendered(const RetexSet *set, const RetexTerm *term, double value[3]);

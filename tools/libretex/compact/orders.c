@@ -1,7 +1,8 @@
 /* See orders.h. Light with h interreflections varies as a^h with a grey texture of albedo a. A term of an order that
  * is left out is divided between the next lower and the next higher order that is kept. The two shares are positive
  * and exact for albedo 1 and RETEX_COMPACT_GREY; between these albedos the error is small. With RETEX_COMPACT_MIXED,
- * terms of three and more interreflections use one mixture of all targets' interreflections. */
+ * terms of three and more interreflections use one mixture of all targets' interreflections; light of single lamps, which
+ * there are many of, does so from two on, and keeps fewer orders. */
 #include "compact/orders.h"
 
 #include <math.h>
@@ -12,9 +13,9 @@
 #include "set/set.h"
 #include "set/signals.h"
 
-static const int kept_orders[] = {1, 2, 3, 5, 8}; /* the highest order is kept too */
-
-enum { KEPT_ORDERS = sizeof kept_orders / sizeof *kept_orders, FIRST_MIXED = 3 };
+enum { KEPT_ORDERS = 5, FIRST_MIXED = 3, FIRST_MIXED_OF_LAMP = 2 };
+static const int kept_orders[KEPT_ORDERS] = {1, 2, 3, 5, 8}; /* the highest order is kept too */
+static const int kept_orders_of_lamp[KEPT_ORDERS] = {1, 2, 2, 2, 2};
 
 /* Whether a factor is a mixture of interreflection footprints of several targets. */
 static int is_any_target(const RetexSet *set, RetexFactor factor)
@@ -114,19 +115,20 @@ static int find_gain(RetexCompactKind *kind, const RetexCompactLight *light, Ret
     return g;
 }
 
-/* Find the kept orders below and above an order. Returns the share of the lower one. A kept order is both, share 1. */
-static double between(int order, int highest, int orders[2])
+/* Find the orders of a list that are below and above an order. Returns the share of the lower one. A kept order is both,
+ * share 1. */
+static double between(const int kept[KEPT_ORDERS], int order, int highest, int orders[2])
 {
     orders[0] = orders[1] = order;
     for (int i = 0; i < KEPT_ORDERS; i++)
-        if (kept_orders[i] == order || order >= highest)
+        if (kept[i] == order || order >= highest)
             return 1;
-    for (int i = 0; i < KEPT_ORDERS && kept_orders[i] < order; i++)
-        orders[0] = kept_orders[i];
+    for (int i = 0; i < KEPT_ORDERS && kept[i] < order; i++)
+        orders[0] = kept[i];
     orders[1] = highest;
-    for (int i = KEPT_ORDERS - 1; i >= 0 && kept_orders[i] > order; i--)
-        if (kept_orders[i] < highest)
-            orders[1] = kept_orders[i];
+    for (int i = KEPT_ORDERS - 1; i >= 0 && kept[i] > order; i--)
+        if (kept[i] < highest)
+            orders[1] = kept[i];
     const double grey = (double)RETEX_COMPACT_GREY, low = pow(grey, orders[0]), high = pow(grey, orders[1]);
     return (pow(grey, order) - high) / (low - high);
 }
@@ -138,11 +140,13 @@ static void share_term(RetexCompactKind *kind, const RetexCompactLight *light, R
     const RetexSet *set = light->set;
     const RetexTerm *term = &set->terms[part->term];
     const int order = retex_term_hits(term) - 1;
-    const int mixes = mixed == RETEX_COMPACT_MIXED && order >= FIRST_MIXED;
+    const int alone = light->lamps[light->lamps_of[part->term]].alone;
+    const int mixes = alone ? order >= FIRST_MIXED_OF_LAMP : mixed == RETEX_COMPACT_MIXED && order >= FIRST_MIXED;
     const RetexFactor *own = first_interreflection(set, term);
     const RetexFactor *any = mixes ? find_any_target(kind, set) : is_any_target(set, *own) ? own : NULL;
     int orders[2] = {order, order};
-    const double share = any || set->ntargets == 1 ? between(order, highest, orders) : 1;
+    const double share =
+        any || set->ntargets == 1 ? between(alone ? kept_orders_of_lamp : kept_orders, order, highest, orders) : 1;
     for (int k = 0; k < 2; k++) {
         part->in[mixed][k].share = k ? 1 - share : share;
         part->in[mixed][k].gain =

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compact/distortion.h"
+#include "compact/lamps.h"
 #include "set/set.h"
 
 #define STEPS RETEX_COMPACT_STEPS
@@ -23,6 +23,7 @@
 #define EXCESS_SHARE 0.25     /* share of the finest scales' distortion that may be added, if above the bound */
 #define BOUND_GROWTH_MAX 4    /* largest factor by which a bound is scaled */
 #define MEASURED_MAX 8        /* combinations measured at most */
+#define LAMP_LOSS 12          /* dB that the picture by a single lamp may lose more: it has more noise */
 #define CHOICES_MAX 64
 #define SEPARATE_KINDS_MAX 6 /* with more kinds than these, the kinds of all targets share their choices */
 
@@ -72,6 +73,24 @@ static void apply(RetexCompactScales *scales, const Choice *choice, int step)
     }
 }
 
+/* How many lamps have radiance of their own; how many gains of interreflections a kind has. Those of single lamps do
+ * not count: they have other scales. */
+static int lamp_count(const RetexCompactLight *light)
+{
+    int count = 0;
+    for (int i = 0; i < light->nlamps; i++)
+        count += !light->lamps[i].alone;
+    return count;
+}
+
+static int gain_count(const RetexCompactLight *light, const RetexCompactKind *kind, RetexCompactMixed mixed)
+{
+    int count = 0;
+    for (int i = 0; i < kind->ngains[mixed]; i++)
+        count += !light->lamps[kind->gains[mixed][i].lamps].alone;
+    return count;
+}
+
 static double numbers_of(const Search *work, const Choice *choice, int step)
 {
     double numbers = 0;
@@ -80,11 +99,12 @@ static double numbers_of(const Search *work, const Choice *choice, int step)
         if (choice->subject == CLUSTERS)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
         else if (choice->subject == GAINS)
-            numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + work->light->nlamps) / (1 << (2 * step));
+            numbers += 3.0 * (gain_count(work->light, kind, RETEX_COMPACT_MIXED) + lamp_count(work->light)) /
+                       (1 << (2 * step));
         else if (!step)
-            numbers +=
-                3.0 / 16 *
-                (kind->ngains[RETEX_COMPACT_APART] - kind->ngains[RETEX_COMPACT_MIXED]); /* gains of a typical scale */
+            numbers += 3.0 / 16 *
+                       (gain_count(work->light, kind, RETEX_COMPACT_APART) -
+                        gain_count(work->light, kind, RETEX_COMPACT_MIXED)); /* gains of a typical scale */
     }
     return numbers;
 }
@@ -362,7 +382,7 @@ int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *li
     *scales = (RetexCompactScales){0};
     list_choices(&work, scales, params);
     if (!work.count)
-        return RETEX_OK;
+        return retex_compact_lamps_fixed(scales, light, params->gain ? params->gain : 1, err);
     int code = retex_compact_reference_open(&work.reference, light, nthreads, err);
     if (!code)
         code = retex_compact_light_open(&small, work.reference.set, params->noise, &unknown, err);
@@ -375,6 +395,9 @@ int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *li
         code = measure(&work, scales, err);
     if (!code)
         code = search_measured(&work, scales, err);
+    if (!code)
+        code = retex_compact_lamps_choose(scales, &work.reference, &small, pow(10, -(params->psnr - LAMP_LOSS) / 10),
+                                          nthreads, err);
     search_close(&work);
     retex_compact_light_close(&small);
     return code;

@@ -20,6 +20,7 @@
 #define BRIGHTER_MOST 4  /* most white of a part of radiance, as a multiple of the set's white */
 #define GAIN_STEP 2.5    /* most step of gains, in steps of their radiance: errors of many gains average out. */
 #define GAIN_FINER 1.5   /* With little noise the step is smaller, but at least this many steps of radiance */
+#define LAMP_STEP 4       /* steps of single lamps' gains, in those of others */
 #define STEP_SHARE 16    /* for the sizes of axes, which are 3.5 deviations, and whose errors add up in steps */
 #define GAIN_NOISE 0.8   /* and this many times the noise: quantization adds a twentieth to its variance */
 
@@ -141,12 +142,24 @@ static void find_ranges(void *context, int part, int thread)
     }
 }
 
-/* What radiance is multiplied by, with parameters as rendered: the brightest colour. */
+/* Whether radiance is of one lamp, which may be dim, and is made brighter. */
+static int is_of_lamp(const RetexSet *set, int part)
+{
+    int of_lamp = 0, of_all = 0;
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].radiance == part)
+            *(set->terms[i].role == RETEX_ROLE_LAMP ? &of_lamp : &of_all) = 1;
+    return of_lamp && !of_all;
+}
+
+/* What radiance is multiplied by, with parameters as rendered: the brightest colour. Gains of single lamps, which may
+ * share it, say how much of it is theirs. */
 static double rendered_value(const RetexSet *set, int part)
 {
+    const int of_lamp = is_of_lamp(set, part);
     double most = 0, value[3];
     for (int i = 0; i < set->nterms; i++) {
-        if (set->terms[i].radiance != part)
+        if (set->terms[i].radiance != part || (set->terms[i].role == RETEX_ROLE_LAMP && !of_lamp))
             continue;
         retex_compact_rendered(set, &set->terms[i], value);
         most = fmax(most, fmax(value[0], fmax(value[1], value[2])));
@@ -154,37 +167,33 @@ static double rendered_value(const RetexSet *set, int part)
     return most > 0 ? most : 1;
 }
 
-/* Whether radiance is of one lamp, which may be dim, and is made brighter. */
-static int is_of_lamp(const RetexSet *set, int part)
+/* A value that few samples exceed: the mean of those above 0 plus two standard deviations. */
+static double usual_most(const RetexImage *im)
 {
-    for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].radiance == part && set->terms[i].role == RETEX_ROLE_LAMP)
-            return 1;
-    return 0;
-}
-
-/* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
- * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed: the mean
- * plus two standard deviations. That of a lamp's light may be below the picture's. */
-static double white_of(const Planning *plan, int part)
-{
-    const RetexSet *set = plan->set;
-    const RetexImage *im = &set->parts[part].image;
-    const double value = rendered_value(set, part);
     double count = 0, sum = 0, squares = 0;
-    int darkened = part > 0;
-    const int of_lamp = is_of_lamp(set, part);
-    for (int i = 0; i < set->nterms; i++)
-        darkened = darkened && (set->terms[i].radiance != part || of_lamp || retex_term_hits(&set->terms[i]) > 0);
-    for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
-        const double v = value * (double)im->pixels[i];
+    for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
+        const double v = (double)im->pixels[i];
         if (!(v > 0) || !isfinite(v))
             continue;
         count++, sum += v, squares += v * v;
     }
     const double mean = count > 0 ? sum / count : 0;
-    const double deviation = count > 0 ? sqrt(fmax(squares / count - mean * mean, 0)) : 0;
-    const double own = fmin(mean + 2 * deviation, BRIGHTER_MOST * plan->white);
+    return mean + (count > 0 ? 2 * sqrt(fmax(squares / count - mean * mean, 0)) : 0);
+}
+
+/* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
+ * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed. That of
+ * a lamp's light may be below the picture's. */
+static double white_of(const Planning *plan, int part)
+{
+    const RetexSet *set = plan->set;
+    const RetexImage *im = &set->parts[part].image;
+    const double value = rendered_value(set, part);
+    int darkened = part > 0;
+    const int of_lamp = is_of_lamp(set, part);
+    for (int i = 0; i < set->nterms; i++)
+        darkened = darkened && (set->terms[i].radiance != part || of_lamp || retex_term_hits(&set->terms[i]) > 0);
+    const double own = darkened ? fmin(value * usual_most(im), BRIGHTER_MOST * plan->white) : 0;
     return of_lamp && own > 0 ? own : fmax(own, plan->white);
 }
 
@@ -287,16 +296,30 @@ static double gain_step(const Planning *plan, int radiance)
     return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->quantizer->gain_noise * noise));
 }
 
+static int has_image(const RetexTerm *term, int part)
+{
+    for (int k = 0; k < term->nfactors; k++)
+        if (term->factors[k].kind == RETEX_FACTOR_IMAGE && term->factors[k].index == part)
+            return 1;
+    return 0;
+}
+
 /* Compact sets scale gains such that a gain is a share of the radiance if all interreflections have the albedo
- * RETEX_COMPACT_GREY. White is a share of 1. */
+ * RETEX_COMPACT_GREY. White is a share of 1; of a lamp, which may be dim, what few of its gains exceed. */
 static void plan_gain(Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
-    int most = 1, radiance = 0;
-    for (int i = 0; i < set->nterms; i++)
-        if (retex_term_image(&set->terms[i]) == part && retex_term_hits(&set->terms[i]) >= most)
-            most = retex_term_hits(&set->terms[i]), radiance = set->terms[i].radiance;
-    plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
+    int most = 1, radiance = 0, of_lamp = 1;
+    for (int i = 0; i < set->nterms; i++) {
+        const RetexTerm *term = &set->terms[i];
+        if (!has_image(term, part))
+            continue;
+        of_lamp &= term->role == RETEX_ROLE_LAMP;
+        radiance = retex_term_hits(term) >= most || !radiance ? term->radiance : radiance;
+        most = retex_term_hits(term) > most ? retex_term_hits(term) : most;
+    }
+    const double own = usual_most(&set->parts[part].image), share = pow((double)RETEX_COMPACT_GREY, 1 - most);
+    plan_light(plan, part, of_lamp && own > 0 ? own : share, (of_lamp ? LAMP_STEP : 1) * gain_step(plan, radiance));
 }
 
 /* Whether spreads can be quantized: standard deviations that are positive, or axes that are the steps of means. */
