@@ -62,9 +62,10 @@ union {
 }
 
 #declare Lamp_Radiance = <20, 17, 12.4>;
+#declare Lamp = texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }
 object {
   Panel(<-Half, 2, -Half>, 2 * Half * x, 2 * Half * z)
-  texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }
+  texture { Lamp }
   #ifndef (Retex) no_radiosity #end
 }
 

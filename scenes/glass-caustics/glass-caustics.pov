@@ -147,6 +147,7 @@ sky_sphere {
 
 // The lamp: a panel above, to the left and behind. Large, for a path that leaves the floor through glass must find it.
 #declare Lamp_Radiance = <7.6, 6.8, 5.6>;
+#declare Lamp = texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }
 #declare Lamp_Half = 3.4;
 #declare Lamp_Place = transform { rotate x * 22 rotate z * 28 translate <-6.5, 11, 2.2> }
 object {
@@ -154,7 +155,7 @@ object {
     5, <-Lamp_Half, 0, -Lamp_Half>, <Lamp_Half, 0, -Lamp_Half>, <Lamp_Half, 0, Lamp_Half>, <-Lamp_Half, 0, Lamp_Half>,
     <-Lamp_Half, 0, -Lamp_Half>
   }
-  texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }
+  texture { Lamp }
   transform { Lamp_Place }
   #ifndef (Retex) no_shadow no_radiosity #end
 }

@@ -150,19 +150,21 @@ union { // reveals, frame and bars
 
 // The sky is a panel in the opening, which lets the sun pass: that is a light of its own.
 #declare Sky_Radiance = <3.5, 3.9, 4.4>;
+#declare Daylight = texture { pigment { rgb 1 } finish { emission Sky_Radiance diffuse 0 } }
 object {
   Panel(<Left - Reveal, Sill, Window_From>, (Lintel - Sill) * y, (Window_To - Window_From) * z)
-  texture { pigment { rgb 1 } finish { emission Sky_Radiance diffuse 0 } }
+  texture { Daylight }
   no_shadow
   #ifndef (Retex) no_radiosity #end
 }
-light_source {
+#declare Sun = light_source {
   <-30, 25, -7>
   rgb <2.0, 1.75, 1.38>
   area_light 0.35 * z, vnormalize(<25, 30, 0>) * 0.35, 4, 4 adaptive 1 area_illumination on
   // Far enough to be parallel; a cone just wider than the window: so that no light is looked for where none can come.
   spotlight point_at <Left, (Sill + Lintel) / 2, (Window_From + Window_To) / 2> radius 1.75 falloff 1.9 tightness 0
 }
+light_source { Sun }
 #ifndef (Retex) // POV-Ray's stand-in for the sky's panel, of about the same power, on the room's side of the bars
   light_source {
     <Left - 0.04, (Sill + Lintel) / 2, (Window_From + Window_To) / 2>
@@ -174,9 +176,10 @@ light_source {
 
 // A glass door behind the camera, where a garden takes some of the light.
 #declare Garden_Radiance = <1.7, 1.85, 1.8>;
+#declare Garden = texture { pigment { rgb 1 } finish { emission Garden_Radiance diffuse 0 } }
 object {
   Panel(<-0.9, 0.05, Front + 0.001>, 2.6 * x, 2.2 * y)
-  texture { pigment { rgb 1 } finish { emission Garden_Radiance diffuse 0 } }
+  texture { Garden }
   #ifndef (Retex) no_radiosity #end
 }
 #ifndef (Retex)

@@ -124,6 +124,7 @@ union {
 }
 
 #declare Sky_Radiance = <5.0, 5.6, 6.3>;
+#declare Daylight = texture { pigment { rgb 1 } finish { emission Sky_Radiance diffuse 0 } }
 #macro Window(Z)
   // Reveals, frame and glazing bars; behind them the bright sky.
   union {
@@ -145,7 +146,7 @@ union {
   }
   object {
     Panel(<Left - Reveal, Sill, Z>, (Lintel - Sill) * y, Window_Width * z)
-    texture { pigment { rgb 1 } finish { emission Sky_Radiance diffuse 0 } }
+    texture { Daylight }
     #ifndef (Retex) no_radiosity #end
   }
   #ifndef (Retex) // POV-Ray's stand-in for the panel, of about the same power, on the room's side of the bars
@@ -162,9 +163,10 @@ Window(Window_At[1])
 
 // A third behind the camera, where a garden takes some of the light.
 #declare Garden_Radiance = <2.8, 3.1, 3.2>;
+#declare Garden = texture { pigment { rgb 1 } finish { emission Garden_Radiance diffuse 0 } }
 object {
   Panel(<-1.2, 0.3, Front + 0.001>, 2.8 * x, 2.1 * y)
-  texture { pigment { rgb 1 } finish { emission Garden_Radiance diffuse 0 } }
+  texture { Garden }
   #ifndef (Retex) no_radiosity #end
 }
 #ifndef (Retex)

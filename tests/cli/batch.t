@@ -425,7 +425,7 @@ $ for o in --dry-run --keep-going --mkdir '--batch-root .' '--report r.json'; do
 ! retex-render: error: --report needs a table of pictures: --variants
 
 # retex-render --variants: its table is checked before the scene is read, its targets then; all is told together.
-$ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; printf '%s\n' output,sofa,lamp,white 1.exr,none.jpg >../t; retex-render --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; retex-render --size 8x6 --spp 1 -t white --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new
+$ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; printf '%s\n' output,sofa,stool,white 1.exr,none.jpg >../t; retex-render --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; retex-render --size 8x6 --spp 1 -t white --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: ../t:2: the folder of a/1.exr is not there; --mkdir makes it
 ! retex-render: error: ../t:4: 2.exr: the output of the table's line 3 and the output of the table's line 4 are the same file
@@ -433,11 +433,11 @@ $ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1
 ! retex-render: error: none.pov: cannot read none.pov: No such file or directory
 ! retex-render: error: ../t:1: no target is called 'sofa'; the scene has floor; name it with -t
 ! retex-render: error: ../t:1: target `Floor` has two columns
-! retex-render: error: ../t:1: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White, Red, Green
-! retex-render: error: ../t:1: no texture, pigment, material or object `lamp` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: ../t:1: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White, Red, Green, Lamp
+! retex-render: error: ../t:1: no texture, pigment, material or object `stool` in the scene; there are: Floor, White, Red, Green, Lamp
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: ../t:1: no target is called 'sofa'; the scene has white; name it with -t
-! retex-render: error: ../t:1: no target is called 'lamp'; the scene has white; name it with -t
+! retex-render: error: ../t:1: no target is called 'stool'; the scene has white; name it with -t
 ! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
 $ printf '%s\n' output,floor 1.exr,none.jpg 2.exr,brick.jpg gone/3.exr '4.exr,"rgb(1,0,0)"' >../t; retex-render --size 8x6 --spp 1 --variants ../t --keep-going scenes/cornell-box/cornell-box.pov 2>&1 | sed 's/: [0-9.]* s$//'; ls -A | diff ../before - | grep '^>'; rm 2.exr 4.exr; retex-render -q --size 8x6 --spp 1 --variants ../t --keep-going --dry-run scenes/cornell-box/cornell-box.pov; echo $?
 > retex-render: error: ../t:2: cannot read none.jpg: No such file or directory

@@ -24,7 +24,7 @@ $ printf '#while (1) #end\n' >forever.pov; retex-render forever.pov -o x.exr 2>e
 > 2
 > 1
 $ retex-render -t Nope scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green, Lamp
 = 2
 $ retex-render --size 0x5 bad.pov -o x.exr
 ! retex-render: error: --size: expected WxH, not `0x5`
@@ -194,7 +194,7 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: no picture format that can be written has the ending .pov; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: standard input:2: x.nothing: no picture format that can be written has the ending .nothing; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
-! retex-render: error: standard input:1: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: standard input:1: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green, Lamp
 ! retex-render: error: standard input:1: no target is called 'nope'; the scene has floor; name it with -t
 ! retex-render: error: the table of --variants names the outputs: no -o
 = 2

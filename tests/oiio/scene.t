@@ -59,7 +59,7 @@ $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope 
 > oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'
 > oiiotool ERROR: read : "box.pov?size=3": size: expected WxH, not `3`
 > oiiotool ERROR: read : "box.pov?size=8x8&width=8": size says it all: no width or height beside it
-> oiiotool ERROR: read : "box.pov?targets=Nope": no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green
+> oiiotool ERROR: read : "box.pov?targets=Nope": no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green, Lamp
 > oiiotool ERROR: read : "box.pov?targets=Floor,,": targets: an empty name in 'Floor,,'
 > oiiotool ERROR: read : "box.pov?crop=0,0,900,900": crop does not lie inside the picture of 640x640
 > oiiotool ERROR: read : "box.pov?plain=2": plain: expected a whole number from 0 to 1, not '2'
