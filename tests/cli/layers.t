@@ -65,3 +65,23 @@ $ retex-info f.exr --layers x.exr --blender; retex-info set.exr --nuke; retex-in
 ! retex-info: error: cannot write nowhere/x.exr: No such file or directory
 ! ls: cannot access 'x.exr': No such file or directory
 = 2
+
+# Of each lamp there is one layer. Each times its value, they add up to the picture, also by other values.
+$ printf '%s\n' 'camera{location <0,1.5,-4> look_at <0,.8,0>} background{rgb <.1,.13,.16>}' '#declare F=texture{pigment{checker rgb <.8,.5,.3> rgb .4}} plane{y,0 texture{F}}' '#declare Sun=light_source{<3,4,-3>,<1,.9,.7>} light_source{Sun} #declare Off=light_source{<-2,3,-2>,0} light_source{Off}' '#declare Bulb=sphere{<-1,1,1>,.3 pigment{rgb 1} finish{emission <6,5,4>}} object{Bulb}' >lamps.pov; for t in '-t F' '' '-t F --denoise'; do retex-render -q --size 32x24 --spp 16 $t --lamps each lamps.pov -o lamps.exr; retex-info lamps.exr --layers flat.exr; /usr/bin/python3 "$TESTS/lamp_layers.py" lamps.exr flat.exr flat.exr; done
+> lamps Sun Off Bulb sky
+> R equal
+> G equal
+> B equal
+> lamps Sun Off Bulb sky
+> R equal
+> G equal
+> B equal
+> lamps Sun Off Bulb sky
+> R equal
+> G equal
+> B equal
+$ retex-combine -q lamps.exr --light Sun=2 --light sky=0 -o relit.exr; /usr/bin/python3 "$TESTS/lamp_layers.py" lamps.exr flat.exr relit.exr Sun=2 sky=0
+> lamps Sun Off Bulb sky
+> R equal
+> G equal
+> B equal

@@ -19,7 +19,7 @@ enum { LINES = RETEX_CHUNK_LINES, SHORT_NAME = 31, COMPRESSION_ZIP = 3, LONG_NAM
 
 /* A channel of the file: one of a part, or what is made of it. */
 typedef struct LayerChannel {
-    char name[RETEX_NAME_MAX + 2];
+    char name[RETEX_NAME_MAX + 8];
     const RetexPart *part;
     int index;    /* of the part's channels, or -1: 0 everywhere */
     int coverage; /* 1: it is 1 where the channel is above 0 */
@@ -49,6 +49,36 @@ static int is_mean_uv(const RetexSet *set, int part)
     return 0;
 }
 
+static int is_picture_of(const RetexSet *set, const RetexTerm *term, int lamp)
+{
+    return term->role == RETEX_ROLE_LAMP_PICTURE && retex_set_term_lamp(set, term) == lamp;
+}
+
+/* The term that is the picture by a lamp: where the set has no other for it, the light that meets no target. */
+static int is_layer_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp)
+{
+    int has_picture = 0;
+    for (int t = 0; t < set->nterms; t++)
+        has_picture |= is_picture_of(set, &set->terms[t], lamp);
+    return has_picture ? is_picture_of(set, term, lamp) : term->nfactors == 1;
+}
+
+/* The lamp whose picture a part is; -2: of a part of its light, which only mixtures make a picture of; else -1. */
+static int lamp_of_layer(const RetexSet *set, int part)
+{
+    int found = -1;
+    for (int t = 0; t < set->nterms; t++) {
+        const RetexTerm *term = &set->terms[t];
+        const int lamp = term->radiance == part ? retex_set_term_lamp(set, term) : -1;
+        if (term->radiance == part && lamp < 0)
+            return -1;
+        if (lamp >= 0 && is_layer_of_lamp(set, term, lamp))
+            return lamp;
+        found = lamp >= 0 ? -2 : found;
+    }
+    return found;
+}
+
 static int begins_with(const char *text, const char *prefix)
 {
     return strncmp(text, prefix, strlen(prefix)) == 0;
@@ -61,7 +91,7 @@ int retex_set_is_layer(const RetexSet *set, int part)
     int is_original = 0;
     for (int t = 0; t < set->ntargets; t++)
         is_original |= set->targets[t].original == part;
-    if (image->width != set->width || image->height != set->height || is_original ||
+    if (image->width != set->width || image->height != set->height || is_original || lamp_of_layer(set, part) == -2 ||
         begins_with(p->name, RETEX_NOISE_PREFIX) || begins_with(p->name, RETEX_FEATURE_PREFIX))
         return 0;
     if (part == 0 || retex_aov_find(p->name) >= 0)
@@ -75,9 +105,12 @@ int retex_set_is_layer(const RetexSet *set, int part)
 static void add_channel(LayersFile *file, const RetexPart *part, char letter, int index, int coverage)
 {
     LayerChannel *channel = &file->channels[file->nchannels++];
+    const int lamp = lamp_of_layer(file->set, (int)(part - file->set->parts));
     *channel = (LayerChannel){.part = part, .index = index, .coverage = coverage};
     if (part == file->set->parts)
         snprintf(channel->name, sizeof channel->name, "%c", letter);
+    else if (lamp >= 0)
+        snprintf(channel->name, sizeof channel->name, "lamp_%s.%c", file->set->parameters[lamp].name, letter);
     else
         snprintf(channel->name, sizeof channel->name, "%.*s.%c", RETEX_NAME_MAX - 1, part->name, letter);
     file->row_bytes += sample_bytes(channel) * (size_t)part->image.width;
