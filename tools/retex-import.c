@@ -37,6 +37,8 @@ static const CliOption options[] = {
     {"lights", 0, "F", "multiply the light of all light sources", 0},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
     {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0},
+    {"layer", 0, "NAME", "of a picture with light groups: the layer of all light; default: Combined", 0},
+    {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0},
     {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0},
     {0},
 };
@@ -293,6 +295,15 @@ static void import_to(const Cli *cli, ImportOptions *import, int force)
     cli_info(cli, "wrote %s/%s.pov", folder, name);
 }
 
+/* ---- the command line ---- */
+
+typedef struct Request {
+    const char *also[MOST_FOLDERS];
+    const char *layer, *other_half;
+    const char *first, *first_of_pictures; /* the first option that is for models, or for pictures; or NULL */
+    int force;
+} Request;
+
 static char take_axis(const Cli *cli)
 {
     if (strcmp(cli->value, "y") != 0 && strcmp(cli->value, "z") != 0)
@@ -300,58 +311,119 @@ static char take_axis(const Cli *cli)
     return cli->value[0];
 }
 
+static void parse(Cli *cli, ImportOptions *import, Request *r)
+{
+    const CliOption *option;
+    while ((option = cli_next(cli))) {
+        if (option == &cli_positional) {
+            if (import->model)
+                cli_surplus(cli, "one model at a time");
+            import->model = cli->value;
+            continue;
+        }
+        if (strcmp(option->name, "layer") == 0 || strcmp(option->name, "other-half") == 0) {
+            r->first_of_pictures = r->first_of_pictures ? r->first_of_pictures : option->name;
+            *(strcmp(option->name, "layer") == 0 ? &r->layer : &r->other_half) = cli->value;
+            continue;
+        }
+        r->first = r->first ? r->first : option->name;
+        if (strcmp(option->name, "camera") == 0) {
+            import->camera = cli->value;
+        } else if (strcmp(option->name, "sky") == 0) {
+            import->sky = cli->value;
+        } else if (strcmp(option->name, "up") == 0) {
+            import->up = take_axis(cli);
+        } else if (strcmp(option->name, "scale") == 0) {
+            import->scale = cli_number(cli, option, 1e-9, 1e9);
+        } else if (strcmp(option->name, "lights") == 0) {
+            import->lights = cli_number(cli, option, 0, 1e9);
+        } else if (strcmp(option->name, "smooth") == 0) {
+            import->smooth = cli_number(cli, option, 0, 175);
+        } else if (strcmp(option->name, "include") == 0) {
+            if (import->nalso == MOST_FOLDERS)
+                cli_die(cli, "-I: more than %d folders", MOST_FOLDERS);
+            r->also[import->nalso++] = cli->value;
+        } else {
+            r->force = 1;
+        }
+    }
+    if (!import->model)
+        cli_die(cli, "no model given");
+    if (strcmp(import->model, "-") == 0)
+        cli_die(cli, "a model is read from a file, for it may name others");
+}
+
+/* ---- pictures with light groups ---- */
+
+static void print_note(void *cli, int important, const char *text)
+{
+    if (important)
+        cli_info(cli, "%s", text);
+    else
+        cli_detail(cli, "%s", text);
+}
+
+static int import_picture(Cli *cli, const char *path, const Request *request)
+{
+    RetexDenoisePictureParams params = RETEX_DENOISE_PICTURE_INIT;
+    RetexStoreParams store = RETEX_STORE_INIT;
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    if (request->first)
+        cli_die(cli, "--%s is for models: %s is a picture", request->first, path);
+    const char *output = cli_output(cli);
+    if (!cli_ends_with(output, ".exr") && strcmp(output, "-") != 0)
+        cli_die(cli, "-o %s: a picture with light groups becomes a set: expected a name that ends in .exr", output);
+    if (request->other_half) {
+        cli_input(cli, request->other_half, "the other half");
+        cli_reads(cli, "--other-half", request->other_half);
+    }
+    cli_writes(cli, "the output", output);
+    params.layers = &request->layer;
+    params.nlayers = request->layer != NULL;
+    params.other_half = request->other_half;
+    params.access = &cli->access;
+    params.note = print_note;
+    params.note_context = cli;
+    if (retex_set_write_check(output, &err) ||
+        retex_set_read_light_groups(&set, path, &params, cli->budget, cli->threads, &err) ||
+        retex_set_write(set, NULL, output, &store, cli->threads, &err))
+        cli_fail(cli, &err);
+    const RetexSetInfo info = retex_set_info(set);
+    cli_info(cli, "%s: %d x %d, %d lamps", strcmp(output, "-") == 0 ? "standard output" : output, info.width,
+             info.height, info.nparameters);
+    retex_set_close(&set);
+    return cli_close(cli, CLI_OK);
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-import",
                .usage = "MODEL -o NAME [options]",
                .about = "Make a scene of a model of another program. It reads glTF, OBJ, FBX, Collada, 3DS, PLY, STL "
-                        "and what else Assimp reads. The folder NAME gets NAME.pov, its meshes and its textures.",
+                        "and what else Assimp reads. The folder NAME gets NAME.pov, its meshes and its textures. Of a "
+                        "picture of Cycles with light groups, make a set with lamps.",
                .options = options,
                .argc = argc,
                .argv = argv,
                .next = 1};
-    const char *also[MOST_FOLDERS];
-    ImportOptions import = {.scale = 1, .lights = 1, .also = also};
-    const CliOption *option;
-    int force = 0;
+    Request request = {.force = 0};
+    ImportOptions import = {.scale = 1, .lights = 1, .also = request.also};
 
-    while ((option = cli_next(&cli))) {
-        if (option == &cli_positional) {
-            if (import.model)
-                cli_surplus(&cli, "one model at a time");
-            import.model = cli.value;
-        } else if (strcmp(option->name, "camera") == 0) {
-            import.camera = cli.value;
-        } else if (strcmp(option->name, "sky") == 0) {
-            import.sky = cli.value;
-        } else if (strcmp(option->name, "up") == 0) {
-            import.up = take_axis(&cli);
-        } else if (strcmp(option->name, "scale") == 0) {
-            import.scale = cli_number(&cli, option, 1e-9, 1e9);
-        } else if (strcmp(option->name, "lights") == 0) {
-            import.lights = cli_number(&cli, option, 0, 1e9);
-        } else if (strcmp(option->name, "smooth") == 0) {
-            import.smooth = cli_number(&cli, option, 0, 175);
-        } else if (strcmp(option->name, "include") == 0) {
-            if (import.nalso == MOST_FOLDERS)
-                cli_die(&cli, "-I: more than %d folders", MOST_FOLDERS);
-            also[import.nalso++] = cli.value;
-        } else {
-            force = 1;
-        }
-    }
-    if (!import.model)
-        cli_die(&cli, "no model given");
-    if (strcmp(import.model, "-") == 0)
-        cli_die(&cli, "a model is read from a file, for it may name others");
+    parse(&cli, &import, &request);
     cli_input(&cli, import.model, "a model");
     cli_reads(&cli, "the model", import.model);
+    if (retex_is_picture(import.model, &cli.access))
+        return import_picture(&cli, import.model, &request);
+    if (request.first_of_pictures)
+        cli_die(&cli, "--%s is for pictures with light groups: %s is no OpenEXR picture", request.first_of_pictures,
+                import.model);
     cli_reads(&cli, "--sky", import.sky);
     import.safe = cli.access.safe ? 2 : 0; /* the process that reads the model decodes its pictures, too */
     import.accept_damaged = cli.access.accept_damaged;
     import.max_pixels = cli.limits.pixels;
     import.budget = cli.budget;
-    import_to(&cli, &import, force);
+    import_to(&cli, &import, request.force);
     watchdog_done(); /* nothing goes to standard output, which need not be closed well */
     return CLI_OK;
 }

@@ -36,6 +36,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_image_write: ok
 > retex_texture_create: ok
 > retex_is_picture: 1
+> retex_set_read_light_groups: ./older.exr has no light groups: no layer Combined_NAME
 > retex_denoise_picture: ok
 > retex_set_get_info: 48 x 32, paper, lib_test
 > retex_set_describe: ok

@@ -167,6 +167,9 @@ static void call_denoise_picture(const char *picture, const char *folder)
     char path[1024];
     snprintf(path, sizeof path, "%s/clean.exr", folder);
     printf("retex_is_picture: %d\n", retex_is_picture(picture, access_of_all()));
+    RetexSet *set = NULL; /* the picture has no light groups */
+    CALL(retex_set_read_light_groups, &set, picture, OLDER(RetexDenoisePictureParams, RETEX_DENOISE_PICTURE_INIT), NULL,
+         1);
     CALL(retex_denoise_picture, picture, path, OLDER(RetexDenoisePictureParams, RETEX_DENOISE_PICTURE_INIT),
          OLDER(RetexDenoiseParams, RETEX_DENOISE_INIT), 1);
 }

@@ -93,8 +93,8 @@ void retex_picture_guides_close(RetexPictureGuides *guides)
 
 /* ---- the set ---- */
 
-static int add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, const RetexImage *from,
-                    float value, RetexError *err)
+int retex_picture_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type,
+                           const RetexImage *from, float value, RetexError *err)
 {
     int part;
     const int code = retex_set_add_part(set, name, letters, type, 0, 0, &part, err);
@@ -109,7 +109,7 @@ static int add_part(RetexSet *set, const char *name, const char *letters, RetexP
     return RETEX_OK;
 }
 
-static int add_guides(RetexSet *set, const RetexPictureGuides *g, int with_albedo, RetexError *err)
+int retex_picture_add_guides(RetexSet *set, const RetexPictureGuides *g, int with_albedo, RetexError *err)
 {
     const RetexImage *images[RETEX_FEATURE_COUNT] = {[RETEX_FEATURE_NORMAL] = g->has_first ? &g->normal : NULL,
                                                      [RETEX_FEATURE_POSITION] = g->has_first ? &g->position : NULL,
@@ -122,7 +122,7 @@ static int add_guides(RetexSet *set, const RetexPictureGuides *g, int with_albed
     int code = RETEX_OK;
     for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++) {
         const RetexFeatureInfo *info = retex_feature_info(k);
-        code = add_part(set, info->name, info->letters, info->type, images[k], values[k], err);
+        code = retex_picture_add_part(set, info->name, info->letters, info->type, images[k], values[k], err);
     }
     return code;
 }
@@ -138,11 +138,11 @@ int retex_picture_set(RetexSet **result, const RetexImage *beauty, const RetexIm
     strcpy(set->layout, "plain");
     set->spp = 2; /* halves of the same size */
     retex_noise_part_name(name, NULL, RETEX_SIGNAL_BEAUTY);
-    code = add_part(set, "beauty", "RGB", RETEX_FLOAT, beauty, 0, err);
+    code = retex_picture_add_part(set, "beauty", "RGB", RETEX_FLOAT, beauty, 0, err);
     if (!code)
-        code = add_part(set, name, "RGB", RETEX_FLOAT, noise, 0, err);
+        code = retex_picture_add_part(set, name, "RGB", RETEX_FLOAT, noise, 0, err);
     if (!code)
-        code = add_guides(set, guides, with_albedo, err);
+        code = retex_picture_add_guides(set, guides, with_albedo, err);
     if (code)
         retex_set_close(result);
     return code;

@@ -21,6 +21,12 @@ int retex_picture_derive_normals(RetexImage *normal, const RetexImage *position,
 int retex_picture_guides_finish(RetexPictureGuides *guides, int has_depth, RetexError *err);
 void retex_picture_guides_close(RetexPictureGuides *guides);
 
+/* Append a part with a copy of an image; without one, value everywhere. */
+int retex_picture_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type,
+                           const RetexImage *from, float value, RetexError *err);
+/* Append the parts that denoising goes by. with_albedo 0: surfaces are white. */
+int retex_picture_add_guides(RetexSet *set, const RetexPictureGuides *guides, int with_albedo, RetexError *err);
+
 /* A set without terms, for retex_denoise, of this beauty and noise. with_albedo 0: surfaces are white. */
 int retex_picture_set(RetexSet **set, const RetexImage *beauty, const RetexImage *noise,
                       const RetexPictureGuides *guides, int with_albedo, RetexError *err);

@@ -43,6 +43,15 @@ int retex_denoise_picture(const char *path, const char *output,
                           const RetexDenoisePictureParams *picture /* NULL = defaults */,
                           const RetexDenoiseParams *params /* NULL = defaults */, int nthreads, RetexError *err);
 
+/* Read the light groups of an EXR file of Cycles, layers Combined_NAME beside Combined, as the lamps of a set without
+ * targets, with what retex_denoise needs; what is of no group is the lamp `rest`. All lamps add up to the picture: rest
+ * may be below 0 where the picture was denoised or clamped and the groups were not. `layers` may name the picture;
+ * where Blender has denoised it, the default is the one before that, Noisy Image. The set is in memory. */
+int retex_set_read_light_groups(RetexSet **set, const char *path,
+                                const RetexDenoisePictureParams *picture /* NULL = defaults */,
+                                const RetexBudget *budget /* limits the pixels; NULL = no limit */, int nthreads,
+                                RetexError *err);
+
 #ifdef __cplusplus
 }
 #endif
