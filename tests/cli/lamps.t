@@ -40,7 +40,7 @@ $ retex-combine -q l.exr --batch t.csv --manifest j; retex-combine l.exr --batch
 
 # Packs: without loss, with it, where a dim lamp stays as fine as a bright one, and without lamps.
 $ make_set n.exr 96 64 footprints denoise; make_lamp_terms n.exr f.exr; retex-pack -q f.exr --lossless -o a.retex; retex-pack -q f.exr -o b.retex 2>&1; for v in Lamp=20 Window=red rest=.01; do for p in f.exr a.retex b.retex; do retex-combine -q $p --light $v --light '*=0' -o $p.png --depth 16; done; cmp f.exr.png a.retex.png; retex-diff -q f.exr.png b.retex.png --fail-psnr 44; done
-> retex-pack: warning: the set cannot be made compact and takes more room: it has lamps
+> retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
 $ retex-pack -q f.exr --no-lamps -o c.retex 2>&1; retex-pack -q n.exr -o d.retex 2>&1; cmp c.retex d.retex; retex-info c.retex 2>/dev/null | grep -c param; retex-pack -q f.exr --no-lamps --lossless -o c.retex; retex-pack -q n.exr --lossless -o d.retex; cmp c.retex d.retex
 > retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints
 > retex-pack: warning: the set cannot be made compact and takes more room: its footprints are of another form than those of layout footprints

@@ -75,6 +75,23 @@ denoises() {
 denoises originals '' ''
 denoises 'another floor' '--texture Floor=rgb(.1,.6,.2)' '--replace Floor=rgb(.1,.6,.2)'
 
+# A pack of it: each lamp alone and several, also where the lamp that is off is turned on; against the set.
+retex-pack -q "$work/denoised.exr" -o "$work/denoised.retex"
+for lamps in '--solo Sun' '--solo light2' '--solo Bulb --light Bulb=6' '--solo Spare' \
+    '--light Sun=.2*#ff4020 --light Bulb=6*3000K'; do
+    for edit in '' "$both"; do
+        textures=
+        for statement in $edit; do textures="$textures --texture $statement"; done
+        for set in exr retex; do
+            # shellcheck disable=SC2086
+            retex-combine -q "$work/denoised.$set" $lamps $textures -o "$work/of-$set.exr"
+        done
+        psnr=$(figure "$work/of-retex.exr" "$work/of-exr.exr" psnr)
+        echo "# packed, $lamps, ${edit:-originals}: $psnr dB"
+        result "$(at_least "$psnr" 42)" "packed, $lamps, ${edit:-originals}"
+    done
+done
+
 render -l Sun -l Bulb --light-share 0 -o "$work/set.exr"
 render -o "$work/none.exr"
 result "$(at_least "$(figure "$work/set.exr" "$work/none.exr" psnr)" 120)" 'the picture is the same'

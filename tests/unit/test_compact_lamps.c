@@ -2,6 +2,7 @@
  * the lamps, as exactly as without these; footprints are shared, and lie where they lie without lamps. */
 #include "lib_compact.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -210,12 +211,123 @@ static void values_as_rendered_do_not_matter(void **state)
     assert_in_range(bytes[2], 0, bytes[0] + bytes[0] / 20);
 }
 
+/* ---- terms of role LAMP ---- */
+
+enum { LAMPS = 3 };
+
+static RetexSet *set_of_lamp_terms(int ntargets, int count, int off)
+{
+    RetexSet *set = whole_set(ntargets, count);
+    test_add_lamp_terms(set, off, 0);
+    return set;
+}
+
+/* The values that lamps were kept with, but for one that is so many times as bright; -1: for none. alone: others are
+ * off. */
+static void lamp_values(float values[3 * LAMPS], const RetexSet *set, int lamp, float gain, int alone)
+{
+    for (int i = 0; i < LAMPS; i++)
+        for (int c = 0; c < 3; c++)
+            values[3 * i + c] = set->parameters[i].kept[c] * (i == lamp ? gain : (float)!alone);
+}
+
+/* Each lamp alone, and several, are as in the whole set where textures are what gains are exact for; all together are
+ * all light. */
+static void single_lamps_are_gains_of_all_light(void **state)
+{
+    (void)state;
+    float values[3 * LAMPS];
+    for (int ntargets = 1; ntargets <= 2; ntargets++)
+        for (int off = 0; off < 2; off++) {
+            RetexSet *set = set_of_lamp_terms(ntargets, 3, off), *compact = compacted(set, 1, 1, 1),
+                     *small = compacted(set, 8, 8, 8), *plain = whole_set(ntargets, 3),
+                     *none = compacted(plain, 8, 8, 8);
+            for (int lamp = 0; lamp < LAMPS; lamp++) {
+                lamp_values(values, set, lamp, 3, 1);
+                expect_same_image(lit_picture(set, grey, values), lit_picture(compact, grey, values));
+                lamp_values(values, set, lamp, 3, 0);
+                expect_same_image(lit_picture(set, grey, values), lit_picture(compact, grey, values));
+            }
+            lamp_values(values, set, -1, 1, 0);
+            expect_same_image(lit_picture(none, bright, NULL), lit_picture(small, bright, values));
+            retex_set_close(&set);
+            retex_set_close(&compact);
+            retex_set_close(&small);
+            retex_set_close(&plain);
+            retex_set_close(&none);
+        }
+}
+
+/* Light of a lamp is packed as gains, as fine where it is dim, in fewer bytes than as radiance. */
+static void packs_hold_gains_of_single_lamps(void **state)
+{
+    (void)state;
+    RetexSet *set = set_of_lamp_terms(2, 3, 1), *pack;
+    RetexError err = {0};
+    float values[3 * LAMPS];
+    test_must(retex_pack_write(set, test_in_folder("single.retex"), NULL, NULL, 2, &err), &err);
+    test_must(retex_set_read(test_in_folder("single.retex"), &pack, NULL, 2, &err), &err);
+    assert_true(retex_set_find_part(pack, "gain_T0_sharp_lamp1") > 0);
+    assert_true(retex_set_find_part(pack, "gain_lamp3") > 0);
+    assert_int_equal(retex_set_find_part(pack, "dep_T0_sharp_lamp1"), -1);
+    for (int lamp = 0; lamp < LAMPS; lamp++)
+        for (int times = 1; times <= 20; times += 19) {
+            RetexMetrics metrics;
+            lamp_values(values, set, lamp, (float)times, 1);
+            RetexImage one = lit_picture(set, bright, values), other = lit_picture(pack, bright, values);
+            test_must(retex_metrics(&metrics, &other, &one, 1, &err), &err);
+            if (!(metrics.psnr > 38))
+                fail_msg("lamp %d, %d times: %g dB", lamp, times, metrics.psnr);
+            retex_image_free(&one);
+            retex_image_free(&other);
+        }
+    retex_set_close(&set);
+    retex_set_close(&pack);
+}
+
+/* Gains of a lamp are small where its share of all light is even, and whole where it has edges. */
+static void scales_are_for_each_single_lamp(void **state)
+{
+    (void)state;
+    RetexSet *set = set_of_lamp_terms(1, 1, 0), *compact;
+    RetexError err = {0};
+    for (int t = 0; t < set->nterms; t++) {
+        RetexTerm *term = &set->terms[t];
+        const int lamp = retex_set_term_lamp(set, term);
+        for (int y = 0; y < HIGH && lamp >= 0; y++)
+            for (int x = 0; x < WIDE; x++) {
+                const int on = (x / 5 + y / 5) % 2;
+                const double share = lamp == 2 ? 0.2 : lamp == on ? 0.6 : 0.2;
+                for (int c = 0; c < 3; c++) {
+                    const size_t i = retex_image_index(&set->parts[term->radiance].image, x, y) + (size_t)c;
+                    set->parts[term->radiance].image.pixels[i] =
+                        retex_term_hits(term) ? 0.05f * (float)share / set->parameters[lamp].kept[c] : 0;
+                }
+            }
+        if (retex_term_is_light(term))
+            for (int i = 0; i < 3 * WIDE * HIGH; i++)
+                set->parts[term->radiance].image.pixels[i] = retex_term_hits(term) ? 0.05f : 0;
+    }
+    test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
+    for (int lamp = 0; lamp < LAMPS; lamp++) {
+        char name[32];
+        snprintf(name, sizeof name, "gain_T0_sharp_lamp%d", lamp + 1);
+        const int gain = retex_set_find_part(compact, name);
+        assert_true(gain > 0);
+        if (retex_set_scale(compact, &compact->parts[gain].image) != (lamp == 2 ? 8 : 1))
+            fail_msg("%s: scale %d", name, retex_set_scale(compact, &compact->parts[gain].image));
+    }
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_change_as_in_the_whole_set),  cmocka_unit_test(packs_hold_lamps),
         cmocka_unit_test(footprints_are_those_of_all_light), cmocka_unit_test(scales_are_for_each_lamp),
-        cmocka_unit_test(values_as_rendered_do_not_matter),
+        cmocka_unit_test(values_as_rendered_do_not_matter),  cmocka_unit_test(single_lamps_are_gains_of_all_light),
+        cmocka_unit_test(packs_hold_gains_of_single_lamps),  cmocka_unit_test(scales_are_for_each_single_lamp),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -76,16 +76,20 @@ static int open_term_light(TermLight *of, const RetexCompactLight *light, const 
                            RetexCompactMixed mixed, int number, RetexError *err)
 {
     const RetexSet *set = light->set;
-    const int gain = number - light->nlamps, alone = gain < 0 && light->lamps[number].alone;
+    const int gain = number - light->nlamps;
     *of = (TermLight){.light = light, .kind = kind, .interreflected = gain >= 0};
     of->sources = malloc((2 * (size_t)kind->ninterreflections + RETEX_SHARES_MAX) * sizeof *of->sources);
     if (!of->sources)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
-    for (int k = 0; k < kind->count && gain < 0 && !(alone && of->count); k++)
-        if (kind->single[number][k] >= 0)
-            of->sources[of->count++] =
-                (Source){set->parts[set->terms[kind->single[number][k]].radiance].image.pixels,
-                         alone ? NULL : set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
+    for (int k = 0; k < kind->count && gain < 0; k++) {
+        const int old = kind->single[number][k];
+        if (old < 0 || (k && old == kind->single[number][k - 1])) /* a term of several footprints counts once */
+            continue;
+        const int several = k + 1 < kind->count && old == kind->single[number][k + 1];
+        of->sources[of->count++] =
+            (Source){set->parts[set->terms[old].radiance].image.pixels,
+                     several ? NULL : set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
+    }
     for (int i = 0; i < 2 * kind->ninterreflections && gain >= 0; i++) {
         const RetexCompactInterreflection *part = &kind->interreflections[i / 2];
         if (part->in[mixed][i % 2].gain == gain)

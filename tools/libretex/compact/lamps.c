@@ -87,6 +87,7 @@ typedef struct LampChoice {
     int count;
     RetexImage picture; /* by the lamp, with a value of 1 */
     float exposure;
+    double whole; /* mean of the picture by all lamps, with the same textures */
 } LampChoice;
 
 /* The light of all lamps of which a gain is a part. */
@@ -235,6 +236,26 @@ static double mean_of(const LampChoice *work, const RetexImage *image)
     return sum / weights;
 }
 
+/* How bright the picture by all lamps is, with textures of RETEX_COMPACT_GREY. */
+static int measure_whole(LampChoice *work, RetexError *err)
+{
+    const RetexCompactLight *light = work->light;
+    const RetexSet *set = light->set;
+    const int without = retex_compact_light_without_hits(set);
+    RetexImage sum = {0};
+    int code = RETEX_OK;
+    work->whole = without >= 0 ? mean_of(work, &set->parts[set->terms[without].radiance].image) : 0;
+    for (int k = 0; k < light->nkinds && !code; k++) {
+        const RetexCompactKind *kind = &light->kinds[k];
+        if (kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || !retex_compact_has_light(light, kind, light->all))
+            continue;
+        code = retex_compact_sum_light(&sum, light, kind, light->all, work->nthreads, err);
+        work->whole += code ? 0 : (double)RETEX_COMPACT_GREY * mean_of(work, &sum);
+        retex_image_free(&sum);
+    }
+    return code;
+}
+
 /* The picture by the lamp alone, and how bright it is looked at. */
 static int make_picture(LampChoice *work, int parameter, RetexError *err)
 {
@@ -247,9 +268,9 @@ static int make_picture(LampChoice *work, int parameter, RetexError *err)
     for (int i = 0; i < work->count; i++)
         for (size_t k = 0; k < count; k++)
             work->picture.pixels[k] += work->gains[i].albedo * work->gains[i].light.pixels[k];
-    const double own = mean_of(work, &work->picture), whole = mean_of(work, &set->parts[0].image);
+    const double own = mean_of(work, &work->picture);
     const double most = BRIGHTER_MOST * (double)retex_luminance(kept[0], kept[1], kept[2]);
-    work->exposure = own > 0 ? (float)fmin(whole / own, most > 0 ? most : BRIGHTER_MOST) : 1;
+    work->exposure = own > 0 ? (float)fmin(work->whole / own, most > 0 ? most : BRIGHTER_MOST) : 1;
     return RETEX_OK;
 }
 
@@ -307,6 +328,8 @@ int retex_compact_lamps_choose(RetexCompactScales *scales, const RetexCompactRef
         calloc((size_t)light->nkinds * most_places(light) + (size_t)light->set->nterms + 1, sizeof *work.gains);
     if (!work.gains)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for lamps");
+    else
+        code = measure_whole(&work, err);
     for (int i = 0; i < light->set->nparameters && !code; i++)
         if (light->set->parameters[i].kind == RETEX_PARAMETER_COLOR)
             code = choose_of_lamp(&work, i, bound, err);

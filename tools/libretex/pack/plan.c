@@ -20,7 +20,7 @@
 #define BRIGHTER_MOST 4  /* most white of a part of radiance, as a multiple of the set's white */
 #define GAIN_STEP 2.5    /* most step of gains, in steps of their radiance: errors of many gains average out. */
 #define GAIN_FINER 1.5   /* With little noise the step is smaller, but at least this many steps of radiance */
-#define LAMP_STEP 4       /* steps of single lamps' gains, in those of others */
+#define LAMP_STEP 4      /* steps of single lamps' gains, in those of others */
 #define STEP_SHARE 16    /* for the sizes of axes, which are 3.5 deviations, and whose errors add up in steps */
 #define GAIN_NOISE 0.8   /* and this many times the noise: quantization adds a twentieth to its variance */
 
