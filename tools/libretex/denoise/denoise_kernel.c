@@ -6,7 +6,11 @@
 
 #include "denoise/falloff.h"
 
-enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
+enum {
+    TALL = DENOISE_TILE + 2 * DENOISE_PATCH, /* rows of differences */
+    WIDE = DENOISE_WIDE,                     /* pixels of each: two more, so that they are whole vectors */
+    BOX = 2 * DENOISE_PATCH + 1
+};
 
 /* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
  * weight falls with the squared distance in pixels. The second is for places where features change from pixel to pixel,
@@ -68,24 +72,31 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
 
 /* ---- colors ---- */
 
-/* The squared difference of two pixels in one colour, beyond what their noise explains, in units of it. */
-RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v_there, float epsilon, float strength)
+/* What turns squared differences in one colour into units of noise; both halves share it. */
+RETEX_CPU_INLINE void scale_row(float *restrict to, const float *restrict variance, float epsilon, float strength,
+                                ptrdiff_t o)
 {
-    const float scale = 1 / (epsilon + strength * (v_here + v_there));
+    for (int i = 0; i < WIDE; i++)
+        to[i] = denoise_reciprocal(epsilon + strength * (variance[i] + variance[i + o]));
+}
+
+/* The squared difference of two pixels in one colour, beyond what their noise explains. */
+RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v_there)
+{
     const float d = here - there, expected = v_here + (v_here < v_there ? v_here : v_there);
-    return (d * d - expected) * scale;
+    return d * d - expected;
 }
 
 /* The sum over colours of the differences of one row; all colours in one loop, so that it becomes one of vectors. */
 RETEX_CPU_INLINE void difference_row(float *restrict to, const float *restrict a, const float *restrict b,
                                      const float *restrict c, const float *restrict va, const float *restrict vb,
-                                     const float *restrict vc, const float *restrict both, float epsilon,
-                                     float strength, ptrdiff_t o)
+                                     const float *restrict vc, const float *restrict both, float scales[restrict 3][WIDE],
+                                     ptrdiff_t o)
 {
     for (int i = 0; i < WIDE; i++)
-        to[i] = both[i] * (difference(a[i], a[i + o], va[i], va[i + o], epsilon, strength) +
-                           difference(b[i], b[i + o], vb[i], vb[i + o], epsilon, strength) +
-                           difference(c[i], c[i + o], vc[i], vc[i + o], epsilon, strength));
+        to[i] = both[i] * (scales[0][i] * difference(a[i], a[i + o], va[i], va[i + o]) +
+                           scales[1][i] * difference(b[i], b[i + o], vb[i], vb[i + o]) +
+                           scales[2][i] * difference(c[i], c[i + o], vc[i], vc[i + o]));
 }
 
 /* Which pixels of one row count: 1 where both are of one kind. */
@@ -100,10 +111,13 @@ RETEX_CPU_INLINE void counts_row(float *restrict counts, const float *restrict k
 /* Differences of one row, for both halves; 0 for pixels that do not count. */
 RETEX_CPU_INLINE void difference_rows(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float rows[3][WIDE])
 {
+    float scales[3][WIDE];
     counts_row(rows[2], s->kind + p, o);
+    for (int c = 0; c < 3; c++)
+        scale_row(scales[c], s->variance[c] + p, s->epsilon, s->strength, o);
     for (int h = 0; h < 2; h++)
         difference_row(rows[h], s->half[h][0] + p, s->half[h][1] + p, s->half[h][2] + p, s->variance[0] + p,
-                       s->variance[1] + p, s->variance[2] + p, rows[2], s->epsilon, s->strength, o);
+                       s->variance[1] + p, s->variance[2] + p, rows[2], scales, o);
 }
 
 RETEX_CPU_INLINE void box_row(float *restrict out, const float *restrict in)
@@ -203,8 +217,8 @@ RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoise
 /* The patch distances of all pixels to the pixels at one displacement, for both halves. */
 RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *restrict distances)
 {
-    float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
-    for (int y = 0; y < WIDE; y++) {
+    float *boxed[3] = {s->scratch, s->scratch + TALL * DENOISE_TILE, s->scratch + 2 * TALL * DENOISE_TILE};
+    for (int y = 0; y < TALL; y++) {
         float row[3][WIDE];
         difference_rows(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row);
         for (int k = 0; k < 3; k++)
@@ -224,7 +238,7 @@ RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, f
 
 RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
 {
-    float *distances = s->scratch + 3 * WIDE * DENOISE_TILE;
+    float *distances = s->scratch + 3 * TALL * DENOISE_TILE;
     float near[DENOISE_CANDIDATES][DENOISE_BATCH];
     for (int n = 0; n < batch->count; n++) {
         int dx = batch->dx + n;

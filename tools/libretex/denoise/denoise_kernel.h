@@ -16,6 +16,7 @@ enum {
     DENOISE_STEP = DENOISE_TILE - 2 * DENOISE_MARGIN,
     DENOISE_RADIUS_MAX = 10,
     DENOISE_PATCH = 3, /* patches of 7x7 pixels are compared */
+    DENOISE_WIDE = DENOISE_TILE + 2 * DENOISE_PATCH + 2, /* pixels of a row that are compared at a displacement */
     DENOISE_HALO = DENOISE_RADIUS_MAX + DENOISE_PATCH,
     DENOISE_PITCH = 96,
     DENOISE_ROWS = DENOISE_TILE + 2 * DENOISE_HALO,

@@ -64,22 +64,29 @@ RETEX_CPU_INLINE void clear_sums(RowSums *sums, int n)
         }
 }
 
-/* How much one half differs in one colour at a pixel and another, beyond its noise and in units of it. */
+/* By what squared differences in one colour become units of noise; both halves share it. */
+RETEX_CPU_INLINE void find_scale(float *restrict scale, const float *restrict v, ptrdiff_t o, int n)
+{
+    for (int i = 0; i < n; i++)
+        scale[i] = (1.0f / 3) * denoise_reciprocal(v[i] + v[i + o]);
+}
+
+/* How much one half differs in one colour at a pixel and another, beyond its noise. */
 RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v_there)
 {
     const float d = here - there, expected = v_here + (v_here < v_there ? v_here : v_there);
-    return (d * d - expected) / (v_here + v_there);
+    return d * d - expected;
 }
 
-/* The same of all colours, the mean. */
+/* The mean over colours of the differences, in units of noise. */
 RETEX_CPU_INLINE void find_distances(float *restrict to, const float *restrict a, const float *restrict b,
                                      const float *restrict c, const float *restrict va, const float *restrict vb,
-                                     const float *restrict vc, ptrdiff_t o, int n)
+                                     const float *restrict vc, Row scales[restrict 3], ptrdiff_t o, int n)
 {
     for (int i = 0; i < n; i++)
-        to[i] = (difference(a[i], a[i + o], va[i], va[i + o]) + difference(b[i], b[i + o], vb[i], vb[i + o]) +
-                 difference(c[i], c[i + o], vc[i], vc[i + o])) *
-                (1.0f / 3);
+        to[i] = scales[0][i] * difference(a[i], a[i + o], va[i], va[i + o]) +
+                scales[1][i] * difference(b[i], b[i + o], vb[i], vb[i + o]) +
+                scales[2][i] * difference(c[i], c[i + o], vc[i], vc[i + o]);
 }
 
 RETEX_CPU_INLINE void weigh(float *restrict weight, const float *restrict distance, const float *restrict kind,
@@ -97,10 +104,13 @@ RETEX_CPU_INLINE void weigh_row(Row weights[2], const RetexDenoiseLight *from, c
                                 size_t p, ptrdiff_t o, int n)
 {
     const float *const *v = (const float *const *)from->variance;
+    Row scales[3];
+    for (int c = 0; c < 3; c++)
+        find_scale(scales[c], v[c] + p, o, n);
     for (int h = 0; h < 2; h++) {
         const float *const *other = (const float *const *)from->half[!h];
         Row distance;
-        find_distances(distance, other[0] + p, other[1] + p, other[2] + p, v[0] + p, v[1] + p, v[2] + p, o, n);
+        find_distances(distance, other[0] + p, other[1] + p, other[2] + p, v[0] + p, v[1] + p, v[2] + p, scales, o, n);
         weigh(weights[h], distance, kind, tap, o, n);
     }
 }
