@@ -12,13 +12,22 @@ enum {
     BOX = 2 * DENOISE_PATCH + 1
 };
 
+enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX };
+#ifndef R1
+#define R1 FAR
+#define R2 FAR
+#define R3 FAR
+#endif
+
 /* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
- * weight falls with the squared distance in pixels. The second is for places where features change from pixel to pixel,
- * the third for places where features say nothing, the fourth for even light. */
+ * weight falls with the squared distance in pixels; reach: up to which squared distance. The second is for places where
+ * features change from pixel to pixel, the third for places where features say nothing, the fourth for even light. */
 static const struct {
     float color, near;
+    int reach;
     enum { STRICT, LOOSE, NONE } features;
-} filters[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
+} filters[DENOISE_CANDIDATES] = {
+    {1, 0.05f, FAR, STRICT}, {0.2f, 0.1f, R1, LOOSE}, {1, 0.1f, R2, NONE}, {0.05f, 0.1f, R3, STRICT}};
 
 /* ---- features ---- */
 
@@ -90,8 +99,8 @@ RETEX_CPU_INLINE float difference(float here, float there, float v_here, float v
 /* The sum over colours of the differences of one row; all colours in one loop, so that it becomes one of vectors. */
 RETEX_CPU_INLINE void difference_row(float *restrict to, const float *restrict a, const float *restrict b,
                                      const float *restrict c, const float *restrict va, const float *restrict vb,
-                                     const float *restrict vc, const float *restrict both, float scales[restrict 3][WIDE],
-                                     ptrdiff_t o)
+                                     const float *restrict vc, const float *restrict both,
+                                     float scales[restrict 3][WIDE], ptrdiff_t o)
 {
     for (int i = 0; i < WIDE; i++)
         to[i] = both[i] * (scales[0][i] * difference(a[i], a[i + o], va[i], va[i + o]) +
@@ -236,22 +245,44 @@ RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, f
     }
 }
 
+/* The squared distance of a displacement. */
+RETEX_CPU_INLINE int squared(RetexDenoiseDisplacement o)
+{
+    return o.dx * o.dx + o.dy * o.dy;
+}
+
+/* Finds the patch distances of a batch, and for each candidate how much nearness counts. reached: by candidate, 1 where
+ * it reaches any displacement. */
+RETEX_CPU_INLINE void prepare_batch(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch, float *distances,
+                                    float near[DENOISE_CANDIDATES][DENOISE_BATCH], int reached[DENOISE_CANDIDATES])
+{
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        reached[k] = 0;
+    for (int n = 0; n < batch->count; n++) {
+        const RetexDenoiseDisplacement o = batch->of[n];
+        for (int k = 0; k < DENOISE_CANDIDATES; k++) {
+            const int is_reached = squared(o) <= filters[k].reach;
+            near[k][n] = is_reached ? denoise_falloff(filters[k].near * (float)squared(o)) : 0;
+            reached[k] |= is_reached;
+        }
+        find_distances(s, (ptrdiff_t)o.dy * DENOISE_PITCH + o.dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
+    }
+}
+
 RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
 {
     float *distances = s->scratch + 3 * TALL * DENOISE_TILE;
     float near[DENOISE_CANDIDATES][DENOISE_BATCH];
-    for (int n = 0; n < batch->count; n++) {
-        int dx = batch->dx + n;
-        for (int k = 0; k < DENOISE_CANDIDATES; k++)
-            near[k][n] = denoise_falloff(filters[k].near * (float)(dx * dx + batch->dy * batch->dy));
-        find_distances(s, (ptrdiff_t)batch->dy * DENOISE_PITCH + dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
-    }
+    int reached[DENOISE_CANDIDATES];
+    prepare_batch(s, batch, distances, near, reached);
     for (int y = 0; y < DENOISE_TILE; y++) {
         Weights w[2] = {{{0}}};
         size_t at = (size_t)y * DENOISE_TILE, q[DENOISE_BATCH];
         for (int n = 0; n < DENOISE_BATCH; n++)
-            q[n] = denoise_at(n < batch->count ? batch->dx + n : 0, n < batch->count ? y + batch->dy : y);
+            q[n] = n < batch->count ? denoise_at(batch->of[n].dx, y + batch->of[n].dy) : denoise_at(0, y);
         for (int k = 0; k < DENOISE_CANDIDATES; k++) {
+            if (!reached[k])
+                continue;
             for (int n = 0; n < batch->count; n++) {
                 const RetexDenoiseSimilarity *alike = batch->alike[n];
                 const float *features = filters[k].features == STRICT  ? alike->strict

@@ -84,10 +84,15 @@ enum {
         3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS
 };
 
-/* Displacements (dx, dy) to (dx + count - 1, dy), with the similarity of features at each. weights (NULL: not wanted)
- * receives the weights of the first candidate, as the mean of both halves. */
+typedef struct RetexDenoiseDisplacement {
+    int dx, dy;
+} RetexDenoiseDisplacement;
+
+/* Displacements, with the similarity of features at each. weights (NULL: not wanted) receives the weights of the first
+ * candidate, as the mean of both halves. */
 typedef struct RetexDenoiseBatch {
-    int dx, dy, count;
+    int count;
+    RetexDenoiseDisplacement of[DENOISE_BATCH];
     const RetexDenoiseSimilarity *alike[DENOISE_BATCH];
     float *weights[DENOISE_BATCH];
 } RetexDenoiseBatch;

@@ -33,6 +33,7 @@ enum { CHOICES = DENOISE_CANDIDATES + 1 };
 /* Scratch memory of a tile for one signal. */
 typedef struct SignalScratch {
     int nclusters, nplanes;
+    int is_empty; /* no light around the tile: nothing to filter */
     float *half[2][3], *variance[3], *lost[3], *kind, *modulation[3], *mean_modulation; /* planes; lost: what fireflies
                                                                                          were lowered by */
     float **planes, **sums; /* images to filter, by channel: the sum of all clusters if there are any, then the other
@@ -48,7 +49,9 @@ struct RetexDenoiseScratch {
     float *spare;    /* a plane */
     float *kept[2];  /* planes */
     float *scratch, *errors[CHOICES], *neighbours;
-    RetexDenoiseSimilarity *alike; /* DENOISE_BATCH */
+    RetexDenoiseSimilarity *alike;    /* DENOISE_BATCH */
+    RetexDenoiseDisplacement *window; /* the nearest first */
+    int nwindow;
     SignalScratch *signals;
     RetexDenoiseSignal *sums; /* by signal */
     float **pointers;
@@ -116,6 +119,19 @@ static void plan_scratch(RetexDenoiseScratch *work, Layout *l, const RetexDenois
         plan_signal(&work->signals[s], l, &d->signals.of[s]);
 }
 
+enum { WINDOW_MOST = (2 * DENOISE_RADIUS_MAX + 1) * (2 * DENOISE_RADIUS_MAX + 1) };
+
+/* Displacements in a disc, the nearest first: those that only some candidates reach come last. */
+static void plan_window(RetexDenoiseScratch *work, int radius)
+{
+    work->nwindow = 0;
+    for (int squared = 0; squared <= radius * radius + radius; squared++)
+        for (int dy = -radius; dy <= radius; dy++)
+            for (int dx = -radius; dx <= radius; dx++)
+                if (dx * dx + dy * dy == squared)
+                    work->window[work->nwindow++] = (RetexDenoiseDisplacement){dx, dy};
+}
+
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
 {
     RetexDenoiseScratch *work = *out = calloc(1, sizeof *work);
@@ -132,11 +148,14 @@ int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser 
         plan_scratch(work, &layout, d);
         layout.memory = work->memory = calloc(layout.used, sizeof(float));
     }
-    if (!work || !work->memory) {
+    if (work)
+        work->window = malloc(sizeof *work->window * WINDOW_MOST);
+    if (!work || !work->memory || !work->window) {
         retex_denoise_scratch_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
     plan_scratch(work, &layout, d);
+    plan_window(work, d->params.radius);
     return RETEX_OK;
 }
 
@@ -149,6 +168,7 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
     free(work->signals);
     free(work->sums);
     free(work->pointers);
+    free(work->window);
     free(work);
     *out = NULL;
 }
@@ -287,6 +307,17 @@ static void find_variance(SignalScratch *r, RetexDenoiseScratch *work)
     }
 }
 
+static int is_empty(const SignalScratch *r)
+{
+    for (int k = 0; k < r->nplanes + 6; k++) {
+        const float *plane = k < r->nplanes ? r->planes[k] : r->half[(k - r->nplanes) / 3][(k - r->nplanes) % 3];
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            if (plane[i] != 0)
+                return 0;
+    }
+    return 1;
+}
+
 static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d)
 {
     RetexDenoiseSignal s = {.kind = r->kind,
@@ -314,6 +345,8 @@ static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *wo
         }
     for (int k = 0; k < r->nplanes; k++)
         memset(r->sums[k], 0, sizeof(float) * DENOISE_PIXELS);
+    if (r->neighbours) /* those beyond the window weigh nothing */
+        memset(r->neighbours, 0, sizeof(float) * NEIGHBOURS_MAX * DENOISE_PIXELS);
     return s;
 }
 
@@ -561,29 +594,38 @@ static int neighbour_number(const RetexDenoiser *d, int dx, int dy)
     return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
 }
 
+/* The next displacements of the window, from the `first` on, as a batch. */
+static RetexDenoiseBatch next_batch(RetexDenoiseScratch *work, const RetexDenoiser *d,
+                                    const RetexDenoiseFeatures *features, int first, int numbers[DENOISE_BATCH])
+{
+    RetexDenoiseBatch batch = {0};
+    for (int n = 0; n < DENOISE_BATCH && first + n < work->nwindow; n++, batch.count++) {
+        const RetexDenoiseDisplacement o = batch.of[n] = work->window[first + n];
+        numbers[n] = neighbour_number(d, o.dx, o.dy);
+        retex_denoise_features_kernel(work->alike + n, features, o.dx, o.dy, d->params.scalar);
+        batch.alike[n] = work->alike + n;
+        if (numbers[n] >= 0)
+            memcpy(work->neighbours + (size_t)numbers[n] * DENOISE_PIXELS, work->alike[n].strict,
+                   sizeof work->alike->strict);
+    }
+    return batch;
+}
+
 static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseFeatures *features,
                           const RetexDenoiseSignal *signals)
 {
-    int radius = d->params.radius;
-    for (int dy = -radius; dy <= radius; dy++)
-        for (int dx = -radius; dx <= radius; dx += DENOISE_BATCH) {
-            RetexDenoiseBatch batch = {.dx = dx, .dy = dy};
-            int numbers[DENOISE_BATCH];
-            for (; batch.count < DENOISE_BATCH && dx + batch.count <= radius; batch.count++) {
-                int n = batch.count, number = numbers[n] = neighbour_number(d, dx + n, dy);
-                retex_denoise_features_kernel(work->alike + n, features, dx + n, dy, d->params.scalar);
-                batch.alike[n] = work->alike + n;
-                if (number >= 0)
-                    memcpy(work->neighbours + (size_t)number * DENOISE_PIXELS, work->alike[n].strict,
-                           sizeof work->alike->strict);
-            }
-            for (int s = 0; s < d->signals.count; s++) {
-                float *kept = work->signals[s].neighbours;
-                for (int n = 0; n < batch.count; n++)
-                    batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
-                retex_denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
-            }
+    for (int first = 0; first < work->nwindow; first += DENOISE_BATCH) {
+        int numbers[DENOISE_BATCH];
+        RetexDenoiseBatch batch = next_batch(work, d, features, first, numbers);
+        for (int s = 0; s < d->signals.count; s++) {
+            float *kept = work->signals[s].neighbours;
+            if (work->signals[s].is_empty)
+                continue;
+            for (int n = 0; n < batch.count; n++)
+                batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
+            retex_denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
         }
+    }
 }
 
 void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *out,
@@ -601,10 +643,13 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
         lower_fireflies(r, work, d, features.valid);
         find_variance(r, work);
         signals[s] = start_signal(r, work, d);
+        r->is_empty = is_empty(r);
     }
+    memset(work->neighbours, 0, sizeof(float) * NEIGHBOURS_MAX * DENOISE_PIXELS);
     search_window(d, work, &features, signals);
     for (int s = 0; s < d->signals.count; s++)
-        choose(&work->signals[s], work, signals[s].epsilon, features.valid);
+        if (!work->signals[s].is_empty)
+            choose(&work->signals[s], work, signals[s].epsilon, features.valid);
     for (int y = out->first; y < out->first + out->rows; y++)
         for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
             TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
