@@ -12,12 +12,7 @@ enum {
     BOX = 2 * DENOISE_PATCH + 1
 };
 
-enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX };
-#ifndef R1
-#define R1 FAR
-#define R2 FAR
-#define R3 FAR
-#endif
+enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX, NEAR = 10 };
 
 /* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
  * weight falls with the squared distance in pixels; reach: up to which squared distance. The second is for places where
@@ -27,7 +22,7 @@ static const struct {
     int reach;
     enum { STRICT, LOOSE, NONE } features;
 } filters[DENOISE_CANDIDATES] = {
-    {1, 0.05f, FAR, STRICT}, {0.2f, 0.1f, R1, LOOSE}, {1, 0.1f, R2, NONE}, {0.05f, 0.1f, R3, STRICT}};
+    {1, 0.05f, FAR, STRICT}, {0.2f, 0.1f, NEAR, LOOSE}, {1, 0.1f, NEAR, NONE}, {0.05f, 0.1f, NEAR, STRICT}};
 
 /* ---- features ---- */
 
