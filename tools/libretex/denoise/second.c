@@ -29,6 +29,7 @@ typedef struct Scratch {
     float *memory, *features, *spare;
     RetexDenoiseLight *first, *levels[2]; /* by signal: what the first pass left; two levels in turn */
     float **kinds;
+    unsigned char *empty; /* by signal: 1 = no light around the tile */
     float *epsilons;
     float **means;  /* by signal: CHOICES - 1 levels of RGB, DENOISE_PIXELS each: mean of both halves */
     float **errors; /* by signal: CHOICES times DENOISE_PIXELS */
@@ -51,6 +52,7 @@ static void close_scratch(Scratch *work)
     free(work->levels[0]);
     free(work->levels[1]);
     free(work->kinds);
+    free(work->empty);
     free(work->epsilons);
     free(work->means);
     free(work->errors);
@@ -80,11 +82,12 @@ static int open_scratch(Scratch *work, int nsignals, RetexError *err)
     for (int k = 0; k < 2; k++)
         work->levels[k] = calloc(n + 1, sizeof *work->levels[k]);
     work->kinds = calloc(n + 1, sizeof *work->kinds);
+    work->empty = calloc(n + 1, sizeof *work->empty);
     work->epsilons = calloc(n + 1, sizeof *work->epsilons);
     work->means = calloc(n + 1, sizeof *work->means);
     work->errors = calloc(n + 1, sizeof *work->errors);
-    if (!work->memory || !work->first || !work->levels[0] || !work->levels[1] || !work->kinds || !work->epsilons ||
-        !work->means || !work->errors)
+    if (!work->memory || !work->first || !work->levels[0] || !work->levels[1] || !work->kinds || !work->empty ||
+        !work->epsilons || !work->means || !work->errors)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     float *memory = work->memory;
     work->features = take(&memory, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
@@ -149,6 +152,15 @@ static float find_epsilon(const RetexDenoiseLight *light)
             level += fabsf(light->half[0][c][i]);
     level /= 3 * DENOISE_PLANE;
     return fmaxf(1e-20f, LEAST_DIFFERENCE * (float)fmin(level * level, (double)LARGEST));
+}
+
+static int is_empty(const RetexDenoiseLight *light)
+{
+    for (int k = 0; k < 6; k++)
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            if (light->half[k / 3][k % 3][i] != 0)
+                return 0;
+    return 1;
 }
 
 /* Pixels count where they were filtered. */
@@ -288,6 +300,11 @@ static void second_job(void *context, int index, int thread)
     limit_valid(w, features.valid, x0, y0);
     for (int s = 0; s < d->signals.count; s++) {
         load_halves(&work->first[s], w, s, x0, y0);
+        if ((work->empty[s] = (unsigned char)is_empty(&work->first[s]))) {
+            memset(work->means[s], 0, 3 * (CHOICES - 1) * DENOISE_PIXELS * sizeof(float));
+            memset(work->errors[s], 0, CHOICES * DENOISE_PIXELS * sizeof(float));
+            continue;
+        }
         work->epsilons[s] = find_epsilon(&work->first[s]);
         find_variance(&work->first[s], work->spare, work->epsilons[s]);
         retex_denoise_load_kind(work->kinds[s], d, &d->signals.of[s], x0, y0);
@@ -299,12 +316,14 @@ static void second_job(void *context, int index, int thread)
                                          .features = &features,
                                          .nsignals = d->signals.count,
                                          .kinds = (const float *const *)work->kinds,
+                                         .empty = work->empty,
                                          .epsilons = work->epsilons,
                                          .from = k ? work->levels[(k + 1) % 2] : work->first,
                                          .to = work->levels[k % 2]};
         retex_denoise_level_kernel(&level, d->params.scalar);
         for (int s = 0; s < d->signals.count; s++)
-            keep_level(work, s, k, features.valid);
+            if (!work->empty[s])
+                keep_level(work, s, k, features.valid);
     }
     for (int s = 0; s < d->signals.count; s++)
         store_factors(w, work, features.valid, s, x0, y0, w->sums + (size_t)index * (size_t)d->signals.count + s);

@@ -170,6 +170,8 @@ RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
         }
         for (int s = 0; s < level->nsignals; s++) {
             RowSums sums;
+            if (level->empty && level->empty[s])
+                continue;
             clear_sums(&sums, n);
             for (int k = 0; k < DENOISE_TAPS; k++) {
                 const int dx = (k % DENOISE_TAPS_SIDE - 2) * level->step,

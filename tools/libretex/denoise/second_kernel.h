@@ -23,8 +23,9 @@ typedef struct RetexDenoiseLevel {
     int step, around;
     const RetexDenoiseFeatures *features; /* only strict scales count */
     int nsignals;
-    const float *const *kinds; /* by signal: pixels of different kinds are not mixed */
-    const float *epsilons;     /* by signal: added to the variance, so that invisible differences do not count */
+    const float *const *kinds;  /* by signal: pixels of different kinds are not mixed */
+    const unsigned char *empty; /* by signal: 1 = without light, left as it is; NULL: none is */
+    const float *epsilons;      /* by signal: added to the variance, so that invisible differences do not count */
     const RetexDenoiseLight *from;
     RetexDenoiseLight *to;
 } RetexDenoiseLevel;
