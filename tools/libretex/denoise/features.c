@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "denoise/planes_kernel.h"
 #include "set/set.h"
 
 #define STRENGTH 0.6f /* k_f of Rousselle et al. 2013 */
@@ -63,21 +64,6 @@ void retex_denoise_load_kind(float *restrict kind, const RetexDenoiser *d, const
         kind[i] = sharp && !(kind[i] > DENOISE_LEAST_COVER) ? -1 : 1;
 }
 
-/* Adds the squared change from pixel to pixel along both axes: to strict the smaller of both sides, so that an edge
- * does not count as a slope, to loose the larger. */
-static void add_gradient(float *restrict strict, float *restrict loose, const float *restrict f)
-{
-    for (int y = 1; y < DENOISE_ROWS - 1; y++)
-        for (int x = 1; x < DENOISE_PITCH - 1; x++) {
-            size_t i = (size_t)y * DENOISE_PITCH + (size_t)x;
-            float l = f[i] - f[i - 1], r = f[i + 1] - f[i], u = f[i] - f[i - DENOISE_PITCH],
-                  d = f[i + DENOISE_PITCH] - f[i];
-            l *= l, r *= r, u *= u, d *= d;
-            strict[i] += (l < r ? l : r) + (u < d ? u : d);
-            loose[i] += (l > r ? l : r) + (u > d ? u : d);
-        }
-}
-
 typedef struct FeatureList {
     RetexDenoiseFeatures *features;
     float *planes, *scales;
@@ -89,11 +75,9 @@ static RetexDenoiseFeature *add_feature(FeatureList *g, int first, int count, fl
     float *strict = g->scales + (size_t)(2 * f->count) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
     memset(strict, 0, sizeof *strict * 2 * DENOISE_PLANE);
     for (int k = 0; k < count; k++)
-        add_gradient(strict, loose, g->planes + (size_t)(first + k) * DENOISE_PLANE);
-    for (int i = 0; i < DENOISE_PLANE; i++) {
-        strict[i] = 1 / (factor * fmaxf(least[kind], strict[i]));
-        loose[i] = 1 / (factor * fmaxf(least[kind], loose[i]));
-    }
+        retex_denoise_add_gradient(strict, loose, g->planes + (size_t)(first + k) * DENOISE_PLANE);
+    retex_denoise_invert_plane(strict, least[kind], factor);
+    retex_denoise_invert_plane(loose, least[kind], factor);
     f->of[f->count] = (RetexDenoiseFeature){.first = first, .count = count, .strict = strict, .loose = loose};
     return &f->of[f->count++];
 }
@@ -117,14 +101,6 @@ static void add_features(FeatureList *g, RetexFeatureHit hit)
     }
 }
 
-static int is_zero(const float *plane)
-{
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        if (plane[i] != 0)
-            return 0;
-    return 1;
-}
-
 static int load_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
 {
     int n = 0;
@@ -146,7 +122,8 @@ void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const R
     for (int k = 0; k < n; k++)
         f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;
     add_features(&g, RETEX_FEATURE_HIT_SEEN);
-    if (!is_zero(f->planes[first_planes[RETEX_FEATURE_SPECULAR]])) /* else the first hit is the surface that is seen */
+    if (!retex_denoise_plane_is_zero(
+            f->planes[first_planes[RETEX_FEATURE_SPECULAR]])) /* else the first hit is the surface that is seen */
         add_features(&g, RETEX_FEATURE_HIT_FIRST);
     for (int k = COVERS; k < n; k++)
         add_feature(&g, k, 1, STRENGTH * STRENGTH, RETEX_FEATURE_KIND_SHARE);

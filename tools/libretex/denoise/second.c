@@ -8,6 +8,7 @@
 #include <retex/parallel.h>
 
 #include "denoise/features.h"
+#include "denoise/planes_kernel.h"
 #include "denoise/second_kernel.h"
 #include "denoise/totals.h"
 #include "set/set.h"
@@ -156,11 +157,10 @@ static float find_epsilon(const RetexDenoiseLight *light)
 
 static int is_empty(const RetexDenoiseLight *light)
 {
-    for (int k = 0; k < 6; k++)
-        for (int i = 0; i < DENOISE_PLANE; i++)
-            if (light->half[k / 3][k % 3][i] != 0)
-                return 0;
-    return 1;
+    int empty = 1;
+    for (int k = 0; k < 6 && empty; k++)
+        empty = retex_denoise_plane_is_zero(light->half[k / 3][k % 3]);
+    return empty;
 }
 
 /* Pixels count where they were filtered. */

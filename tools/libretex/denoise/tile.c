@@ -11,6 +11,7 @@
 #include "denoise/fireflies.h"
 #include "denoise/footprints.h"
 #include "denoise/passed.h"
+#include "denoise/planes_kernel.h"
 #include "denoise/totals.h"
 #include "set/set.h"
 
@@ -175,16 +176,6 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 
 /* ---- signals ---- */
 
-/* Replaces a plane by its mean over 5x5 pixels; spare is scratch. */
-static void smooth(float *restrict plane, float *restrict spare)
-{
-    for (int i = 2; i < DENOISE_PLANE - 2; i++)
-        spare[i] = 0.2f * (plane[i - 2] + plane[i - 1] + plane[i] + plane[i + 1] + plane[i + 2]);
-    for (int i = 2 * DENOISE_PITCH + 2; i < DENOISE_PLANE - 2 * DENOISE_PITCH - 2; i++)
-        plane[i] = 0.2f * (spare[i - 2 * DENOISE_PITCH] + spare[i - DENOISE_PITCH] + spare[i] +
-                           spare[i + DENOISE_PITCH] + spare[i + 2 * DENOISE_PITCH]);
-}
-
 /* Loads the images to filter; their weighted sum goes to the planes of the first half. */
 static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
@@ -198,10 +189,8 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
         const RetexSignalMember *m = &signal->members[k];
         int to = m->cluster >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
-            float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
             retex_denoise_load_plane(work->spare, d->set, m->part, c, x0, y0);
-            for (int i = 0; i < DENOISE_PLANE; i++)
-                plane[i] += work->spare[i], total[i] += m->weight * work->spare[i];
+            retex_denoise_add_plane(r->planes[3 * to + c], r->half[0][c], work->spare, m->weight);
         }
     }
 }
@@ -262,17 +251,11 @@ static int has_rounded_noise(const RetexDenoiser *d)
 static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
-    const float second = 2 * first_part(d), first = 2 - second;
-    const int is_rounded = has_rounded_noise(d);
+    const float second = 2 * first_part(d), weights[2] = {2 - second, second};
     for (int c = 0; c < 3; c++) {
-        float *restrict a = r->half[0][c], *restrict b = r->half[1][c];
-        const float *restrict m = r->modulation[c];
         retex_denoise_load_plane(work->spare, d->set, signal->noise, c, x0, y0);
-        for (int i = 0; i < DENOISE_PLANE; i++) {
-            const float total = a[i] / m[i], light = is_rounded ? fmaxf(0, total) : INFINITY,
-                        noise = fminf(fmaxf(work->spare[i] / m[i], -light / first), light / second);
-            a[i] = total + first * noise, b[i] = total - second * noise;
-        }
+        retex_denoise_split_plane(r->half[0][c], r->half[1][c], r->modulation[c], work->spare, weights,
+                                  has_rounded_noise(d));
     }
 }
 
@@ -296,26 +279,14 @@ static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const R
     }
 }
 
-static void find_variance(SignalScratch *r, RetexDenoiseScratch *work)
-{
-    for (int c = 0; c < 3; c++) {
-        const float *restrict a = r->half[0][c], *restrict b = r->half[1][c];
-        float *restrict v = r->variance[c];
-        for (int i = 0; i < DENOISE_PLANE; i++)
-            v[i] = 0.5f * (a[i] - b[i]) * (a[i] - b[i]);
-        smooth(v, work->spare);
-    }
-}
-
 static int is_empty(const SignalScratch *r)
 {
-    for (int k = 0; k < r->nplanes + 6; k++) {
-        const float *plane = k < r->nplanes ? r->planes[k] : r->half[(k - r->nplanes) / 3][(k - r->nplanes) % 3];
-        for (int i = 0; i < DENOISE_PLANE; i++)
-            if (plane[i] != 0)
-                return 0;
-    }
-    return 1;
+    int empty = 1;
+    for (int k = 0; k < r->nplanes && empty; k++)
+        empty = retex_denoise_plane_is_zero(r->planes[k]);
+    for (int c = 0; c < 3 && empty; c++)
+        empty = retex_denoise_plane_is_zero(r->half[0][c]) && retex_denoise_plane_is_zero(r->half[1][c]);
+    return empty;
 }
 
 static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d)
@@ -641,7 +612,8 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
         find_modulation(r, work, d, &d->signals.of[s], x0, y0);
         split_halves(r, work, d, &d->signals.of[s], x0, y0);
         lower_fireflies(r, work, d, features.valid);
-        find_variance(r, work);
+        for (int c = 0; c < 3; c++)
+            retex_denoise_variance_plane(r->variance[c], r->half[0][c], r->half[1][c], work->spare);
         signals[s] = start_signal(r, work, d);
         r->is_empty = is_empty(r);
     }

@@ -34,11 +34,11 @@ typedef struct RetexDenoiser {
     int features[RETEX_FEATURE_COUNT]; /* parts */
     RetexSignals signals;
     struct RetexDenoiseFootprints *footprints;
-    RetexDenoisePassed *passed; /* rows of the region */
-    RetexDenoiseTotals *totals; /* or NULL */
+    RetexDenoisePassed *passed;              /* rows of the region */
+    RetexDenoiseTotals *totals;              /* or NULL */
     int uses_originals;                      /* 0: albedos of footprints stay as they are */
     struct RetexDenoiseOriginals *originals; /* or NULL */
-    int first_row;              /* of the set's rows in the totals: above 0 where the set is a strip */
+    int first_row;                           /* of the set's rows in the totals: above 0 where the set is a strip */
 } RetexDenoiser;
 
 /* Sums over the pixels of a signal's total: as rendered but for what fireflies were lowered by, that, and after the
