@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "denoise/falloff.h"
+
 static const int displacements[][2] = {{0, 0}, {1, 0}, {0, -1}, {-3, 7}, {10, 10}, {-10, -10}, {-10, 10}, {5, -4}};
 enum { DISPLACEMENTS = sizeof displacements / sizeof *displacements };
 
@@ -36,8 +38,9 @@ static void test_features_scalar_and_vector(void **state)
 /* What every other displacement weighs is kept. */
 static void add_batch(const RetexDenoiseSignal *s, Room *r, Sums *sums, int dx, int dy, int count, int scalar)
 {
-    RetexDenoiseBatch batch = {.dx = dx, .dy = dy, .count = count};
+    RetexDenoiseBatch batch = {.count = count};
     for (int n = 0; n < count; n++) {
+        batch.of[n] = (RetexDenoiseDisplacement){dx + n, dy};
         retex_denoise_features_kernel(r->alike + n, &r->features, dx + n, dy, 1);
         batch.alike[n] = r->alike + n;
         batch.weights[n] = (dx + n) % 2 == 0 ? sums->weight[n] : NULL;
@@ -157,7 +160,7 @@ static void test_signals_reference(void **state)
         RetexDenoiseSignal s = signal_of(r, sums);
         const int dx = displacements[k][0], dy = displacements[k][1];
         const double near = falloff(0.05 * (dx * dx + dy * dy));
-        RetexDenoiseBatch batch = {.dx = dx, .dy = dy, .count = 1, .alike = {r->alike}, .weights = {sums->weight[0]}};
+        RetexDenoiseBatch batch = {.count = 1, .of = {{dx, dy}}, .alike = {r->alike}, .weights = {sums->weight[0]}};
         for (int i = 0; i < DENOISE_PIXELS; i++)
             r->alike->strict[i] = r->alike->loose[i] = r->alike->valid[i] = 1;
         retex_denoise_signal_kernel(&s, &batch, 0);
@@ -185,13 +188,53 @@ static void test_signals_reference(void **state)
     free(r);
 }
 
+/* All but the first candidate look no further than a squared distance of 20, also in a batch that goes further. */
+static void test_reach_of_candidates(void **state)
+{
+    (void)state;
+    static const RetexDenoiseDisplacement all[] = {{4, 2}, {-1, 3}, {4, 3}, {0, -5}};
+    for (int from = 0; from <= 2; from++) {
+        Room *r = open_room(5);
+        Sums *sums = calloc(1, sizeof *sums);
+        RetexDenoiseSignal s = signal_of(r, sums);
+        RetexDenoiseBatch batch = {.count = DENOISE_BATCH - from};
+        s.strength = 1e9f; /* all is alike */
+        for (int i = 0; i < DENOISE_PIXELS; i++)
+            r->alike->strict[i] = r->alike->loose[i] = r->alike->valid[i] = 1;
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            r->kind[i] = r->modulation[i] = 1;
+        for (int n = 0; n < batch.count; n++)
+            batch.of[n] = all[from + n], batch.alike[n] = r->alike;
+        retex_denoise_signal_kernel(&s, &batch, 0);
+        for (int k = 0; k < DENOISE_CANDIDATES; k++) {
+            double weight = 0;
+            for (int n = 0; n < batch.count; n++) {
+                const int squared = batch.of[n].dx * batch.of[n].dx + batch.of[n].dy * batch.of[n].dy;
+                weight += k == 0 ? falloff(0.05 * squared) : squared <= 20 ? falloff(0.1 * squared) : 0;
+            }
+            assert_float_equal(sums->sum[k][0][3][0], weight, 1e-5);
+        }
+        free(sums);
+        free(r);
+    }
+}
+
+static void test_reciprocal(void **state)
+{
+    (void)state;
+    for (int e = -35; e <= 36; e++)
+        for (int k = 0; k < 1000; k++) {
+            const float x = (float)pow(10, e + k / 1000.0);
+            assert_true(fabs(denoise_reciprocal(x) * (double)x - 1) < 1e-5);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_features_scalar_and_vector),
-        cmocka_unit_test(test_signals_scalar_and_vector),
-        cmocka_unit_test(test_features_reference),
-        cmocka_unit_test(test_signals_reference),
+        cmocka_unit_test(test_features_scalar_and_vector), cmocka_unit_test(test_signals_scalar_and_vector),
+        cmocka_unit_test(test_features_reference),         cmocka_unit_test(test_signals_reference),
+        cmocka_unit_test(test_reach_of_candidates),        cmocka_unit_test(test_reciprocal),
     };
     return cmocka_run_group_tests_name("denoise_kernel", tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 enum { SIGNALS = 3, VALUES = 9 /* planes of a signal */ };
 
 /* Steps, and how far around the tile, as the second pass takes them. */
-static const int levels[DENOISE_LEVELS][2] = {{1, 10}, {2, 6}, {4, -2}};
+static const int levels[DENOISE_LEVELS][2] = {{1, 10}, {4, 6}, {8, -2}};
 static const float unwritten = -7;
 
 /* Several signals, as one level takes them and leaves them. */
@@ -163,19 +163,19 @@ static double similar_reference(const RetexDenoiseLight *l, int half, size_t p, 
 /* Halves and variances of one pixel; counts the weights that are neither 0 nor the spline's. */
 static int reference(double to[VALUES], const Input *in, const RetexDenoiseLevel *level, int s, int x, int y)
 {
-    static const double spline[5] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    static const double spline[3] = {0.25, 0.5, 0.25};
     const RetexDenoiseLight *from = &level->from[s];
     const size_t p = denoise_at(x, y);
     double norm[2] = {0}, variance[2][3] = {{0}};
     int between = 0;
     memset(to, 0, sizeof *to * VALUES);
-    for (int j = -2; j <= 2; j++)
-        for (int i = -2; i <= 2; i++) {
+    for (int j = -1; j <= 1; j++)
+        for (int i = -1; i <= 1; i++) {
             const int dx = i * level->step, dy = j * level->step;
             const size_t q = denoise_at(x + dx, y + dy);
             if (!(in->room->valid[q] > 0) || in->kinds[s][p] != in->kinds[s][q])
                 continue;
-            const double shared = spline[i + 2] * spline[j + 2] * alike_reference(in->room, p, q, dx, dy);
+            const double shared = spline[i + 1] * spline[j + 1] * alike_reference(in->room, p, q, dx, dy);
             for (int h = 0; h < 2; h++) {
                 const double similar = similar_reference(from, !h, p, q), w = shared * similar;
                 between += similar > 0.01 && similar < 0.99 && shared > 1e-3;
@@ -248,11 +248,31 @@ static Input *even_input(void)
     return in;
 }
 
+/* A signal that is said to be empty is left as it is. */
+static void test_empty_signals(void **state)
+{
+    (void)state;
+    static const unsigned char empty[SIGNALS] = {[1] = 1};
+    Input *in = open_input(31);
+    Lights *is = open_lights(), *all = open_lights();
+    RetexDenoiseLevel level = level_of(in, 0, is);
+    const RetexDenoiseLevel of_all = level_of(in, 0, all);
+    level.empty = empty;
+    retex_denoise_level_kernel(&level, 0);
+    retex_denoise_level_kernel(&of_all, 0);
+    for (int k = 0; k < VALUES; k++)
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            all->planes[1][k][i] = unwritten;
+    expect_bits(is, all);
+    free(is), free(all);
+    close_input(in);
+}
+
 /* The share of variance that the spline leaves: the sum of its squares, in two axes. */
 static void test_variance_falls(void **state)
 {
     (void)state;
-    const double left = pow((1 + 16 + 36 + 16 + 1) / 256.0, 2);
+    const double left = pow((1 + 4 + 1) / 16.0, 2);
     Input *in = even_input();
     Lights *is = open_lights();
     const RetexDenoiseLevel level = level_of(in, 1, is);
@@ -276,8 +296,8 @@ static void test_weights_of_the_other_half(void **state)
         in->lights->of[0].half[1][c][denoise_at(30, 30)] = 9;
     retex_denoise_level_kernel(&level, 0);
     for (int c = 0; c < 3; c++) {
-        assert_float_equal(is->of[0].half[1][c][denoise_at(31, 30)], 1 + 8 * 24 / 256.0, 1e-5);
-        assert_float_equal(is->of[0].half[1][c][denoise_at(30, 30)], 1 + 8 * 36 / 256.0, 1e-5);
+        assert_float_equal(is->of[0].half[1][c][denoise_at(31, 30)], 1 + 8 * 2 / 16.0, 1e-5);
+        assert_float_equal(is->of[0].half[1][c][denoise_at(30, 30)], 1 + 8 * 4 / 16.0, 1e-5);
         assert_float_equal(is->of[0].half[0][c][denoise_at(31, 30)], 1, 1e-6);
     }
     free(is);
@@ -313,7 +333,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scalar_and_vector),        cmocka_unit_test(test_reference),
         cmocka_unit_test(test_variance_falls),           cmocka_unit_test(test_weights_of_the_other_half),
-        cmocka_unit_test(test_pixels_that_do_not_count),
+        cmocka_unit_test(test_pixels_that_do_not_count), cmocka_unit_test(test_empty_signals),
     };
     return cmocka_run_group_tests_name("denoise_second_kernel", tests, NULL, NULL);
 }

@@ -12,7 +12,8 @@ enum {
     BOX = 2 * DENOISE_PATCH + 1
 };
 
-enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX, NEAR = 10 };
+/* Further, what is left of a firefly gets darker, but light gets no nearer to the truth. */
+enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX, NEAR = 20 };
 
 /* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
  * weight falls with the squared distance in pixels; reach: up to which squared distance. The second is for places where

@@ -1,4 +1,4 @@
-/* Weights by difference. Private to the kernels of denoising. */
+/* Weights by difference, and the reciprocals they take. Private to the kernels of denoising. */
 #ifndef RETEX_DENOISE_FALLOFF_H
 #define RETEX_DENOISE_FALLOFF_H
 

@@ -19,10 +19,12 @@
 
 enum { CHOICES = DENOISE_LEVELS + 1 /* as the first pass left it, and as each level does */ };
 
+static const int steps[DENOISE_LEVELS] = {1, 4, 8};
+
 /* How far beyond the tile each level is computed: as far as the next one reads, and the last as far as choosing reads
  * beyond the pixels that are finished. */
 static const int around[DENOISE_LEVELS] = {10, 6, -2};
-_Static_assert(10 + 2 + 1 <= DENOISE_HALO, "the first level and the variance read within the planes");
+_Static_assert(10 + 1 + 1 <= DENOISE_HALO, "the first level and the variance read within the planes");
 _Static_assert(DENOISE_MARGIN - 2 >= 2, "a choice is that of three pixels across, by errors of three across");
 
 /* Scratch memory of a thread. */
@@ -311,7 +313,7 @@ static void second_job(void *context, int index, int thread)
         find_error(work->errors[s], &work->first[s], &work->first[s], features.valid);
     }
     for (int k = 0; k < DENOISE_LEVELS; k++) {
-        const RetexDenoiseLevel level = {.step = 1 << k,
+        const RetexDenoiseLevel level = {.step = steps[k],
                                          .around = around[k],
                                          .features = &features,
                                          .nsignals = d->signals.count,

@@ -4,8 +4,8 @@
 
 #include "denoise/falloff.h"
 
-/* Of the B-spline that Dammertz et al. take. */
-static const float spline[DENOISE_TAPS_SIDE] = {0.0625f, 0.25f, 0.375f, 0.25f, 0.0625f};
+/* Of the linear B-spline: the cubic one that Dammertz et al. take needs 25 taps for as wide a window. */
+static const float spline[DENOISE_TAPS_SIDE] = {0.25f, 0.5f, 0.25f};
 
 typedef float Row[DENOISE_PITCH];
 
@@ -165,7 +165,7 @@ RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
         Row taps[DENOISE_TAPS];
         for (int k = 0; k < DENOISE_TAPS; k++) {
             const int i = k % DENOISE_TAPS_SIDE, j = k / DENOISE_TAPS_SIDE;
-            tap_row(taps[k], level->features, p, (i - 2) * level->step, (j - 2) * level->step, spline[i] * spline[j],
+            tap_row(taps[k], level->features, p, (i - 1) * level->step, (j - 1) * level->step, spline[i] * spline[j],
                     n);
         }
         for (int s = 0; s < level->nsignals; s++) {
@@ -174,8 +174,8 @@ RETEX_CPU_INLINE void level_rows(const RetexDenoiseLevel *level, const int n)
                 continue;
             clear_sums(&sums, n);
             for (int k = 0; k < DENOISE_TAPS; k++) {
-                const int dx = (k % DENOISE_TAPS_SIDE - 2) * level->step,
-                          dy = (k / DENOISE_TAPS_SIDE - 2) * level->step;
+                const int dx = (k % DENOISE_TAPS_SIDE - 1) * level->step,
+                          dy = (k / DENOISE_TAPS_SIDE - 1) * level->step;
                 const ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
                 Row weights[2];
                 weigh_row(weights, &level->from[s], level->kinds[s] + p, taps[k], p, o, n);

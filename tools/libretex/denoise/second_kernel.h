@@ -9,8 +9,8 @@
 #include "denoise/denoise_kernel.h"
 
 enum {
-    DENOISE_LEVELS = 3,    /* of steps 1, 2 and 4 */
-    DENOISE_TAPS_SIDE = 5, /* pixels across that a level reads */
+    DENOISE_LEVELS = 3,    /* of steps 1, 4 and 8 */
+    DENOISE_TAPS_SIDE = 3, /* pixels across that a level reads */
     DENOISE_TAPS = DENOISE_TAPS_SIDE * DENOISE_TAPS_SIDE
 };
 

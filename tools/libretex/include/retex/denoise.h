@@ -37,7 +37,7 @@ typedef struct RetexDenoiseParams {
     const char *denoiser; /* of the light: "nlm", "oidn", which is Open Image Denoise 2, or "both", the mean of the two;
                              NULL, the default: nlm. oidn and both filter the light of the whole picture at once */
     const char *quality; /* "final", or "preview": a radius of at most 2, footprints 0 but for albedos, and
-                            full_precision 1, in three fifths of the time; NULL, the default: final */
+                            full_precision 1, in two thirds of the time; NULL, the default: final */
 } RetexDenoiseParams;
 #define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL, 0, NULL, NULL }
 
