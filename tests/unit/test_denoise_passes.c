@@ -382,6 +382,50 @@ static void test_second_pass_of_a_region(void **state)
     retex_set_close(&set);
 }
 
+/* Without light from column 40 on, and with footprints that change from pixel to pixel. */
+static RetexSet *dark_set(void)
+{
+    RetexSet *set = denoise_set("footprints", 170, 40);
+    RetexSignals signals = denoise_signals(set);
+    uint32_t seed = 3;
+    denoise_add_noise(set, 5);
+    for (int s = 0; s < signals.count; s++)
+        for (int m = -1; m < signals.of[s].nmembers; m++) {
+            const int part = m < 0 ? signals.of[s].noise : signals.of[s].members[m].part;
+            for (int i = 0; i < 170 * 40; i++)
+                for (int c = 0; c < 3 && i % 170 >= 40; c++)
+                    set->parts[part].image.pixels[3 * i + c] = 0;
+        }
+    for (int f = 0; f < set->nfootprints; f++)
+        for (int i = 0; i < 170 * 40; i++)
+            set->parts[set->footprints[f].uv].image.pixels[3 * i] = (float)test_random(&seed);
+    retex_signals_close(&signals);
+    return set;
+}
+
+/* A tile without light keeps the footprints it has, whatever the tile before was. */
+static void test_tiles_without_light(void **state)
+{
+    (void)state;
+    static const RetexRoi rois[2] = {{0, 0, 170, 40, 0, 3}, {112, 0, 170, 40, 0, 3}};
+    RetexSet *sets[2];
+    RetexError err = {0};
+    for (int k = 0; k < 2; k++) {
+        sets[k] = dark_set();
+        test_must(retex_denoise(sets[k], &denoise_exactly, &rois[k], 1, &err), &err);
+    }
+    for (int f = 0; f < sets[0]->nfootprints; f++)
+        for (int y = 0; y < 40; y++) {
+            const int part = sets[0]->footprints[f].uv;
+            const size_t at = 3 * (170 * (size_t)y + 112);
+            if (memcmp(sets[0]->parts[part].image.pixels + at, sets[1]->parts[part].image.pixels + at,
+                       3 * 58 * sizeof(float)) != 0)
+                fail_msg("%s differs in row %d", sets[0]->parts[part].name, y);
+        }
+    for (int k = 0; k < 2; k++)
+        retex_set_close(&sets[k]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -393,6 +437,7 @@ int main(void)
         cmocka_unit_test(test_detail_above_noise),
         cmocka_unit_test(test_numbers_are_those_of_a_file),
         cmocka_unit_test(test_region_from_afar),
+        cmocka_unit_test(test_tiles_without_light),
         cmocka_unit_test(test_second_pass_of_a_region),
     };
     return cmocka_run_group_tests_name("denoise_passes", tests, NULL, NULL);

@@ -316,8 +316,6 @@ static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *wo
         }
     for (int k = 0; k < r->nplanes; k++)
         memset(r->sums[k], 0, sizeof(float) * DENOISE_PIXELS);
-    if (r->neighbours) /* those beyond the window weigh nothing */
-        memset(r->neighbours, 0, sizeof(float) * NEIGHBOURS_MAX * DENOISE_PIXELS);
     return s;
 }
 
@@ -538,7 +536,8 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     }
     if (r->nclusters) {
         RetexNeighbour neighbours[NEIGHBOURS_MAX];
-        int count = find_neighbours(neighbours, d, r->neighbours, at);
+        neighbours[0] = (RetexNeighbour){at->x, at->y, 1};
+        const int count = r->is_empty ? 1 : find_neighbours(neighbours, d, r->neighbours, at);
         retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, out);
     }
 }
@@ -617,7 +616,6 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
         signals[s] = start_signal(r, work, d);
         r->is_empty = is_empty(r);
     }
-    memset(work->neighbours, 0, sizeof(float) * NEIGHBOURS_MAX * DENOISE_PIXELS);
     search_window(d, work, &features, signals);
     for (int s = 0; s < d->signals.count; s++)
         if (!work->signals[s].is_empty)
