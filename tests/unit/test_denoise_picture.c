@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "denoise/picture_guides.h"
-#include "denoise/picture_layers.h"
-#include "denoise/picture_noise.h"
+#include "files/picture_guides.h"
+#include "files/picture_layers.h"
+#include "files/picture_noise.h"
 
 /* A number of the normal distribution, as the sum of twelve. */
 static double gaussian(uint32_t *state)

@@ -12,7 +12,6 @@
 #include "compact/strips.h"
 #include "compact/clusters.h"
 #include "compact/gains.h"
-#include "compact/lamps.h"
 #include "set/strip.h"
 #include "set/parts.h"
 #include "set/signals.h"

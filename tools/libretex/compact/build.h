@@ -3,18 +3,9 @@
 #define RETEX_COMPACT_BUILD_H
 
 #include "compact/clusters.h"
-#include "compact/light.h"
+#include "compact/scales.h"
 
-#define RETEX_COMPACT_STEPS 4 /* scales: 1, 2, 4, 8 */
 #define RETEX_COMPACT_WAVES 5 /* trial textures: waves of three lengths, and two flat colours */
-
-/* How many times smaller than the picture the images of each kind are. */
-typedef struct RetexCompactScales {
-    int clusters[RETEX_COMPACT_KINDS]; /* footprints and weights; equal for all interreflections */
-    int gains[RETEX_COMPACT_KINDS];
-    RetexCompactMixed mixed[RETEX_COMPACT_KINDS];
-    unsigned char *lamps; /* of gains of single lamps, see lamps.h; NULL: no term is of role LAMP */
-} RetexCompactScales;
 
 int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const RetexCompactScales *scales,
                         int nthreads, RetexError *err);

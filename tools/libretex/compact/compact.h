@@ -17,7 +17,10 @@ typedef struct RetexCompactParams {
     RetexWarn *warn; /* told, in the calling thread, why a set of layout footprints stays as it is; NULL = nobody */
     void *warn_context;
 } RetexCompactParams;
-#define RETEX_COMPACT_INIT { 55, 0, 0, 0, 1, NULL, NULL }
+#define RETEX_COMPACT_INIT                                                                                             \
+    {                                                                                                                  \
+        55, 0, 0, 0, 1, NULL, NULL                                                                                     \
+    }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.6 everywhere;

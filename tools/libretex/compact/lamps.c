@@ -18,55 +18,6 @@
 #define NOISE_IGNORED 0.9
 #define NOISE_ALLOWED 0.025 /* error allowed, as a share of the noise of the lamp's picture */
 
-int retex_compact_light_without_hits(const RetexSet *set)
-{
-    int found = -1, count = 0;
-    for (int i = 0; i < set->nterms; i++)
-        if (retex_term_is_light(&set->terms[i]) && !set->terms[i].nfactors)
-            found = i, count++;
-    return count == 1 ? found : -1;
-}
-
-int retex_compact_is_lamp_share(const RetexTerm *term)
-{
-    return term->role == RETEX_ROLE_LAMP && !retex_term_hits(term);
-}
-
-/* ---- scales ---- */
-
-static size_t most_places(const RetexCompactLight *light)
-{
-    int most = 0;
-    for (int i = 0; i < RETEX_COMPACT_CHOICES * light->nkinds; i++) {
-        const int count = light->kinds[i / RETEX_COMPACT_CHOICES].ngains[i % RETEX_COMPACT_CHOICES];
-        most = count > most ? count : most;
-    }
-    return (size_t)(light->nlamps + most);
-}
-
-unsigned char *retex_compact_lamp_scale(const RetexCompactScales *scales, const RetexCompactLight *light, int kind,
-                                        int place)
-{
-    return &scales->lamps[(size_t)kind * most_places(light) + (size_t)place];
-}
-
-unsigned char *retex_compact_share_scale(const RetexCompactScales *scales, const RetexCompactLight *light,
-                                         int parameter)
-{
-    return &scales->lamps[(size_t)light->nkinds * most_places(light) + (size_t)parameter];
-}
-
-int retex_compact_lamps_fixed(RetexCompactScales *scales, const RetexCompactLight *light, int scale, RetexError *err)
-{
-    const size_t count = (size_t)light->nkinds * most_places(light) + (size_t)light->set->nparameters;
-    if (!retex_set_has_role(light->set, RETEX_ROLE_LAMP))
-        return RETEX_OK;
-    if (!scales->lamps && !(scales->lamps = malloc(count + 1)))
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for lamps");
-    memset(scales->lamps, scale, count);
-    return RETEX_OK;
-}
-
 /* ---- one gain of one lamp ---- */
 
 typedef struct LampGain {
@@ -325,7 +276,8 @@ int retex_compact_lamps_choose(RetexCompactScales *scales, const RetexCompactRef
     if (code || !scales->lamps)
         return code;
     work.gains =
-        calloc((size_t)light->nkinds * most_places(light) + (size_t)light->set->nterms + 1, sizeof *work.gains);
+        calloc((size_t)light->nkinds * (size_t)retex_compact_most_places(light) + (size_t)light->set->nterms + 1,
+               sizeof *work.gains);
     if (!work.gains)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for lamps");
     else

@@ -346,3 +346,17 @@ void retex_compact_cluster_light(const RetexCompactLight *light, const RetexComp
         }
     }
 }
+
+int retex_compact_light_without_hits(const RetexSet *set)
+{
+    int found = -1, count = 0;
+    for (int i = 0; i < set->nterms; i++)
+        if (retex_term_is_light(&set->terms[i]) && !set->terms[i].nfactors)
+            found = i, count++;
+    return count == 1 ? found : -1;
+}
+
+int retex_compact_is_lamp_share(const RetexTerm *term)
+{
+    return term->role == RETEX_ROLE_LAMP && !retex_term_hits(term);
+}

@@ -81,8 +81,8 @@ typedef struct RetexCompactClusterLight {
     double single[3], interreflected[3];
 } RetexCompactClusterLight;
 enum { RETEX_COMPACT_ALL_LAMPS = -1 };
-/* Light of each of a kind's clusters; not for interreflection footprints. lamps: the light that these multiply, not of a
- * single lamp; or RETEX_COMPACT_ALL_LAMPS, all light with parameters as rendered. */
+/* Light of each of a kind's clusters; not for interreflection footprints. lamps: the light that these multiply, but not
+ * that of a single lamp; or RETEX_COMPACT_ALL_LAMPS, all light with parameters as rendered. */
 void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, int lamps, size_t pixel,
                                  RetexCompactClusterLight of[RETEX_SHARES_MAX]);
 /* Whether a kind has light of single hits of these lamps; of interreflections; and any. */
@@ -93,6 +93,12 @@ int retex_compact_has_further(const RetexCompactLight *light, const RetexCompact
 void retex_compact_rendered(const RetexSet *set, const RetexTerm *term, double value[3]);
 /* Whether a path with interreflections has its first hit on a footprint of this kind in the pixel. */
 int retex_compact_has_interreflections(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel);
+
+/* The term of all light that meets no target, of which that of single lamps is a share; -1: there is none, or
+ * several. */
+int retex_compact_light_without_hits(const RetexSet *set);
+/* Whether a term is light of a single lamp that meets no target. */
+int retex_compact_is_lamp_share(const RetexTerm *term);
 
 static inline double retex_compact_luminance(const double rgb[3])
 {

@@ -1,8 +1,8 @@
 /* See orders.h. Light with h interreflections varies as a^h with a grey texture of albedo a. A term of an order that
  * is left out is divided between the next lower and the next higher order that is kept. The two shares are positive
  * and exact for albedo 1 and RETEX_COMPACT_GREY; between these albedos the error is small. With RETEX_COMPACT_MIXED,
- * terms of three and more interreflections use one mixture of all targets' interreflections; light of single lamps, which
- * there are many of, does so from two on, and keeps fewer orders. */
+ * terms of three and more interreflections use one mixture of all targets' interreflections. Light of single lamps, of
+ * which there are many, does so from two on, and keeps fewer orders. */
 #include "compact/orders.h"
 
 #include <math.h>
@@ -115,8 +115,8 @@ static int find_gain(RetexCompactKind *kind, const RetexCompactLight *light, Ret
     return g;
 }
 
-/* Find the orders of a list that are below and above an order. Returns the share of the lower one. A kept order is both,
- * share 1. */
+/* Find the orders of a list that are below and above an order. Returns the share of the lower one. An order of the list
+ * is both, share 1. */
 static double between(const int kept[KEPT_ORDERS], int order, int highest, int orders[2])
 {
     orders[0] = orders[1] = order;

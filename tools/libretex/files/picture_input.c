@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "denoise/picture_noise.h"
+#include "files/picture_noise.h"
 #include "exr/rewrite.h"
 
 enum { REPAIR_RADIUS = 3 };

@@ -4,8 +4,8 @@
 
 #include <retex/denoise_picture.h>
 
-#include "denoise/picture_guides.h"
-#include "denoise/picture_layers.h"
+#include "files/picture_guides.h"
+#include "files/picture_layers.h"
 
 /* An open file. */
 typedef struct RetexPictureFile {

@@ -1,6 +1,6 @@
 /* The noise of a picture of which there is one render only. Private to libretex. */
-#ifndef RETEX_DENOISE_PICTURE_NOISE_H
-#define RETEX_DENOISE_PICTURE_NOISE_H
+#ifndef RETEX_FILES_PICTURE_NOISE_H
+#define RETEX_FILES_PICTURE_NOISE_H
 
 #include <retex/image.h>
 

@@ -1,5 +1,5 @@
 /* See picture_noise.h. */
-#include "denoise/picture_noise.h"
+#include "files/picture_noise.h"
 
 #include <math.h>
 #include <stdlib.h>

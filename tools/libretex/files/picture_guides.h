@@ -1,6 +1,6 @@
 /* The guides of a picture that is no set. Private to libretex. */
-#ifndef RETEX_DENOISE_PICTURE_GUIDES_H
-#define RETEX_DENOISE_PICTURE_GUIDES_H
+#ifndef RETEX_FILES_PICTURE_GUIDES_H
+#define RETEX_FILES_PICTURE_GUIDES_H
 
 #include <retex/set.h>
 

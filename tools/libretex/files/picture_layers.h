@@ -1,6 +1,6 @@
 /* The layers of a picture of any renderer, and which of them are what. Private to libretex. */
-#ifndef RETEX_DENOISE_PICTURE_LAYERS_H
-#define RETEX_DENOISE_PICTURE_LAYERS_H
+#ifndef RETEX_FILES_PICTURE_LAYERS_H
+#define RETEX_FILES_PICTURE_LAYERS_H
 
 #include "exr/io.h"
 

@@ -1,5 +1,5 @@
 /* See picture_guides.h. */
-#include "denoise/picture_guides.h"
+#include "files/picture_guides.h"
 
 #include <math.h>
 #include <string.h>

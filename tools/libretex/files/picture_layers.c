@@ -1,5 +1,5 @@
 /* See picture_layers.h. Names are compared without regard to case. */
-#include "denoise/picture_layers.h"
+#include "files/picture_layers.h"
 
 #include <stdio.h>
 #include <stdlib.h>
