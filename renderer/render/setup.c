@@ -278,6 +278,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
                        .extra = r->params.extra,
+                       .extra_further = r->params.extra ? 2 : 0,
                        .broad = r->params.broad,
                        .quadrants = r->context.places && !r->params.no_quadrants,
                        .noise = keeps_denoise_data(&r->params),

@@ -15,6 +15,9 @@
 #include <math.h>
 #include "film/footprints/pixel.h"
 
+#include <stdlib.h>
+#include <string.h>
+static double env(const char *n, double d) { static double v[4]; static int have[4]; int i=(n[0]=='N')*2+(n[1]=='I'); if (!have[i]) { v[i]=getenv(n)?atof(getenv(n)):d; have[i]=1; } return v[i]; }
 #define ROUNDING 1e-9     /* of bounds */
 #define FINE_FEATURE 0.05 /* distance in UV over which textures change that need good clusters */
 #define EXTRA_ERROR 0.02  /* of a pixel's light: what it may be expected to change by one merging of them */
@@ -353,7 +356,8 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
  * their distance d in FINE_FEATURE. Places are seen as normal distributions. */
 static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
 {
-    const double f = FINE_FEATURE * FINE_FEATURE;
+    static double F=0; if (!F) F=getenv("FF")?atof(getenv("FF")):FINE_FEATURE;
+    const double f = F * F;
     const double uu = a->m2[0] / a->weight + b->m2[0] / b->weight, uv = a->m2[1] / a->weight + b->m2[1] / b->weight;
     const double vv = a->m2[2] / a->weight + b->m2[2] / b->weight;
     const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
@@ -382,7 +386,7 @@ static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, doubl
 }
 
 /* The two of several places that such a texture tells apart least. */
-static void find_least_different(const RetexUvStats *const places[], int count, const int periodic[2], int *a, int *b)
+static double find_least_different(const RetexUvStats *const places[], int count, const int periodic[2], int *a, int *b)
 {
     double least = INFINITY, variance[FILM_CLUSTERS_MAX];
     *a = 0, *b = 1;
@@ -394,30 +398,35 @@ static void find_least_different(const RetexUvStats *const places[], int count, 
             if (error2 < least)
                 least = error2, *a = i, *b = k;
         }
+    return least;
 }
 
-void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params)
+void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params, double light, int spp)
 {
     Clusters *broad = &target->broad;
     const RetexUvStats *places[FILM_CLUSTERS_MAX];
     for (int k = 0; k < broad->count; k++)
         places[k] = &broad->of[k].uv;
+    double noise2 = 0, all=0; for (int k=0;k<broad->count;k++) noise2+=broad->of[k].squares,all+=broad->of[k].uv.weight; noise2-=all*all/spp;
     while (broad->count > params->broad) {
         Pair pair = {broad, RULE_VARIATION, 0, 1, 0};
-        find_least_different(places, broad->count, params->periodic[t], &pair.a, &pair.b);
+        const double error2 = find_least_different(places, broad->count, params->periodic[t], &pair.a, &pair.b);
+        if (broad->count <= params->broad + params->extra_further && error2 > env("TB",.02)*env("TB",.02)*light*light+env("NB",0)*env("NB",0)*noise2) return;
         merge_pair(&pair, params->periodic[t]);
     }
 }
 
-void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params)
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params, double light, int spp)
 {
     InterreflectionCluster *clusters = target->interreflections;
     const RetexUvStats *places[INTERREFLECTION_GATHERED];
     int count = 0, a, b;
     for (; count < INTERREFLECTION_GATHERED && clusters[count].uv.weight > 0; count++)
         places[count] = &clusters[count].uv;
+    double noise2 = 0, all=0; for (int k=0;k<count;k++) noise2+=clusters[k].squares,all+=clusters[k].uv.weight; noise2-=all*all/spp;
     while (count > INTERREFLECTION_CLUSTERS) {
-        find_least_different(places, count, params->periodic[t], &a, &b);
+        const double error2 = find_least_different(places, count, params->periodic[t], &a, &b);
+        if (count <= INTERREFLECTION_CLUSTERS + params->extra_further && error2 > env("TI",.02)*env("TI",.02)*light*light+env("NI",0)*env("NI",0)*noise2) return;
         merge_interreflections(&clusters[a], &clusters[b], params->periodic[t]);
         clusters[b] = clusters[--count];
         clusters[count] = (InterreflectionCluster){.squares = 0};

@@ -156,10 +156,10 @@ void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams 
  * light: of the pixel, in the units of the hits' weights. */
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light);
 /* Merge broad clusters of target t, once it has all hits, down to as many as are kept. */
-void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params);
+void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params, double light, int spp);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
 /* Merge interreflections of target t, once it has all hits, down to as many as are kept: the first of the array. */
-void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params);
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params, double light, int spp);
 
 /* A hit of the current path; see target_tree.h. */
 typedef struct Node {

@@ -115,8 +115,8 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
 static int parts_needed(const FootprintFilm *film)
 {
     const FilmParams *p = &film->params;
-    return film->scene->ntargets * (CLUSTER_PARTS * (p->sharp + p->extra + p->broad) + 2 * film->plan.count +
-                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
+    return film->scene->ntargets * (CLUSTER_PARTS * (p->sharp + p->extra + p->broad + p->extra_further) + 2 * film->plan.count +
+                                    4 * (INTERREFLECTION_CLUSTERS + p->extra_further) + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
            film->scene->nlamps * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
 }
 
@@ -311,10 +311,10 @@ static void store_interreflections(FootprintPixel *p, const Place *at)
     int ntargets = p->film->scene->ntargets;
     double sum = 0;
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++)
+        for (int k = 0; k < most_interreflections(p->film); k++)
             sum += light_sum(&p->targets[t].interreflections[k].albedo);
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+        for (int k = 0; k < most_interreflections(p->film); k++) {
             const InterreflectionCluster *cluster = &p->targets[t].interreflections[k];
             const FootprintImages *images = &p->film->targets[t].interreflections[k];
             if (!(cluster->uv.weight > 0))
@@ -334,8 +334,8 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     const double white = white_pixel(p), unit = retex_coefficient_unit(white); /* before light is reset */
     for (int t = 0; t < film->scene->ntargets; t++) {
         clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
-        clusters_merge_interreflections(&p->targets[t], t, &film->params);
-        clusters_merge_broad(&p->targets[t], t, &film->params);
+        clusters_merge_interreflections(&p->targets[t], t, &film->params, white * spp, spp);
+        clusters_merge_broad(&p->targets[t], t, &film->params, white * spp, spp);
     }
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
