@@ -61,7 +61,7 @@ $ retex-combine l.exr --light rets=0 -o y.exr
 ! retex-combine: error: no lamp is called 'rets'; the set has Lamp, Window, rest; is rest meant?
 = 2
 $ retex-combine s.exr --light Lamp=0 -o y.exr
-! retex-combine: error: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamp
+! retex-combine: error: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamps
 = 2
 $ retex-combine l.exr --light Lamp=bleu -o y.exr
 ! retex-combine: error: light 'bleu': expected numbers, colours and kelvins, as in 2.5, #ffd0a0 or 1.5*3000K; is blue meant?
@@ -76,7 +76,7 @@ $ printf 'output,light:Lamp,light:lamp,light:Sun\ny.exr,-1,2,3\n' >w.csv; retex-
 ! ls: cannot access 'y.exr': No such file or directory
 = 2
 $ printf 'output,light:Lamp\ny.exr,1\n' >w.csv; retex-combine s.exr --batch w.csv
-! retex-combine: error: w.csv:1: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamp
+! retex-combine: error: w.csv:1: the set has no lamps: the light of 'Lamp' cannot be changed; render it with --lamps
 = 2
 
 # What shines in the project's scenes has a name.

@@ -68,7 +68,7 @@ int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *er
     return code;
 }
 
-/* Whether a term is copied as it is: light without hits, but not that of single lamps. */
+/* Whether a term is copied as it is: light without hits. */
 static int is_copied(const RetexTerm *term)
 {
     return retex_term_is_light(term) && !retex_term_hits(term);
@@ -237,6 +237,7 @@ static RetexImage *cached_gains(const Compaction *work, int number, RetexError *
                   err);
 }
 
+/* Gains of single lamps have scales of their own. */
 static int gain_scale(const Compaction *work, int number, int place)
 {
     const RetexCompactLight *light = work->light;

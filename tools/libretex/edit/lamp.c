@@ -229,7 +229,7 @@ int retex_lamp_find(int *parameter, const RetexSet *set, const char *name, Retex
         return RETEX_OK;
     if (!lamps)
         return retex_fail(err, RETEX_ENOTFOUND,
-                          "the set has no lamps: the light of '%s' cannot be changed; render it with --lamp", name);
+                          "the set has no lamps: the light of '%s' cannot be changed; render it with --lamps", name);
     return retex_fail(err, RETEX_ENOTFOUND, "no lamp is called '%s'; the set has %.700s%s", name, all,
                       retex_meant(nearest.best, meant));
 }
