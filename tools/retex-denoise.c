@@ -11,11 +11,14 @@
 
 #include "cli.h"
 
+/* Strips take as long as the whole set in memory, and a third of the memory at 1920 x 1080. */
+#define MEMORY_DEFAULT ((uint64_t)512 << 20)
+
 static const CliOption options[] = {
     {"strength", 0, "F", "difference of similar pixels, in standard deviations of their noise, 0.1 to 10; default 1",
      0},
     {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0},
-    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 512 MB", 0},
     {"denoiser", 0, "nlm|oidn|both",
      "filter of the light: retex's own, which is the default, Open Image Denoise 2, or the mean of both", 0},
     {"quality", 0, "preview|final", "preview: less time, for interactive use; default final", 0},
@@ -177,7 +180,7 @@ int main(int argc, char **argv)
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
-    uint64_t memory = CLI_MEMORY_DEFAULT;
+    uint64_t memory = MEMORY_DEFAULT;
     Picture picture = {.params = RETEX_DENOISE_PICTURE_INIT, .layers = calloc((size_t)argc, sizeof *picture.layers)};
 
     if (!picture.layers)

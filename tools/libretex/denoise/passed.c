@@ -38,6 +38,8 @@ int retex_passed_store_open(RetexPassedStore *s, const RetexDenoiser *d, RetexEr
     const int count = PASSED_IMAGES * d->signals.count;
     int code = retex_band_store_create(&s->store, d->set->width, d->set->height, d->set->id, d->params.near, err);
     s->images = calloc((size_t)count + 1, sizeof *s->images);
+    if (!code)
+        retex_band_store_set_plain(s->store); /* compressing takes longer than writing */
     if (!code && !s->images)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < count && !code; k++) {

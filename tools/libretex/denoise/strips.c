@@ -45,19 +45,22 @@ static int is_light(const RetexDenoiser *d, int part)
     return 0;
 }
 
-/* Creates a band store with an image for each part that is wanted. as_floats: light that is yet to be scaled is not
- * rounded to halves. */
+/* Creates a band store with an image for each part that is wanted. is_between: it is read again by the next pass only.
+ * Its light is yet to be scaled and therefore not rounded to halves, and compressing it would take longer than writing
+ * it does. */
 static int open_store(RetexBandStore **store, int *images, const RetexDenoiser *d, const unsigned char *wanted,
-                      int as_floats, RetexError *err)
+                      int is_between, RetexError *err)
 {
     const RetexSet *set = d->set;
     int code = retex_band_store_create(store, set->width, set->height, set->id, d->params.near, err);
+    if (!code && is_between)
+        retex_band_store_set_plain(*store);
     for (int k = 0; k < set->nparts; k++) {
         const RetexPart *part = &set->parts[k];
         images[k] = -1;
         if (!code && wanted[k])
             code = retex_band_store_add(*store, part->name, part->letters,
-                                        as_floats && is_light(d, k) ? RETEX_FLOAT : part->type, &images[k], err);
+                                        is_between && is_light(d, k) ? RETEX_FLOAT : part->type, &images[k], err);
     }
     return code;
 }
