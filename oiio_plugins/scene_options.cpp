@@ -13,7 +13,7 @@ namespace plugins
 namespace
 {
 
-const char *const known = "targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, "
+const char *const known = "targets, lamps, light_share, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, "
                           "orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, "
                           "declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads";
 
@@ -36,22 +36,31 @@ std::vector<std::string> list(const std::string &name, const std::string &value)
     return items;
 }
 
-// Convert `Floor,Wall=Brick+Plaster` to arguments of -t: `Floor`, `Wall=Brick,Plaster`.
-std::vector<std::string> targets(const std::string &value)
+// Convert `Floor,Wall=Brick+Plaster` to arguments of -t or -l: `Floor`, `Wall=Brick,Plaster`.
+std::vector<std::string> selections(const std::string &name, const std::string &value, int most)
 {
-    std::vector<std::string> items = list("targets", value);
+    std::vector<std::string> items = list(name, value);
     for (std::string &item : items)
         std::replace(item.begin(), item.end(), '+', ',');
-    if (items.size() > RETEX_MAX_TARGETS)
-        throw Failure("targets: more than " + std::to_string(RETEX_MAX_TARGETS));
+    if (items.size() > size_t(most))
+        throw Failure(name + ": more than " + std::to_string(most));
     return items;
+}
+
+void set_lamps(SceneOptions &options, const std::string &value)
+{
+    options.each_lamp = value == "each";
+    if (!options.each_lamp)
+        options.lamps = selections("lamps", value, LAMPS_MAX);
 }
 
 void set_option(SceneOptions &options, const std::string &name, const std::string &value)
 {
     RetexError err{};
     if (name == "targets") {
-        options.targets = targets(value);
+        options.targets = selections(name, value, RETEX_MAX_TARGETS);
+    } else if (name == "lamps") {
+        set_lamps(options, value);
     } else if (name == "include") {
         options.includes = list(name, value);
     } else if (name == "width") {
@@ -76,6 +85,8 @@ void check(const SceneOptions &options, const Arguments &arguments)
 {
     if (options.render.paper && arguments.count("clusters"))
         throw Failure("layout paper has no clusters: one of them");
+    if (options.render.paper && arguments.count("lamps"))
+        throw Failure("layout paper keeps no lamps apart");
     if (options.render.width && (options.width || options.height))
         throw Failure("size says it all: no width or height beside it");
     if (options.denoise && options.no_denoise_data)
@@ -110,7 +121,7 @@ SceneOptions parse_scene_options(const std::string &path, const Arguments &argum
     OwnFolder own(path, options.sdl.safe);
     for (std::string &folder : options.includes)
         folder = own.find(folder, true);
-    bool keeps = !options.targets.empty() && !options.render.plain;
+    bool keeps = options.keeps_light() && !options.render.plain;
     options.render.denoise_data = options.denoise || (keeps && !options.no_denoise_data);
     return options;
 }

@@ -75,8 +75,8 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
 {
     RetexError err{};
     Scene *scene = nullptr;
-    std::vector<const char *> targets = pointers(options.targets), includes = pointers(options.includes),
-                              declares = pointers(options.declares);
+    std::vector<const char *> targets = pointers(options.targets), lamps = pointers(options.lamps),
+                              includes = pointers(options.includes), declares = pointers(options.declares);
     SdlOptions sdl = options.sdl;
     sdl.nthreads = options.render.nthreads;
     sdl.include_paths = includes.data(), sdl.ninclude_paths = int(includes.size());
@@ -85,6 +85,7 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     warnings->clear();
     JobNames names{};
     names.targets = targets.data(), names.ntargets = int(targets.size());
+    names.lamps = lamps.data(), names.nlamps = int(lamps.size()), names.each_lamp = options.each_lamp;
     must(job_open_scene(&scene, path.c_str(), &sdl, &options.render, &names, &err), err);
     job_warn_dark(scene, &sdl);
     return {scene, close_scene};
@@ -121,7 +122,7 @@ class SceneJob
     // Whether there is only a picture, whose description is known before it is rendered.
     bool is_picture() const
     {
-        return (options_.targets.empty() || options_.render.plain) && !options_.render.aovs;
+        return (!options_.keeps_light() || options_.render.plain) && !options_.render.aovs;
     }
     // What is known of a picture alone before it is rendered.
     const RetexSetInfo &description() const

@@ -96,7 +96,7 @@ void check_sheet(const Arguments *arguments);
 static inline int lists_pixels(const Arguments *a) { return a->sheet || a->cli->verbose; }
 void list_targets(Arguments *arguments, const Scene *scene);
 
-/* ---- lights.c ---- */
+/* ---- lamp_values.c ---- */
 
 /* Without -l, what --light and --solo name are the lamps; before the scene is read. */
 void name_lamps(Arguments *arguments);

@@ -94,7 +94,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) all
-tests: test-programs $(FAULTS) unit-tests
+tests: test-programs $(FAULTS) unit-tests fuzz-programs
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
 SUITES ?= lint unit cli web oiio python man docs golden faults fidelity
@@ -173,13 +173,15 @@ bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-rooms
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-rooms
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
 fidelity-frames: all
 	@BUILD=$(BUILD) tests/fidelity/table/frames.sh
+fidelity-lamps: all
+	@BUILD=$(BUILD) tests/fidelity/table/lamps.sh
 fidelity-rooms: all
 	@BUILD=$(BUILD) tests/fidelity/table/imported-rooms.sh
 

@@ -16,6 +16,8 @@ most=3 libraries=0
     printf 'output,F\nmade/a.png,t.jpg\nmade/b.jpg,"rgb(.7,.2,.1)"\n' >made.csv &&
     retex-render -q --size 16x12 --spp 2 -t F good.pov -o set.exr &&
     retex-pack -q set.exr -o set.retex &&
+    retex-render -q --size 16x12 --spp 2 -t F --lamps each good.pov -o lamps.exr &&
+    retex-pack -q lamps.exr -o lamps.retex &&
     retex-combine -q set.exr --texture F='rgb(.3,.5,.2)' -o t.jpg &&
     retex-sample -q set.exr --texture F=t.jpg -o samples.exr &&
     mkdir made && retex-combine -q set.exr --batch made.csv --manifest made/manifest &&

@@ -26,6 +26,8 @@ static void begin(void)
         "width=1e-3,2:repeat=half-drop:flip=v\nFloor=a",
         "scale=1e308,2:rotate=30:offset=0,-1.7e308\nWall=a",
         "repeat=mirror:wrap=clamp,repeat:width=3:rotate=90\nWall=a",
+        "light:Lamp=2.5;light:Sun=1.5*3000K;light:sky=#ffd0a0*rgb(.5,1,0);Floor=oak.jpg",
+        "light:a%2Eb=0&light:Lamp=tomato*2&light:rest=1e3*12000K",
         "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
     };
     uint64_t random = 1;

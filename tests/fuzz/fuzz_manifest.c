@@ -31,6 +31,8 @@ static void begin(void)
     give(set, samples);
     test_make_footprints(set);
     give(set, NULL);
+    test_add_lamp_terms(set, 1, 1);
+    give(set, NULL);
     retex_samples_close(&samples);
     retex_set_close(&set);
 }

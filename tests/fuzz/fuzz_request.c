@@ -20,6 +20,7 @@ static void begin(void)
         "/v1/room/Floor=a%20b.png;Floor.wrap=mirror,clamp;Floor.flip=uv/x600\nimage/avif,image/webp;q=0.8,*/*;q=0.1",
         "/v1/room/full.png?Floor.colorspace=Linear%20Rec.709\nimage/*",
         "/v1/room/thumbnail.webp\n",
+        "/v1/room/light:Lamp=1.5*3000K;Floor=oak/640x.jpg?light:Sun=0\n",
         "/v1/r%C3%A4ume,+(2)\n",
         "/iiif/3/room;Floor%3Doak;Floor.width=1.2,2;Floor.repeat=brick/info.json\napplication/ld+json;profile=\"x\"",
         "/iiif/3/room/full/max/0/default.jpg\n",

@@ -27,9 +27,13 @@ static void render(Scene *scene)
     params.aovs = RETEX_AOV_ALL & ~RETEX_AOV_BIT(IRRADIANCE);
     if (scene->nidents)
         scene_resolve_targets(scene, &scene->idents[0], 1, NULL);
+    const char *const *lamps = NULL;
+    int nlamps = 0;
+    if (!scene_each_lamp(scene, 1, &lamps, &nlamps, NULL))
+        scene_resolve_lamps(scene, lamps, nlamps, NULL);
     if (render_scene(&set, scene, &params, &stats, NULL) == 0)
         for (int i = 0; i < 4 * 3 * 3; i++)
-            fuzz_must(isfinite(set->parts[0].image.pixels[i]), "a picture is finite");
+            fuzz_must(isfinite(retex_set_part(set, 0)->image.pixels[i]), "a picture is finite");
     retex_set_close(&set);
 }
 

@@ -40,6 +40,9 @@ $ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor&layout=paper&orders=2&strict_
 > a.exr: ok
 $ oiiotool 'box.pov?spp=4&size=32x24&targets=Floor&denoise=1' -o a.exr; retex-render -q --full-precision --spp 4 --size 32x24 -t Floor --denoise box.pov -o b.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; retex-info --check a.exr
 > a.exr: ok
+$ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor&lamps=each&light_share=0.3' -o l.exr; retex-render -q --full-precision --spp 2 --size 32x24 -t Floor --lamps each --light-share .3 box.pov -o m.exr; for f in l m; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp l.txt m.txt; retex-combine -q l.exr --solo Lamp -o l.png; retex-combine -q m.exr --solo Lamp -o m.png; cmp l.png m.png
+$ oiiotool 'box.pov?spp=2&size=32x24&lamps=Bulb=Lamp' -o l.exr; retex-info l.exr | grep -i 'bulb\|targets'
+> parameter Bulb
 $ retex-pack -q a.exr -o a.retex; retex-combine -q a.retex --texture Floor=brick.jpg -o x.exr; oiiotool 'a.retex?Floor=brick.jpg' -d half -o y.exr; retex-diff x.exr y.exr >/dev/null && echo same
 > same
 $ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
@@ -52,8 +55,8 @@ $ for p in '' '&plain=0' '&plain=1' '&plain=1&no_ambient=0'; do oiiotool -a "box
 # What is wrong with options.
 $ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z_, ]*, not/expected LIST, not/p'
 > oiiotool ERROR: read : "box.pov?aov=smell": aov: expected LIST, not `smell`
-$ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
-> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads
+$ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' lamps=Nope lamps=each,, 'lamps=each&layout=paper' light_share=2 threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, lamps, light_share, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads
 > oiiotool ERROR: read : "box.pov?spp=many": spp: expected a whole number from 1 to 1048576, not 'many'
 > oiiotool ERROR: read : "box.pov?spp=0": spp: expected a whole number from 1 to 1048576, not '0'
 > oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'
@@ -67,6 +70,10 @@ $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope 
 > oiiotool ERROR: read : "box.pov?layout=paper&clusters=3": layout paper has no clusters: one of them
 > oiiotool ERROR: read : "box.pov?denoise=1&spp=1": denoise needs two samples a pixel at least: one does not tell how noisy it is
 > oiiotool ERROR: read : "box.pov?denoise=1&no_denoise_data=1": denoise reads what no_denoise_data leaves out: one of them
+> oiiotool ERROR: read : "box.pov?lamps=Nope": no lamp `Nope`: nothing that shines has that name; nearest: Lamp; --list-lamps lists what there is
+> oiiotool ERROR: read : "box.pov?lamps=each,,": lamps: an empty name in 'each,,'
+> oiiotool ERROR: read : "box.pov?lamps=each&layout=paper": layout paper keeps no lamps apart
+> oiiotool ERROR: read : "box.pov?light_share=2": light-share: expected a number from 0 to 1, not '2'
 > oiiotool ERROR: read : "box.pov?threads=x": threads: expected a whole number from 0 to 256, not 'x'
 > oiiotool ERROR: read : "box.pov?declare.A=1/3": declare.A: expected NAME=NUMBER or NAME="TEXT", not `A=1/3`
 > oiiotool ERROR: read : "box.pov?threads=999": threads: expected a whole number from 0 to 256, not '999'
