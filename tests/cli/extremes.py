@@ -115,6 +115,8 @@ class Scene:
         options += r.choice([[], [], ["--layout", "paper"]])
         options += r.choice([[], [], ["--full-precision"], ["--denoise"]])
         options += r.choice([[], [], [], ["--control-data", "biased"], ["--ambient"]])
+        if "paper" not in options and "--control-data" not in options:
+            options += r.choice([[], ["--lamps", "each"]])
         return options
 
 
@@ -128,7 +130,7 @@ def run(*command):
     return done.returncode, [line for line in lines if ": warning: " not in line]
 
 
-def uses(name, is_denoised):
+def uses(name, is_denoised, has_lamps):
     """What other tools do with a set: commands that must succeed."""
     yield ["retex-info", "-q", "--check", name]
     yield ["retex-combine", "-q", name, "-o", "own.exr"]
@@ -142,6 +144,9 @@ def uses(name, is_denoised):
     for made in ("p.retex", "l.retex") if is_denoised else ("p.retex", "l.retex", "d.exr"):
         yield ["retex-info", "-q", "--check", made]
         yield ["retex-combine", "-q", made, "--texture", "Target=rgb(.2,.4,.8)", "-o", "c.exr"]
+        if has_lamps:
+            yield ["retex-combine", "-q", made, "--solo", "light1", "-o", "c.exr"]
+            yield ["retex-combine", "-q", made, "--light", "light1=1e3*2700K", "--texture", "Target=tomato", "-o", "c.png"]
 
 
 def check(seed):
@@ -156,7 +161,7 @@ def check(seed):
         return (None if fine else f"render: {status} {lines}"), False
     if lines:
         return f"render: {lines}", True
-    for command in uses("s.exr", "--denoise" in options):
+    for command in uses("s.exr", "--denoise" in options, "--lamps" in options):
         status, lines = run(*command)
         if status or lines:
             return f"{' '.join(command)}: {status} {lines} after {' '.join(options)}", True

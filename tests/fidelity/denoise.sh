@@ -52,6 +52,22 @@ check_scene() { # SCENE DECIBELS: of the set, in layout paper, of a render, of t
     result "$(awk "BEGIN { print (\"${same##* }\" ~ /^[0-9]/ && ${same##* } + 0 < 1e-6) }")" "$scene, --replace --denoise: its light is what it was"
 }
 
+# A floor in the sun, and around it only in what walls throw back: most of its pixels there have no light in a set of 32
+# samples, and yet no pixel stays black.
+for seed in 1 2; do
+    render --spp 32 --seed $seed -t Floor docs/suns.pov -o "$work/set.exr"
+    retex-denoise -q "$work/set.exr" -o "$work/denoised.exr"
+    for each in set denoised; do
+        retex-combine -q "$work/$each.exr" --texture 'Floor=rgb(.5,.5,.5)' -o "$work/$each-grey.exr"
+        # shellcheck disable=SC2046 # words wanted
+        make_values "$work/$each-grey.exr" $(awk 'BEGIN { for (i = 40 * 80; i < 60 * 80; i++) print i % 80 "," int(i / 80) }') |
+            awk '$1 + $2 + $3 < 1e-3 { count++ } END { print count + 0 }' >"$work/$each-black"
+    done
+    black=$(cat "$work/set-black") left=$(cat "$work/denoised-black")
+    echo "# suns, seed $seed: $black black pixels, denoised $left"
+    result "$([ "$black" -gt 5 ] && [ "$left" = 0 ] && echo 1 || echo 0)" "suns, seed $seed: the floor is nowhere black"
+done
+
 check_scene cornell-box 4 3.3 3.9 1.2
 check_scene glass-caustics 2.4 1.9 1.8 0.3
 finish

@@ -104,6 +104,57 @@ static void test_borrowing(void **state)
     }
 }
 
+/* The four quadrants of a pixel share UV, axes and albedo. They are lent all the same, and UV goes on along the axes. */
+static void test_quadrants_are_lent(void **state)
+{
+    (void)state;
+    static const float weights[] = {1, 0.9f, 0.3f, 0.5f}, light[] = {2, 4, 8};
+    static const float axes[] = {0.01f, 0.002f, -0.003f, 0.04f};
+    RetexSet *set = again_set(RETEX_FOOTPRINT_SHARP, 4);
+    const RetexFootprint *first = &set->footprints[0];
+    set->footprints[0].spread = add_part(set, "RGBA", "axes", 0);
+    for (int k = 0; k < 4; k++) {
+        set->footprints[k].uv = first->uv, set->footprints[k].spread = first->spread;
+        set->footprints[k].albedo = first->albedo, set->footprints[k].quadrant = 1 + k;
+        put_light(set, k, 4, 1, (float)k);
+        put_share(set, k, 4, 1, 0.25f);
+    }
+    put(set, 0, 4, 1, 0.5f, 0.7f, 1);
+    put_rgb(set, first->albedo, 4, 1, 0.1f, 0.2f, 0.3f);
+    memcpy(pixel(set, first->spread, 4, 1), axes, sizeof axes);
+    set->spp = 1 << 20;
+    Work w = open_work(set, 1);
+    share_light(&w, RETEX_FOOTPRINT_SHARP, weights, 4, light);
+    for (int k = 0; k < 4; k++) {
+        const float part = (float)k / 6;
+        EXPECT(1e-3f, result(&w, light_part(set, k)), part * light[0], part * light[1], part * light[2]);
+        EXPECT(0, result(&w, share_part(set, k)), 0.25f);
+        EXPECT(1e-6f, result_uv(&w, k), 0.5f - 3 * axes[0], 0.7f - 3 * axes[1], 1); /* from three pixels to the right */
+        EXPECT(0, result_spread(&w, k), axes[0], axes[1], axes[2], axes[3]);
+        EXPECT(0, result_albedo(&w, k), 0.1f, 0.2f, 0.3f);
+    }
+    close_work(&w);
+}
+
+/* A part that something else uses is not written: then light goes by what the pixel itself has. */
+static void test_shared_parts_stay(void **state)
+{
+    (void)state;
+    static const float weights[] = {1, 0.9f, 0.3f, 0.5f}, light[] = {2, 4, 8};
+    for (int kind = RETEX_FOOTPRINT_SHARP; kind <= RETEX_FOOTPRINT_BROAD; kind++) {
+        RetexSet *set = again_set((RetexFootprintKind)kind, 2);
+        const int other = kind == RETEX_FOOTPRINT_SHARP ? 2 : 1; /* an interreflection; another cluster */
+        set->footprints[other].uv = set->footprints[0].uv;
+        put(set, 0, 4, 1, 0.5f, 0.7f, 1);
+        put_light(set, 0, 4, 1, 1);
+        Work w = open_work(set, 1);
+        share_light(&w, (RetexFootprintKind)kind, weights, 4, light);
+        assert_int_equal(w.written[set->footprints[0].uv], 0);
+        EXPECT(0, result(&w, light_part(set, 0)), 0, 0, 0);
+        close_work(&w);
+    }
+}
+
 /* Where no light met targets again, light that does so next to it finds shares. */
 static void test_shares_are_mended(void **state)
 {
@@ -470,6 +521,8 @@ int main(void)
         cmocka_unit_test(test_proportions_are_kept),
         cmocka_unit_test(test_light_by_coverage),
         cmocka_unit_test(test_borrowing),
+        cmocka_unit_test(test_quadrants_are_lent),
+        cmocka_unit_test(test_shared_parts_stay),
         cmocka_unit_test(test_shares_are_mended),
         cmocka_unit_test(test_albedo_is_of_the_light),
         cmocka_unit_test(test_identical_neighbours),

@@ -42,12 +42,27 @@ static void clear_pixel(const Pixel *p, const RetexFootprintImage *image)
     memset(written(p, image), 0, image->channels * sizeof(float));
 }
 
+/* Moves UV that was copied from a pixel with axes to where the pixel itself is on the surface, if that goes on
+ * evenly. */
+static void move_along_axes(const RetexDenoiseFootprints *f, const RetexFootprintImages *place, const Pixel *p,
+                            size_t from)
+{
+    const float *axes = place->spread.pixels + from * RETEX_AXES;
+    const float right = (float)(p->at % f->width) - (float)(from % f->width),
+                down = (float)(p->at / f->width) - (float)(from / f->width);
+    float *uv = written(p, &place->uv);
+    for (int i = 0; i < 2; i++)
+        uv[i] += right * axes[i] + down * axes[2 + i];
+}
+
 /* Copies the footprints of another pixel, or of the pixel itself. */
-static void copy_footprints(const RetexFootprintClass *g, const Pixel *p, size_t from)
+static void copy_footprints(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p, size_t from)
 {
     for (int k = 0; k < g->count; k++) {
         const RetexFootprintImages *place = &g->of[k];
         copy_pixel(p, &place->uv, from);
+        if (place->spread.channels == RETEX_AXES && from != p->at)
+            move_along_axes(f, place, p, from);
         copy_pixel(p, &place->spread, from);
         copy_pixel(p, &place->albedo, from);
         if (place->share.channels == 1)
@@ -212,7 +227,7 @@ static void keep_clusters(const RetexDenoiseFootprints *f, const RetexFootprintC
             store_light(&g->of[k], p, light, all > 0 ? value(&g->of[k], from) / all : 0);
     if (!g->movable)
         return;
-    copy_footprints(g, p, from);
+    copy_footprints(f, g, p, from);
     if (all > 0)
         repair_shares(g, p, from, value, all);
 }
@@ -429,7 +444,7 @@ static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *
     for (int t = 0; t < f->ninterreflections; t++) {
         const RetexFootprintClass *g = &f->interreflections[t];
         if (!(shared > 0))
-            copy_footprints(g, p, p->at);
+            copy_footprints(f, g, p, p->at);
         for (int k = 0; k < g->count && shared > 0; k++) {
             const Pool *pool = &pools[t].of[k];
             if (k >= pools[t].count) {
@@ -451,7 +466,7 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexFootprintClass 
     for (int n = 0; n < count; n++)
         all +=
             neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX ? neighbours[n].weight : 0;
-    copy_footprints(g, p, p->at); /* its weight in a mixture is not changed, where it has one */
+    copy_footprints(f, g, p, p->at); /* its weight in a mixture is not changed, where it has one */
     if (pools.count)
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
 }

@@ -66,18 +66,13 @@ static void count_uses(int *uses, const RetexSet *set)
     }
 }
 
-static int is_own(const int *uses, const RetexFootprintImage *image)
-{
-    return image->part < 0 || uses[image->part] == 1;
-}
-
 /* Adds a footprint to a class; light -1 = none. */
 static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexFootprintClass *g, int footprint, int light)
 {
     const RetexFootprint *from = &set->footprints[footprint];
     RetexFootprintImages *place = &g->of[g->count++];
     *place = (RetexFootprintImages){.uv = find_image(set, from->uv, 3, 3),
-                                    .spread = find_image(set, from->spread, 2, 3),
+                                    .spread = find_image(set, from->spread, 2, RETEX_AXES),
                                     .albedo = find_image(set, from->albedo, 3, 3),
                                     .light = find_image(set, light, 3, 3),
                                     .share = find_image(set, find_share(set, footprint, NULL), 1, 3)};
@@ -85,8 +80,37 @@ static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexFootp
     g->nlit += light >= 0;
     int whole =
         place->uv.pixels && place->spread.pixels && place->albedo.pixels && !(light >= 0 && !place->light.pixels);
-    g->movable &= whole && is_own(f->uses, &place->uv) && is_own(f->uses, &place->spread) &&
-                  is_own(f->uses, &place->albedo) && is_own(f->uses, &place->light) && is_own(f->uses, &place->share);
+    g->movable &= whole;
+}
+
+/* The number of images of the class that are this part. */
+static int count_in_class(const RetexFootprintClass *g, int part)
+{
+    int count = 0;
+    for (int k = 0; k < g->count; k++) {
+        const RetexFootprintImages *place = &g->of[k];
+        count += (place->uv.part == part) + (place->spread.part == part) + (place->albedo.part == part) +
+                 (place->light.part == part) + (place->share.part == part);
+    }
+    return count;
+}
+
+/* 1 if nothing but the class uses a part of it. Sharp clusters are copied, all from one pixel, so that several may
+ * share a part, as quadrants do; others are pooled, each into parts of its own. */
+static int is_own(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, int part)
+{
+    return part < 0 || f->uses[part] == (g->kind == RETEX_FOOTPRINT_SHARP ? count_in_class(g, part) : 1);
+}
+
+/* When the class is complete: whether its parts may be written. */
+static void finish_class(const RetexDenoiseFootprints *f, RetexFootprintClass *g)
+{
+    for (int k = 0; k < g->count && g->movable; k++) {
+        const RetexFootprintImages *place = &g->of[k];
+        g->movable = is_own(f, g, place->uv.part) && is_own(f, g, place->spread.part) &&
+                     is_own(f, g, place->albedo.part) && is_own(f, g, place->light.part) &&
+                     is_own(f, g, place->share.part);
+    }
 }
 
 static RetexFootprintClass start_class(const RetexDenoiseFootprints *f, const RetexSet *set, int target,
@@ -124,6 +148,7 @@ static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const 
             add_place(f, set, g, k, -1);
     g->movable &=
         g->count <= FOOTPRINT_CLASS_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
+    finish_class(f, g);
 }
 
 /* Interreflections of all targets share their light: all are pooled, or none. */
@@ -137,6 +162,7 @@ static void find_interreflections(RetexDenoiseFootprints *f, const RetexSet *set
         for (int k = 0; k < set->nfootprints; k++)
             if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 add_place(f, set, g, k, -1);
+        finish_class(f, g);
         movable &= g->movable && g->count <= FOOTPRINT_CLASS_MAX;
         f->ninterreflections += g->count > 0;
     }
@@ -151,6 +177,7 @@ static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
         RetexFootprintClass *g = &f->hits[f->nhits];
         *g = start_class(f, set, set->footprints[k].target, RETEX_FOOTPRINT_HIT);
         add_place(f, set, g, k, -1);
+        finish_class(f, g);
         f->nhits += g->movable;
     }
 }

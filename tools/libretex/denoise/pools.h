@@ -30,7 +30,7 @@ typedef struct RetexFootprintClass {
     int periodic[2];
     int count, nlit; /* clusters with light of their own come first */
     RetexFootprintImages *of;
-    int movable;        /* 1: all parts are there and used by no other footprint: they may be written */
+    int movable;        /* 1: all parts are there and used by nothing else: they may be written */
     const float *interreflected; /* luminance of the interreflected light that the shares divide, by pixel; NULL =
                                     none */
 } RetexFootprintClass;
