@@ -104,7 +104,7 @@ static void test_borrowing(void **state)
     }
 }
 
-/* The four quadrants of a pixel share UV, axes and albedo. They are lent all the same, and UV goes on along the axes. */
+/* The four quadrants of a pixel share UV, axes and albedo. They are lent all the same; UV goes on along the axes. */
 static void test_quadrants_are_lent(void **state)
 {
     (void)state;
