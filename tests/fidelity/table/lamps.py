@@ -1,6 +1,7 @@
-"""Lamps and textures changed after rendering, as Markdown: lamps.py WORK HEAD SETTINGS COUNTS >MD
+"""Lamps and textures changed after rendering, as Markdown: lamps.py WORK HEAD SETTINGS COUNTS HOURS >MD
 
-Also writes WORK/lamps.csv, and WORK/lamps-NAME.jpg: each edit of the living room beside its new render.
+Also writes WORK/lamps.csv, WORK/lamps-NAME.jpg: each edit of the living room beside its new render, and
+WORK/lamps-hours.jpg.
 PSNR is of sRGB-encoded colours, clipped to 0..1. The squared error of a picture X against the truth is the mean of
 (X - A)(X - B), A and B being two converged pictures whose noise has nothing in common: so their noise does not count.
 """
@@ -88,6 +89,12 @@ def show_pictures(work):
     return names
 
 
+def show_hours(work, hours):
+    frames = [pictures.encoded(pictures.colours(f"{work}/suns-{hour}.exr")) for hour in hours.split()]
+    gap = np.ones((frames[0].shape[0], 3, 3))
+    pictures.write(f"{work}/lamps-hours.jpg", np.hstack([part for frame in frames for part in (frame, gap)][:-1]))
+
+
 def costs(work, counts):
     rows = []
     for count in counts.split():
@@ -134,10 +141,11 @@ CAPTIONS = {
 
 
 def main():
-    work, head, settings, counts = sys.argv[1:]
+    work, head, settings, counts, hours = sys.argv[1:]
     spp, truth_spp, _, _, picture_spp, size, size_spp = settings.split()
     rows, shown, sizes = score(work), show_pictures(work), costs(work, counts)
     write_csv(work, rows, sizes)
+    show_hours(work, hours)
     print(f"""# Lamps after rendering
 
 `retex-render --lamps each` keeps the light of every lamp apart, in the same set as the textures.
@@ -159,6 +167,16 @@ is left in it.
 """)
     for name, found in shown:
         print(f"{CAPTIONS[name]} ({found:.1f} dB apart):\n\n![{name}](pictures/lamps-{name}.jpg)\n")
+    print("""## A slider for the time of day
+
+[suns.pov](suns.pov) has a sun for each hour from two to six. Each is a lamp; one of them shines at a time, and the sky four
+times as strong. All five pictures come from one set:
+
+    retex-render docs/suns.pov -t Floor --lamps each --denoise -o suns.exr
+    retex-combine suns.exr --solo Sun_16 --light sky=4 -o four-o-clock.jpg
+
+![five hours](pictures/lamps-hours.jpg)
+""")
     gains = [found["set"] - found["again"] for *_, found, _ in rows]
     cleaned = [found["denoised"] - found["set"] for *_, found, _ in rows]
     print(f"""## Compared with rendering again

@@ -96,6 +96,15 @@ while IFS='|' read -r scene name lamps textures; do
     }
 done <$here/table/lamps.txt
 
+# ---- a slider for the time of day ----
+
+hours='14 15 16 17 18'
+made "$work/suns.exr" retex-render -q --size "$(wide suns $((picture_height / 2)))" -t Floor --lamps each --spp 128 \
+    --denoise docs/suns.pov
+for hour in $hours; do
+    made "$work/suns-$hour.exr" retex-combine -q "$work/suns.exr" --solo "Sun_$hour" --light sky=4
+done
+
 # ---- bytes, times and memory ----
 
 # Processor seconds and peak kilobytes of a command, into FILE: timed FILE COMMAND...
@@ -129,7 +138,7 @@ for count in $counts; do
     costs "apart-$count" "$count" --lamps each
 done
 
-"$python" "$here/table/lamps.py" "$work" "$(figures_head fidelity-lamps)" "$settings" "$counts" >"$work/lamps.md"
+"$python" "$here/table/lamps.py" "$work" "$(figures_head fidelity-lamps)" "$settings" "$counts" "$hours" >"$work/lamps.md"
 if [ -n "${BENCH_DOCS:-}" ]; then
     cp "$work/lamps.md" "$work/lamps.csv" docs/
     cp "$work"/lamps-*.jpg docs/pictures/
