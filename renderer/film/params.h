@@ -18,6 +18,7 @@ typedef struct FilmParams {
     int clusters;     /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
     int sharp, broad; /* at most so many of each kind, 1..clusters */
     int extra;        /* so many more sharp ones in pixels where mirrors or glass show the target, 0.. */
+    int extra_broad, extra_interreflections; /* so many more of these in pixels where merging them shows, 0.. */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int quadrants; /* layout footprints: keep quarters of pixels apart, where paths say where in the pixel they are */
     int nlamps;    /* of the scene: their light is kept apart */

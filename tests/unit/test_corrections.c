@@ -90,6 +90,7 @@ static void add_path(Fixture *f, Truth *truth, uint32_t *seed)
 static void make(Fixture *f, Truth *truth, const FilmLayout *layout, int ntargets, uint32_t seed)
 {
     begin_film(f, ntargets, SPP, 6, 2, 2);
+    f->params.extra = seed % 2 ? 8 : 0;
     f->params.layout = layout;
     create_film(f);
     memset(truth, 0, sizeof *truth);

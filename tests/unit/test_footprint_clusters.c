@@ -87,7 +87,7 @@ static void squeeze_place(Places *own, Places *other, int own_is_full, int specu
 static void add_place(Places kinds[2], int extra, const FirstHit *q, const FilmParams *params)
 {
     Places *own = &kinds[!q->sharp], *other = &kinds[q->sharp];
-    const int gathered = params->clusters == params->sharp + params->broad ? 2 : 0; /* broad ones until all are there */
+    const int gathered = params->clusters == params->sharp + params->broad ? 4 : 0; /* broad ones until all are there */
     int room = q->sharp ? params->sharp + extra : params->broad + gathered;
     const int *periodic = params->periodic[q->target];
     if (own->count < room && own->count + other->count < params->clusters + extra + gathered)
@@ -181,7 +181,7 @@ static void nothing_is_lost_by_merging(void **state)
             all.squares += q.weight * q.weight, all.light += own, all.interreflected += further;
             all.reflected += 0.25 * (own + 1e-3 * further); /* interreflected light says little of the albedo */
         }
-        clusters_merge_broad(&target, 0, &params);
+        clusters_merge_broad(&target, 0, &params, 1, PLACES);
         add_kept(&kept, &target.sharp);
         add_kept(&kept, &target.broad);
         assert_true(fabs(kept.squares / all.squares - 1) < 1e-9);
@@ -286,8 +286,8 @@ static void direct_light_has_no_extra_clusters(void **state)
     const FilmParams params = {.sharp = 4, .broad = 2, .clusters = 6, .extra = 8};
     add_seen(&target, kinds, 0, &params, 1, PLACES);
     assert_int_equal(target.sharp.count, 4);
-    assert_int_equal(target.broad.count, 4);
-    clusters_merge_broad(&target, 0, &params);
+    assert_int_equal(target.broad.count, 6);
+    clusters_merge_broad(&target, 0, &params, 1, PLACES);
     assert_int_equal(target.broad.count, 2);
 }
 
@@ -304,18 +304,18 @@ static void add_wave(double sum[2], double light, const RetexUvStats *a, const R
 }
 
 /* How far the light of two places changes, squared, if they are merged: wave by wave, of a texture with features of
- * .05, whose power is a Gaussian of the wave number. */
-static double waves_error2(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+ * a size, whose power is a Gaussian of the wave number. */
+static double waves_error2(const RetexUvStats *a, const RetexUvStats *b, double feature, const int periodic[2])
 {
-    enum { WAVES = 120 };
-    const double step = 0.9; /* its period, 7 units, is beyond all places */
+    const int waves = (int)(6 / feature); /* beyond, there is hardly power */
+    const double step = 0.9;              /* its period, 7 units, is beyond all places */
     RetexUvStats both = *a;
     double error2 = 0, power = 0;
     retex_uv_stats_merge(&both, b, periodic);
-    for (int i = 0; i <= WAVES; i++) /* the other half is alike */
-        for (int k = i ? -WAVES : 0; k <= WAVES; k++) {
+    for (int i = 0; i <= waves; i++) /* the other half is alike */
+        for (int k = i ? -waves : 0; k <= waves; k++) {
             const double wave[2] = {i * step, k * step};
-            const double s = exp(-0.05 * 0.05 * (wave[0] * wave[0] + wave[1] * wave[1]) / 2) * (i || k ? 2 : 1);
+            const double s = exp(-feature * feature * (wave[0] * wave[0] + wave[1] * wave[1]) / 2) * (i || k ? 2 : 1);
             double sum[2] = {0, 0};
             add_wave(sum, a->weight, a, a, wave, periodic);
             add_wave(sum, b->weight, b, a, wave, periodic);
@@ -325,47 +325,77 @@ static double waves_error2(const RetexUvStats *a, const RetexUvStats *b, const i
     return error2 / power;
 }
 
-/* Down to so many, those first that a fine texture tells apart least. */
-static void merge_by_waves(Places *places, int most, const int periodic[2])
+/* How places of a pixel merge when it is complete. */
+typedef struct Merging {
+    int least, most;        /* so many remain: more than the least only where merging them changes more than `hidden` */
+    double feature, hidden; /* hidden: squared */
+} Merging;
+
+/* The variance of a sum of so many paths' light. */
+static double variance_of_sum(const double *weights, int count, int paths)
 {
-    while (places->count > most) {
+    double sum = 0, variance = 0;
+    for (int k = 0; k < count; k++)
+        sum += weights[k];
+    for (int k = 0; k < paths; k++)
+        variance += pow((k < count ? weights[k] : 0) - sum / paths, 2);
+    return variance;
+}
+
+/* Those first that a fine texture tells apart least. */
+static void merge_by_waves(Places *places, const Merging *m, const int periodic[2])
+{
+    while (places->count > m->least) {
         Best best = {.cost = INFINITY};
         for (int i = 0; i < places->count; i++)
             for (int k = i + 1; k < places->count; k++) {
-                const double cost = waves_error2(&places->of[i], &places->of[k], periodic);
+                const double cost = waves_error2(&places->of[i], &places->of[k], m->feature, periodic);
                 if (cost < best.cost)
                     best = (Best){places, i, k, cost};
             }
+        if (places->count <= m->most && best.cost > m->hidden)
+            return;
         retex_uv_stats_merge(&places->of[best.a], &places->of[best.b], periodic);
         places->of[best.b] = places->of[--places->count];
     }
 }
 
-/* At the end, broad places merge by what a fine texture would change by that. */
+/* At the end, broad places merge by what a fine texture would change by that; extra ones remain where that is more than
+ * a fiftieth of the pixel's light and the noise. */
 static void broad_clusters_are_those_that_matter(void **state)
 {
     (void)state;
-    for (uint32_t round = 0; round < 40; round++) {
+    int counts[FILM_CLUSTERS_MAX + 1] = {0};
+    for (uint32_t round = 0; round < 60; round++) {
         TargetClusters target = {.interreflections_bound = 0};
         const HitLight dark = {.used = 0};
-        FilmParams params = {.sharp = 1, .broad = 1 + (int)round % 2, .clusters = 2 + (int)round % 2};
+        const int broad = 1 + (int)round % 2, paths = 6 + (int)round / 3 * (1 + 40 * (int)(round % 4 == 3));
+        FilmParams params = {.sharp = 1, .broad = broad, .clusters = 1 + broad, .extra_broad = (int)round % 3};
         const int *periodic = params.periodic[0];
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
+        double weights[64];
         params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
-        for (int n = 0; n < 4 + (int)round; n++) {
+        const int hits = paths < 46 ? paths : 46;
+        for (int n = 0; n < hits; n++) {
             last = any_place(&seed, last);
-            FirstHit q = {.uv = {last.u, last.v}, .light = &dark, .weight = 1e-3 + test_random(&seed)};
+            weights[n] = 0.6 + 0.4 * test_random(&seed);
+            FirstHit q = {.uv = {last.u, last.v}, .light = &dark, .weight = weights[n]};
             clusters_add(&target, &q, &params);
         }
         Places places = {.count = target.broad.count};
-        assert_int_equal(places.count, params.broad + 2);
+        assert_int_equal(places.count, broad + 4);
         for (int k = 0; k < places.count; k++)
             places.of[k] = target.broad.of[k].uv;
-        merge_by_waves(&places, params.broad, periodic);
-        clusters_merge_broad(&target, 0, &params);
+        const double light = pow(4, round % 5);
+        const Merging merging = {broad, broad + params.extra_broad, 0.05,
+                                 pow(0.02 * light, 2) + variance_of_sum(weights, hits, paths)};
+        merge_by_waves(&places, &merging, periodic);
+        clusters_merge_broad(&target, 0, &params, light, paths);
         expect_same(&target.broad, &places);
+        counts[places.count - broad] += params.extra_broad == 2;
     }
+    assert_true(counts[0] > 2 && counts[1] > 0 && counts[2] > 2 && counts[0] + counts[1] + counts[2] == 20);
 }
 
 /* Two wide clusters on a line far away, where a variance is a small difference of large numbers, and a point. */
@@ -383,7 +413,7 @@ static void far_broad_clusters_merge(void **state)
             retex_uv_stats_add(uv, 1, (double[2]){(k - 1) * size, (k - 1) * slope * size}, params.periodic[0]);
             retex_uv_stats_add(uv, 1, (double[2]){k * size, k * slope * size}, params.periodic[0]);
         }
-        clusters_merge_broad(&target, 0, &params);
+        clusters_merge_broad(&target, 0, &params, 1, 8);
         assert_int_equal(target.broad.count, 2);
         assert_true(target.broad.of[0].uv.m2[0] == 0);
     }
@@ -405,7 +435,7 @@ static void broad_clusters_are_bounded(void **state)
             clusters_add(&target, &q, &params[k]);
         }
         assert_int_equal(target.broad.count, gathered[k]);
-        clusters_merge_broad(&target, 0, &params[k]);
+        clusters_merge_broad(&target, 0, &params[k], 1, 40);
         assert_int_equal(target.broad.count, params[k].broad);
     }
 }
@@ -442,30 +472,32 @@ static void further_hits_are_pooled_alike(void **state)
     }
 }
 
-/* At the end, interreflections merge as broad places do, from as many as there are; their light is kept. */
+/* At the end, interreflections merge as broad places do, by coarser features and a smaller part of the pixel's light,
+ * from as many as there are; their light is kept. */
 static void interreflections_are_those_that_matter(void **state)
 {
     (void)state;
-    int gathered[5] = {0}; /* up to four */
-    for (uint32_t round = 0; round < 40; round++) {
+    int gathered[INTERREFLECTION_GATHERED + 1] = {0}, counts[5] = {0};
+    for (uint32_t round = 0; round < 60; round++) {
         TargetClusters target = {.interreflections_bound = 0};
-        FilmParams params = {.sharp = 1, .broad = 1, .clusters = 2};
-        const int *periodic = params.periodic[0];
+        FilmParams params = {.sharp = 1, .broad = 1, .clusters = 2, .extra_interreflections = (int)round % 3};
+        const int *periodic = params.periodic[0], hits = 1 + (int)(round % 10 * (1 + round % 4));
+        const int paths = hits + hits / 8;
         Places places = {.count = 0};
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
-        double squares = 0;
+        double squares = 0, weights[64];
         float light = 0;
         params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
-        for (uint32_t n = 0; n < 1 + round % 8 * (1 + round % 3); n++) {
+        for (int n = 0; n < hits; n++) {
             last = any_place(&seed, last);
             const float own = (float)test_random(&seed);
             const Interreflection l = {.uv = {last.u, last.v},
-                                       .weight = 1e-3 + test_random(&seed),
+                                       .weight = 0.6 + 0.4 * test_random(&seed),
                                        .light = {0, own, 0, 0},
                                        .albedo = {0.5f, 0.25f, 1, 0}};
             clusters_add_interreflection(&target, &l, periodic);
-            squares += l.weight * l.weight, light += own;
+            weights[n] = l.weight, squares += l.weight * l.weight, light += own;
         }
         for (; places.count < INTERREFLECTION_GATHERED; places.count++) {
             const RetexUvStats *uv = &target.interreflections[places.count].uv;
@@ -474,8 +506,11 @@ static void interreflections_are_those_that_matter(void **state)
             places.of[places.count] = *uv;
         }
         gathered[places.count]++;
-        merge_by_waves(&places, 2, periodic);
-        clusters_merge_interreflections(&target, 0, &params);
+        const double all = pow(8, round % 5);
+        const Merging merging = {2, 2 + params.extra_interreflections, 0.1,
+                                 pow(0.007 * all, 2) + variance_of_sum(weights, hits, paths)};
+        merge_by_waves(&places, &merging, periodic);
+        clusters_merge_interreflections(&target, 0, &params, all, paths);
         for (int k = 0; k < INTERREFLECTION_GATHERED; k++) {
             const InterreflectionCluster *c = &target.interreflections[k];
             assert_memory_equal(&c->uv, &places.of[k], k < places.count ? sizeof c->uv : 0);
@@ -484,8 +519,10 @@ static void interreflections_are_those_that_matter(void **state)
             assert_true(fabsf(c->albedo.reflected[1] - 0.25f * c->albedo.light[1]) < 1e-5f);
         }
         assert_true(fabs(squares) < 1e-9 && fabsf(light) < 1e-4f);
+        counts[places.count] += params.extra_interreflections == 2;
     }
-    assert_true(gathered[1] > 0 && gathered[2] > 0 && gathered[3] > 0 && gathered[4] > 20);
+    assert_true(gathered[1] > 0 && gathered[2] > 0 && gathered[INTERREFLECTION_GATHERED] > 20);
+    assert_true(counts[2] > 2 && counts[3] > 0 && counts[4] > 4);
 }
 
 int main(void)

@@ -291,6 +291,70 @@ static void the_next_pixel_has_no_extra_clusters(void **state)
     end_film(&f);
 }
 
+/* Four broad places of equal light, far apart or in two pairs, where each kind may have extra clusters or not. */
+static void broad_clusters_are_more_where_that_shows(void **state)
+{
+    (void)state;
+    static const struct {
+        int extra, count;
+        double places[4];
+    } cases[] = {{0, 2, {0, 0.25, 0.5, 0.75}},
+                 {8, 4, {0, 0.25, 0.5, 0.75}},
+                 {1, 4, {0, 0.25, 0.5, 0.75}},
+                 {8, 2, {0, 0.001, 0.5, 0.501}},
+                 {8, 3, {0, 0.25, 0.5, 0.501}}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        Fixture f;
+        begin_film(&f, 1, 16, 6, 4, 2);
+        f.params.extra = cases[k].extra;
+        create_film(&f);
+        for (int n = 0; n < 16; n++)
+            one_hit(&f, cases[k].places[n % 4], 0.5, rgb_grey(0.5f), BROAD, rgb_grey(1));
+        finish_film(&f);
+        assert_int_equal(count_clusters(&f, "broad"), cases[k].count);
+        for (int n = 0; n < 4 && cases[k].count == 4; n++) {
+            char name[32];
+            snprintf(name, sizeof name, "Floor_broad%d", n + 1);
+            expect_place(&f, name, cases[k].places[n], 0);
+        }
+        expect_beauty(&f, 0);
+        end_film(&f);
+    }
+}
+
+/* Interreflections at four places of each of so many targets. Returns how many the first target has. */
+static int count_interreflections(int ntargets, int extra)
+{
+    Fixture f;
+    const int paths = 64 * ntargets;
+    begin_film(&f, ntargets, paths, 6, 4, 2);
+    f.params.extra = extra;
+    create_film(&f);
+    for (int n = 0; n < paths; n++) {
+        begin_path(&f);
+        hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), SHARP);
+        hit(&f, n % ntargets, n / ntargets % 4 * 0.25, 0.5, rgb_grey(0.5f), BROAD);
+        connect_light(&f, rgb_grey(1));
+        end_path(&f);
+    }
+    finish_film(&f); /* which fails where a mixture has too many footprints */
+    const int count = count_clusters(&f, "interreflection");
+    expect_beauty(&f, 0);
+    end_film(&f);
+    return count;
+}
+
+/* All targets' interreflections are one mixture, which has room for 20. */
+static void interreflections_are_fewer_on_many_targets(void **state)
+{
+    (void)state;
+    static const int counts[RETEX_MAX_TARGETS] = {4, 4, 4, 4, 4, 3, 2, 2};
+    for (int n = 1; n <= RETEX_MAX_TARGETS; n++) {
+        assert_int_equal(count_interreflections(n, 8), counts[n - 1]);
+        assert_int_equal(count_interreflections(n, 0), 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -304,6 +368,8 @@ int main(void)
         cmocka_unit_test(extra_clusters_are_bounded),
         cmocka_unit_test(the_next_pixel_has_no_extra_clusters),
         cmocka_unit_test(extra_clusters_merge_what_is_near),
+        cmocka_unit_test(broad_clusters_are_more_where_that_shows),
+        cmocka_unit_test(interreflections_are_fewer_on_many_targets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

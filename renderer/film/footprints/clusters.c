@@ -19,6 +19,13 @@
 #define FINE_FEATURE 0.05 /* distance in UV over which textures change that need good clusters */
 #define EXTRA_ERROR 0.02  /* of a pixel's light: what it may be expected to change by one merging of them */
 
+/* The same of broad clusters and of interreflections. Of the latter less shows, as they are seen in the mixture of a
+ * kind's clusters: so they are judged by coarser features, and several small errors count. Smaller limits, or more
+ * clusters than these allow, made sets larger and pictures hardly better. */
+#define BROAD_ERROR 0.02
+#define INTERREFLECTION_ERROR 0.007
+#define INTERREFLECTION_FEATURE 0.1
+
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
 {
     into->light += from->light, into->reflected += from->reflected;
@@ -349,77 +356,138 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
 
 /* ---- broad clusters and interreflections of a pixel that is complete ---- */
 
-/* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
- * their distance d in FINE_FEATURE. Places are seen as normal distributions. */
-static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
+/* Few places of a pixel, which merge by what a texture with features of a size would change by that. */
+typedef struct Places {
+    const int *periodic;
+    double feature;
+    double weight, squares; /* of all paths: sums of weights and of their squares */
+    int count;
+    unsigned changed; /* bits: places that are not as the arrays below were computed */
+    const RetexUvStats *of[FILM_CLUSTERS_MAX];
+    double variance[FILM_CLUSTERS_MAX];                  /* light_variance */
+    double error2[FILM_CLUSTERS_MAX][FILM_CLUSTERS_MAX]; /* of merging [i][k], i < k */
+} Places;
+
+static void add_place(Places *places, const RetexUvStats *uv, double squares)
 {
-    const double f = FINE_FEATURE * FINE_FEATURE;
+    places->changed |= 1u << places->count;
+    places->of[places->count++] = uv;
+    places->weight += uv->weight, places->squares += squares;
+}
+
+/* Place b became a part of place a, and the last one took its index. */
+static void remove_place(Places *places, int a, int b)
+{
+    places->changed |= 1u << a | 1u << b;
+    places->count--;
+}
+
+/* The determinant of the covariance of two places, which are seen as normal distributions, and of the texture. */
+static double covariance_determinant(double uu, double uv, double vv, double f)
+{
+    return f * f + f * (uu + vv) + fmax(uu * vv - uv * uv, 0); /* on a line far away: nothing but rounding */
+}
+
+/* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
+ * their distance d in features. */
+static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, double feature, const int periodic[2])
+{
+    const double f = feature * feature;
     const double uu = a->m2[0] / a->weight + b->m2[0] / b->weight, uv = a->m2[1] / a->weight + b->m2[1] / b->weight;
     const double vv = a->m2[2] / a->weight + b->m2[2] / b->weight;
     const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
     const double v = retex_uv_stats_difference(a->mean[1], b->mean[1], periodic[1]);
-    const double det =
-        f * f + f * (uu + vv) + fmax(uu * vv - uv * uv, 0); /* on a line far away: nothing but rounding */
+    const double det = covariance_determinant(uu, uv, vv, f);
     const double distance2 = fmax((vv + f) * u * u - 2 * uv * u * v + (uu + f) * v * v, 0) / det;
     return f / sqrt(det) * exp(-distance2 / 2);
 }
 
 /* How far the light of a place varies, squared, with such a texture. */
-static double light_variance(const RetexUvStats *a, const int periodic[2])
+static double light_variance(const RetexUvStats *a, double feature)
 {
-    return a->weight * a->weight * texture_covariance(a, a, periodic);
+    const double f = feature * feature, two = 2 / a->weight;
+    return a->weight * a->weight * f / sqrt(covariance_determinant(a->m2[0] * two, a->m2[1] * two, a->m2[2] * two, f));
 }
 
-/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. apart: the
- * sum of their light_variance. */
-static double merging_error2(const RetexUvStats *a, const RetexUvStats *b, double apart, const int periodic[2])
+/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. */
+static double merging_error2(const Places *places, int i, int k)
 {
+    const RetexUvStats *a = places->of[i], *b = places->of[k];
+    const double p = a->weight, q = b->weight, feature = places->feature;
     RetexUvStats both = *a;
-    retex_uv_stats_merge(&both, b, periodic);
-    const double p = a->weight, q = b->weight, r = both.weight;
-    return apart + light_variance(&both, periodic) + 2 * p * q * texture_covariance(a, b, periodic) -
-           2 * r * (p * texture_covariance(a, &both, periodic) + q * texture_covariance(b, &both, periodic));
+    retex_uv_stats_merge(&both, b, places->periodic);
+    return places->variance[i] + places->variance[k] + light_variance(&both, feature) +
+           2 * p * q * texture_covariance(a, b, feature, places->periodic) -
+           2 * both.weight *
+               (p * texture_covariance(a, &both, feature, places->periodic) +
+                q * texture_covariance(b, &both, feature, places->periodic));
 }
 
-/* The two of several places that such a texture tells apart least. */
-static void find_least_different(const RetexUvStats *const places[], int count, const int periodic[2], int *a, int *b)
+static void update_errors(Places *places)
 {
-    double least = INFINITY, variance[FILM_CLUSTERS_MAX];
-    *a = 0, *b = 1;
-    for (int k = 0; k < count; k++)
-        variance[k] = light_variance(places[k], periodic);
-    for (int i = 0; i < count; i++)
-        for (int k = i + 1; k < count; k++) {
-            const double error2 = merging_error2(places[i], places[k], variance[i] + variance[k], periodic);
-            if (error2 < least)
-                least = error2, *a = i, *b = k;
-        }
+    for (int k = 0; k < places->count; k++) {
+        if (places->changed >> k & 1)
+            places->variance[k] = light_variance(places->of[k], places->feature);
+        for (int i = 0; i < k; i++)
+            if ((places->changed >> i | places->changed >> k) & 1)
+                places->error2[i][k] = merging_error2(places, i, k);
+    }
+    places->changed = 0;
 }
 
-void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params)
+/* The two places that such a texture tells apart least. Returns what merging them changes, squared. */
+static double find_least_different(Places *places, int *a, int *b)
+{
+    double least = INFINITY;
+    update_errors(places);
+    *a = 0, *b = 1;
+    for (int i = 0; i < places->count; i++)
+        for (int k = i + 1; k < places->count; k++)
+            if (places->error2[i][k] < least)
+                least = places->error2[i][k], *a = i, *b = k;
+    return least;
+}
+
+/* By how much light may change, squared, and it is hardly seen: a part of the pixel's, and the noise that the light of
+ * these places has as a sum over so many paths. */
+static double hidden_error2(const Places *places, double part, double light, int spp)
+{
+    const double noise2 = places->squares - places->weight * places->weight / spp;
+    return part * part * light * light + noise2;
+}
+
+void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params, double light, int spp)
 {
     Clusters *broad = &target->broad;
-    const RetexUvStats *places[FILM_CLUSTERS_MAX];
+    Places places = {.periodic = params->periodic[t], .feature = FINE_FEATURE};
     for (int k = 0; k < broad->count; k++)
-        places[k] = &broad->of[k].uv;
-    while (broad->count > params->broad) {
+        add_place(&places, &broad->of[k].uv, broad->of[k].squares);
+    const double hidden = hidden_error2(&places, BROAD_ERROR, light, spp);
+    while (places.count > params->broad) {
         Pair pair = {broad, RULE_VARIATION, 0, 1, 0};
-        find_least_different(places, broad->count, params->periodic[t], &pair.a, &pair.b);
+        pair.cost = find_least_different(&places, &pair.a, &pair.b);
+        if (pair.cost > hidden && places.count <= most_of_kind(params, 1))
+            return;
         merge_pair(&pair, params->periodic[t]);
+        remove_place(&places, pair.a, pair.b);
     }
 }
 
-void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params)
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params, double light, int spp)
 {
     InterreflectionCluster *clusters = target->interreflections;
-    const RetexUvStats *places[INTERREFLECTION_GATHERED];
-    int count = 0, a, b;
-    for (; count < INTERREFLECTION_GATHERED && clusters[count].uv.weight > 0; count++)
-        places[count] = &clusters[count].uv;
-    while (count > INTERREFLECTION_CLUSTERS) {
-        find_least_different(places, count, params->periodic[t], &a, &b);
+    Places places = {.periodic = params->periodic[t], .feature = INTERREFLECTION_FEATURE};
+    int a, b;
+    while (places.count < INTERREFLECTION_GATHERED && clusters[places.count].uv.weight > 0)
+        add_place(&places, &clusters[places.count].uv, clusters[places.count].squares);
+    const double hidden = hidden_error2(&places, INTERREFLECTION_ERROR, light, spp);
+    while (places.count > INTERREFLECTION_CLUSTERS) {
+        const double error2 = find_least_different(&places, &a, &b);
+        if (error2 > hidden && places.count <= INTERREFLECTION_CLUSTERS + params->extra_interreflections)
+            return;
         merge_interreflections(&clusters[a], &clusters[b], params->periodic[t]);
-        clusters[b] = clusters[--count];
-        clusters[count] = (InterreflectionCluster){.squares = 0};
+        remove_place(&places, a, b);
+        clusters[b] = clusters[places.count];
+        clusters[places.count] = (InterreflectionCluster){.squares = 0};
     }
 }

@@ -74,7 +74,7 @@ static int has_quadrants(const FootprintPixel *p, int t, int kind)
 static int interreflections_count(const TargetClusters *target)
 {
     int count = 0;
-    while (count < INTERREFLECTION_CLUSTERS && target->interreflections[count].uv.weight > 0)
+    while (count < INTERREFLECTION_MOST && target->interreflections[count].uv.weight > 0)
         count++;
     return count;
 }

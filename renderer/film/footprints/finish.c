@@ -87,7 +87,7 @@ static int finish_quadrants(FootprintFilm *film, RetexSet *set, int t, KindMixtu
         code = bands_move_part(film->bands, images->albedo, set, &f.albedo, err);
     for (int k = 0; k < RETEX_QUADRANTS && !code; k++) {
         f.quadrant = k + 1;
-        f.hit = 1 + most_of_kind(&film->params, 0) + film->params.broad + INTERREFLECTION_CLUSTERS + k;
+        f.hit = 1 + most_of_kind(&film->params, 0) + most_of_kind(&film->params, 1) + most_interreflections(film) + k;
         code = retex_set_add_footprint(set, &f, &index, err);
         if (!code)
             code = finish_member(film, set, &f, index, images->light[k], images->share[k], all, err);
@@ -126,7 +126,7 @@ static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, Re
         const FootprintImages *images = &film->targets[t].interreflections[k];
         RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_INTERREFLECTION};
         int index, weight;
-        f.hit = 1 + most_of_kind(&film->params, 0) + film->params.broad + k;
+        f.hit = 1 + most_of_kind(&film->params, 0) + most_of_kind(&film->params, 1) + k;
         code = finish_footprint(film, set, images, &f, &index, err);
         if (!code)
             code = bands_move_part(film->bands, images->share, set, &weight, err);

@@ -7,8 +7,10 @@
 #include "film/footprints/plan.h"
 
 #define INTERREFLECTION_CLUSTERS 2 /* footprints of further hits, of each target */
-#define INTERREFLECTION_GATHERED 4 /* such clusters of a pixel, until it is complete */
-#define BROAD_GATHERED 2           /* broad clusters of a pixel beyond those that are kept, until it is complete */
+#define INTERREFLECTION_MOST 4     /* with extra ones */
+#define INTERREFLECTION_GATHERED 8 /* such clusters of a pixel, until it is complete */
+#define EXTRA_BROAD 2              /* more broad clusters in pixels where merging them shows */
+#define BROAD_GATHERED 4           /* broad clusters of a pixel beyond those that are kept, until it is complete */
 
 /* Images of one footprint: their numbers in the film's bands. */
 typedef struct FootprintImages {
@@ -41,7 +43,7 @@ typedef struct CorrectionImages {
 typedef struct TargetImages {
     KindImages kinds[2];      /* sharp, broad */
     QuadrantImages quadrants; /* of the sharp ones, where the film has them */
-    FootprintImages interreflections[INTERREFLECTION_CLUSTERS];
+    FootprintImages interreflections[INTERREFLECTION_MOST];
     CorrectionImages corrections; /* where there are several targets */
 } TargetImages;
 
@@ -56,10 +58,10 @@ typedef struct FootprintFilm {
     struct LampImages *lamps; /* NULL where the scene has none */
 } FootprintFilm;
 
-/* Most clusters of a kind that a pixel may have on a target: sharp (kind 0), extra ones too, or broad (1). */
+/* Most clusters of a kind that a pixel may have on a target, extra ones too: sharp (kind 0) or broad (1). */
 static inline int most_of_kind(const FilmParams *p, int kind)
 {
-    return kind ? p->broad : p->sharp + p->extra;
+    return kind ? p->broad + p->extra_broad : p->sharp + p->extra;
 }
 
 /* So many broad ones are gathered until the pixel is complete: only then is it known how narrow each is, and what a
@@ -73,7 +75,7 @@ static inline int most_gathered_broad(const FilmParams *p)
 /* Footprints of interreflections that a target may have: none where no further hit is kept. */
 static inline int most_interreflections(const FootprintFilm *film)
 {
-    return film->plan.count > 1 ? INTERREFLECTION_CLUSTERS : 0;
+    return film->plan.count > 1 ? INTERREFLECTION_CLUSTERS + film->params.extra_interreflections : 0;
 }
 
 /* ---- store.c and finish.c: operations of the layout, see film/layout.h ---- */

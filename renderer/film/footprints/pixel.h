@@ -155,11 +155,12 @@ void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams 
 /* Merge extra sharp clusters of target t, once it has all hits, where the pixel is expected to change little by that.
  * light: of the pixel, in the units of the hits' weights. */
 void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *params, double light);
-/* Merge broad clusters of target t, once it has all hits, down to as many as are kept. */
-void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params);
+/* Merge broad clusters of target t, once it has all hits, down to as many as are kept; but extra ones only where the
+ * pixel is expected to change little by that, or by less than its noise. light: as above; spp: its paths. */
+void clusters_merge_broad(TargetClusters *target, int t, const FilmParams *params, double light, int spp);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
-/* Merge interreflections of target t, once it has all hits, down to as many as are kept: the first of the array. */
-void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params);
+/* Merge interreflections of target t in the same way; the first of the array remain. */
+void clusters_merge_interreflections(TargetClusters *target, int t, const FilmParams *params, double light, int spp);
 
 /* A hit of the current path; see target_tree.h. */
 typedef struct Node {

@@ -111,13 +111,35 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
     return code;
 }
 
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 /* How many parts the set may need. */
 static int parts_needed(const FootprintFilm *film)
 {
     const FilmParams *p = &film->params;
-    return film->scene->ntargets * (CLUSTER_PARTS * (p->sharp + p->extra + p->broad) + 2 * film->plan.count +
-                                    4 * INTERREFLECTION_CLUSTERS + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
+    return film->scene->ntargets *
+               (CLUSTER_PARTS * (most_of_kind(p, 0) + most_of_kind(p, 1)) + 2 * film->plan.count +
+                4 * (INTERREFLECTION_CLUSTERS + p->extra_interreflections) + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
            film->scene->nlamps * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
+}
+
+/* Where there may be extra sharp clusters, there may be extra ones of the other kinds. Of many targets they are fewer:
+ * the interreflections of all targets are one mixture. Those of the other kinds are the first to be given up. */
+static void give_extra(FootprintFilm *film)
+{
+    FilmParams *p = &film->params;
+    const int most = film->scene->nlamps ? PARTS_MAX : PARTS_EXTRA, ntargets = film->scene->ntargets;
+    if (!p->extra || !ntargets)
+        return;
+    p->extra_broad = least(EXTRA_BROAD, FILM_CLUSTERS_MAX - p->broad);
+    p->extra_interreflections = least(INTERREFLECTION_MOST, RETEX_SHARES_MAX / ntargets) - INTERREFLECTION_CLUSTERS;
+    int *const extra[] = {&p->extra_interreflections, &p->extra_broad, &p->extra};
+    for (int k = 0; k < 3; k++)
+        while (*extra[k] > 0 && parts_needed(film) > most)
+            --*extra[k];
 }
 
 int footprints_create(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
@@ -131,9 +153,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
-    const int most = scene->nlamps ? PARTS_MAX : PARTS_EXTRA;
-    while (film->params.extra > 0 && parts_needed(film) > most)
-        film->params.extra--;
+    give_extra(film);
     if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT,
                           "the set may need %d parts, more than %d: take fewer targets%s or clusters",
@@ -311,10 +331,10 @@ static void store_interreflections(FootprintPixel *p, const Place *at)
     int ntargets = p->film->scene->ntargets;
     double sum = 0;
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++)
+        for (int k = 0; k < most_interreflections(p->film); k++)
             sum += light_sum(&p->targets[t].interreflections[k].albedo);
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+        for (int k = 0; k < most_interreflections(p->film); k++) {
             const InterreflectionCluster *cluster = &p->targets[t].interreflections[k];
             const FootprintImages *images = &p->film->targets[t].interreflections[k];
             if (!(cluster->uv.weight > 0))
@@ -332,10 +352,11 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
     FootprintFilm *film = p->film;
     p->spp = spp;
     const double white = white_pixel(p), unit = retex_coefficient_unit(white); /* before light is reset */
+    const double light = white * spp;                                          /* in the units of paths */
     for (int t = 0; t < film->scene->ntargets; t++) {
-        clusters_merge_extra(&p->targets[t], t, &film->params, white * spp);
-        clusters_merge_interreflections(&p->targets[t], t, &film->params);
-        clusters_merge_broad(&p->targets[t], t, &film->params);
+        clusters_merge_extra(&p->targets[t], t, &film->params, light);
+        clusters_merge_interreflections(&p->targets[t], t, &film->params, light, spp);
+        clusters_merge_broad(&p->targets[t], t, &film->params, light, spp);
     }
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->indep);
     for (int c = 0; c < 3; c++)
