@@ -13,9 +13,10 @@ namespace plugins
 namespace
 {
 
-const char *const known = "targets, lamps, light_share, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, "
-                          "orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, "
-                          "declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, strict, safe and threads";
+const char *const known = "targets, lamps, light_share, spp, noise, size, width, height, crop, seed, max_depth, "
+                          "filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, "
+                          "caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, "
+                          "strict, safe and threads";
 
 int whole(const std::string &name, const std::string &value, int low, int high)
 {

@@ -30,8 +30,8 @@ struct SceneOptions {
 };
 
 // Parse options of retex-render without their dashes, where `_` may replace `-`, and targets=NAME[=IDENT+IDENT],NAME,
-// lamps=each or the same of lamps, include=FOLDER,FOLDER and declare.NAME=VALUE. path: the scene's path. threads: the default number of threads. Throws
-// Failure.
+// lamps=each or the same of lamps, include=FOLDER,FOLDER and declare.NAME=VALUE. path: the scene's path. threads: the
+// default number of threads. Throws Failure.
 SceneOptions parse_scene_options(const std::string &path, const Arguments &arguments, int threads);
 
 } // namespace plugins
