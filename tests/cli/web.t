@@ -47,14 +47,14 @@ $ near() { /usr/bin/python3 near.py s.exr "$@"; }; near one 38 Floor=T/terrazzo.
 $ make_lamps s.exr lamps.exr; make_lamps s.exr other.exr 0.25,1,0; retex-pack -q lamps.exr --web lamps; /usr/bin/python3 near.py lamps.exr lamps 38 Floor=T/walnut-herringbone.jpg
 $ /usr/bin/python3 reference.py lamps a.exr Lamp=0.25,1,0 Wall=0.8,0.1,0.1; retex-combine -q other.exr --texture Wall='rgb(0.8,0.1,0.1)' -o b.exr; retex-diff -q a.exr b.exr --fail-psnr 38
 
-# A set with terms of single lamps: as rendered, each alone, mixtures, with new textures. In so small a picture, edges of
+# A set with terms of single lamps, whose `rest` has no light: as rendered, each alone, mixtures, with new textures. In so small a picture, edges of
 # lamps, which are kept at half its size, count. What is loaded first is what a room without lamps has, but for the
 # manifest.
 $ ln -s "$SCENES" scenes; retex-render -q --size 96x54 --spp 64 --denoise -t Floor -t Wall --lamps each scenes/living-room/living-room.pov -o each.exr; rm scenes
 $ retex-pack each.exr --web each 2>&1 | sed 's/[0-9]\{3,\}/N/g'; ls each/lamps-* | wc -l
 > retex-pack: set each.exr: N bytes
 > retex-pack: folder each: N bytes, N until the picture, N until the first target
-> retex-pack: lamps Daylight, Garden, Lamp, rest: N bytes, loaded when one is changed; shares of light 2 to 8 times smaller than the picture
+> retex-pack: lamps Daylight, Garden, Lamp: N bytes, loaded when one is changed; shares of light 2 to 8 times smaller than the picture
 > 1
 $ retex-pack -q each.exr --no-lamps --web none; diff -rq each none | sed 's/-[0-9a-f]\{8\}//'
 > Only in each: lamps.jpg

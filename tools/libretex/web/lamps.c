@@ -15,11 +15,19 @@
 #include "set/set.h"
 
 #define REST "rest"
+/* `rest` with less of all light is what rounding left: it would be told as 0.00 %. */
+static const double REST_LEAST = 5e-5;
+
+/* Whether a term is light of a lamp. */
+static int is_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp)
+{
+    return term->role == RETEX_ROLE_LAMP && retex_set_term_lamp(set, term) == lamp;
+}
 
 int retex_web_is_lamp(const RetexSet *set, int parameter)
 {
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].role == RETEX_ROLE_LAMP && retex_set_term_lamp(set, &set->terms[i]) == parameter)
+        if (is_of_lamp(set, &set->terms[i], parameter))
             return 1;
     return 0;
 }
@@ -50,7 +58,7 @@ static double brightness_of(const RetexSet *set, int lamp)
 {
     double sum = 0;
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].role == RETEX_ROLE_LAMP && retex_set_term_lamp(set, &set->terms[i]) == lamp)
+        if (is_of_lamp(set, &set->terms[i], lamp))
             sum += brightness_of_term(set, &set->terms[i], set->parameters[lamp].kept);
     return sum;
 }
@@ -64,6 +72,20 @@ static int is_as_rendered(const RetexParameter *lamp)
 static int is_rest(const RetexParameter *lamp)
 {
     return strcmp(lamp->name, REST) == 0;
+}
+
+/* Remove the terms of lamps that the picture shows nothing of, and of `rest` where all that shines has a name. */
+static void drop_dark(RetexSet *set)
+{
+    double brightness[RETEX_PARAMETERS_MAX], all = 0;
+    for (int i = 0; i < set->nparameters; i++)
+        all += brightness[i] = brightness_of(set, i);
+    for (int i = 0; i < set->nparameters; i++) {
+        const double least = is_rest(&set->parameters[i]) && is_as_rendered(&set->parameters[i]) ? REST_LEAST * all : 0;
+        for (int t = set->nterms - 1; t >= 0 && brightness[i] <= least; t--)
+            if (is_of_lamp(set, &set->terms[t], i))
+                memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(--set->nterms - t));
+    }
 }
 
 /* Choose the lamps that join `rest`. *into: its parameter, or the first of them that becomes it; -1: none join. */
@@ -182,8 +204,7 @@ static int join(RetexSet *set, const char joined[RETEX_PARAMETERS_MAX], int into
             multiply(&set->parts[own_part(&term)].image, set->parameters[lamp].value);
             set_lamp(&term, into);
             for (same = 0; same < kept; same++)
-                if (set->terms[same].role == RETEX_ROLE_LAMP && retex_set_term_lamp(set, &set->terms[same]) == into &&
-                    is_same_light(&set->terms[same], &term))
+                if (is_of_lamp(set, &set->terms[same], into) && is_same_light(&set->terms[same], &term))
                     break;
         }
         if (same < kept)
@@ -246,6 +267,7 @@ int retex_web_lamps_prepare(RetexSet *set, int most, char *names, size_t size, R
 {
     char joined[RETEX_PARAMETERS_MAX] = {0};
     int into;
+    drop_dark(set);
     int code = choose_joined(set, most, joined, &into, err);
     list_names(names, size, set, joined);
     if (!code && into >= 0)
