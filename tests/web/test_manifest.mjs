@@ -66,6 +66,11 @@ test("the light of single lamps: an atlas of its own, whose terms are of groups 
     await fails(() => checkManifest({ ...manifest(), parameters, lamps, ...wrong }), /damaged|undefined|null/, JSON.stringify(wrong));
 });
 
+test("no factor is finer than what it is multiplied at", async () => {
+  await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: -1, factors: [1] }] }), DAMAGED);
+  await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: 0, factors: [] }] }), DAMAGED);
+});
+
 test("further hits, of reduced mixtures", async () => {
   const further = { hits: 9, ratio: [1, 0.5, 0], mixtures: [1] };
   checkManifest({ ...manifest(), further });

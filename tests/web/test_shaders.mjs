@@ -169,6 +169,27 @@ test("single lamps: drawn as retex-combine draws them, alone, in mixtures and wi
   least(psnr(partial.draw({}, { colors: dark }), expected), rendered + 1, "nearer, while not all is loaded");
 });
 
+test("shares of lamps are enlarged bilinearly, constant beyond the outermost centres, and add up", () => {
+  const { lampShader } = player(), tiles = new WebGLTexture(), terms = new WebGLTexture(), [x0, y0, width, height, times] = [2, 1, 3, 2, 4];
+  tiles.store("RGBA8", 8, 4, 0);
+  terms.store("RGBA32F", 16, 3, 0);
+  tiles.images[0][0].values.forEach((_, i, all) => (all[i] = ((i * 37) % 101) / 101));
+  for (const [row, lamp] of [[1, 0], [2, 1]]) {
+    terms.put(0, 0, row, 2, 1, [x0, y0, width, height, times, 1.5, 255, lamp], 4, (v) => v);
+  }
+  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1n, end: 3n, colors: [[2, 3, 4], [10, 20, 30]] });
+  const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4), tent = (a, b) => Math.max(0, 1 - Math.abs(a - b));
+  for (let y = 0; y < height * times; y++)
+    for (let x = 0; x < width * times; x++) {
+      const [u, v] = [[x, width], [y, height]].map(([at, size]) => Math.min(Math.max((at + 0.5) / times - 0.5, 0), size - 1)), expected = [0, 0, 0];
+      for (let j = 0; j < height; j++)
+        for (let i = 0; i < width; i++)
+          for (let k = 0; k < 3; k++)
+            expected[k] += tent(u, i) * tent(v, j) * 1.5 * linear(tiles.images[0][0].values[4 * ((y0 + j) * 8 + x0 + i) + k]) * [12, 23, 34][k];
+      near(shade([x + 0.5, y + 0.5, 0, 1]).slice(0, 3), expected, 1e-9, `${x}, ${y}`);
+    }
+});
+
 test("where all lamps are as rendered, all light is drawn, to the bit, with or without their file", () => {
   const pov = LIT.replace("light_source { Spare }", "");
   writeFileSync(`${folder}/kept.pov`, pov);
