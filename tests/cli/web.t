@@ -61,6 +61,8 @@ $ retex-pack -q each.exr --no-lamps --web none; diff -rq each none | sed 's/-[0-
 > Files each/room.json and none/room.json differ
 $ near() { /usr/bin/python3 near.py each.exr each "$@"; }; near 40; near 35 'light:*=0' light:Daylight=1; near 32 'light:*=0' light:Garden=1; near 37 'light:*=0' light:Lamp=1
 $ near() { /usr/bin/python3 near.py each.exr each "$@"; }; near 35 light:Daylight=0.2 'light:Lamp=3*rgb(1,0.6,0.3)' Floor=T/walnut-herringbone.jpg; near 35 'light:Garden=2*rgb(0.2,0.5,1)' light:Lamp=0 Wall=0.2,0.3,0.7; near 39 light:Lamp=1.001
+$ python3 -c 'import json; t = [t["height"] for t in json.load(open("each/room.json"))["lamps"]["tiles"]]; print(len(set(t)) > 1 and t == sorted(t, reverse=True))'
+> True
 $ retex-pack -q each.exr --web again --threads 1; diff -r again each; retex-pack -q each.exr -o each.retex; retex-pack -q each.retex --web packed-lamps; /usr/bin/python3 near.py each.exr packed-lamps 34 light:Daylight=0.1 light:Lamp=2
 $ python3 -c 'import glob; n = glob.glob("again/lamps-*")[0]; d = bytearray(open(n, "rb").read()); d[700] ^= 1; open(n, "wb").write(d)'; /usr/bin/python3 reference.py again b.exr 2>&1 | sed 's/-.*[.]jpg/.jpg/'
 > lamps.jpg is damaged

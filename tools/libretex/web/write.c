@@ -103,6 +103,18 @@ static int tile_of(const Atlas *atlas, int part)
     return -1;
 }
 
+/* The largest first, in the order that they had, so that shelves of the atlas have little that is empty. */
+static void sort_tiles(Atlas *atlas, const RetexSet *set)
+{
+    for (int i = 1; i < atlas->ntiles; i++) {
+        const RetexWebTile tile = atlas->tiles[i];
+        int at = i;
+        for (; at && set->parts[atlas->tiles[at - 1].part].image.height < set->parts[tile.part].image.height; at--)
+            atlas->tiles[at] = atlas->tiles[at - 1];
+        atlas->tiles[at] = tile;
+    }
+}
+
 /* List the images of the picture's size, and those that are smaller. */
 static void list_images(Web *web)
 {
@@ -120,6 +132,7 @@ static void list_images(Web *web)
         if (m->terms[i].gain >= 0 && tile_of(atlas, m->terms[i].gain) < 0)
             atlas->tiles[atlas->ntiles++].part = m->terms[i].gain;
     }
+    sort_tiles(&web->lamps, web->set);
 }
 
 static int is_sharp_light(const Web *web, int part)
