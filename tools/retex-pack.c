@@ -22,12 +22,14 @@ static const CliOption options[] = {
     {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
+    {"web-lamps", 0, "N", "lamps that visitors can change; default 4, the dimmest others join `rest`", 0},
     {0},
 };
 
 typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given, no_lamps;
+    int web_lamps;   /* 0: not given */
     uint64_t memory; /* bytes */
     int threads;
     const char *input, *stats, *web;
@@ -55,6 +57,8 @@ static void parse(Cli *cli, Job *job)
             job->no_lamps = 1;
         } else if (strcmp(option->name, "web") == 0) {
             job->web = cli->value;
+        } else if (strcmp(option->name, "web-lamps") == 0) {
+            job->web_lamps = (int)cli_integer(cli, option, 1, RETEX_PARAMETERS_MAX);
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_size(cli, option);
         } else {
@@ -73,6 +77,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--stats is of packing");
     if (job->web && (job->unpack || job->params.lossless || job->stats || cli->output))
         cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless nor --stats");
+    if (job->web_lamps && (!job->web || job->no_lamps))
+        cli_die(cli, "--web-lamps is of --web, and of sets that keep their lamps");
     job->threads = cli->threads;
     job->params.warn = cli_warn_text;
     job->params.warn_context = cli;
@@ -188,14 +194,30 @@ static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 
 /* A folder for browsers: the player, and the set as it reads it. The manifest comes last, so an older room stays whole,
  * at most with a newer player, until the new one is. */
+typedef struct Notes {
+    char text[2][2400];
+    int count;
+} Notes;
+
+static void keep_note(void *context, const char *text)
+{
+    Notes *notes = context;
+    if (notes->count < 2)
+        snprintf(notes->text[notes->count++], sizeof notes->text[0], "%s", text);
+}
+
 static int run_web(Cli *cli, const Job *job)
 {
+    Notes notes = {0};
     RetexWebParams params = RETEX_WEB_INIT;
     RetexWebBytes bytes = {0};
     RetexError err = {0};
     RetexSet *set = NULL;
     char manifest[PATH_MAX];
     params.quality = job->quality_given ? job->params.quality : params.quality;
+    params.lamps = job->web_lamps ? job->web_lamps : params.lamps;
+    params.note = keep_note;
+    params.note_context = &notes;
     if (snprintf(manifest, sizeof manifest, "%s/room.json", job->web) >= (int)sizeof manifest - RETEX_NAME_MAX)
         cli_die(cli, "--web: the name of the folder is too long");
     cli_input(cli, job->input, "a set, as from retex-render");
@@ -222,6 +244,8 @@ static int run_web(Cli *cli, const Job *job)
     cli_info(cli, "set %s: %.0f bytes", job->input, cli_file_size(job->input));
     cli_info(cli, "folder %s: %zu bytes, %zu until the picture, %zu until the first target", job->web, bytes.all,
              bytes.still, bytes.first);
+    for (int i = 0; i < notes.count; i++)
+        cli_info(cli, "%s", notes.text[i]);
     return cli_close(cli, CLI_OK);
 }
 
@@ -233,7 +257,7 @@ int main(int argc, char **argv)
         .argc = argc,
         .argv = argv,
         .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
-                 "       retex-pack SET [--quality 1..100] --web DIR\n"
+                 "       retex-pack SET [--quality 1..100] [--web-lamps N] --web DIR\n"
                  "       retex-pack --unpack FILE.retex -o SET.exr",
         .about =
             "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "

@@ -48,10 +48,6 @@ $ retex-pack -q f.exr --no-lamps -o c.retex 2>&1; retex-pack -q n.exr -o d.retex
 $ make_lamp_terms n.exr g.exr off; retex-pack g.exr --no-lamps -o e.retex
 ! retex-pack: error: the lamp Window is off in the picture, which only a set with lamps can tell
 = 2
-$ retex-pack f.exr --web w; ls w
-! retex-pack: error: browsers cannot show a set with lamps; --no-lamps leaves them out
-! ls: cannot access 'w': No such file or directory
-= 2
 $ retex-pack --unpack b.retex --no-lamps -o y.exr
 ! retex-pack: error: --no-lamps is of packing
 = 2

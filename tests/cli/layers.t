@@ -85,3 +85,11 @@ $ retex-combine -q lamps.exr --light Sun=2 --light sky=0 -o relit.exr; /usr/bin/
 > R equal
 > G equal
 > B equal
+
+# A pack with loss has no pictures of lamps; one without loss has them, and one without lamps needs none.
+$ retex-render -q --size 32x24 --spp 16 -t F --lamps each lamps.pov -o lamps.exr; retex-pack -q lamps.exr -o loss.retex; retex-info loss.retex --layers loss.exr; ls loss.exr
+! retex-info: error: the set has no picture of the lamp Sun: packs with loss leave them out; take the set before packing, or one of retex-pack --no-lamps
+! ls: cannot access 'loss.exr': No such file or directory
+= 2
+$ retex-pack -q lamps.exr --lossless -o whole.retex; retex-info whole.retex --layers whole.exr; retex-info lamps.exr --layers flat.exr; cmp whole.exr flat.exr; sed 's/light_source{Off}//' lamps.pov >lit.pov; retex-render -q --size 32x24 --spp 16 -t F --lamps each lit.pov -o lit.exr; retex-pack -q lit.exr --no-lamps -o none.retex; retex-info none.retex --layers none.exr; ls none.exr
+> none.exr

@@ -21,7 +21,8 @@ def test_cases():
                 text = rest
             elif mark == ">":
                 assert retex.edit_text(text) == rest, text
-                assert retex.edit_text(pickle.loads(pickle.dumps(retex.parse_edit(text)))) == rest, text
+                if "light:" not in text:  # parse_edit gives textures
+                    assert retex.edit_text(pickle.loads(pickle.dumps(retex.parse_edit(text)))) == rest, text
             elif mark == "!":
                 error = lib.fails(retex.Error, retex.parse_edit, text)
                 assert error.code == retex.Code.EPARSE and rest in error.message, (text, error)

@@ -17,7 +17,7 @@ from page import PART, ROOM, Page, finish, psnr, result
 
 scenes, work = sys.argv[1:]
 textures = ["walnut-herringbone", "terrazzo", "fans", "travertine", "brick", "damask"]
-held, released = set(), threading.Event()
+held, released, asked = set(), threading.Event(), []
 
 
 class Handler(http.server.SimpleHTTPRequestHandler):
@@ -27,6 +27,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         super().__init__(*args, directory=work)
 
     def do_GET(self):
+        asked.append(self.path)
         if any(name in self.path for name in held):
             released.wait(60)
         try:
@@ -114,24 +115,127 @@ def check_placing(page):
     result("brick" in said, f"what does not go together: {said}")
 
 
-def check_lamps(page):
-    """A set of lamps: the canvas after setParameter, and the picture of a set that was rendered so."""
-    for name, color in (("lamps", []), ("other", ["0.25,1,0"])):
+def check_parameters(page):
+    """A set whose lamps are factors of all light: the canvas after setLight, and the picture of a set that was rendered so."""
+    for name, color in (("lamps", []), ("other", ["2,1,0.5"])):
         subprocess.run(["make_lamps", f"{work}/room.exr", f"{work}/{name}.exr", *color], check=True)
     subprocess.run(["retex-pack", "-q", f"{work}/lamps.exr", "--web", f"{work}/lamps"], check=True)
     page.open(url + "lamps/")
     page.room("complete")
-    listed = page.room("parameters")
-    result([p["name"] for p in listed] == ["Lamp", "Window"] and listed[0]["value"] == [1, 0.5, 2], f"lamps: {listed}")
-    for color, name in (("[0.25, 1, 0]", "other"), ("null", "lamps")):
-        page.room(f"setParameter('Lamp', {color})")
+    listed = page.room("lamps")
+    result([p["name"] for p in listed] == ["Lamp", "Window"] and listed[0]["color"] == [1, 0.5, 2], f"parameters: {listed}")
+    gain = (0.2126 * 2 + 0.7152 + 0.0722 * 0.5) / (0.2126 + 0.7152 * 0.5 + 0.0722 * 2)  # a new colour keeps the luminance
+    for value, name in ((f"'{gain}*rgb(2,1,0.5)'", "other"), ("null", "lamps")):
+        page.room(f"setLight('Lamp', {value})")
         page.room("setTexture('Floor', 'rgb(0.8,0.1,0.1)')")
         page.save(f"{work}/canvas.png")
         subprocess.run(["retex-combine", "-q", f"{work}/{name}.exr", "--texture", "Floor=rgb(0.8,0.1,0.1)", "-o",
                         f"{work}/combined.png"], check=True)
         decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
-        print(f"# a lamp of {color}: {decibels:.2f} dB")
-        result(decibels >= 38, f"canvas and retex-combine: a lamp of {color}")
+        print(f"# a parameter of {value}: {decibels:.2f} dB")
+        result(decibels >= 38, f"canvas and retex-combine: a parameter of {value}")
+    page.open(url + "page.html")
+
+
+def compare_lamps(page, least, values, texture=None):
+    """values: of lamps by name. The canvas against retex-combine."""
+    page.room(f"setState({{lamps: {json.dumps(values)}}})")
+    page.put("Floor", texture)
+    page.save(f"{work}/canvas.png")
+    options = [x for name, value in values.items() for x in ("--light", f"{name}={value}")]
+    subprocess.run(["retex-combine", "-q", f"{work}/each.exr", *options, *(["--texture", f"Floor={work}/{texture}"] if texture else []),
+                    "-o", f"{work}/combined.png"], check=True)
+    decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+    print(f"# lamps {values} {texture or ''}: {decibels:.2f} dB")
+    result(decibels >= least, f"canvas and retex-combine: lamps {values} {texture or ''}")
+
+
+def check_lamp_rows(page):
+    """By mouse, keyboard and screen reader."""
+    row, enter, right = ".lamp:nth-child(3)", ("Enter", 13, "\r"), ("ArrowRight", 39)
+    page.room("setState({})")
+    page.press(f"{row} button")
+    result(page.state()["lamps"] == {"Lamp": "0"}, "a lamp's row: off by a click")
+    page.press(f"{row} button")
+    result(page.state()["lamps"] == {}, "a lamp's row: on again")
+    for name in ("gain", "mired"):
+        page.run(f"{PART}('{row} [data-set={name}]').focus()")
+        page.key(*right)
+        page.key(*right)
+        page.settle()
+    said = page.state()["lamps"].get("Lamp", "")
+    result(said.startswith("1.15*rgb("), f"a lamp's row: strength and warmth by keys: {said}")
+    page.run(f"{PART}('{row} button').focus()")
+    page.key(*enter)
+    page.settle()
+    result(page.state()["lamps"]["Lamp"].startswith("0*rgb("), "a lamp's row: off by keys, its colour stays")
+    page.press(f"{row} button + button")
+    result(page.state()["lamps"] == {}, "a lamp's row: as rendered")
+    page.run("document.activeElement.blur()")
+    seen = set()
+    for _ in range(80):
+        page.key("Tab", 9)
+        seen.add(page.run(f"({ROOM}.shadowRoot.activeElement || {{getAttribute: () => ''}}).getAttribute('aria-label') || "
+                          f"({ROOM}.shadowRoot.activeElement || {{}}).textContent"))
+    wanted = {f"{lamp}: {what}" for lamp in ("Daylight", "Garden", "Lamp") for what in ("strength", "warmth")}
+    result(wanted <= seen and "Lampon" in seen, f"a lamp's row: Tab reaches all {wanted - seen or ''}")
+    page.room("setLight('Lamp', 0)")
+    tree = page.call("Accessibility.getFullAXTree")["nodes"]
+
+    def called(role, name):
+        return [n for n in tree if n.get("role", {}).get("value") == role and n.get("name", {}).get("value") == name]
+    result(called("group", "Lamp") and called("slider", "Lamp: strength") and called("button", "Lamp: as rendered"),
+           "screen readers: a lamp's row and its controls have names")
+    result("Lamp: off" in page.run(f"{PART}('canvas').getAttribute('aria-label')"), "screen readers: the picture says that it is off")
+
+
+def check_lamps(page):
+    """A set with terms of lamps: their file is loaded when one is changed; pictures against retex-combine; rows; links."""
+    subprocess.run(["retex-render", "-q", "--size", f"{page.room('room.width')}x{page.room('room.height')}", "--spp", "64", "--denoise", "-t",
+                    "Floor", "-t", "Wall", "--lamps", "each", f"{scenes}/living-room/living-room.pov", "-o", f"{work}/each.exr"], check=True)
+    subprocess.run(["retex-pack", "-q", f"{work}/each.exr", "--web", f"{work}/each"], check=True)
+    file = next(f for f in os.listdir(f"{work}/each") if f.startswith("lamps-"))
+    asked.clear()
+    page.open(url + "each/index.html")
+    page.room("complete")
+    result(not any(file in x for x in asked), "lamps: their file is not asked for")
+    compare_lamps(page, 38, {})
+    for name, least in (("Daylight", 37), ("Garden", 35), ("Lamp", 38)):
+        compare_lamps(page, least, {"*": "0", name: "1"})
+    result(sum(file in x for x in asked) == 1, "lamps: it is asked for once, when one is changed")
+    compare_lamps(page, 37, {"Daylight": "0.2", "Lamp": "2*2700K"}, "textures/walnut-herringbone.jpg")
+    compare_lamps(page, 36, {"Garden": "2*#80a0ff", "Lamp": "0"}, "textures/brick.jpg")
+    check_lamp_rows(page)
+    page.shot("lamps-desktop")
+    page.room("setState({lamps: {Daylight: '0.15', lamp: '3*2700K'}})")
+    page.save(f"{work}/before.png")
+    state, link = page.state(), page.room("link")
+    result("light:Daylight=0.15;light:Lamp=3*rgb(1.9143814,0.8098837,0.19077155)" in link, f"lamps in links: {link}")
+    page.open(link)
+    page.save(f"{work}/after.png")
+    result(page.state() == state and psnr(f"{work}/before.png", f"{work}/after.png") > 60, "a link restores lamps")
+    with open(f"{work}/each/{file}", "rb") as f:
+        data = f.read()
+    for what, change in (("damaged", data[:500] + bytes([data[500] ^ 8]) + data[501:]), ("missing", None)):
+        os.remove(f"{work}/each/{file}")
+        if change:
+            with open(f"{work}/each/{file}", "wb") as f:
+                f.write(change)
+        page.open(url + "each/index.html")
+        page.room("complete")
+        quiet = page.message()
+        page.run(f"{PART}('.lamp button').click()")
+        page.until(f"!{PART}('.message').hidden", 10)
+        said = page.message()
+        result(not quiet and file in said and what in said, f"the lamps' file {what}: {said or 'nothing is said'}")
+        with open(f"{work}/each/{file}", "wb") as f:
+            f.write(data)
+    page.size(390, 844, True)
+    page.open(url + "each/index.html")
+    page.press(".lamp:nth-child(1) button", True)
+    result(page.state()["lamps"] == {"Daylight": "0"}, "a lamp's row: off by touch")
+    page.shot("lamps-phone")
+    page.size(1280, 800)
     page.open(url + "page.html")
 
 
@@ -476,6 +580,7 @@ def main():
         page.open(url + "page.html")
         check_pictures(page)
         check_placing(page)
+        check_parameters(page)
         check_lamps(page)
         page.shot("desktop")
         check_controls(page, False)

@@ -1,6 +1,7 @@
 """Makes the picture of a folder that retex-pack --web wrote, as the player's shaders do, but on the CPU with numpy.
 
     reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]... [PARAMETER=r,g,b]...
+        [light:LAMP=GAIN[*rgb(r,g,b)]]...  as of retex-edit(5); LAMP may be *
 """
 import json
 import sys
@@ -277,21 +278,48 @@ def enlarge(image, factor, width, height):
     return rows[:, x0] * (1 - fx)[None, :, None] + rows[:, x1] * fx[None, :, None]
 
 
+def luminance(rgb):
+    return float(np.dot(rgb, [0.2126, 0.7152, 0.0722]))
+
+
+def lamp_color(lamp, text):
+    """The colour of a lamp with a value, a number or a number times a colour."""
+    gain, _, color = text.partition("*") if text[0].isdigit() else ("1", "*", text)
+    value = np.array(lamp["value"])
+    if not value.any():
+        value = np.array(lamp["kept"])
+    if color:
+        hue = np.array([float(x) for x in color[4:-1].split(",")])
+        hue /= luminance(hue)
+        value = value * hue if lamp.get("several") else luminance(value) * hue
+    return float(gain) * value
+
+
 class Room:
     def __init__(self, folder):
         self.folder, self.room = folder, json.load(open(f"{folder}/room.json"))
         self.size = self.room["width"], self.room["height"]
         self.lights = [decode_light(self.image(x), x) for x in self.room["lights"]]
-        atlas = self.image(self.room["reduced"]) if self.room["reduced"] else None
-        self.tiles = []
-        for t in self.room["reduced"]["tiles"] if self.room["reduced"] else []:
-            self.tiles.append(decode_light(atlas[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t))
+        self.tiles, self.lamp_tiles = self.atlas(self.room["reduced"]), self.atlas(self.room.get("lamps"))
+        self.values = {p["name"]: np.array(p["value"]) for p in self.room.get("parameters", [])}
         targets = self.room["targets"]
         self.classes = [read_class(folder, c, targets[c["target"]]["periodic"]) for c in self.room["classes"]]
 
     def image(self, entry):
         checked(self.folder, entry)
         return pixels(f"{self.folder}/{entry['file']}", oiio.UINT8)[:, :, :3]
+
+    def atlas(self, entry):
+        if not entry:
+            return []
+        image = self.image(entry)
+        return [decode_light(image[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t) for t in entry["tiles"]]
+
+    def set_lamps(self, texts):
+        for p in self.room["parameters"]:
+            text = texts.get(p["name"], texts.get("*"))
+            if text:
+                self.values[p["name"]] = lamp_color(p, text)
 
     def mixture(self, index, textures):
         total = above = None
@@ -316,25 +344,32 @@ class Room:
         return above / np.where(total > 0, total, 1)[:, :, None]
 
     def combine(self, textures):
-        room, (width, height), finest = self.room, self.size, self.room["finest"]
+        room, (width, height) = self.room, self.size
+        parameters = room.get("parameters", [])
+        lamps = room.get("lamps")
+        if lamps and all((self.values[p["name"]] == np.array(p["kept"])).all() for p in parameters):
+            lamps = None
+        terms, tiles, source = (lamps["terms"], self.lamp_tiles, lamps) if lamps else (room["terms"], self.tiles, room["reduced"])
+        finest = lamps["finest"] if lamps else room["finest"]
         small = -(-width // finest), -(-height // finest)
         mixtures = [self.mixture(i, textures) for i in range(len(room["mixtures"]))]
         scale = [room["classes"][m[0][0]]["scale"] for m in room["mixtures"]]
         out = np.zeros((height, width, 3))
         for g, group in enumerate(room["groups"]):
-            factor = None
-            for term in room["terms"]:
+            factor = np.zeros((small[1], small[0], 3))
+            for term in terms:
                 if term["group"] != g:
                     continue
                 product = np.ones((small[1], small[0], 3))
+                if lamps:
+                    product = product * self.values[parameters[term["parameter"]]["name"]]
                 if term["gain"] >= 0:
-                    product = product * enlarge(self.tiles[term["gain"]],
-                                                room["reduced"]["tiles"][term["gain"]]["scale"] // finest, *small)
+                    product = product * enlarge(tiles[term["gain"]], source["tiles"][term["gain"]]["scale"] // finest, *small)
                 for m in term["factors"]:
                     product = product * enlarge(mixtures[m], scale[m] // finest, *small)
-                factor = product if factor is None else factor + product
+                factor = factor + product
             for p in group.get("parameters", []):
-                factor = factor * np.array(room["parameters"][p]["value"])
+                factor = factor * self.values[parameters[p]["name"]]
             light = self.lights[group["light"]] * enlarge(factor, finest, width, height)
             out += light if group["mixture"] < 0 else light * mixtures[group["mixture"]]
         return out
@@ -343,13 +378,17 @@ class Room:
 def main():
     room = Room(sys.argv[1])
     names = [t["name"] for t in room.room["targets"]]
-    textures = {}
+    textures, lamps = {}, {}
     for argument in sys.argv[3:]:
         name, text = argument.split("=", 1)
-        if name not in names:
-            next(p for p in room.room["parameters"] if p["name"] == name)["value"] = [float(x) for x in text.split(",")]
-            continue
-        textures[names.index(name)] = Texture(text)
+        if name.startswith("light:"):
+            lamps[name[6:]] = text
+        elif name not in names:
+            room.values[name] = np.array([float(x) for x in text.split(",")])
+        else:
+            textures[names.index(name)] = Texture(text)
+    if lamps:
+        room.set_lamps(lamps)
     picture = room.combine(textures).astype(np.float32)
     out = oiio.ImageOutput.create(sys.argv[2])
     out.open(sys.argv[2], oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))

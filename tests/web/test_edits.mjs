@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { fails, near, random, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 
-const { srgbDecode, readColor, parseColor, parseEdit, editText } = player();
+const { srgbDecode, readColor, parseColor, parseEdit, editText, parseLamp, lampText, lampColor, kelvinColor, miredOf, kelvinOf } = player();
 
 /* ---- colours ---- */
 
@@ -32,9 +32,9 @@ test("colours by codes, names and numbers", async () => {
 
 /* What a text says, with colours as numbers. */
 function saidBy(text) {
-  const { textures, light } = parseEdit(text);
+  const { textures, light, lamps } = parseEdit(text);
   const colored = Object.entries(textures).map(([name, t]) => [name, { ...t, source: parseColor(t.source)?.map(Math.fround).join() ?? t.source }]);
-  return editText({ textures: Object.fromEntries(colored), light });
+  return editText({ textures: Object.fromEntries(colored), light, lamps });
 }
 
 test("the cases that the library has", async () => {
@@ -58,7 +58,7 @@ test("a picture without a scale lies as the tools lay it", () => {
 });
 
 test("light and tints are statements too", async () => {
-  const state = { textures: Object.assign(Object.create(null), { Floor: { source: "a.jpg", scale: [2, 3], tint: "#fda" } }), light: { exposure: 0.5, warmth: -1 } };
+  const state = { textures: Object.assign(Object.create(null), { Floor: { source: "a.jpg", scale: [2, 3], tint: "#fda" } }), light: { exposure: 0.5, warmth: -1 }, lamps: Object.create(null) };
   same(parseEdit("warmth=-1;Floor.tint=#fda&Floor=a.jpg;exposure=.5;Floor.scale=2,3"), state);
   same(editText(state), "Floor=a.jpg;Floor.scale=2,3;Floor.tint=#fda;exposure=0.5;warmth=-1");
   same(parseEdit("exposure=a.jpg;exposure.scale=2").textures.exposure, { source: "a.jpg", scale: [2, 2] });
@@ -66,8 +66,47 @@ test("light and tints are statements too", async () => {
   same(editText({}), "");
 });
 
+/* ---- lamps ---- */
+
+test("black bodies are as Planck's law and the observer's own fit have them", () => {
+  const g = (x, mean, below, above) => Math.exp(-((x - mean) ** 2) / (2 * (x < mean ? below : above) ** 2));
+  for (const kelvin of [1000, 2700, 6504, 40000]) {
+    let [X, Y, Z] = [0, 0, 0];
+    for (let nm = 360; nm <= 830; nm++) { // steps of 1 nm
+      const power = 1 / ((nm / 560) ** 5 * (Math.exp(1.438776877e7 / nm / kelvin) - 1));
+      X += power * (1.056 * g(nm, 599.8, 37.9, 31) + 0.362 * g(nm, 442, 16, 26.7) - 0.065 * g(nm, 501.1, 20.4, 26.2));
+      Y += power * (0.821 * g(nm, 568.8, 46.9, 40.5) + 0.286 * g(nm, 530.9, 16.3, 31.1));
+      Z += power * (1.217 * g(nm, 437, 11.8, 36) + 0.681 * g(nm, 459, 26, 13.8));
+    }
+    const rgb = [3.2404542 * X - 1.5371385 * Y - 0.4985314 * Z, -0.969266 * X + 1.8760108 * Y + 0.041556 * Z, 0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z]
+      .map((c) => Math.max(c / Y, 0)), luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    near(kelvinColor(kelvin), rgb.map((c) => c / luminance), 2e-3, `${kelvin} K`);
+  }
+});
+
+test("what a value makes of a lamp: numbers multiply, colours keep its luminance, or multiply light of several", () => {
+  const lamp = { value: [5, 5.6, 6.3], kept: [5, 5.6, 6.3] }, off = { value: [0, 0, 0], kept: [1, 2, 3] };
+  const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b, of = (text, which) => lampColor(parseLamp(text), which);
+  same(of("2", lamp), [10, 11.2, 12.6]);
+  same(of("0", lamp), [0, 0, 0]);
+  same(of("1", off), [1, 2, 3]);
+  near(luminance(of("tomato", lamp)), luminance(lamp.value), 1e-5);
+  near(of("rgb(7,7,7)*2", lamp), Array(3).fill(2 * luminance(lamp.value)), 1e-9);
+  near(of("rgb(1,1,2)", { ...lamp, several: true }), [5, 5.6, 12.6].map((x) => x / luminance([1, 1, 2])), 1e-5);
+  same(of("3", { value: [1, 0.5, 2] }), [3, 1.5, 6]); // a set without terms of single lamps
+});
+
+test("the slider of warmth knows its own colours, and no others", () => {
+  for (const mired of [100, 155, 370, 550]) {
+    same(miredOf(kelvinColor(kelvinOf(mired))), mired);
+    same(miredOf(kelvinColor(kelvinOf(mired)).map((x) => 7 * x)), mired, "brighter");
+  }
+  same([kelvinOf(100), kelvinOf(370)], [10000, 2700]);
+  same([[1, 0, 0], [0, 0, 1], [0, 1, 0]].map(miredOf), [null, null, null]);
+});
+
 test("random states come back from their texts", () => {
-  const next = random(3), of = (list) => list[next(0, list.length - 1)];
+  const next = random(3), lamps = Object.create(null), of = (list) => list[next(0, list.length - 1)];
   const number = () => (next(-1000, 1000) / 100 || 1) * (next(0, 5) ? 1 : 10 ** next(-30, 30));
   const word = () => Array.from({ length: next(1, 6) }, () => of([..."aZ.;&%25 Eé#()/:_\n"])).join("");
   for (let k = 0; k < 2000; k++) {
@@ -75,7 +114,9 @@ test("random states come back from their texts", () => {
     for (let n = next(0, 3); n > 0; n--)
       textures[word()] = { source: `./${word()}=`, scale: [number(), number()], rotate: number(), offset: [number(), number()], flip: of(["u", "v", "uv"]),
         wrap: of(["clamp", "mirror,repeat"]), repeat: "mirror", tint: of(["tan", "#123"]) };
-    const state = { textures, light: { exposure: number() } }, text = editText(state);
+    lamps[word()] = lampText({ gain: Math.min(Math.abs(number()), 1e30), color: next(0, 1) ? kelvinColor(next(1000, 40000)) : null });
+    if (k % 5 === 0) for (const name of Object.keys(lamps)) delete lamps[name];
+    const state = { textures, light: { exposure: number() }, lamps }, text = editText(state);
     same(parseEdit(text), state, text);
     same(editText(parseEdit(text)), text);
   }

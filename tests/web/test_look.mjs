@@ -38,7 +38,7 @@ function drawn(textures, targets, light = { exposure: 0, warmth: 0 }) {
     { get: (o, key) => o[key] ?? (key === key.toUpperCase() ? key : () => {}) });
   const { RetexRoom, Renderer } = player({ performance: { now: () => 0 }, cancelAnimationFrame: () => {} });
   const room = { targets: targets.map((t) => ({ ...t, image: {}, hasImage: true })), classes: [], groups: [], lights: [], width: 100, height: 50, terms: [], mixtures: [] };
-  const renderer = Object.assign(Object.create(Renderer.prototype), { gl, room, loaded: new Set(), lights: new Set(), programs: [0, 1, 2] });
+  const renderer = Object.assign(Object.create(Renderer.prototype), { gl, room, loaded: new Set(), lights: new Set(), programs: [0, 1, 2], factors: {}, originals: {} });
   renderer.draw = (_, values) => passes.push(values);
   const element = Object.assign(Object.create(RetexRoom.prototype), { textures, room, light, emit: () => {}, comparing: false });
   Object.defineProperty(element, "renderer", { value: renderer });

@@ -51,6 +51,26 @@ test("parameters, which groups refer to", async () => {
   await refused("groups.0.parameters", [0]);
 });
 
+test("the light of single lamps: an atlas of its own, whose terms are of groups and parameters", async () => {
+  const parameters = [{ name: "Lamp", value: [0, 0, 0], kept: [1, 0.5, 2] }, { name: "Sky", value: [1, 1, 1], kept: [1, 1, 1], several: true }];
+  const lamps = { ...file("lamps.jpg"), width: 24, height: 8, finest: 2, tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 0.1, levels: 200 },
+    { x: 16, y: 0, width: 5, height: 3, scale: 4, white: 1, levels: 255 }],
+    terms: [{ group: 0, gain: 1, parameter: 1, factors: [] }, { group: 1, gain: 0, parameter: 0, factors: [1, 1] }, { group: 1, gain: -1, parameter: 0, factors: [] }] };
+  checkManifest({ ...manifest(), parameters, lamps });
+  const term = (changes) => ({ terms: [{ ...lamps.terms[1], ...changes }] }), tile = (changes) => ({ tiles: [lamps.tiles[0], { ...lamps.tiles[1], ...changes }] });
+  for (const wrong of [{ file: "../x" }, { crc32: -1 }, { tiles: [] }, { tiles: 7 }, { terms: 7 }, { terms: Array(1025).fill(lamps.terms[0]) }, { finest: 3 }, { finest: 4 },
+    { width: 20 }, { width: 0.5 }, { width: 4097 }, { height: 4 }, { height: undefined }, term({ group: 2 }), term({ gain: 2 }), term({ gain: -2 }), term({ parameter: 2 }), term({ parameter: -1 }),
+    term({ parameter: undefined }), term({ factors: [0] }), term({ factors: [2] }), term({ factors: Array(13).fill(1) }), tile({ x: 20 }), tile({ y: -1 }), tile({ scale: 2 }), tile({ white: 0 })])
+    await fails(() => checkManifest({ ...manifest(), parameters, lamps: { ...lamps, ...wrong } }), /damaged|undefined/, JSON.stringify(wrong));
+  for (const wrong of [{ parameters: undefined }, { parameters: [parameters[0], { name: "Sky", value: [1, 1, 1] }] }, { parameters: [parameters[0], { ...parameters[1], kept: [1, -1, 1] }] }, { lamps: null }, { lamps: 5 }])
+    await fails(() => checkManifest({ ...manifest(), parameters, lamps, ...wrong }), /damaged|undefined|null/, JSON.stringify(wrong));
+});
+
+test("no factor is finer than what it is multiplied at", async () => {
+  await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: -1, factors: [1] }] }), DAMAGED);
+  await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: 0, factors: [] }] }), DAMAGED);
+});
+
 test("further hits, of reduced mixtures", async () => {
   const further = { hits: 9, ratio: [1, 0.5, 0], mixtures: [1] };
   checkManifest({ ...manifest(), further });

@@ -29,15 +29,16 @@ const document = { createElement: () => {
   let shown;
   return { getContext: () => ({ drawImage: (image) => (shown = image), getImageData: () => ({ data: shown.rgba }) }) };
 } };
-const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest } = player({ WebGLTexture, document });
+const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest, isRelit } = player({ WebGLTexture, document });
 
-function open(name, { classes = () => true } = {}) {
+function open(name, { classes = () => true, lit = true } = {}) {
   const room = JSON.parse(readFileSync(`${folder}/${name}/room.json`, "utf8"));
   checkManifest(room);
   const canvas = {}, gl = context(canvas), renderer = new Renderer({ getContext: () => gl }, room);
   const [still, reduced, ...lights] = images([room.picture, room.reduced, ...room.lights].map((entry) => `${name}/${entry.file}`));
   renderer.putStill(still);
   renderer.putReduced(reduced);
+  if (room.lamps && lit) renderer.putLamps(images([`${name}/${room.lamps.file}`])[0]);
   lights.forEach((light, i) => renderer.putLight(i, light));
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
   const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value) } = {}) => {
@@ -50,7 +51,7 @@ function open(name, { classes = () => true } = {}) {
     renderer.render(settings, split, lamp, colors);
     return canvas.picture;
   };
-  return { room, draw };
+  return { room, draw, renderer };
 }
 
 /* PSNR of the canvas against a picture: both are encoded in sRGB. */
@@ -132,6 +133,75 @@ test("lamps have their own light: the picture is that of the set with the lamp i
   const partial = open("lamps", { classes: (c) => c.target === 0 || c.kind === "interreflection" });
   const before = psnr(partial.draw(floor), green);
   least(psnr(partial.draw(floor, { colors }), green), before + 2, "nearer, while not all is loaded");
+});
+
+/* A room with a bright lamp and a dim one, each with its edge of a shadow, and a third that is off. */
+const LIT = `#version 3.7; global_settings { assumed_gamma 1 } #default { finish { diffuse .8 ambient 0 } } background { rgb <.1, .12, .15> }
+  camera { location <0, 1.2, -3> look_at <0, .8, 0> angle 60 } #declare Floor = texture { pigment { checker rgb <.7, .5, .3> rgb .3 scale .4 } }
+  #declare Wall = texture { pigment { rgb <.5, .6, .55> } } plane { y, 0 texture { Floor } } box { <-3, 0, 1.5> <3, 3, 1.6> texture { Wall } }
+  sphere { <.4, .5, .3>, .5 pigment { rgb <.8, .2, .2> } } #declare Sun = light_source { <3, 5, -4> rgb <1, .9, .7> } light_source { Sun }
+  #declare Bulb = light_source { <-1, 1.8, .2> rgb <.3, .2, .12> fade_distance 1 fade_power 2 } light_source { Bulb }
+  #declare Spare = light_source { <1, 2, -1> 0 } light_source { Spare }`;
+const lamp = (gain, color) => ({ gain, color });
+
+test("single lamps: drawn as retex-combine draws them, alone, in mixtures and with new textures", () => {
+  writeFileSync(`${folder}/lit.pov`, LIT);
+  tool("retex-render", "-q", "--size", "48x36", "--spp", "64", "--denoise", "-t", "Floor", "-t", "Wall", "--lamps", "each", "lit.pov", "-o", "lit.exr");
+  tool("retex-pack", "-q", "lit.exr", "--web", "lit");
+  const { room, draw, renderer } = open("lit"), names = room.parameters.map((p) => p.name), { lampColor } = player();
+  same([names, renderer.lacksLamps, isRelit(room, renderer.rendered)], [["Sun", "Bulb", "Spare"], false, true]);
+  const colors = (values) => room.parameters.map((p) => (values[p.name] || values["*"] ? lampColor(values[p.name] || values["*"], p) : p.value));
+  const [hue, blue] = [[1.2, 0.9, 1.3], [0.3, 0.8, 1.2]].map((color) => color.map((x) => x / (0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2])));
+  const text = ({ gain, color }) => (color ? `${gain}*rgb(${color})` : `${gain}`), off = lamp(0);
+  for (const [what, values, floor, decibels] of [["as rendered", {}, null, 37], ["the sun alone", { "*": off, Sun: lamp(1) }, null, 37], ["the bulb alone, brighter", { "*": off, Bulb: lamp(4) }, null, 36],
+    ["the lamp that is off, alone", { "*": off, Spare: lamp(0.5) }, null, 37],
+    ["a blue bulb, a dim sun, a new floor", { Bulb: lamp(3, blue), Sun: lamp(0.2) }, [0.1, 0.5, 0.2], 37], ["a mixture of all", { Sun: lamp(0.5, blue), Bulb: lamp(2), Spare: lamp(0.3, hue) }, [0.6, 0.3, 0.2], 37]]) {
+    const lights = Object.entries(values).flatMap(([name, value]) => ["--light", `${name}=${text(value)}`]);
+    tool("retex-combine", "-q", "lit.exr", ...lights, ...(floor ? ["--texture", `Floor=rgb(${floor})`] : []), "-o", "expected.png");
+    least(psnr(draw(floor ? { Floor: { image: floor } } : {}, { colors: colors(values) }), images(["expected.png"])[0]), decibels, what);
+  }
+  tool("retex-combine", "-q", "lit.exr", "-o", "before.png");
+  const before = images(["before.png"])[0], half = draw({ Floor: { image: [0.1, 0.2, 0.7] } }, { colors: colors({ Sun: lamp(0) }), split: 24 });
+  least(psnr(half, before, [0, 24]), 36, "left of the split: as rendered");
+  const partial = open("lit", { classes: (c) => c.target === 0 || c.kind === "interreflection" }), dark = colors({ Sun: lamp(0.1) });
+  tool("retex-combine", "-q", "lit.exr", "--light", "Sun=0.1", "-o", "expected.png");
+  const expected = images(["expected.png"])[0], rendered = psnr(partial.draw({}), expected);
+  least(psnr(partial.draw({}, { colors: dark }), expected), rendered + 1, "nearer, while not all is loaded");
+});
+
+test("shares of lamps are enlarged bilinearly, constant beyond the outermost centres, and add up", () => {
+  const { lampShader } = player(), tiles = new WebGLTexture(), terms = new WebGLTexture(), [x0, y0, width, height, times] = [2, 1, 3, 2, 4];
+  tiles.store("RGBA8", 8, 4, 0);
+  terms.store("RGBA32F", 16, 3, 0);
+  tiles.images[0][0].values.forEach((_, i, all) => (all[i] = ((i * 37) % 101) / 101));
+  for (const [row, lamp] of [[1, 0], [2, 1]]) {
+    terms.put(0, 0, row, 2, 1, [x0, y0, width, height, times, 1.5, 255, lamp], 4, (v) => v);
+  }
+  const shade = compile(lampShader({ parameters: [{}, {}] })).run({ tiles, terms, first: 1n, end: 3n, colors: [[2, 3, 4], [10, 20, 30]] });
+  const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4), tent = (a, b) => Math.max(0, 1 - Math.abs(a - b));
+  for (let y = 0; y < height * times; y++)
+    for (let x = 0; x < width * times; x++) {
+      const [u, v] = [[x, width], [y, height]].map(([at, size]) => Math.min(Math.max((at + 0.5) / times - 0.5, 0), size - 1)), expected = [0, 0, 0];
+      for (let j = 0; j < height; j++)
+        for (let i = 0; i < width; i++)
+          for (let k = 0; k < 3; k++)
+            expected[k] += tent(u, i) * tent(v, j) * 1.5 * linear(tiles.images[0][0].values[4 * ((y0 + j) * 8 + x0 + i) + k]) * [12, 23, 34][k];
+      near(shade([x + 0.5, y + 0.5, 0, 1]).slice(0, 3), expected, 1e-9, `${x}, ${y}`);
+    }
+});
+
+test("where all lamps are as rendered, all light is drawn, to the bit, with or without their file", () => {
+  const pov = LIT.replace("light_source { Spare }", "");
+  writeFileSync(`${folder}/kept.pov`, pov);
+  tool("retex-render", "-q", "--size", "40x30", "--spp", "16", "--denoise", "-t", "Floor", "--lamps", "each", "kept.pov", "-o", "kept.exr");
+  tool("retex-pack", "-q", "kept.exr", "--web", "kept");
+  tool("retex-pack", "-q", "kept.exr", "--no-lamps", "--web", "none");
+  const floor = { Floor: { image: [0.1, 0.5, 0.2] } }, kept = open("kept"), none = open("none").draw(floor).values;
+  same(open("kept", { lit: false }).draw(floor).values, none);
+  same(kept.draw(floor).values, none);
+  const relit = kept.draw(floor, { colors: kept.room.parameters.map((p) => p.value.map((x) => x * 1.001)) }).values;
+  if (!relit.some((x, i) => x !== none[i])) throw new Error("nothing changes");
+  near([...relit], [...none], 0.15, "nearly the same");
 });
 
 test("light with more hits than terms have follows a new colour", () => {

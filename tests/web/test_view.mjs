@@ -60,42 +60,109 @@ test("controls: size is the inverse of scale in powers of two, and a pair keeps 
     { exposure: 1.5 }, { warmth: -1 }, ["Floor", { scale: 4 }]]);
 });
 
-test("lamps are listed with their colours, and take others", async () => {
-  const { RetexRoom } = player();
-  let drawn = 0;
-  const room = element(RetexRoom, {}, { room: { parameters: [{ name: "Lamp", value: [1, 0.5, 2] }, { name: "Sky", value: [1, 1, 1] }] },
-    colors: [[1, 0.5, 2], [1, 1, 1]], update: () => drawn++ });
-  room.setParameter("Sky", [0, 0.25, 3]);
-  same(room.parameters, [{ name: "Lamp", value: [1, 0.5, 2] }, { name: "Sky", value: [0, 0.25, 3] }]);
-  room.parameters[0].value[0] = 7; // a copy
-  for (const wrong of [[1, 1], [1, 1, 1, 1], [1, -1, 1], [1, NaN, 1], [Infinity, 1, 1], ["red", 1, 1]])
-    await fails(() => room.setParameter("Lamp", wrong), "Lamp: expected three numbers of 0 or more.");
-  await fails(() => room.setParameter("lamp", [1, 1, 1]), "The room has no 'lamp'.");
-  room.setParameter("Lamp", [0, 0, 0]);
-  room.setParameter("Sky", null);
-  same(room.parameters.map((p) => p.value), [[0, 0, 0], [1, 1, 1]]);
-  same(drawn, 3);
-  same(room.room.parameters[1].value, [1, 1, 1]);
-  same(element(RetexRoom, {}, { room: {} }).parameters, []);
+/* An element of three lamps: one of one colour, one that is off, one of several colours. */
+function withLamps(RetexRoom, has = {}) {
+  const parameters = [{ name: "Lamp", value: [1, 0.5, 2], kept: [1, 0.5, 2] }, { name: "Spot", value: [0, 0, 0], kept: [2, 2, 2] },
+    { name: "sky", value: [1, 1, 1], kept: [1, 1, 1], several: true }];
+  const events = [], room = element(RetexRoom, {}, { room: { parameters, lamps: {}, targets: [] }, colors: parameters.map((p) => p.value), said: [null, null, null],
+    textures: [], light: {}, update: () => events.push("update"), draw: () => events.push("draw"), fail: (message) => message && events.push(message), say: (text) => events.push(text), ...has });
+  return { room, events };
+}
+
+test("lamps are listed with their values and colours, and take others", async () => {
+  const { RetexRoom } = player(), { room, events } = withLamps(RetexRoom);
+  await room.setLight("Lamp", "3*rgb(1,1,1)");
+  await room.setLight("SKY", "2");
+  await room.setLight("Spot", 0.5);
+  const luminance = 0.2126 + 0.5 * 0.7152 + 2 * 0.0722;
+  same(room.lamps.map((l) => [l.name, l.value]), [["Lamp", "3*rgb(1,1,1)"], ["Spot", "0.5"], ["sky", "2"]]);
+  near(room.lamps.map((l) => l.color), [Array(3).fill(3 * luminance), [1, 1, 1], [2, 2, 2]], 1e-12);
+  room.lamps[0].color[0] = 7; // a copy
+  same(events, ["update", "update", "update"]);
+  for (const [wrong, message] of [["bleu", /expected numbers/], ["-1", /expected numbers/], ["1e29*1e2", /expected numbers/], ["50K", /kelvins/]])
+    await fails(() => room.setLight("Lamp", wrong), message);
+  await fails(() => room.setLight("lump", "1"), "The room has no 'lump'.");
+  room.room.parameters[0].value = [1e20, 1e20, 1e20];
+  await fails(() => room.setLight("Lamp", "1e30"), "The light of Lamp becomes too bright.");
+  same(room.getState().lamps, { Lamp: "3*rgb(1,1,1)", Spot: "0.5", sky: "2" });
+  await room.setLight("Spot", null);
+  same(room.lamps[1], { name: "Spot", value: null, color: [0, 0, 0] });
+  same(element(RetexRoom, {}, { room: {}, said: [], colors: [] }).lamps, []);
+});
+
+test("links have lamps, and a state names all others by a star", async () => {
+  const { RetexRoom } = player({ location: { href: "https://x.org/p", hash: "" } }), { room } = withLamps(RetexRoom, { id: "" });
+  await room.setState({ lamps: { "*": "0", lamp: "2*3000K", gone: "1" } });
+  same(room.lamps.map((l) => l.value), ["2*rgb(1.754746,0.8492223,0.27115253)", "0", "0"]);
+  same(new URL(room.link).hash, "#room=light:Lamp=2*rgb(1.754746,0.8492223,0.27115253);light:Spot=0;light:sky=0");
+  await room.setState({});
+  same(room.lamps.map((l) => l.value), [null, null, null]);
+  same(new URL(room.link).hash, "#room=");
+  await fails(() => room.setState({ lamps: { Lamp: "bleu" } }), /bleu/);
+});
+
+test("a lamp's row: strength, warmth, off, and on again as it was", async () => {
+  const { RetexRoom } = player(), { room, events } = withLamps(RetexRoom);
+  room.$(".lamps").children = [{}, {}, {}];
+  const control = (set, value, lamp = 0) => room.setControl({ dataset: { set }, value, closest: () => ({ dataset: { lamp: String(lamp) } }) });
+  const values = () => room.lamps.map((l) => l.value);
+  room.textures = [{}], room.selected = 0;
+  await control("gain", "1");
+  same(values(), ["2", null, null]);
+  await control("mired", "370");
+  same(values()[0], "2*rgb(1.9143814,0.8098837,0.19077155)");
+  await room.switchLamp(0);
+  same([values()[0].slice(0, 6), room.lamps[0].color], ["0*rgb(", [0, 0, 0]]);
+  await room.switchLamp(0);
+  same(values()[0].slice(0, 6), "2*rgb(");
+  await room.setLight("Lamp", "2");
+  await control("gain", "0"); // as rendered: nothing is said
+  same(values(), [null, null, null]);
+  await room.switchLamp(1); // off in the picture
+  same([values()[1], room.lamps[1].color], ["1", [2, 2, 2]]);
+  await room.switchLamp(1);
+  same(values(), [null, null, null]);
+  same(events.filter((e) => e.includes(":")), ["Lamp: off", "Lamp: on", "Spot: on", "Spot: off"]);
+});
+
+test("the light of lamps is loaded once, when one needs it, and again after it failed", async () => {
+  const { RetexRoom } = player(), put = [], renderer = { lacksLamps: false, putLamps: (image) => { put.push(image); renderer.lampTiles = image; } };
+  const { room, events } = withLamps(RetexRoom, { renderer });
+  let asked = 0;
+  room.room.parameters[1].value = [2, 2, 2];
+  room.colors[1] = [2, 2, 2];
+  room.getLamps = async () => { if (asked++ === 0) throw new Error("away"); return "image"; };
+  await room.setLight("Lamp", "1"); // nothing that all light does not have
+  same([asked, put], [0, []]);
+  await fails(() => room.setLight("Lamp", "2"), "away");
+  same(room.lamps[0].value, "2");
+  await Promise.all([room.setLight("Lamp", "3"), room.setLight("sky", "0")]);
+  await room.setLight("Lamp", "4");
+  same([asked, put], [2, ["image"]]);
+  same(events.filter((e) => e === "draw").length, 2);
+  Object.assign(room, { lampsComing: null, renderer: { lacksLamps: true, putLamps: (image) => put.push(image) } });
+  await room.setLight("Lamp", null);
+  await room.setLight("sky", null);
+  same(put, ["image", "image"]); // those of a picture in which a lamp is off
 });
 
 test("links have the state of this room beside others, and the state comes back", async () => {
   const location = { href: "https://x.org/p?q=1#room=%7B%7D&other%3D=1&part", hash: "" };
   const { RetexRoom, plainTexture } = player({ location });
   const room = element(RetexRoom, {}, { id: "a b=", room: { targets: [{ name: "Floor", uv_scale: [2, 3] }, { name: "Wall" }] },
-    light: { exposure: 1, warmth: -0.5 }, textures: [{ ...plainTexture(), source: "oak & ash.jpg", image: { width: 400, height: 200 }, scale: 2, rotate: 10, flip: "u" },
+    light: { exposure: 1, warmth: -0.5 }, said: [], colors: [], textures: [{ ...plainTexture(), source: "oak & ash.jpg", image: { width: 400, height: 200 }, scale: 2, rotate: 10, flip: "u" },
       { ...plainTexture(), image: 2 }] });
   const link = new URL(room.link), parts = link.hash.slice(1).split("&");
   same(parts.slice(0, 2), ["room=%7B%7D", "other%3D=1"]);
   same(parts.length, 3);
   if (!parts[2].startsWith("a%20b%3D=")) throw new Error(parts[2]);
   same(parts[2].slice("a%20b%3D=".length), "Floor=oak%20%2526%20ash.jpg;Floor.scale=2,6;Floor.rotate=10;Floor.flip=u;exposure=1;warmth=-0.5");
-  const colored = element(RetexRoom, {}, { id: "b", room: { targets: [{ name: "Sofa", uv_scale: [2, 3] }] }, light: {},
+  const colored = element(RetexRoom, {}, { id: "b", room: { targets: [{ name: "Sofa", uv_scale: [2, 3] }] }, light: {}, said: [], colors: [],
     textures: [{ ...plainTexture(), source: "tan", image: [1, 0, 0] }] });
   same(new URL(colored.link).hash.split("&").at(-1), "b=Sofa=tan"); // a colour has no proportions
   const state = room.getState();
   same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: 2, rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
-    light: { exposure: 1, warmth: -0.5 } });
+    light: { exposure: 1, warmth: -0.5 }, lamps: {} });
   const restored = [];
   Object.assign(room, { renderer: {}, hasAttribute: () => false, setState: async (all) => restored.push(all) });
   location.hash = link.hash;
@@ -144,7 +211,7 @@ function manifest(crc32) {
 }
 
 /* Loads a room whose files are FILES with changes; returns what happened. */
-async function load(changes = {}) {
+async function load(changes = {}, change = (room) => room, hash = "") {
   const files = { ...FILES, ...changes }, log = [], puts = [];
   class WebGLTexture {}
   const gl = anything({ getParameter: () => 4096, getExtension: () => ({}), getShaderParameter: () => true, getError: () => 0,
@@ -157,18 +224,18 @@ async function load(changes = {}) {
     }
   }
   const world = {
-    Image, WebGLTexture, performance: { now: () => 0 }, cancelAnimationFrame: () => {}, location: { protocol: "https:", hash: "" },
+    Image, WebGLTexture, performance: { now: () => 0 }, cancelAnimationFrame: () => {}, requestAnimationFrame: () => 1, location: { protocol: "https:", hash },
     document: { baseURI: "https://x.org/" }, setTimeout: (action) => action(),
     fetch: async (url) => {
       const name = String(url).replace("https://x.org/rooms/one/", "");
       if (!log.includes(`fetch ${name}`)) log.push(`fetch ${name}`);
-      const room = name === "room.json" && (changes[name] ?? Buffer.from(JSON.stringify(manifest(made.crc32))));
+      const room = name === "room.json" && (changes[name] ?? Buffer.from(JSON.stringify(change(manifest(made.crc32), made.crc32))));
       return { ok: true, arrayBuffer: async () => Uint8Array.from(room || files[name]).buffer };
     },
   };
   const made = player(world);
   const room = element(made.RetexRoom, { canvas: anything({ getContext: () => gl, classList: anything() }) }, {
-    textures: [], light: { exposure: 0, warmth: 0 }, selected: 0,
+    textures: [], light: { exposure: 0, warmth: 0 }, selected: 0, id: "",
     getAttribute: () => "rooms/one", hasAttribute: () => false, refresh: () => {}, say: () => {},
     emit: (name) => name !== "retex-draw" && log.push(name), fail: (message) => message && log.push(`failed: ${message}`),
   });
@@ -186,6 +253,24 @@ test("a room is loaded: its picture, then the target that shows most, then the o
   same(room.room.classes.map((c) => [c.base, c.layer]), [[0, 0], [2048, 1], [4096, 0]]);
   same(puts, [["records", 2], ["records", 1], ["records", 0]]);
   same(room.textures.map((t) => t.label), ["Original", "Original"]);
+});
+
+test("the light of lamps comes when one is changed; with what is needed first, where one is off in the picture; and by links", async () => {
+  FILES["lamps.jpg"] = [10, 5];
+  const lit = (value) => (room, crc32) => ({ ...room, parameters: [{ name: "Lamp", value, kept: [1, 1, 1] }],
+    lamps: { file: "lamps.jpg", bytes: 2, crc32: crc32(Uint8Array.from(FILES["lamps.jpg"])), width: 10, height: 5, finest: 2,
+      tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 1, levels: 255 }], terms: [{ group: 0, gain: 0, parameter: 0, factors: [] }] } });
+  const late = await load({}, lit([1, 1, 1]));
+  same([late.log.includes("fetch lamps.jpg"), late.log.at(-1), late.room.renderer.complete], [false, "retex-complete", true]);
+  await late.room.setLight("Lamp", "2");
+  same([late.log.at(-1), !!late.room.renderer.lampTiles], ["fetch lamps.jpg", true]);
+  const off = (await load({}, lit([0, 0, 0]))).log;
+  same(off.slice(3, 5), ["fetch lamps.jpg", "fetch reduced.jpg"]);
+  const linked = (await load({}, lit([1, 1, 1]), "#room=light:Lamp=3")).log;
+  const needed = linked.filter((text) => !text.startsWith("retex-change"));
+  same(needed.slice(8, 10), ["fetch lamps.jpg", "fetch wall.z"]);
+  for (const [file, size] of [["lamps.jpg", [10, 6]], ["lamps.jpg", [10]]])
+    same((await load({ [file]: size }, lit([0, 0, 0]))).log.at(-1), "failed: lamps.jpg is damaged.");
 });
 
 test("a target can be changed once all that its light needs is there", async () => {

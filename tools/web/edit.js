@@ -57,19 +57,26 @@ const OPTIONS = {
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
   tint: [(text) => (parseColor(text) ? text : undefined), "#ffffff"],
 };
-const LIGHT = ["exposure", "warmth"];
+const LIGHT = ["exposure", "warmth"], LAMP = "light:";
 
 /* The option that a key ends with. */
 const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
 
 /* What the text of an edit says, as getState() has it. A target without a scale has the tools', not a picture's own. */
 function parseEdit(text) {
-  const textures = Object.create(null), light = {};
+  const textures = Object.create(null), light = {}, lamps = Object.create(null);
   const decode = (part) => part.replace(/%(25|26|2e|3b)/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
   for (const statement of text ? text.split(/[;&]/) : []) {
     const equals = statement.indexOf("="), key = statement.slice(0, Math.max(equals, 0)), word = optionOf(key);
     const target = decode(word ? key.slice(0, -word.length - 1) : key), value = decode(statement.slice(equals + 1));
-    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE or TARGET.OPTION=VALUE.`);
+    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE, TARGET.OPTION=VALUE or light:LAMP=VALUE.`);
+    if (key.startsWith(LAMP)) {
+      const lamp = decode(key.slice(LAMP.length));
+      if (!lamp) throw new Error(`'${statement}': expected the name of a lamp.`);
+      if (lamp in lamps) throw new Error(`${key} is given twice.`);
+      lamps[lamp] = lampText(parseLamp(value));
+      continue;
+    }
     const isLight = LIGHT.includes(key) && isFinite(numberOf(value)), said = isLight ? light : (textures[target] ||= {});
     const name = isLight ? key : word || "source";
     if (name in said) throw new Error(`${key} is given twice.`);
@@ -83,18 +90,19 @@ function parseEdit(text) {
     if (!parseColor(said.source)) said.scale ||= [1, 1];
   }
   if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
-  return { textures, light };
+  return { textures, light, lamps };
 }
 
-/* The fewest digits that mean the same, as printf has them. */
-function numberText(x) {
-  const digits = [15, 16, 17].find((n) => Number(x.toPrecision(n)) === x), [fraction, power] = x.toExponential(digits - 1).split("e");
+/* The fewest digits that mean the same, as printf has them; single: as a float. */
+function numberText(x, single) {
+  const as = single ? Math.fround : Number;
+  const digits = [6, 7, 8, 9, 15, 16, 17].find((n) => (single || n > 9) && as(x.toPrecision(n)) === as(x)), [fraction, power] = x.toExponential(digits - 1).split("e");
   if (power >= -4 && power < digits) return String(Number(x.toPrecision(digits)));
   return `${fraction.replace(/\.?0+$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
 }
 
 /* The text of an edit that says what a state does. */
-function editText({ textures = {}, light = {} }) {
+function editText({ textures = {}, light = {}, lamps = {} }) {
   const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
   const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
   const statements = [];
@@ -106,5 +114,6 @@ function editText({ textures = {}, light = {} }) {
       if (text !== unsaid) statements.push(`${name}.${word}=${encode(text)}`);
     }
   }
+  for (const lamp of Object.keys(lamps).sort()) statements.push(`${LAMP}${encode(lamp)}=${lamps[lamp]}`);
   return [...statements, ...LIGHT.filter((key) => light[key]).map((key) => `${key}=${numberText(light[key])}`)].join(";");
 }

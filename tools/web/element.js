@@ -9,6 +9,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.$ = (selector) => root.querySelector(selector);
     this.textures = [];
     this.light = { exposure: 0, warmth: 0 };
+    this.colors = [];
+    this.said = [];
     this.zoom = { times: 1, x: 0, y: 0 };
     this.selected = 0;
     this.loading = 0;
@@ -40,9 +42,9 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     return this.room ? this.room.targets.map((t) => t.name) : [];
   }
 
-  /* What else can be changed: names of colours, such as those of lamps, and their values, linear numbers. */
-  get parameters() {
-    return (this.room?.parameters || []).map(({ name }, i) => ({ name, value: [...this.colors[i]] }));
+  /* The lamps: names; values as in links, null as rendered; and colours, linear numbers. */
+  get lamps() {
+    return (this.room?.parameters || []).map(({ name }, i) => ({ name, value: this.said[i], color: [...this.colors[i]] }));
   }
 
   /* Resolves when all is loaded. */
@@ -95,20 +97,27 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     renderer.putTexture(index, shifted ? shiftedRepeats(shown, repeat) : shown);
   }
 
-  /* Three numbers of 0 or more; null: as rendered. */
-  setParameter(name, value) {
-    const index = this.parameters.findIndex((p) => p.name === name);
-    if (index < 0) throw new Error(`The room has no '${name}'.`);
-    const color = value || this.room.parameters[index].value;
-    if (color.length !== 3 || !color.every((x) => x >= 0 && x < 1e30)) throw new Error(`${name}: expected three numbers of 0 or more.`);
-    this.colors[index] = color.map(Number);
+  /* Brightness in stops, warmth from -1 to 1. Or, by name, the value of a lamp, as "1.5*3000K", "#ffd0a0", 0; null: as
+   * rendered. Resolves when it is drawn. */
+  async setLight(light, value = null) {
+    if (typeof light === "string") return this.setLamps({ [light]: value });
+    Object.assign(this.light, light);
     this.update();
   }
 
-  /* Brightness in stops, warmth from -1 to 1. */
-  setLight(light) {
-    Object.assign(this.light, light);
+  /* By name. Their light is loaded when the first of them needs it. */
+  async setLamps(values) {
+    const { parameters = [] } = this.room || {};
+    for (const [name, value] of Object.entries(values)) {
+      const index = lampNamed(parameters, name), parsed = value === null ? null : parseLamp(String(value));
+      if (index < 0) throw new Error(`The room has no '${name}'.`);
+      const color = parsed ? lampColor(parsed, parameters[index]) : parameters[index].value;
+      if (!color.every((x) => x < 3e38)) throw new Error(`The light of ${name} becomes too bright.`);
+      this.colors[index] = color.map(Number);
+      this.said[index] = parsed && lampText(parsed);
+    }
     this.update();
+    await this.loadLamps();
   }
 
   getState() {
@@ -117,12 +126,19 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       const { source, scale, rotate, offset, tint, flip, wrap, repeat } = t;
       if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat };
     });
-    return { textures, light: { ...this.light } };
+    const lamps = Object.fromEntries(this.lamps.filter((l) => l.value).map((l) => [l.name, l.value]));
+    return { textures, light: { ...this.light }, lamps };
   }
 
   async setState(state) {
     this.setLight({ exposure: Number(state.light?.exposure) || 0, warmth: Number(state.light?.warmth) || 0 });
     let failed;
+    const lamps = state.lamps || {}, others = lamps["*"] ?? null, values = Object.fromEntries(this.lamps.map((l) => [l.name, others]));
+    for (const name of Object.keys(lamps)) {
+      const index = lampNamed(this.lamps, name);
+      if (index >= 0) values[this.lamps[index].name] = lamps[name];
+    }
+    await this.setLamps(values).catch((error) => (failed = error));
     for (const name of this.targets) {
       const { source = null, ...options } = state.textures?.[name] || {};
       await this.setTexture(name, source, options).catch((error) => (failed ||= error));
@@ -167,7 +183,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.started = true;
     this.abort?.abort();
     const abort = (this.abort = new AbortController());
-    this.renderer = this.room = null;
+    this.renderer = this.room = this.lampsComing = null;
     this.textures = [];
     this.fail(null);
     this.whenComplete = this.run(abort.signal, kept).catch((error) => {
@@ -192,7 +208,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     if (signal.aborted) return;
     this.room = room;
     this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
-    if (!kept) this.colors = (room.parameters || []).map((p) => p.value);
+    if (!kept) this.colors = (room.parameters || []).map((p) => p.value), this.said = this.colors.map(() => null);
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
     this.$(".view").style.setProperty("--ratio", room.width / room.height);
     this.refresh();
@@ -202,6 +218,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       this.$(".bar").value = (this.progress.done += bytes.length) / this.progress.all;
       return bytes;
     };
+    this.getLamps = async () => decodeJpeg(await fetchChecked(base, room.lamps, signal), room.lamps.file);
     const still = await decodeJpeg(await get(room.picture), room.picture.file);
     if (still.naturalWidth !== room.width || still.naturalHeight !== room.height) throw new Error(`${room.picture.file} is damaged.`);
     const shown = this.$("img");
@@ -229,6 +246,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       await new Promise((resolve) => setTimeout(resolve));
       renderer.putClass(c, decodeClass(c, data, c.base, room.targets[c.target].periodic));
     });
+    if (renderer.lacksLamps) jobs.push(() => this.loadLamps());
     if (room.reduced) jobs.push(async () => renderer.putReduced(await decodeJpeg(await get(room.reduced), room.reduced.file)));
     room.classes.filter((c) => c.kind === "interreflection").forEach(footprints);
     const steps = [];
@@ -258,6 +276,19 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.textures.forEach((_, i) => this.put(i));
     this.emit("retex-ready", { targets: this.targets });
     if (!kept) await this.restore();
+    else await this.loadLamps();
+  }
+
+  /* The light of single lamps, once the room is drawn and needs it. */
+  async loadLamps() {
+    const { renderer, room } = this;
+    if (!renderer || renderer.lampTiles || !(renderer.lacksLamps || isRelit(room, this.colors))) return;
+    this.lampsComing ||= this.getLamps().then((image) => renderer.putLamps(image)).catch((error) => {
+      this.lampsComing = null; // for another try
+      throw error;
+    });
+    await this.lampsComing;
+    this.draw(false);
   }
 
   /* Take the state that the page's address has. */
@@ -390,9 +421,70 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
     show("tint", texture.tint, "");
     show("repeat", texture.repeat, "");
+    this.refreshLamps();
     show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
     show("warmth", this.light.warmth, (this.light.warmth > 0 ? "+" : "") + this.light.warmth.toFixed(2));
-    this.$("canvas").setAttribute("aria-label", `The room. ${this.targets.map((n, i) => `${n}: ${this.textures[i].label}`).join(", ")}.`);
+    const lamps = this.lamps.filter((l) => l.value).map((l) => `${l.name}: ${isBlack(l.color) ? "off" : "changed"}`);
+    this.$("canvas").setAttribute("aria-label", `The room. ${[...this.targets.map((n, i) => `${n}: ${this.textures[i].label}`), ...lamps].join(", ")}.`);
+  }
+
+  /* A row a lamp. */
+  refreshLamps() {
+    const box = this.$(".lamps"), { parameters = [] } = this.room;
+    if (box.children.length !== parameters.length)
+      box.replaceChildren(...parameters.map(({ name }, i) => {
+        const row = document.createElement("div");
+        row.className = "lamp";
+        row.innerHTML = LAMP_ROW;
+        row.dataset.lamp = i;
+        row.setAttribute("role", "group");
+        row.setAttribute("aria-label", name);
+        row.querySelector("span").textContent = name;
+        for (const input of row.querySelectorAll("input")) input.setAttribute("aria-label", `${name}: ${input.dataset.set === "gain" ? "strength" : "warmth"}`);
+        const [lit, reset] = row.querySelectorAll("button");
+        reset.setAttribute("aria-label", `${name}: as rendered`);
+        lit.onclick = () => this.switchLamp(i);
+        reset.onclick = () => (lit.focus(), this.try(() => this.setLight(name)));
+        return row;
+      }));
+    parameters.forEach((lamp, i) => {
+      const row = box.children[i], { gain, color } = this.lampValue(i), lit = !isBlack(this.colors[i]);
+      const [button, reset] = row.querySelectorAll("button"), mired = miredOf(color || (lamp.several || isBlack(lamp.value) ? [1, 1, 1] : lamp.value));
+      const show = (key, value, text) => {
+        const input = row.querySelector(`[data-set=${key}]`);
+        input.disabled = !this.renderer;
+        if (this.shadowRoot.activeElement !== input && value !== null) input.value = value;
+        input.setAttribute("aria-valuetext", text);
+        input.parentElement.querySelector("output").textContent = text;
+      };
+      button.setAttribute("aria-pressed", lit);
+      button.querySelector("i").textContent = lit ? "on" : "off";
+      button.disabled = !this.renderer;
+      reset.disabled = !this.said[i];
+      if (gain) show("gain", Math.log2(gain), `${Number(gain.toPrecision(gain < 1 ? 2 : 3))}×`);
+      else show("gain", null, "off");
+      show("mired", mired, color ? (mired ? `${kelvinOf(mired)} K` : "colour") : "own");
+    });
+  }
+
+  /* What is said of a lamp, as parseLamp has it. */
+  lampValue(index) {
+    return this.said[index] ? parseLamp(this.said[index]) : { gain: isBlack(this.room.parameters[index].value) ? 0 : 1, color: null };
+  }
+
+  /* Change what is said of a lamp; as it was rendered nothing is. */
+  changeLamp(index, change) {
+    const { name, value } = this.room.parameters[index], said = { ...this.lampValue(index), ...change };
+    const isPlain = !said.color && said.gain === (isBlack(value) ? 0 : 1);
+    return this.try(() => this.setLight(name, isPlain ? null : lampText(said)));
+  }
+
+  /* Off, and on again as it was. */
+  switchLamp(index) {
+    const { gain, color } = this.lampValue(index), row = this.$(".lamps").children[index], on = !gain;
+    if (gain) row.before = gain;
+    this.say(`${this.room.parameters[index].name}: ${on ? "on" : "off"}`);
+    return this.changeLamp(index, { gain: on ? row.before || 1 : 0, color });
   }
 
   async try(action) {
@@ -424,6 +516,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       case "up": return this.place(name, { offset: [texture.offset[0], value] });
       case "tint":
       case "repeat": return this.try(() => this.place(name, { [input.dataset.set]: input.value }));
+      case "gain": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { gain: Number((2 ** value).toPrecision(3)) });
+      case "mired": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { color: kelvinColor(kelvinOf(value)) });
       default: return this.setLight({ [input.dataset.set]: value });
     }
   }
@@ -620,6 +714,12 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
 
 const drawingContext = (width, height) => Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
+
+/* The lamp that a name means: exactly, else ignoring case if that is unique; or -1. */
+function lampNamed(lamps, name) {
+  const exact = lamps.findIndex((l) => l.name === name), alike = lamps.filter((l) => l.name.toLowerCase() === name.toLowerCase());
+  return exact < 0 && alike.length === 1 ? lamps.indexOf(alike[0]) : exact;
+}
 
 /* Two repeats as one picture: side by side, the right one moved down, or one above the other, the upper one moved right. */
 function shiftedRepeats(image, repeat) {

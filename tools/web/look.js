@@ -85,10 +85,12 @@ input::-webkit-color-swatch { border: 0; border-radius: inherit; } input::-webki
 .file:focus-within, :focus-visible { outline: 2px solid var(--accent); outline-offset: 2px; }
 .file input { position: absolute; opacity: 0; width: 1px; height: 1px; }
 label.slider { display: grid; grid-template-columns: 86px 1fr 48px; align-items: center; gap: 8px; min-height: 42px; }
-label.slider output { text-align: right; font-variant-numeric: tabular-nums; color: var(--soft); }
+label.slider output { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; color: var(--soft); }
 input[type=range] { width: 100%; height: 30px; accent-color: var(--accent); margin: 0; }
 input[type=color], select { width: 44px; height: 36px; padding: 3px; border: 1px solid var(--line); border-radius: 10px; background: var(--paper); cursor: pointer; }
 select { font: inherit; color: inherit; width: 130px; padding: 2px 8px; }
+.lamp { display: grid; grid-template-columns: 1fr 42px; gap: 0 8px; margin-bottom: 14px; } .lamp label { grid-column: 1 / -1; }
+.lamp button { display: flex; gap: 8px; justify-content: space-between; align-items: center; overflow-wrap: anywhere; text-align: left; } .lamp i { font-style: normal; color: var(--soft); } .lamp button + button { justify-content: center; padding: 0; } .lamp label.slider { grid-template-columns: 86px 1fr 56px; }
 .drop .stage::after { content: ""; position: absolute; inset: 10px; border: 3px dashed #fff; outline: 99vmax solid #0005; border-radius: 14px; pointer-events: none; }
 .drop .name { top: 40%; padding: 12px 24px; border-radius: 24px; font-size: 18px; z-index: 1; }
 .quiet { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
@@ -123,6 +125,9 @@ const TOOLS = [
 
 const slider = (name, text, low, high, step) => `<label class="slider"><span>${text}</span><input type="range" min="${low}" max="${high}" step="${step}" value="0" data-set="${name}"><output aria-hidden="true"></output></label>`;
 
+const LAMP_ROW = `<button><span></span><i aria-hidden="true"></i></button><button title="As rendered">↺</button>
+${slider("gain", "Strength", -5, 5, 0.1)}${slider("mired", "Warmth", 100, 550, 5)}`;
+
 const BODY = `
 <div class="room">
   <div class="stage" part="stage" tabindex="0" role="group" aria-label="Picture">
@@ -153,6 +158,7 @@ ${TOOLS}
       <label class="slider"><span>Tint</span><input type="color" data-set="tint"></label>
     </div>
     <h2>Light</h2>
+    <div class="lamps"></div>
     ${slider("exposure", "Brightness", -2, 2, 0.05)}${slider("warmth", "Warmth", -1, 1, 0.05)}
   </div>
   <div class="quiet" role="status" aria-live="polite"></div>

@@ -35,9 +35,12 @@ function checkManifest(room) {
   const color = (c) => (list(c, 3, (x) => number(x)), check(c.length === 3));
   list(room.parameters ?? [], 64, (p) => (check(typeof p.name === "string"), color(p.value)));
   list(room.lights, 256, (l) => (file(l), levels(l), whole(l.target, -1, 8)));
-  if (room.reduced) file(room.reduced);
-  const tiles = room.reduced?.tiles || [];
-  list(tiles, 2048, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
+  const atlas = (entry) => {
+    if (entry) file(entry);
+    list(entry?.tiles || [], 2048, (t) => (scaled(t), levels(t), whole(t.x, 0, 4096), whole(t.y, 0, 4096)));
+    return entry?.tiles || [];
+  };
+  const tiles = atlas(room.reduced);
   list(room.classes, 32, (c) => {
     file(c);
     scaled(c);
@@ -71,12 +74,25 @@ function checkManifest(room) {
     check(g.mixture < 0 || scaleOf(g.mixture) === 1);
     list(g.parameters ?? [], 16, (p) => inside(p, room.parameters));
   });
-  list(room.terms, 1024, (t) => {
+  const term = (t, among, finest) => {
     inside(t.group, room.groups);
-    inside(t.gain, tiles, -1);
-    list(t.factors, 12, (m) => (inside(m, room.mixtures), check(scaleOf(m) >= room.finest && scaleOf(m) > 1)));
-  });
+    inside(t.gain, among, -1);
+    check(t.gain < 0 || among[t.gain].scale >= finest);
+    list(t.factors, 12, (m) => (inside(m, room.mixtures), check(scaleOf(m) >= finest && scaleOf(m) > 1)));
+  };
+  list(room.terms, 1024, (t) => term(t, tiles, room.finest));
+  if (room.lamps === undefined) return;
+  const { lamps } = room, shares = atlas(lamps);
+  check(shares.length && [1, 2, 4, 8].includes(lamps.finest));
+  whole(lamps.width, 1, 4096);
+  whole(lamps.height, 1, 4096);
+  check(shares.every((t) => t.x + t.width <= lamps.width && t.y + t.height <= lamps.height));
+  list(lamps.terms, 1024, (t) => (term(t, shares, lamps.finest), inside(t.parameter, room.parameters)));
+  room.parameters.forEach((p) => color(p.kept));
 }
+
+/* Whether the terms of all light do not have lamps of these colours: those of single lamps take their place. */
+const isRelit = ({ lamps, parameters }, colors) => !!lamps && colors.some((c, i) => c.some((x, k) => x !== parameters[i].kept[k]));
 
 class Renderer {
   constructor(canvas, room) {
@@ -100,15 +116,13 @@ class Renderer {
     if (rows > this.most) throw new Error("The room is too large for this device.");
     const most = (list, key) => Math.max(1, ...list.map((x) => x[key]));
     const smallSize = [most(this.small, "width"), most(this.small, "height")];
-    this.groupSize = [Math.ceil(room.width / room.finest), Math.ceil(room.height / room.finest)];
     this.records = this.texture(gl.TEXTURE_2D, gl.RGBA32UI, RECORD_COLUMNS, Math.max(rows, 1), 0, gl.NEAREST);
     this.heads = this.texture(gl.TEXTURE_2D_ARRAY, gl.R32UI, room.width, room.height, Math.max(this.full.length, 1), gl.NEAREST);
     this.smallHeads = this.texture(gl.TEXTURE_2D_ARRAY, gl.R32UI, ...smallSize, Math.max(this.small.length, 1), gl.NEAREST);
     this.light = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA8, room.width, room.height, room.lights.length, gl.NEAREST);
     this.still = this.texture(gl.TEXTURE_2D, gl.RGBA8, room.width, room.height, 0, gl.NEAREST);
     this.mixtures = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...smallSize, Math.max(layers, 1), gl.LINEAR);
-    this.factors = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
-    this.originals = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...this.groupSize, room.groups.length, gl.LINEAR);
+    for (const original of [false, true]) this.layers(original, false);
     this.none = this.texture(gl.TEXTURE_2D, gl.RGBA8, 1, 1, 0, gl.NEAREST);
     this.checkMemory();
     this.frame = gl.createFramebuffer();
@@ -187,6 +201,40 @@ class Renderer {
     this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
   }
 
+  /* The light of single lamps, which nothing needs before a lamp has another colour than in the terms of all light. */
+  putLamps(image) {
+    const { gl, room } = this, { lamps } = room, { terms } = lamps;
+    if (image.naturalWidth !== lamps.width || image.naturalHeight !== lamps.height) throw new Error(`${lamps.file} is damaged.`);
+    if (Math.max(image.naturalWidth, terms.length) > this.most) throw new Error("The room's lamps are too many for this device.");
+    const data = new Float32Array(64 * terms.length), scale = (m) => room.classes[room.mixtures[m][0][0]];
+    terms.sort((a, b) => a.group - b.group).forEach(({ parameter, gain, factors }, i) => {
+      const t = lamps.tiles[gain], put = (column, values) => data.set(values, 64 * i + 4 * column);
+      put(0, t ? [t.x, t.y, t.width, t.height] : [0, 0, 0, 0]);
+      put(1, [t ? t.scale / lamps.finest : 1, t?.white ?? 1, t?.levels ?? 255, parameter]);
+      put(2, [factors.length, 0, 0, 0]);
+      factors.forEach((m, k) => put(3 + k, [room.mixtureLayers[m], scale(m).width, scale(m).height, scale(m).scale / lamps.finest]));
+    });
+    this.lampTerms = this.texture(gl.TEXTURE_2D, gl.RGBA32F, 16, terms.length, 0, gl.NEAREST);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 16, terms.length, gl.RGBA, gl.FLOAT, data);
+    this.lampProgram = this.program(lampShader(room));
+    const tiles = this.texture(gl.TEXTURE_2D, gl.RGBA8, image.naturalWidth, image.naturalHeight, 0, gl.NEAREST);
+    this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
+    this.checkMemory();
+    this.lampTiles = tiles;
+  }
+
+  /* Where the sums of groups are drawn: their texture, and its grid. Before and after the split, and by all light or single
+   * lamps; those of lamps take memory once they are needed. */
+  layers(original, relit) {
+    const { gl, room } = this, finest = relit ? room.lamps.finest : room.finest;
+    const size = [Math.ceil(room.width / finest), Math.ceil(room.height / finest)], key = (relit ? "lit" : "") + (original ? "originals" : "factors");
+    if (!this[key]) {
+      this[key] = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...size, room.groups.length, gl.LINEAR);
+      this.checkMemory();
+    }
+    return { texture: this[key], size, grid: [...size, finest] };
+  }
+
   /* A new texture: an image, or a linear colour; null: the original. */
   putTexture(index, source) {
     const { gl } = this, target = this.room.targets[index];
@@ -256,8 +304,9 @@ class Renderer {
   }
 
   /* What is smaller than the picture: mixtures, then factors of groups. */
-  drawFactors(to, original, values) {
-    const { room } = this;
+  drawFactors(original, values) {
+    const { room } = this, colors = original ? this.rendered : values.colors, relit = !!this.lampTiles && isRelit(room, colors);
+    const to = this.layers(original, relit);
     room.mixtures.forEach((m, mixture) => {
       const c = room.classes[m[0][0]];
       if (c.scale === 1) return;
@@ -265,21 +314,36 @@ class Renderer {
       this.draw(this.programs[0], { ...values, heads: this.smallHeads, mixture, original: original ? 1 : 0 });
     });
     room.groups.forEach(({ parameters }, group) => {
-      const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * (original ? room.parameters[p].value : values.colors[p])[k]), [1, 1, 1]);
-      this.into(to, group, ...this.groupSize);
+      this.into(to.texture, group, ...to.size);
+      if (relit) {
+        const of = room.lamps.terms, first = of.findIndex((t) => t.group === group), count = of.filter((t) => t.group === group).length;
+        this.draw(this.lampProgram, { mixtures: this.mixtures, tiles: this.lampTiles, terms: this.lampTerms, first, end: first + count, colors: colors.flat() });
+        return;
+      }
+      const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * colors[p][k]), [1, 1, 1]);
       this.draw(this.programs[1], { mixtures: this.mixtures, reduced: this.reduced, group, color });
     });
+    return to;
+  }
+
+  get rendered() {
+    return (this.room.parameters ?? []).map((p) => p.value);
+  }
+
+  /* Whether the light of single lamps is missing from the picture as rendered: of those that are off in it, for one. */
+  get lacksLamps() {
+    return !this.lampTiles && isRelit(this.room, this.rendered);
   }
 
   get complete() {
-    return this.loaded.size === this.room.classes.length && this.lights.size === this.room.lights.length;
+    return !this.lacksLamps && this.loaded.size === this.room.classes.length && this.lights.size === this.room.lights.length;
   }
 
   isReady(group) {
     const { room } = this, g = room.groups[group];
     const mixtures = room.terms.filter((t) => t.group === group).flatMap((t) => t.factors);
     if (g.mixture >= 0) mixtures.push(g.mixture);
-    return (this.reduced || !room.reduced) && this.lights.has(g.light) && mixtures.every((m) => room.mixtures[m].every(([c]) =>
+    return !this.lacksLamps && (this.reduced || !room.reduced) && this.lights.has(g.light) && mixtures.every((m) => room.mixtures[m].every(([c]) =>
       this.loaded.has(room.classes[c]) && (room.classes[c].scale > 1 || this.lights.has(room.classes[c].albedo))));
   }
 
@@ -313,14 +377,16 @@ class Renderer {
       values[`image${t}`] = room.targets[t].image;
     }
     const partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
+    let originals = this.layers(true, false), factors = this.layers(false, false);
     if (ready.includes(1)) {
-      if (partial || split > 0) this.drawFactors(this.originals, true, values);
-      this.drawFactors(this.factors, false, values);
+      if (partial || split > 0) originals = this.drawFactors(true, values);
+      factors = this.drawFactors(false, values);
     }
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, room.width, room.height);
     this.draw(this.programs[2], {
-      ...values, heads: this.heads, lights: this.light, factors: this.factors, originals: this.originals, still: this.still,
+      ...values, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
+      originalGrid: originals.grid, still: this.still,
       loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)), ready, partial: partial ? 1 : 0, split, lamp,
     });
   }

@@ -21,9 +21,20 @@ export interface RetexLight {
   warmth: number;
 }
 
+/** A lamp whose light the set keeps apart. */
+export interface RetexLamp {
+  readonly name: string;
+  /** As in links, "1.5*rgb(1.9143814,0.8098837,0.19077155)"; null as rendered. */
+  readonly value: string | null;
+  /** Linear. */
+  readonly color: [number, number, number];
+}
+
 export interface RetexState {
   textures: Record<string, RetexPlacing & { source: string }>;
   light: RetexLight;
+  /** Values of lamps by name; "*" is all that are not named. */
+  lamps?: Record<string, string>;
 }
 
 /** Events of <retex-room>. */
@@ -40,13 +51,14 @@ export interface RetexRoomEvents {
 /** The element <retex-room src="FOLDER/">. */
 export class RetexRoom extends HTMLElement {
   readonly targets: string[];
-  readonly parameters: { name: string; value: [number, number, number] }[];
+  readonly lamps: RetexLamp[];
   readonly complete: Promise<void>;
   readonly link: string;
   setTexture(target: string, source: Blob | string | null, options?: RetexPlacing): Promise<void>;
   place(target: string, options: RetexPlacing): void;
-  setParameter(name: string, value: [number, number, number] | null): void;
-  setLight(light: Partial<RetexLight>): void;
+  setLight(light: Partial<RetexLight>): Promise<void>;
+  /** A lamp's new value: 0, 2.5, "#ffd0a0", "3000K", "1.5*3000K"; null: as rendered. */
+  setLight(lamp: string, value: string | number | null): Promise<void>;
   getState(): RetexState;
   setState(state: Partial<RetexState>): Promise<void>;
   toBlob(type?: string, quality?: number): Promise<Blob | null>;

@@ -234,6 +234,40 @@ void main() {
 }`;
 }
 
+/* The second step where lamps have new colours: for each group the sum over its terms of single lamps. There are many, so
+ * the shader reads what they are: rows of a texture, with the box of the gain in the atlas; its scale, curve and lamp; and
+ * the layer, size and scale of each mixture. */
+const lampShader = (room) => `${HEAD}
+uniform sampler2DArray mixtures;
+uniform sampler2D tiles, terms;
+uniform int first, end;
+uniform vec3 colors[${room.parameters.length}];
+out vec4 result;
+vec3 share(vec4 box, vec4 how) {
+  vec2 at = clamp(gl_FragCoord.xy / how.x - 0.5, vec2(0.0), box.zw - 1.0);
+  ivec2 a = ivec2(at), b = min(a + 1, ivec2(box.zw) - 1), o = ivec2(box.xy);
+  vec2 f = fract(at);
+  return mix(
+    mix(light(texelFetch(tiles, o + a, 0).rgb, how.y, how.z), light(texelFetch(tiles, o + ivec2(b.x, a.y), 0).rgb, how.y, how.z), f.x),
+    mix(light(texelFetch(tiles, o + ivec2(a.x, b.y), 0).rgb, how.y, how.z), light(texelFetch(tiles, o + b, 0).rgb, how.y, how.z), f.x), f.y);
+}
+void main() {
+  vec3 sum = vec3(0.0);
+  for (int i = first; i < end; i++) {
+    vec4 box = texelFetch(terms, ivec2(0, i), 0), how = texelFetch(terms, ivec2(1, i), 0);
+    int count = int(texelFetch(terms, ivec2(2, i), 0).x);
+    vec3 product = colors[int(how.w)];
+    if (box.z > 0.0) product *= share(box, how);
+    for (int k = 0; k < count; k++) {
+      vec4 m = texelFetch(terms, ivec2(3 + k, i), 0);
+      vec2 at = clamp(gl_FragCoord.xy / m.w, vec2(0.5), m.yz - 0.5);
+      product *= texture(mixtures, vec3(at / vec2(textureSize(mixtures, 0).xy), m.x)).rgb;
+    }
+    sum += product;
+  }
+  result = vec4(min(sum, 65504.0), 1.0);
+}`;
+
 /* Last step: the picture, with the original textures left of `split`. While not everything is loaded it is the still plus
  * what new textures change. */
 function pictureShader(room) {
@@ -249,12 +283,11 @@ function pictureShader(room) {
     return `
   if (ready[${i}]) {
     vec3 d = ${lightCode(room, g.light)};
-    if (original) color += d * factor(originals, ${i})${factor};
-    else color += d * factor(factors, ${i})${factor};
-    if (partial) color -= d * factor(originals, ${i})${before};
+    if (original) color += d * factor(originals, originalGrid, ${i})${factor};
+    else color += d * factor(factors, grid, ${i})${factor};
+    if (partial) color -= d * factor(originals, originalGrid, ${i})${before};
   }`;
   });
-  const small = [Math.ceil(room.width / room.finest), Math.ceil(room.height / room.finest)];
   return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
 uniform usampler2DArray heads;
 uniform sampler2DArray lights, factors, originals;
@@ -263,10 +296,10 @@ uniform bool loaded[${room.classes.length}];
 uniform bool ready[${room.groups.length}];
 uniform bool partial;
 uniform float split;
-uniform vec3 lamp;
+uniform vec3 lamp, grid, originalGrid;
 out vec4 result;
-vec3 factor(sampler2DArray from, int layer) {
-  vec2 at = clamp((vec2(gl_FragCoord.x, ${number(room.height)} - gl_FragCoord.y)) / ${number(room.finest)}, vec2(0.5), vec2(${small.map(number)}) - 0.5);
+vec3 factor(sampler2DArray from, vec3 grid, int layer) {
+  vec2 at = clamp((vec2(gl_FragCoord.x, ${number(room.height)} - gl_FragCoord.y)) / grid.z, vec2(0.5), grid.xy - 0.5);
   return texture(from, vec3(at / vec2(textureSize(from, 0).xy), layer)).rgb;
 }
 vec3 mean(vec3 sum, float total) { return total > 0.0 ? sum / total : vec3(0.0); }

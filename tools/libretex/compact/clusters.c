@@ -250,7 +250,8 @@ static double sum_of_shares(const RetexCompactLight *light, size_t pixel)
     return sum;
 }
 
-/* Light of all terms with interreflections, divided among interreflection footprints by their shares. */
+/* Light of all terms with interreflections, without that of single lamps, which it has, divided among interreflection
+ * footprints by their shares. */
 static double interreflected_light(const ClustersWork *work, size_t pixel,
                                    RetexCompactClusterLight of[RETEX_SHARES_MAX])
 {
@@ -259,7 +260,7 @@ static double interreflected_light(const ClustersWork *work, size_t pixel,
     double interreflected = 0;
     for (int i = 0; i < set->nterms; i++) {
         const float grey = work->light->greys[i];
-        if (grey == 0)
+        if (grey == 0 || work->light->lamps[work->light->lamps_of[i]].alone)
             continue;
         const float *rgb = set->parts[set->terms[i].radiance].image.pixels + 3 * pixel;
         const double *value = work->light->lamps[work->light->lamps_of[i]].value;

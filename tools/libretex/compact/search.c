@@ -396,7 +396,8 @@ int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *li
     if (!code)
         code = search_measured(&work, scales, err);
     if (!code)
-        code = retex_compact_lamps_choose(scales, &work.reference, &small, pow(10, -(params->psnr - LAMP_LOSS) / 10),
+        code = retex_compact_lamps_choose(scales, &work.reference, &small,
+                                          pow(10, -(params->lamps > 0 ? params->lamps : params->psnr - LAMP_LOSS) / 10),
                                           nthreads, err);
     search_close(&work);
     retex_compact_light_close(&small);

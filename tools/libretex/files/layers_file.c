@@ -332,9 +332,29 @@ static void close_file(LayersFile *file, int nthreads)
     free(file->zips);
 }
 
+/* A lamp whose picture is not in the set, as in a compact one, where its light is gains; -1: there is none. */
+static int lamp_without_picture(const RetexSet *set)
+{
+    for (int i = 0; i < set->nterms; i++) {
+        const int lamp = set->terms[i].role == RETEX_ROLE_LAMP ? retex_set_term_lamp(set, &set->terms[i]) : -1;
+        int has_picture = set->terms[i].nfactors == 1;
+        for (int t = 0; t < set->nterms; t++)
+            has_picture |= is_picture_of(set, &set->terms[t], lamp);
+        if (lamp >= 0 && !has_picture)
+            return lamp;
+    }
+    return -1;
+}
+
 int retex_set_write_layers(const RetexSet *set, const char *path, int nthreads, RetexError *err)
 {
     LayersFile file;
+    const int lamp = lamp_without_picture(set);
+    if (lamp >= 0)
+        return retex_fail(err, RETEX_EUNSUPPORTED,
+                          "the set has no picture of the lamp %s: packs with loss leave them out; take the set before "
+                          "packing, or one of retex-pack --no-lamps",
+                          set->parameters[lamp].name);
     nthreads = retex_threads(nthreads);
     int code = open_file(&file, set, nthreads, err);
     if (!code) {

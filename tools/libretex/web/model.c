@@ -119,7 +119,7 @@ static int scale_of(const RetexWebModel *model, int mixture)
 static int group_of(RetexWebModel *model, const RetexTerm *term, int mixture, RetexError *err)
 {
     RetexWebGroup group = {.light = term->radiance, .mixture = mixture, .target = term->target};
-    for (int k = 0; k < term->nfactors; k++)
+    for (int k = 0; k < term->nfactors && retex_term_is_light(term); k++)
         if (term->factors[k].kind == RETEX_FACTOR_PARAMETER)
             group.parameters[group.nparameters++] = term->factors[k].index;
     for (int i = 0; i < model->ngroups; i++) {
@@ -137,10 +137,11 @@ static int group_of(RetexWebModel *model, const RetexTerm *term, int mixture, Re
 static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *term, RetexError *err)
 {
     RetexWebTerm *to = &model->terms[model->nterms];
-    int full = -1;
-    *to = (RetexWebTerm){.gain = retex_term_image(term)};
-    if (to->gain >= 0 && retex_set_scale(set, &set->parts[to->gain].image) < model->finest)
-        model->finest = retex_set_scale(set, &set->parts[to->gain].image);
+    const int lamp = retex_term_is_light(term) ? -1 : retex_set_term_lamp(set, term);
+    int full = -1, *finest = lamp < 0 ? &model->finest : &model->lamps_finest;
+    *to = (RetexWebTerm){.gain = retex_term_image(term), .lamp = lamp};
+    if (to->gain >= 0 && retex_set_scale(set, &set->parts[to->gain].image) < *finest)
+        *finest = retex_set_scale(set, &set->parts[to->gain].image);
     for (int k = 0; k < term->nfactors; k++) {
         if (!retex_factor_is_texture(term->factors[k]))
             continue;
@@ -153,8 +154,8 @@ static int add_term(RetexWebModel *model, const RetexSet *set, const RetexTerm *
             full = mixture;
         else
             return refuse(err, "reflected light has the picture's size, as in fine packs; take the set before packing");
-        if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < model->finest)
-            model->finest = scale_of(model, mixture);
+        if (scale_of(model, mixture) > 1 && scale_of(model, mixture) < *finest)
+            *finest = scale_of(model, mixture);
     }
     to->group = group_of(model, term, full, err);
     model->nterms += to->group >= 0;
@@ -174,7 +175,7 @@ int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *
         code = refuse(err, "it has too many terms");
     if (code)
         return code;
-    *model = (RetexWebModel){.finest = RETEX_SCALE_MAX};
+    *model = (RetexWebModel){.finest = RETEX_SCALE_MAX, .lamps_finest = RETEX_SCALE_MAX};
     model->terms = calloc((size_t)set->nterms + 1, sizeof *model->terms);
     if (!model->terms)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
@@ -182,6 +183,9 @@ int retex_web_model_open(RetexWebModel *model, const RetexSet *set, RetexError *
         code = add_footprint(model, set, i, err);
     for (int i = 0; i < set->nterms && !code; i++)
         if (retex_term_is_light(&set->terms[i]))
+            code = add_term(model, set, &set->terms[i], err);
+    for (int i = 0; i < set->nterms && !code; i++)
+        if (set->terms[i].role == RETEX_ROLE_LAMP)
             code = add_term(model, set, &set->terms[i], err);
     if (code)
         retex_web_model_close(model);

@@ -34,11 +34,13 @@ typedef struct RetexWebMixture {
 
 typedef struct RetexWebTerm {
     int group, gain;                          /* part, or -1 */
+    int lamp;                                 /* parameter of the single lamp whose light it is; -1: all light */
     int nfactors, factors[RETEX_MAX_FACTORS]; /* mixtures that are smaller than the picture */
 } RetexWebTerm;
 
 /* Terms of the same light, parameters and mixture of the picture's size: light times parameters times mixture times the
- * sum over terms of gain times factors. */
+ * sum over terms of gain times factors. Terms of single lamps are of the groups of all light, whatever their parameter:
+ * their sums, each times its parameter, take the place of the sum of the others. */
 typedef struct RetexWebGroup {
     int light, mixture;                             /* part; index, or -1 */
     int target;                                     /* of its first factor, or -1 */
@@ -52,6 +54,7 @@ typedef struct RetexWebModel {
     RetexWebTerm *terms;
     RetexWebGroup groups[RETEX_WEB_GROUPS_MAX];
     int finest; /* the smallest scale of what is smaller than the picture; 1 if there is nothing */
+    int lamps_finest; /* the same of the terms of single lamps, which come after the others */
 } RetexWebModel;
 
 /* Sort a compact set's terms. Corrections are left out. RETEX_EUNSUPPORTED if the set has another form. */

@@ -17,8 +17,13 @@ extern "C" {
 typedef struct RetexWebParams {
     size_t size;
     int quality; /* 1..100, default 60: as of packs, but pictures are not measured */
+    int lamps;   /* 1..RETEX_PARAMETERS_MAX, default 4: most lamps that visitors can change, `rest` not counted; the
+                    light of the dimmest others is added to that of `rest` */
+    RetexWarn *note; /* told, in the calling thread, which lamps there are, what their file takes, and which of them
+                        joined `rest`; default NULL = nobody */
+    void *note_context;
 } RetexWebParams;
-#define RETEX_WEB_INIT { sizeof(RetexWebParams), 60 }
+#define RETEX_WEB_INIT { sizeof(RetexWebParams), 60, 4, NULL, NULL }
 
 /* What the files take, in bytes. */
 typedef struct RetexWebBytes {
