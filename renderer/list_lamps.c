@@ -69,14 +69,15 @@ static int find_shares(const Arguments *a, const Scene *scene, double shares[LAM
     return RETEX_OK;
 }
 
-/* rest: also what else there is. */
+/* rest: also what else there is, if it shines. */
 static int list_resolved(Arguments *a, Scene *scene, int rest, RetexError *err)
 {
     double shares[LAMPS_MAX + 1] = {0};
     scene->ntargets = 0;
     const int code = find_shares(a, scene, shares, err);
-    for (int l = 0; l < scene->nlamps - !rest && !code; l++)
-        print_lamp(scene, &scene->lamps[l], shares[l]);
+    for (int l = 0; l < scene->nlamps && !code; l++)
+        if (l != scene_rest_lamp(scene) || (rest && shares[l] > 0))
+            print_lamp(scene, &scene->lamps[l], shares[l]);
     return code;
 }
 

@@ -78,18 +78,14 @@ $ printf 'output,light:Lamp\ny.exr,1\n' >w.csv; retex-combine s.exr --batch w.cs
 # What shines in the project's scenes has a name.
 $ for s in cornell-box glass-caustics kitchen living-room; do retex-render -q --size 32x24 --list-lamps "$SCENES/$s/$s.pov" | sed 's/^[ 0-9.]*%  //'; done
 > Lamp  rgb(20,17,12.4)
-> rest  all other light
 > Lamp  rgb(7.6,6.8,5.6)
 > sky  several colours
-> rest  all other light
 > Sun  rgb(2,1.75,1.38)
 > Daylight  rgb(3.5,3.9,4.4)
 > Garden  rgb(1.7,1.85,1.8)
 > Hood_Light  rgb(6,4.7,3.2)
 > Shelf_Light  rgb(7,5.2,3.3)
 > Pendant_Light  rgb(5.2,3.9,2.5)
-> rest  all other light
 > Daylight  rgb(5,5.6,6.3)
 > Garden  rgb(2.8,3.1,3.2)
 > Lamp  several colours
-> rest  all other light
