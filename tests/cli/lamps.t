@@ -89,3 +89,6 @@ $ for s in cornell-box glass-caustics kitchen living-room; do retex-render -q --
 > Daylight  rgb(5,5.6,6.3)
 > Garden  rgb(2.8,3.1,3.2)
 > Lamp  several colours
+
+# In parts, stopped and gone on with, and as frames: the same bits.
+$ scene=$TESTS/../../docs/suns.pov; render() { retex-render -q --size 32x24 --spp 2 -t Floor --lamps each "$@"; }; render $scene -o whole.exr; for i in 1 2; do render --shard $i/2 $scene -o part$i; done; render --merge part1 --merge part2 $scene -o merged.exr; cmp whole.exr merged.exr; render --max-time 0.0001 --resume $scene -o again.exr 2>/dev/null; render --resume $scene -o again.exr; cmp whole.exr again.exr; render --frames 1-2 $scene -o f-%d.exr; retex-combine -q f-%d.exr --frames 1-2 --solo Sun_16 -o p-%d.exr; retex-combine -q whole.exr --solo Sun_16 -o p.exr; retex-diff -q p-1.exr p.exr; retex-diff -q p-2.exr p.exr; rm whole.exr merged.exr again.exr f-*.exr p*.exr part*
