@@ -79,9 +79,41 @@ static void few_hits_are_combined(void **state)
     }
 }
 
+/* Shorter and shorter plans: each keeps less than the one before, all combinations of the fewest further hits last, and
+ * a hit beyond leads nowhere. */
+static void plans_are_shortened(void **state)
+{
+    (void)state;
+    for (int ntargets = 1; ntargets <= RETEX_MAX_TARGETS; ntargets++)
+        for (int together = 1; together <= 2; together++) {
+            Plan plan, least;
+            int steps = 0, most = 0;
+            plan_make(&plan, ntargets, RETEX_MAX_ORDERS, RETEX_MAX_HITS);
+            for (int before = plan.count; plan_shorten(&plan, ntargets, together); before = plan.count, steps++)
+                assert_true(plan.count < before);
+            least = plan;
+            assert_false(plan_shorten(&plan, ntargets, together));
+            assert_memory_equal(&plan, &least, sizeof plan);
+            for (int k = 0; k < plan.count; k++) {
+                most = hits_of(&plan.coefficients[k]) > most ? hits_of(&plan.coefficients[k]) : most;
+                for (int t = 0; t < ntargets; t++) {
+                    const int next = plan.coefficients[k].next[t];
+                    assert_true(next < plan.count);
+                    assert_true(next < 0 || hits_of(&plan.coefficients[next]) == hits_of(&plan.coefficients[k]) + 1);
+                    assert_int_equal(next < 0, hits_of(&plan.coefficients[k]) == plan.most);
+                }
+            }
+            assert_int_equal(most, plan.most);
+            assert_true(steps >= 3);
+            assert_true(ntargets != 2 || together != 1 || steps == 12);
+            const int kept = ntargets > 4 ? 1 : together; /* they have no other combinations to begin with */
+            assert_int_equal(most, ntargets == 1 ? together : kept + 1);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_target_has_all_powers), cmocka_unit_test(steps_count_hits),
-                                       cmocka_unit_test(few_hits_are_combined)};
+                                       cmocka_unit_test(few_hits_are_combined), cmocka_unit_test(plans_are_shortened)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

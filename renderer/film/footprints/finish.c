@@ -139,22 +139,22 @@ static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, Re
 }
 
 /* Whether light with still more hits is in the coefficient: the last one of a target, or of any. */
-static int goes_on(const FootprintFilm *film, int coefficient)
+static int goes_on(const FootprintFilm *film, const Plan *plan, int coefficient)
 {
-    return coefficient == film->plan.count - 1 &&
-           (film->scene->ntargets == 1 || film->plan.coefficients[coefficient].mixed);
+    return plan->most == film->plan.most && coefficient == plan->count - 1 &&
+           (film->scene->ntargets == 1 || plan->coefficients[coefficient].mixed);
 }
 
 /* The factors of interreflected light of one kind. */
-static void add_interreflected_factors(RetexTerm *term, const FootprintFilm *film, int t, int kind, int coefficient,
-                                       const Places *places)
+static void add_interreflected_factors(RetexTerm *term, const FootprintFilm *film, const Plan *plan, int t, int kind,
+                                       int coefficient, const Places *places)
 {
-    const PlanCoefficient *c = &film->plan.coefficients[coefficient];
+    const PlanCoefficient *c = &plan->coefficients[coefficient];
     add_factors(term, places->kinds[t][kind], 1);
     add_factors(term, places->any, c->mixed);
     for (int b = 0; b < film->scene->ntargets; b++)
         add_factors(term, places->interreflections[b], c->powers[b]);
-    if (goes_on(film, coefficient)) {
+    if (goes_on(film, plan, coefficient)) {
         RetexFactor further = term->factors[term->nfactors - 1];
         further.quantity = RETEX_QUANTITY_FURTHER;
         add_factors(term, further, 1);
@@ -167,7 +167,7 @@ static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int 
     int code = RETEX_OK;
     for (int i = 1; i < film->plan.count && !code; i++) {
         RetexTerm term = {.role = role_of(kind), .target = t};
-        add_interreflected_factors(&term, film, t, kind, i, places);
+        add_interreflected_factors(&term, film, &film->plan, t, kind, i, places);
         code = finish_term(film, set, &term, film->targets[t].kinds[kind].interreflected[i], err);
     }
     return code;
@@ -180,12 +180,12 @@ static int finish_lamp_kind(FootprintFilm *film, RetexSet *set, const int *image
                             const Places *places, RetexError *err)
 {
     int code = RETEX_OK;
-    for (int i = 0; i < film->plan.count && !code; i++) {
+    for (int i = 0; i < film->lamp_plan.count && !code; i++) {
         RetexTerm term = {.role = RETEX_ROLE_LAMP, .target = t};
         if (i == 0)
             add_factors(&term, places->lamp_kinds[t][kind], 1);
         else
-            add_interreflected_factors(&term, film, t, kind, i, places);
+            add_interreflected_factors(&term, film, &film->lamp_plan, t, kind, i, places);
         add_factors(&term, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
         code = finish_term(film, set, &term, images[i], err);
     }

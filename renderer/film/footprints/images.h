@@ -51,8 +51,8 @@ typedef struct FootprintFilm {
     const Scene *scene;
     FilmParams params;
     Bands *bands; /* borrowed */
-    Plan plan;
-    int quadrants; /* it has them */
+    Plan plan, lamp_plan; /* of all light; of each lamp: the same, or a smaller one */
+    int quadrants;        /* it has them */
     int indep;     /* C0 */
     TargetImages *targets;
     struct LampImages *lamps; /* NULL where the scene has none */

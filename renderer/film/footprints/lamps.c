@@ -28,7 +28,7 @@ struct LampPixel {
 
 int lamps_images_needed(const FootprintFilm *film)
 {
-    return film->scene->nlamps ? 2 + 2 * film->scene->ntargets * film->plan.count : 0;
+    return film->scene->nlamps ? 2 + 2 * film->scene->ntargets * film->lamp_plan.count : 0;
 }
 
 static int add_images(FootprintFilm *film, int l, RetexError *err)
@@ -41,10 +41,11 @@ static int add_images(FootprintFilm *film, int l, RetexError *err)
     snprintf(name, sizeof name, "%.90s_indep", word);
     if (!code)
         code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->indep, err);
-    for (int n = 0; n < 2 * scene->ntargets * film->plan.count && !code; n++) {
-        const int i = n % film->plan.count, kind = n / film->plan.count % 2, t = n / film->plan.count / 2;
+    const int count = film->lamp_plan.count;
+    for (int n = 0; n < 2 * scene->ntargets * count && !code; n++) {
+        const int i = n % count, kind = n / count % 2, t = n / count / 2;
         retex_lamp_word(word, scene->lamps[l].name, scene->targets[t].name);
-        plan_light_name(name, &film->plan, word, kind, i);
+        plan_light_name(name, &film->lamp_plan, word, kind, i);
         code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->kinds[t][kind][i], err);
     }
     return code;
@@ -121,12 +122,15 @@ static inline void add_times(PlanLight *sum, const PlanLight *light, Float4 by)
     }
 }
 
-/* Add light times the texture of one more hit. */
-static inline void add_textured(PlanLight *sum, const PlanLight *light, const Plan *plan, int target)
+/* Add light times the texture of one more hit; times its original albedo, where the plan has no light of so many. */
+static inline void add_textured(PlanLight *sum, const PlanLight *light, const Plan *plan, const TargetVertex *hit)
 {
     for (unsigned left = light->used; left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        add_coefficient(sum, plan->coefficients[k].next[target], light->c[k]);
+        const int k = __builtin_ctz(left), next = plan->coefficients[k].next[hit->target];
+        if (next >= 0)
+            add_coefficient(sum, next, light->c[k]);
+        else
+            add_coefficient(sum, k, light->c[k] * color4(hit->albedo));
     }
 }
 
@@ -168,7 +172,7 @@ static void gather_nodes(LampPixel *p, const TargetTree *path, const TargetNode 
             continue;
         }
         const int before = hit->before->number;
-        add_textured(independent, dependent, &p->film->plan, hit->at.target);
+        add_textured(independent, dependent, &p->film->lamp_plan, &hit->at);
         add_times(&p->dependent[before], independent, hit->before_d);
         if (!is_black4(hit->before_i))
             add_times(&p->independent[before], independent, hit->before_i);
@@ -212,7 +216,7 @@ void lamps_totals(const LampPixel *p, SignalTotals *totals, int first)
             for (unsigned left = light->used; left; left &= left - 1) {
                 const int i = __builtin_ctz(left);
                 for (int c = 0; c < 3; c++)
-                    total[c] += p->film->plan.coefficients[i].weight * (double)(light->c[i][c] * white[c]);
+                    total[c] += p->film->lamp_plan.coefficients[i].weight * (double)(light->c[i][c] * white[c]);
             }
         }
     }

@@ -59,17 +59,33 @@ static void complete(Plan *plan, int ntargets, int first_mixed)
     }
 }
 
-void plan_make(Plan *plan, int ntargets, int orders, int factors)
+static void make_within(Plan *plan, int ntargets, int together, int most)
 {
     unsigned char powers[RETEX_MAX_TARGETS] = {0};
-    int most = ntargets == 0 ? 0 : ntargets == 1 ? orders - 1 : factors - 1, together = combined(ntargets);
-    *plan = (Plan){.count = 0};
+    *plan = (Plan){.together = together, .most = most};
     for (int hits = 0; hits <= most && hits <= together; hits++)
         add_combinations(plan, ntargets, 0, hits, powers);
     int first_mixed = plan->count;
     for (int hits = together + 1; hits <= most; hits++)
         plan->coefficients[plan->count++].mixed = (unsigned char)hits;
     complete(plan, ntargets, first_mixed);
+}
+
+void plan_make(Plan *plan, int ntargets, int orders, int factors)
+{
+    make_within(plan, ntargets, combined(ntargets),
+                ntargets == 0 ? 0 : ntargets == 1 ? orders - 1 : factors - 1);
+}
+
+int plan_shorten(Plan *plan, int ntargets, int together)
+{
+    if (plan->most > (ntargets > 1 ? plan->together + 1 : together))
+        make_within(plan, ntargets, plan->together, plan->most - 1);
+    else if (ntargets > 1 && plan->together > together)
+        make_within(plan, ntargets, plan->together - 1, plan->together + 1);
+    else
+        return 0;
+    return 1;
 }
 
 void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *word, int kind, int coefficient)

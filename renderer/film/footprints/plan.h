@@ -19,7 +19,8 @@ typedef struct PlanCoefficient {
 } PlanCoefficient;
 
 typedef struct Plan {
-    int count; /* the first coefficient has no further hit */
+    int together, most; /* so many further hits are kept in every combination; so many at all */
+    int count;          /* the first coefficient has no further hit */
     PlanCoefficient coefficients[PLAN_COEFFICIENTS_MAX];
 } Plan;
 
@@ -33,5 +34,9 @@ void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *wo
 /* Without targets there is one coefficient, of light that meets none. orders: most factors of one target, the first hit
  * included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
 void plan_make(Plan *plan, int ntargets, int orders, int factors);
+
+/* Make the next smaller plan, which keeps at least so many hits in every combination, or with one target in all.
+ * Returns 0 where there is none. */
+int plan_shorten(Plan *plan, int ntargets, int together);
 
 #endif

@@ -126,20 +126,37 @@ static int parts_needed(const FootprintFilm *film)
            film->scene->nlamps * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
 }
 
+static void give_up(const FootprintFilm *film, int most, int *extra)
+{
+    while (*extra > 0 && parts_needed(film) > most)
+        --*extra;
+}
+
+static void shorten_lamps(FootprintFilm *film, int most, int together)
+{
+    while (film->scene->nlamps && parts_needed(film) > most)
+        if (!plan_shorten(&film->lamp_plan, film->scene->ntargets, together))
+            return;
+}
+
 /* Where there may be extra sharp clusters, there may be extra ones of the other kinds. Of many targets they are fewer:
- * the interreflections of all targets are one mixture. Those of the other kinds are the first to be given up. */
-static void give_extra(FootprintFilm *film)
+ * the interreflections of all targets are one mixture. If the set may need too many parts, extra clusters of the other
+ * kinds are the first to be given up, then further hits of lamps in all combinations but of two, then extra sharp
+ * clusters, and last combinations of two. */
+static void fit_parts(FootprintFilm *film)
 {
     FilmParams *p = &film->params;
     const int most = film->scene->nlamps ? PARTS_MAX : PARTS_EXTRA, ntargets = film->scene->ntargets;
-    if (!p->extra || !ntargets)
-        return;
-    p->extra_broad = least(EXTRA_BROAD, FILM_CLUSTERS_MAX - p->broad);
-    p->extra_interreflections = least(INTERREFLECTION_MOST, RETEX_SHARES_MAX / ntargets) - INTERREFLECTION_CLUSTERS;
-    int *const extra[] = {&p->extra_interreflections, &p->extra_broad, &p->extra};
-    for (int k = 0; k < 3; k++)
-        while (*extra[k] > 0 && parts_needed(film) > most)
-            --*extra[k];
+    film->lamp_plan = film->plan;
+    if (p->extra && ntargets) {
+        p->extra_broad = least(EXTRA_BROAD, FILM_CLUSTERS_MAX - p->broad);
+        p->extra_interreflections = least(INTERREFLECTION_MOST, RETEX_SHARES_MAX / ntargets) - INTERREFLECTION_CLUSTERS;
+    }
+    give_up(film, most, &p->extra_interreflections);
+    give_up(film, most, &p->extra_broad);
+    shorten_lamps(film, most, 2);
+    give_up(film, most, &p->extra);
+    shorten_lamps(film, most, 1);
 }
 
 int footprints_create(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
@@ -153,7 +170,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
-    give_extra(film);
+    fit_parts(film);
     if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT,
                           "the set may need %d parts, more than %d: take fewer targets%s or clusters",

@@ -15,7 +15,7 @@
 
 #define STEPS RETEX_COMPACT_STEPS
 #define BRIGHTER_MOST 20 /* as often as rendered a lamp is looked at */
-#define NOISE_IGNORED 0.9
+#define NOISE_IGNORED 0.5 /* of the noise of a lamp's light: of denoised light it is uneven, and more hid blotches */
 #define NOISE_ALLOWED 0.025 /* error allowed, as a share of the noise of the lamp's picture */
 
 /* ---- one gain of one lamp ---- */
