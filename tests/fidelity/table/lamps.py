@@ -216,6 +216,8 @@ Packs and rooms for browsers keep the light of a lamp as shares of all light, at
 
 - Light groups of Cycles, Arnold's AOVs of light groups and LightMix of Corona, V-Ray and Maxwell keep a picture for each lamp,
   with the textures baked into it. A new texture is a new render. retex writes such layers too: `retex-info --layers`.
+- A [tutorial of Corona's LightMix](https://www.sanwenwang.com/ba/pbrjkfqf.html) warns of CXR files of more than ten gigabytes,
+  and advises to put lights into groups. Here lamps are shares of one another's light, at the sizes above.
 - A picture is split by lights or by materials; with both, each combination is a layer. Here the combination is what a set holds.
 - A dim lamp that is turned up is noise, here as there. `--light-share` gives each lamp a least share of the samples, and every
   lamp is denoised with weights of its own.
