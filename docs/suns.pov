@@ -1,7 +1,7 @@
 // A room whose sun has a slider: five suns, of which one shines at a time. Target: Floor.
 //
 //   retex-render docs/suns.pov -t Floor --lamps each --denoise -o suns.exr
-//   retex-combine suns.exr --solo Sun_16 --light sky=4 -o four-o-clock.jpg
+//   retex-combine suns.exr --solo Sun_16 --light Sun_16=2 --light sky=20 -o four-o-clock.jpg
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { location <0, 1.5, -3.4> right x*4/3 angle 68 look_at <.2, 1, 1> }

@@ -169,11 +169,11 @@ is left in it.
         print(f"{CAPTIONS[name]}:\n\n![{name}](pictures/lamps-{name}.jpg)\n")
     print("""## A slider for the time of day
 
-[suns.pov](suns.pov) has a sun for each hour from two to six. Each is a lamp; one of them shines at a time, and the sky four
-times as strong. All five pictures come from one set:
+[suns.pov](suns.pov) has a sun for each hour from two to six. Each is a lamp; one of them shines at a time, twice as strong, and
+the sky twenty times. All five pictures come from one set:
 
     retex-render docs/suns.pov -t Floor --lamps each --denoise -o suns.exr
-    retex-combine suns.exr --solo Sun_16 --light sky=4 -o four-o-clock.jpg
+    retex-combine suns.exr --solo Sun_16 --light Sun_16=2 --light sky=20 -o four-o-clock.jpg
 
 ![five hours](pictures/lamps-hours.jpg)
 """)
