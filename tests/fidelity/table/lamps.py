@@ -170,9 +170,9 @@ is left in it.
     print("""## A slider for the time of day
 
 [suns.pov](suns.pov) has a sun for each hour from two to six. Each is a lamp; one of them shines at a time, twice as strong, and
-the sky twenty times. All five pictures come from one set:
+the sky twenty times. All five pictures come from one set; five suns share its samples, so it has more than usual:
 
-    retex-render docs/suns.pov -t Floor --lamps each --denoise -o suns.exr
+    retex-render docs/suns.pov -t Floor --lamps each --spp 512 --denoise -o suns.exr
     retex-combine suns.exr --solo Sun_16 --light Sun_16=2 --light sky=20 -o four-o-clock.jpg
 
 ![five hours](pictures/lamps-hours.jpg)

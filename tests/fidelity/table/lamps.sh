@@ -99,7 +99,7 @@ done <$here/table/lamps.txt
 # ---- a slider for the time of day ----
 
 hours='14 15 16 17 18'
-made "$work/suns.exr" retex-render -q --size "$(wide suns $((picture_height * 2 / 3)))" -t Floor --lamps each --spp 128 \
+made "$work/suns.exr" retex-render -q --size "$(wide suns $((picture_height * 2 / 3)))" -t Floor --lamps each --spp 512 \
     --denoise docs/suns.pov
 for hour in $hours; do
     made "$work/suns-$hour.exr" retex-combine -q "$work/suns.exr" --solo "Sun_$hour" --light "Sun_$hour=2" --light sky=20
