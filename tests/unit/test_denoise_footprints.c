@@ -136,6 +136,24 @@ static void test_quadrants_are_lent(void **state)
     close_work(&w);
 }
 
+/* Light of clusters that is their weight in a mixture, as for lamps, moves with them. */
+static void test_light_as_a_weight(void **state)
+{
+    (void)state;
+    for (int kind = RETEX_FOOTPRINT_SHARP; kind <= RETEX_FOOTPRINT_BROAD; kind++) {
+        RetexSet *set = cluster_set((RetexFootprintKind)kind, 2);
+        RetexMixture mixture = {.nshares = 2};
+        RetexError err = {0};
+        for (int k = 0; k < 2; k++)
+            mixture.shares[k] = (struct RetexShare){k, light_part(set, k)};
+        test_must(retex_set_add_mixture(set, &mixture, NULL, &err), &err);
+        Work w = open_work(set, 1);
+        assert_int_equal(w.written[set->footprints[0].uv], 1);
+        assert_int_equal(w.written[set->footprints[1].albedo], 1);
+        close_work(&w);
+    }
+}
+
 /* A part that something else uses is not written: then light goes by what the pixel itself has. */
 static void test_shared_parts_stay(void **state)
 {
@@ -522,6 +540,7 @@ int main(void)
         cmocka_unit_test(test_light_by_coverage),
         cmocka_unit_test(test_borrowing),
         cmocka_unit_test(test_quadrants_are_lent),
+        cmocka_unit_test(test_light_as_a_weight),
         cmocka_unit_test(test_shared_parts_stay),
         cmocka_unit_test(test_shares_are_mended),
         cmocka_unit_test(test_albedo_is_of_the_light),
