@@ -1,6 +1,7 @@
 /* The footprints of a pixel after its light was filtered: kept, borrowed or pooled. The sets have few pixels, filled
  * by hand. */
 #include "lib_footprints.h"
+#include "denoise/pools.h"
 
 /* Half a unit in the last place that coverages and spreads up to 1 keep. */
 #define COVERAGE_STEP (1.0f / 512)
@@ -150,6 +151,22 @@ static void test_light_as_a_weight(void **state)
         Work w = open_work(set, 1);
         assert_int_equal(w.written[set->footprints[0].uv], 1);
         assert_int_equal(w.written[set->footprints[1].albedo], 1);
+        close_work(&w);
+    }
+}
+
+/* Light with two further hits, each as albedo 1/2; that of lamps is the same light once more. */
+static void test_light_of_lamps_is_counted_once(void **state)
+{
+    (void)state;
+    for (int lamps = 0; lamps < 2; lamps++) {
+        RetexSet *set = again_set(RETEX_FOOTPRINT_SHARP, 2);
+        put_again(set, 1, 1, 3);
+        if (lamps)
+            test_add_lamp_terms(set, 0, 0);
+        Work w = open_work(set, 1);
+        const RetexDenoiseFootprints *f = w.footprints;
+        assert_float_equal(f->interreflected[f->nsignals][WIDTH + 1], 0.25f * 3, 1e-6f);
         close_work(&w);
     }
 }
@@ -541,6 +558,7 @@ int main(void)
         cmocka_unit_test(test_borrowing),
         cmocka_unit_test(test_quadrants_are_lent),
         cmocka_unit_test(test_light_as_a_weight),
+        cmocka_unit_test(test_light_of_lamps_is_counted_once),
         cmocka_unit_test(test_shared_parts_stay),
         cmocka_unit_test(test_shares_are_mended),
         cmocka_unit_test(test_albedo_is_of_the_light),
