@@ -94,7 +94,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) all
-tests: test-programs $(FAULTS) unit-tests fuzz-programs
+tests: test-programs $(FAULTS) unit-tests fuzz-programs $(BUILD)/tests/bench/bench
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
 SUITES ?= lint unit cli web oiio python man docs golden faults fidelity

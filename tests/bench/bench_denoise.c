@@ -12,6 +12,7 @@ typedef struct Kernels {
     Room *room;
     Sums *sums;
     RetexDenoiseSignal signal;
+    RetexDenoiseImages images;
     RetexDenoiseBatch batch;
 } Kernels;
 
@@ -39,20 +40,39 @@ static void signal_scalar(void *context)
     retex_denoise_signal_kernel(&k->signal, &k->batch, 1);
 }
 
+static void filter_images_with(Kernels *k, int scalar)
+{
+    const float *weights[DENOISE_BATCH];
+    for (int n = 0; n < DENOISE_BATCH; n++)
+        weights[n] = k->room->alike[n].strict;
+    retex_denoise_images_kernel(&k->images, k->batch.of, weights, DENOISE_BATCH, scalar);
+}
+
+static void filter_images(void *context)
+{
+    filter_images_with(context, 0);
+}
+
+static void images_scalar(void *context)
+{
+    filter_images_with(context, 1);
+}
+
 static void bench_denoise_kernels(void)
 {
     Kernels k = {.room = open_room(1), .sums = calloc(1, sizeof *k.sums)};
     k.signal = signal_of(k.room, k.sums);
-    k.batch = (RetexDenoiseBatch){.dx = -1, .dy = 2, .count = DENOISE_BATCH};
+    k.images = images_of(k.room, k.sums);
+    k.batch = (RetexDenoiseBatch){.count = DENOISE_BATCH};
     for (int n = 0; n < DENOISE_BATCH; n++) {
-        retex_denoise_features_kernel(k.room->alike + n, &k.room->features, k.batch.dx + n, k.batch.dy, 1);
+        k.batch.of[n] = (RetexDenoiseDisplacement){n - 1, 2};
+        retex_denoise_features_kernel(k.room->alike + n, &k.room->features, n - 1, 2, 1);
         k.batch.alike[n] = k.room->alike + n;
     }
     bench_section("Denoising: times as fast as the scalar reference");
     bench_pair("features of a tile at one displacement", features, features_scalar, &k);
-    bench_pair("a signal of two images, a batch of displacements", filter_signal, signal_scalar, &k);
-    k.signal.nplanes = 0;
-    bench_pair("a signal of one image", filter_signal, signal_scalar, &k);
+    bench_pair("a signal at a batch of displacements", filter_signal, signal_scalar, &k);
+    bench_pair("two images at a batch of displacements", filter_images, images_scalar, &k);
     free(k.room);
     free(k.sums);
 }

@@ -53,14 +53,8 @@ Room *open_room(uint32_t seed)
 
 RetexDenoiseSignal signal_of(Room *r, Sums *sums)
 {
-    RetexDenoiseSignal s = {.kind = r->kind,
-                            .modulation = r->modulation,
-                            .epsilon = 1e-6f,
-                            .strength = 0.2f,
-                            .nplanes = IMAGES,
-                            .planes = r->image_planes,
-                            .sums = sums->image_sums,
-                            .scratch = r->scratch};
+    RetexDenoiseSignal s = {
+        .kind = r->kind, .modulation = r->modulation, .epsilon = 1e-6f, .strength = 0.2f, .scratch = r->scratch};
     for (int c = 0; c < 3; c++) {
         s.variance[c] = r->variance[c];
         s.half[0][c] = r->half[0][c], s.half[1][c] = r->half[1][c];
@@ -71,7 +65,12 @@ RetexDenoiseSignal signal_of(Room *r, Sums *sums)
             for (int c = 0; c < 3; c++)
                 s.candidates[k].sum[h][c] = sums->sum[k][h][c];
         }
+    return s;
+}
+
+RetexDenoiseImages images_of(const Room *r, Sums *sums)
+{
     for (int k = 0; k < IMAGES; k++)
         sums->image_sums[k] = sums->images[k];
-    return s;
+    return (RetexDenoiseImages){IMAGES, r->image_planes, sums->image_sums};
 }

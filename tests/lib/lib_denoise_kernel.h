@@ -17,7 +17,7 @@ typedef struct Room {
     RetexDenoiseSimilarity alike[DENOISE_BATCH];
 } Room;
 
-/* The output of the signal kernel. */
+/* The output of the kernels. */
 typedef struct Sums {
     float sum[DENOISE_CANDIDATES][2][4][DENOISE_PIXELS], images[IMAGES][DENOISE_PIXELS],
         weight[DENOISE_BATCH][DENOISE_PIXELS];
@@ -26,7 +26,7 @@ typedef struct Sums {
 
 /* Three features and one of positions. They give weights from 0 to 1. To be freed. */
 Room *open_room(uint32_t seed);
-/* With all images. */
 RetexDenoiseSignal signal_of(Room *r, Sums *sums);
+RetexDenoiseImages images_of(const Room *r, Sums *sums);
 
 #endif

@@ -89,10 +89,14 @@ static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads
         code = retex_denoise_passed_open(&passed, d, d->roi.y1 - d->roi.y0, err);
     passed.first = d->roi.y0;
     d->passed = &passed;
-    if (!code)
-        code = retex_denoise_filter(d, &result, nthreads, err);
-    if (!code)
-        code = retex_denoise_second(d, &passed, result.sums, nthreads, err);
+    RetexDenoiser bundle;
+    for (int first = 0, count; !code && (count = retex_denoise_bundle(&bundle, d, first)) > 0; first += count) {
+        RetexDenoisePassed own = {passed.first, passed.rows, passed.of + first};
+        bundle.passed = &own;
+        code = retex_denoise_filter(&bundle, &result, nthreads, err);
+        if (!code)
+            code = retex_denoise_second(&bundle, &own, result.sums, nthreads, err);
+    }
     if (!code)
         code = retex_denoise_finish(d, &result, nthreads, err);
     retex_denoise_passed_close(&passed, d);
@@ -121,6 +125,7 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
         code = find_features(d.features, set, err);
     if (!code)
         code = retex_signals_open(&d.signals, set, err);
+    d.nsignals = d.signals.count;
     const int in_strips = !roi && retex_denoise_can_use_strips(set);
     if (!code && !in_strips)
         code = retex_set_load(set, nthreads, err);

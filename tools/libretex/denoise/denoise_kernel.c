@@ -12,8 +12,7 @@ enum {
     BOX = 2 * DENOISE_PATCH + 1
 };
 
-/* Further, what is left of a firefly gets darker, but light gets no nearer to the truth. */
-enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX, NEAR = 20 };
+enum { FAR = 2 * DENOISE_RADIUS_MAX * DENOISE_RADIUS_MAX };
 
 /* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
  * weight falls with the squared distance in pixels; reach: up to which squared distance. The second is for places where
@@ -22,8 +21,10 @@ static const struct {
     float color, near;
     int reach;
     enum { STRICT, LOOSE, NONE } features;
-} filters[DENOISE_CANDIDATES] = {
-    {1, 0.05f, FAR, STRICT}, {0.2f, 0.1f, NEAR, LOOSE}, {1, 0.1f, NEAR, NONE}, {0.05f, 0.1f, NEAR, STRICT}};
+} filters[DENOISE_CANDIDATES] = {{1, 0.05f, FAR, STRICT},
+                                 {0.2f, 0.1f, DENOISE_NEAR, LOOSE},
+                                 {1, 0.1f, DENOISE_NEAR, NONE},
+                                 {0.05f, 0.1f, DENOISE_NEAR, STRICT}};
 
 /* ---- features ---- */
 
@@ -61,15 +62,17 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
 {
     ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
+    const int is_near = dx * dx + dy * dy <= DENOISE_NEAR;
     for (int y = 0; y < DENOISE_TILE; y++) {
         size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE;
         float strict[DENOISE_TILE] = {0}, loose[DENOISE_TILE] = {0};
         const float *restrict valid = f->valid + p;
         for (int g = 0; g < f->count; g++)
             feature_distance(strict, loose, f, &f->of[g], p, o, per_pixel);
-        for (int i = 0; i < DENOISE_TILE; i++) {
-            alike->valid[at + (size_t)i] = valid[i + o];
+        for (int i = 0; i < DENOISE_TILE; i++)
             alike->strict[at + (size_t)i] = valid[i + o] * denoise_falloff(strict[i]);
+        for (int i = 0; i < DENOISE_TILE && is_near; i++) {
+            alike->valid[at + (size_t)i] = valid[i + o];
             alike->loose[at + (size_t)i] = valid[i + o] * denoise_falloff(loose[i]);
         }
     }
@@ -206,17 +209,12 @@ RETEX_CPU_INLINE void mean_weights(float *restrict mean, const float *restrict f
         mean[i] = 0.5f * (first[i] + second[i]);
 }
 
-RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch,
-                                 const size_t q[DENOISE_BATCH], size_t at, Weights w[restrict 2])
+/* Keeps the weights that are wanted. */
+RETEX_CPU_INLINE void keep_weights(const RetexDenoiseBatch *batch, size_t at, Weights w[restrict 2])
 {
-    Weights mean;
-    for (int n = 0; n < DENOISE_BATCH; n++)
-        mean_weights(mean[n], w[0][n], w[1][n]);
-    for (int k = 0; k < s->nplanes; k++)
-        add_plane(s->sums[k] + at, s->planes[k], q, mean);
-    for (int n = 0; n < DENOISE_BATCH; n++)
+    for (int n = 0; n < batch->count; n++)
         if (batch->weights[n])
-            memcpy(batch->weights[n] + at, mean[n], sizeof mean[n]);
+            mean_weights(batch->weights[n] + at, w[0][n], w[1][n]);
 }
 
 /* The patch distances of all pixels to the pixels at one displacement, for both halves. */
@@ -291,9 +289,46 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
             add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each half with the weights of the other half */
             add_half(s, &s->candidates[k], 1, q, at, w[0]);
             if (k == 0)
-                add_planes(s, batch, q, at, w);
+                keep_weights(batch, at, w);
         }
     }
+}
+
+/* ---- images ---- */
+
+/* As add_plane, with the weights of whole tiles, of which this is row y. */
+RETEX_CPU_INLINE void add_row(float *restrict sum, const float *restrict plane, const RetexDenoiseDisplacement *of,
+                              const float *const *weights, int y)
+{
+    const size_t at = (size_t)y * DENOISE_TILE;
+    const float *restrict v0 = plane + denoise_at(of[0].dx, y + of[0].dy), *restrict w0 = weights[0] + at;
+    const float *restrict v1 = plane + denoise_at(of[1].dx, y + of[1].dy), *restrict w1 = weights[1] + at;
+    const float *restrict v2 = plane + denoise_at(of[2].dx, y + of[2].dy), *restrict w2 = weights[2] + at;
+    const float *restrict v3 = plane + denoise_at(of[3].dx, y + of[3].dy), *restrict w3 = weights[3] + at;
+    for (int i = 0; i < DENOISE_TILE; i++)
+        sum[i] = sum[i] + w0[i] * v0[i] + w1[i] * v1[i] + w2[i] * v2[i] + w3[i] * v3[i];
+}
+
+RETEX_CPU_INLINE void add_last_row(float *restrict sum, const float *restrict plane, RetexDenoiseDisplacement of,
+                                   const float *restrict weights, int y)
+{
+    const float *restrict v = plane + denoise_at(of.dx, y + of.dy), *restrict w = weights + (size_t)y * DENOISE_TILE;
+    for (int i = 0; i < DENOISE_TILE; i++)
+        sum[i] = sum[i] + w[i] * v[i];
+}
+
+RETEX_CPU_INLINE void images_body(const RetexDenoiseImages *images, const RetexDenoiseDisplacement *of,
+                                  const float *const *weights, int count)
+{
+    for (int k = 0; k < images->count; k++)
+        for (int y = 0; y < DENOISE_TILE; y++) {
+            float *sum = images->sums[k] + (size_t)y * DENOISE_TILE;
+            int n = 0;
+            for (; n + 4 <= count; n += 4)
+                add_row(sum, images->planes[k], of + n, weights + n, y);
+            for (; n < count; n++)
+                add_last_row(sum, images->planes[k], of[n], weights[n], y);
+        }
 }
 
 /* ---- variants ---- */
@@ -301,6 +336,10 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
 RETEX_CPU_KERNEL(features, (RetexDenoiseSimilarity * alike, const RetexDenoiseFeatures *f, int dx, int dy),
                  (alike, f, dx, dy))
 RETEX_CPU_KERNEL(signal, (const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch), (s, batch))
+RETEX_CPU_KERNEL(images,
+                 (const RetexDenoiseImages *images, const RetexDenoiseDisplacement *of, const float *const *weights,
+                  int count),
+                 (images, of, weights, count))
 
 #define NO_VECTORS RETEX_CPU_OPTIONS("no-tree-vectorize,no-tree-slp-vectorize")
 
@@ -314,6 +353,12 @@ NO_VECTORS static void signal_scalar(const RetexDenoiseSignal *s, const RetexDen
     signal_body(s, batch);
 }
 
+NO_VECTORS static void images_scalar(const RetexDenoiseImages *images, const RetexDenoiseDisplacement *of,
+                                     const float *const *weights, int count)
+{
+    images_body(images, of, weights, count);
+}
+
 void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *features, int dx, int dy,
                                    int scalar)
 {
@@ -323,4 +368,10 @@ void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDen
 void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar)
 {
     (scalar ? signal_scalar : signal_by_level[retex_cpu_level()])(signal, batch);
+}
+
+void retex_denoise_images_kernel(const RetexDenoiseImages *images, const RetexDenoiseDisplacement *displacements,
+                                 const float *const *weights, int count, int scalar)
+{
+    (scalar ? images_scalar : images_by_level[retex_cpu_level()])(images, displacements, weights, count);
 }

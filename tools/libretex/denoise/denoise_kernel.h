@@ -15,7 +15,7 @@ enum {
                            the candidate */
     DENOISE_STEP = DENOISE_TILE - 2 * DENOISE_MARGIN,
     DENOISE_RADIUS_MAX = 10,
-    DENOISE_PATCH = 3, /* patches of 7x7 pixels are compared */
+    DENOISE_PATCH = 3,                                   /* patches of 7x7 pixels are compared */
     DENOISE_WIDE = DENOISE_TILE + 2 * DENOISE_PATCH + 2, /* pixels of a row that are compared at a displacement */
     DENOISE_HALO = DENOISE_RADIUS_MAX + DENOISE_PATCH,
     DENOISE_PITCH = 96,
@@ -24,6 +24,9 @@ enum {
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
     DENOISE_CANDIDATES = 4, /* candidate filters */
     DENOISE_BATCH = 4,      /* displacements in one call, so that the sums stay in the cache */
+    DENOISE_WEIGHTS = 16,   /* displacements whose weights are kept until images are filtered with them */
+    DENOISE_NEAR = 20,      /* squared distance up to which all candidates look; further, what is left of a firefly gets
+                               darker with them, but light gets no nearer to the truth */
     DENOISE_FEATURE_PLANES_MAX = 3 * RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS, /* planes; targets have covers */
     DENOISE_FEATURES_MAX = RETEX_FEATURE_COUNT + RETEX_MAX_TARGETS
 };
@@ -50,7 +53,7 @@ typedef struct RetexDenoiseFeatures {
 } RetexDenoiseFeatures;
 
 /* Similarity, 0..1, of each pixel to the pixel at a displacement: 1 if both are in the picture, and by both scales of
- * the features. */
+ * the features. Beyond DENOISE_NEAR only the strict one is computed. */
 typedef struct RetexDenoiseSimilarity {
     float valid[DENOISE_PIXELS], strict[DENOISE_PIXELS], loose[DENOISE_PIXELS];
 } RetexDenoiseSimilarity;
@@ -66,23 +69,17 @@ typedef struct RetexDenoiseSums {
 /* One signal. Its halves are independent estimates; each is filtered with the weights that the other half gives
  * (Rousselle et al. 2012). */
 typedef struct RetexDenoiseSignal {
-    const float *half[2][3];     /* divided by the modulation */
-    const float *variance[3];    /* variance of a half, divided by the squared modulation */
-    const float *kind;           /* 1 or -1: pixels of different kinds are not compared */
-    const float *modulation;     /* mean over colours: the weight of a pixel in weighted sums */
-    float epsilon;               /* added to the variance, so that invisible differences do not count */
-    float strength;              /* squared parameter `strength`: differences of so many variances still count as
+    const float *half[2][3];  /* divided by the modulation */
+    const float *variance[3]; /* variance of a half, divided by the squared modulation */
+    const float *kind;        /* 1 or -1: pixels of different kinds are not compared */
+    const float *modulation;  /* mean over colours: the weight of a pixel in weighted sums */
+    float epsilon;            /* added to the variance, so that invisible differences do not count */
+    float strength;           /* squared parameter `strength`: differences of so many variances still count as
                                     similar */
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
-    int nplanes;                 /* number of images to filter; */
-    const float *const *planes;  /* their channels, filtered with the weights of the first candidate */
-    float *const *sums;          /* nplanes */
-    float *scratch;              /* DENOISE_SCRATCH floats */
+    float *scratch; /* DENOISE_SCRATCH floats */
 } RetexDenoiseSignal;
-enum {
-    DENOISE_SCRATCH =
-        3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS
-};
+enum { DENOISE_SCRATCH = 3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS };
 
 typedef struct RetexDenoiseDisplacement {
     int dx, dy;
@@ -99,5 +96,17 @@ typedef struct RetexDenoiseBatch {
 
 /* Add the weighted pixels at these displacements to the sums of the signal. */
 void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar);
+
+/* Channels of images, filtered with weights that are known. */
+typedef struct RetexDenoiseImages {
+    int count;
+    const float *const *planes;
+    float *const *sums;
+} RetexDenoiseImages;
+
+/* Add the pixels of all planes at these displacements, times the weights of each, to the sums. The displacements are
+ * many, because planes are larger than the cache. */
+void retex_denoise_images_kernel(const RetexDenoiseImages *images, const RetexDenoiseDisplacement *displacements,
+                                 const float *const *weights, int count, int scalar);
 
 #endif

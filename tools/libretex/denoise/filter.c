@@ -50,17 +50,28 @@ static int open_rows(RetexDenoisedRows *out, const RetexDenoiser *d, const unsig
     return out->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
 }
 
+static void mark_members(const RetexSignals *signals, unsigned char *written)
+{
+    for (int s = 0; s < signals->count; s++)
+        for (int k = 0; k < signals->of[s].nmembers; k++)
+            written[signals->of[s].members[k].part] = 1;
+}
+
 static int open_outs(Filter *w, RetexError *err)
 {
     const RetexDenoiser *d = w->denoiser;
-    unsigned char *written = w->result->written;
-    int code = RETEX_OK;
-    for (int s = 0; s < d->signals.count; s++)
-        for (int k = 0; k < d->signals.of[s].nmembers; k++)
-            written[d->signals.of[s].members[k].part] = 1;
-    retex_denoise_mark_written(d->footprints, d, written);
+    unsigned char *own = calloc((size_t)d->set->nparts + 1, 1);
+    int code = own ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    if (own) {
+        mark_members(&d->signals, own);
+        if (d->footprints)
+            retex_denoise_mark_written(d->footprints, d, own);
+    }
+    for (int k = 0; k < d->set->nparts && own; k++)
+        w->result->written[k] |= own[k];
     for (int k = 0; k < 2 && !code; k++)
-        code = open_rows(&w->outs[k], d, written, err);
+        code = open_rows(&w->outs[k], d, own, err);
+    free(own);
     return code;
 }
 
@@ -82,8 +93,9 @@ static void add_sums(Filter *w)
     int count = w->denoiser->signals.count;
     for (int k = 0; k < w->tiles_x * count; k++)
         for (int c = 0; c < 3; c++) {
-            w->result->sums[k % count].before[c] += w->sums[k].before[c];
-            w->result->sums[k % count].lost[c] += w->sums[k].lost[c];
+            RetexSignalSums *sums = &w->result->sums[w->denoiser->first_signal + k % count];
+            sums->before[c] += w->sums[k].before[c];
+            sums->lost[c] += w->sums[k].lost[c];
         }
 }
 
@@ -99,7 +111,7 @@ static int open_filter(Filter *w, RetexError *err)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
         code = retex_denoise_scratch_create(&w->scratch[k], d, err);
-    if (!code)
+    if (!code && d->signals.of[0].lamp < 0)
         code = retex_denoise_footprints_open(&d->footprints, d, err);
     return code ? code : open_outs(w, err);
 }
@@ -113,6 +125,13 @@ static void close_filter(Filter *w)
     free(w->scratch);
     free(w->sums);
     retex_denoise_footprints_close(&w->denoiser->footprints);
+}
+
+/* The part of the signals' pixels that come before row y. */
+static double progress_of(const RetexDenoiser *d, int y)
+{
+    const double rows = (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0);
+    return (d->first_signal + d->signals.count * rows) / d->nsignals;
 }
 
 static int run(Filter *w, RetexError *err)
@@ -132,11 +151,22 @@ static int run(Filter *w, RetexError *err)
         commit_rows(&w->outs[(number + 1) % 2], d); /* no tile reads the rows before any more */
         w->outs[(number + 1) % 2].rows = 0;
         if (d->params.progress)
-            d->params.progress(d->params.progress_context, (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0));
+            d->params.progress(d->params.progress_context, progress_of(d, y));
     }
     for (int k = 0; k < 2; k++)
         commit_rows(&w->outs[k], d);
     return RETEX_OK;
+}
+
+int retex_denoise_bundle(RetexDenoiser *bundle, const RetexDenoiser *all, int first)
+{
+    int end = first;
+    while (end < all->signals.count && all->signals.of[end].lamp == all->signals.of[first].lamp)
+        end++;
+    *bundle = *all;
+    bundle->signals.of += first, bundle->signals.count = end - first;
+    bundle->first_signal = first;
+    return end - first;
 }
 
 int retex_denoise_filter(RetexDenoiser *denoiser, RetexDenoiseResult *result, int nthreads, RetexError *err)
@@ -153,7 +183,10 @@ int retex_denoise_result_open(RetexDenoiseResult *result, const RetexDenoiser *d
 {
     result->sums = calloc((size_t)denoiser->signals.count + 1, sizeof *result->sums);
     result->written = calloc((size_t)denoiser->set->nparts + 1, sizeof *result->written);
-    return result->sums && result->written ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    if (!result->sums || !result->written)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    mark_members(&denoiser->signals, result->written);
+    return RETEX_OK;
 }
 
 void retex_denoise_result_close(RetexDenoiseResult *result)

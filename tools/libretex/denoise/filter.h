@@ -6,7 +6,7 @@
 
 /* The result of filtering besides new pixels. */
 typedef struct RetexDenoiseResult {
-    RetexSignalSums *sums;       /* by signal: of all pixels that were filtered */
+    RetexSignalSums *sums;  /* by signal of the set: of all pixels that were filtered */
     unsigned char *written; /* by part: 1 = it has new pixels */
 } RetexDenoiseResult;
 
@@ -15,6 +15,11 @@ void retex_denoise_result_close(RetexDenoiseResult *result);
 
 /* The largest distance of pixels that influence a pixel, in either pass. */
 enum { DENOISE_REACH = DENOISE_MARGIN + DENOISE_HALO };
+
+/* The signals of all light, or of one lamp, are a bundle: they are filtered together, and without the parts of others.
+ * *bundle becomes `all`, limited to the bundle that begins with signal `first`. Returns how many it has; 0 after the
+ * last one. */
+int retex_denoise_bundle(RetexDenoiser *bundle, const RetexDenoiser *all, int first);
 
 /* The first pass: filter the region of denoiser->set, in steps of DENOISE_STEP rows, into the set and denoiser->passed;
  * adds to the sums of result what signals were before. */

@@ -69,8 +69,8 @@ int retex_passed_store_put(RetexPassedStore *s, const RetexDenoiser *d, const Re
             const size_t rows = (size_t)(count - v < RETEX_BAND_ROWS ? count - v : RETEX_BAND_ROWS);
             for (size_t i = 0; i < width * rows; i++)
                 memcpy(pixels + 3 * i, from + DENOISE_PASSED * i, 3 * sizeof *pixels);
-            code = retex_band_store_put(s->store, s->images[PASSED_IMAGES * k + (int)image], (y + v) / RETEX_BAND_ROWS,
-                                        pixels, err);
+            code = retex_band_store_put(s->store, s->images[PASSED_IMAGES * (d->first_signal + k) + (int)image],
+                                        (y + v) / RETEX_BAND_ROWS, pixels, err);
         }
     free(pixels);
     return code;
@@ -85,7 +85,8 @@ int retex_passed_store_load(const RetexPassedStore *s, const RetexDenoiser *d, R
     for (int k = 0; k < d->signals.count; k++)
         for (int band = y / RETEX_BAND_ROWS; band * RETEX_BAND_ROWS < y + passed->rows && !code; band++) {
             const int begin = band * RETEX_BAND_ROWS;
-            code = retex_band_store_load_band(s->store, s->images[PASSED_IMAGES * k + (int)image], band, pixels, err);
+            code = retex_band_store_load_band(s->store, s->images[PASSED_IMAGES * (d->first_signal + k) + (int)image],
+                                              band, pixels, err);
             for (int v = begin; v < begin + RETEX_BAND_ROWS && !code; v++) {
                 if (v < y || v >= y + passed->rows)
                     continue;

@@ -336,7 +336,7 @@ static void add_sums(const Second *w, RetexSignalSums *sums)
     const int count = w->denoiser->signals.count;
     for (int k = 0; k < w->tiles_x * count; k++)
         for (int c = 0; c < 3; c++)
-            sums[k % count].after[c] += w->sums[k].after[c];
+            sums[w->denoiser->first_signal + k % count].after[c] += w->sums[k].after[c];
 }
 
 int retex_denoise_second(const RetexDenoiser *d, RetexDenoisePassed *passed, RetexSignalSums *sums, int nthreads,

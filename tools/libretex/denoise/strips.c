@@ -71,7 +71,7 @@ static int store_part(void *context, int part, int thread, RetexError *err)
     const RetexImage *im = &s->rows->parts[part].image;
     int code = RETEX_OK;
     (void)thread;
-    if (s->images[part] < 0)
+    if (s->images[part] < 0 || !im->pixels)
         return RETEX_OK;
     for (int y = 0; y < s->count && !code; y += RETEX_BAND_ROWS)
         code = retex_band_store_put(s->store, s->images[part], s->band + y / RETEX_BAND_ROWS,
@@ -96,6 +96,7 @@ typedef struct Strips {
     RetexPassedStore passed;
     RetexBandStore *stores[2]; /* filtered, finished */
     int *images[2];            /* by part: number of its image in each band store, or -1 */
+    unsigned char *wanted;     /* by part: scratch */
     int nthreads;
 } Strips;
 
@@ -106,28 +107,29 @@ static void show_progress(const Strips *s, double done)
         params->progress(params->progress_context, done);
 }
 
-/* The denoiser of the strip from row y on, loaded with the rows around it that a pass reads. */
-static int load_strip(RetexDenoiser *strip, const Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
+/* As denoiser, for the strip from row y on, loaded with the rows around it that a pass reads. */
+static int load_strip(RetexDenoiser *strip, const Strips *s, const RetexDenoiser *denoiser, RetexSetStrip *loaded,
+                      int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int end = y + STRIP < set->height ? y + STRIP : set->height;
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
-    *strip = *s->denoiser;
+    *strip = *denoiser;
     strip->roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     strip->first_row = first;
     strip->params.progress = NULL;
     return retex_set_strip_load(&strip->set, loaded, first, last - first, s->nthreads, err);
 }
 
-static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
+static int filter_strip(Strips *s, const RetexDenoiser *bundle, RetexSetStrip *loaded, int y, RetexError *err)
 {
     RetexDenoiser strip;
     RetexDenoisePassed passed = {0};
-    int code = load_strip(&strip, s, loaded, y, err);
+    int code = load_strip(&strip, s, bundle, loaded, y, err);
     const int from = strip.roi.y0, count = strip.roi.y1 - from;
     if (!code)
-        code = retex_denoise_passed_open(&passed, s->denoiser, count, err);
+        code = retex_denoise_passed_open(&passed, &strip, count, err);
     strip.passed = &passed, passed.first = from;
     if (!code)
         code = retex_denoise_filter(&strip, &s->result, s->nthreads, err);
@@ -136,56 +138,105 @@ static int filter_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err
     if (!code)
         code = store_rows(s->stores[0], s->images[0], strip.set, from, count, y, s->nthreads, err);
     for (int k = 0; k < PASSED_FACTOR && !code; k++)
-        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, 0, count, y, err);
-    retex_denoise_passed_close(&passed, s->denoiser);
+        code = retex_passed_store_put(&s->passed, &strip, &passed, (RetexPassedImage)k, 0, count, y, err);
+    retex_denoise_passed_close(&passed, &strip);
+    return code;
+}
+
+/* A set with the parts for which wanted is 1; parts are to be freed. */
+static int open_view(RetexSet *view, const RetexSet *set, const unsigned char *wanted, RetexError *err)
+{
+    *view = *set;
+    view->parts = malloc(sizeof *set->parts * (size_t)set->nparts);
+    if (!view->parts)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    memcpy(view->parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
+    for (int k = 0; k < set->nparts; k++)
+        if (!wanted[k])
+            view->parts[k].image = (RetexImage){0};
+    return RETEX_OK;
+}
+
+static void mark_features(unsigned char *wanted, const RetexSet *set)
+{
+    for (int k = 0; k < set->nparts; k++)
+        wanted[k] = retex_name_is_feature(set->parts[k].name) != 0;
+}
+
+static void mark_signals(unsigned char *wanted, const RetexSignals *signals, unsigned char mark)
+{
+    for (int s = 0; s < signals->count; s++) {
+        wanted[signals->of[s].noise] = mark;
+        for (int k = 0; k < signals->of[s].nmembers; k++)
+            wanted[signals->of[s].members[k].part] = mark;
+    }
+}
+
+/* What the first pass reads for a bundle: light of lamps only the lamp's own, footprints only all light. */
+static void mark_read(unsigned char *wanted, const RetexDenoiser *bundle, const RetexDenoiser *all)
+{
+    const RetexSet *set = all->set;
+    mark_features(wanted, set);
+    if (bundle->signals.of[0].lamp < 0) {
+        memset(wanted, 1, (size_t)set->nparts);
+        for (int t = 0; t < set->nterms; t++)
+            if (set->terms[t].role == RETEX_ROLE_LAMP_PICTURE)
+                wanted[set->terms[t].radiance] = 0;
+        mark_signals(wanted, &all->signals, 0);
+    }
+    mark_signals(wanted, &bundle->signals, 1);
+}
+
+static int filter_bundle(Strips *s, const RetexDenoiser *bundle, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    const double begin = bundle->first_signal, count = bundle->signals.count;
+    RetexSetStrip *loaded = NULL;
+    RetexSet view = {0};
+    mark_read(s->wanted, bundle, s->denoiser);
+    int code = open_view(&view, set, s->wanted, err);
+    if (!code)
+        code = retex_set_strip_open(&loaded, &view, STRIP + 2 * DENOISE_REACH, 1, err);
+    for (int y = 0; y < set->height && !code; y += STRIP) {
+        show_progress(s, FILTERED * (begin + count * y / set->height) / bundle->nsignals);
+        code = filter_strip(s, bundle, loaded, y, err);
+    }
+    retex_set_strip_close(&loaded);
+    free(view.parts);
     return code;
 }
 
 static int filter_all(Strips *s, RetexError *err)
 {
-    const RetexSet *set = s->denoiser->set;
-    RetexSetStrip *loaded = NULL;
+    RetexDenoiser bundle;
     int code = retex_passed_store_open(&s->passed, s->denoiser, err);
+    for (int first = 0, count; !code && (count = retex_denoise_bundle(&bundle, s->denoiser, first)) > 0; first += count)
+        code = filter_bundle(s, &bundle, err);
+    return code;
+}
+
+static int second_bundle(Strips *s, RetexDenoiser *strip, int y, RetexError *err)
+{
+    RetexDenoisePassed passed = {0};
+    const int from = strip->roi.y0, count = strip->roi.y1 - from;
+    int code = retex_denoise_passed_open(&passed, strip, strip->set->height, err);
+    for (int k = 0; k < PASSED_FACTOR && !code; k++)
+        code = retex_passed_store_load(&s->passed, strip, &passed, (RetexPassedImage)k, strip->first_row, err);
     if (!code)
-        code = retex_set_strip_open(&loaded, set, STRIP + 2 * DENOISE_REACH, 1, err);
-    for (int y = 0; y < set->height && !code; y += STRIP) {
-        show_progress(s, FILTERED * y / set->height);
-        code = filter_strip(s, loaded, y, err);
-    }
-    retex_set_strip_close(&loaded);
+        code = retex_denoise_second(strip, &passed, s->result.sums, s->nthreads, err);
+    if (!code)
+        code = retex_passed_store_put(&s->passed, strip, &passed, PASSED_FACTOR, from, count, y, err);
+    retex_denoise_passed_close(&passed, strip);
     return code;
 }
 
 static int second_strip(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 {
-    RetexDenoiser strip;
-    RetexDenoisePassed passed = {0};
-    int code = load_strip(&strip, s, loaded, y, err);
-    const int from = strip.roi.y0, count = strip.roi.y1 - from;
-    if (!code)
-        code = retex_denoise_passed_open(&passed, s->denoiser, strip.set->height, err);
-    for (int k = 0; k < PASSED_FACTOR && !code; k++)
-        code = retex_passed_store_load(&s->passed, s->denoiser, &passed, (RetexPassedImage)k, strip.first_row, err);
-    if (!code)
-        code = retex_denoise_second(&strip, &passed, s->result.sums, s->nthreads, err);
-    if (!code)
-        code = retex_passed_store_put(&s->passed, s->denoiser, &passed, PASSED_FACTOR, from, count, y, err);
-    retex_denoise_passed_close(&passed, s->denoiser);
+    RetexDenoiser strip, bundle;
+    int code = load_strip(&strip, s, s->denoiser, loaded, y, err);
+    for (int first = 0, count; !code && (count = retex_denoise_bundle(&bundle, &strip, first)) > 0; first += count)
+        code = second_bundle(s, &bundle, y, err);
     return code;
-}
-
-/* The features of the set, which are all that the second pass reads of it. */
-static int open_features(RetexSet *features, const RetexSet *set, RetexError *err)
-{
-    *features = *set;
-    features->parts = malloc(sizeof *set->parts * (size_t)set->nparts);
-    if (!features->parts)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
-    memcpy(features->parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
-    for (int k = 0; k < set->nparts; k++)
-        if (!retex_name_is_feature(set->parts[k].name))
-            features->parts[k].image = (RetexImage){0};
-    return RETEX_OK;
 }
 
 static int second_all(Strips *s, RetexError *err)
@@ -193,7 +244,8 @@ static int second_all(Strips *s, RetexError *err)
     const RetexSet *set = s->denoiser->set;
     RetexSetStrip *loaded = NULL;
     RetexSet features;
-    int code = open_features(&features, set, err);
+    mark_features(s->wanted, set);
+    int code = open_view(&features, set, s->wanted, err);
     if (!code)
         code = retex_set_strip_open(&loaded, &features, STRIP + 2 * DENOISE_REACH, 1, err);
     for (int y = 0; y < set->height && !code; y += STRIP) {
@@ -248,13 +300,12 @@ static int finish_rows(Strips *s, RetexSetStrip *loaded, int y, RetexError *err)
 static int finish_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
-    unsigned char *wanted = calloc((size_t)set->nparts + 1, 1);
     RetexSetStrip *loaded = NULL;
-    int code = wanted ? open_filtered(s, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
-    for (int k = 0; k < set->nparts && !code; k++)
-        wanted[k] = is_whole(set, k) && !retex_part_is_denoise_data(set, k);
+    int code = open_filtered(s, err);
+    for (int k = 0; k < set->nparts; k++)
+        s->wanted[k] = is_whole(set, k) && !retex_part_is_denoise_data(set, k);
     if (!code)
-        code = open_store(&s->stores[1], s->images[1], s->denoiser, wanted, 0, err);
+        code = open_store(&s->stores[1], s->images[1], s->denoiser, s->wanted, 0, err);
     if (!code)
         code = retex_set_strip_open(&loaded, &s->filtered, FINISHED, 1, err);
     for (int y = 0; y < set->height && !code; y += FINISHED) {
@@ -262,7 +313,6 @@ static int finish_all(Strips *s, RetexError *err)
         code = finish_rows(s, loaded, y, err);
     }
     retex_set_strip_close(&loaded);
-    free(wanted);
     return code;
 }
 
@@ -307,7 +357,8 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     int code = retex_denoise_result_open(&s.result, denoiser, err);
     for (int k = 0; k < 2; k++)
         s.images[k] = malloc(sizeof *s.images[k] * ((size_t)denoiser->set->nparts + 1));
-    if (!code && (!s.images[0] || !s.images[1]))
+    s.wanted = calloc((size_t)denoiser->set->nparts + 1, 1);
+    if (!code && (!s.images[0] || !s.images[1] || !s.wanted))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     if (!code)
         code = filter_all(&s, err);
@@ -323,6 +374,7 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     }
     retex_passed_store_close(&s.passed);
     free(s.filtered.parts);
+    free(s.wanted);
     retex_denoise_result_close(&s.result);
     return code;
 }

@@ -31,17 +31,20 @@ _Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen m
 /* The choices: the noisy pixel, and the candidates. */
 enum { CHOICES = DENOISE_CANDIDATES + 1 };
 
-/* Scratch memory of a tile for one signal. */
+/* Scratch memory of a tile for the signal that is being filtered. */
 typedef struct SignalScratch {
     int nclusters, nplanes;
     int is_empty; /* no light around the tile: nothing to filter */
     float *half[2][3], *variance[3], *lost[3], *kind, *modulation[3], *mean_modulation; /* planes; lost: what fireflies
                                                                                          were lowered by */
-    float **planes, **sums; /* images to filter, by channel: the sum of all clusters if there are any, then the other
+    float **planes, **sums;   /* images to filter, by channel: the sum of all clusters if there are any, then the other
                                members */
+    const float **lit_planes; /* those of them with light, where there are several images; */
+    float **lit_sums;
+    int nlit;
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
-    float *chosen[CHOICES]; /* weight of each choice, by pixel */
-    float *neighbours;      /* for signals with clusters: weights by neighbour, then pixel */
+    float *chosen[CHOICES];            /* weight of each choice, by pixel */
+    float *neighbours[NEIGHBOURS_MAX]; /* weights by neighbour, if there are clusters */
 } SignalScratch;
 
 struct RetexDenoiseScratch {
@@ -49,12 +52,12 @@ struct RetexDenoiseScratch {
     float *features; /* DENOISE_FEATURES_SCRATCH planes */
     float *spare;    /* a plane */
     float *kept[2];  /* planes */
-    float *scratch, *errors[CHOICES], *neighbours;
-    RetexDenoiseSimilarity *alike;    /* DENOISE_BATCH */
+    float *scratch, *errors[CHOICES];
     RetexDenoiseDisplacement *window; /* the nearest first */
     int nwindow;
-    SignalScratch *signals;
-    RetexDenoiseSignal *sums; /* by signal */
+    RetexDenoiseSimilarity *alike;   /* by displacement of the window */
+    float *weights[DENOISE_WEIGHTS]; /* of displacements */
+    SignalScratch signal;
     float **pointers;
 };
 
@@ -64,8 +67,6 @@ struct RetexDenoiseScratch {
 typedef struct Layout {
     float *memory;
     size_t used;
-    float **pointers;
-    size_t npointers;
 } Layout;
 
 static float *take(Layout *l, size_t floats)
@@ -75,12 +76,28 @@ static float *take(Layout *l, size_t floats)
     return p;
 }
 
-static void plan_signal(SignalScratch *r, Layout *l, const RetexSignal *signal)
+/* The images of a signal: one for all clusters. */
+static int count_images(const RetexSignal *signal, int *nclusters)
 {
-    r->nclusters = 0;
+    *nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        r->nclusters += signal->members[k].cluster >= 0;
-    r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
+        *nclusters += signal->members[k].cluster >= 0;
+    return signal->nmembers - *nclusters + (*nclusters > 0);
+}
+
+/* The planes of the signal with the most images. */
+static int most_planes(const RetexDenoiser *d)
+{
+    int most = 0, nclusters;
+    for (int s = 0; s < d->signals.count; s++) {
+        const int count = 3 * count_images(&d->signals.of[s], &nclusters);
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
+static void plan_signal(SignalScratch *r, Layout *l, int nplanes, float **pointers)
+{
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
         r->variance[c] = take(l, DENOISE_PLANE), r->modulation[c] = take(l, DENOISE_PLANE);
@@ -95,29 +112,27 @@ static void plan_signal(SignalScratch *r, Layout *l, const RetexSignal *signal)
         }
     for (int k = 0; k < CHOICES; k++)
         r->chosen[k] = take(l, DENOISE_PIXELS);
-    r->neighbours = r->nclusters ? take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS) : NULL;
-    r->planes = l->pointers + l->npointers, r->sums = r->planes + r->nplanes;
-    l->npointers += 2 * (size_t)r->nplanes;
-    for (int k = 0; k < r->nplanes; k++) {
-        float *plane = take(l, DENOISE_PLANE), *sum = take(l, DENOISE_PIXELS);
-        if (l->memory)
-            r->planes[k] = plane, r->sums[k] = sum;
-    }
+    for (int k = 0; k < NEIGHBOURS_MAX; k++)
+        r->neighbours[k] = take(l, DENOISE_PIXELS);
+    r->planes = pointers, r->sums = r->planes + nplanes;
+    r->lit_planes = (const float **)(r->sums + nplanes), r->lit_sums = r->sums + 2 * nplanes;
+    for (int k = 0; k < nplanes; k++)
+        r->planes[k] = take(l, DENOISE_PLANE), r->sums[k] = take(l, DENOISE_PIXELS);
 }
 
-static void plan_scratch(RetexDenoiseScratch *work, Layout *l, const RetexDenoiser *d)
+static void plan_scratch(RetexDenoiseScratch *work, Layout *l, int nplanes)
 {
-    l->used = l->npointers = 0;
+    l->used = 0;
     work->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
     work->spare = take(l, DENOISE_PLANE);
     work->kept[0] = take(l, DENOISE_PLANE), work->kept[1] = take(l, DENOISE_PLANE);
     work->scratch = take(l, DENOISE_SCRATCH);
-    work->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
     for (int k = 0; k < CHOICES; k++)
         work->errors[k] = take(l, DENOISE_PIXELS);
-    work->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
-    for (int s = 0; s < d->signals.count; s++)
-        plan_signal(&work->signals[s], l, &d->signals.of[s]);
+    for (int k = 0; k < DENOISE_WEIGHTS; k++)
+        work->weights[k] = take(l, DENOISE_PIXELS);
+    work->alike = (RetexDenoiseSimilarity *)take(l, (size_t)work->nwindow * sizeof *work->alike / sizeof(float));
+    plan_signal(&work->signal, l, nplanes, work->pointers);
 }
 
 enum { WINDOW_MOST = (2 * DENOISE_RADIUS_MAX + 1) * (2 * DENOISE_RADIUS_MAX + 1) };
@@ -136,27 +151,22 @@ static void plan_window(RetexDenoiseScratch *work, int radius)
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
 {
     RetexDenoiseScratch *work = *out = calloc(1, sizeof *work);
-    size_t members = 0;
-    Layout layout = {NULL, 0, NULL, 0};
-    for (int s = 0; s < d->signals.count; s++)
-        members += (size_t)d->signals.of[s].nmembers + 1;
+    const int nplanes = most_planes(d);
+    Layout layout = {NULL, 0};
     if (work) {
-        work->signals = calloc((size_t)d->signals.count + 1, sizeof *work->signals);
-        work->sums = calloc((size_t)d->signals.count + 1, sizeof *work->sums);
-        layout.pointers = work->pointers = calloc(6 * members + 1, sizeof *work->pointers);
+        work->pointers = calloc(4 * (size_t)nplanes + 1, sizeof *work->pointers);
+        work->window = malloc(sizeof *work->window * WINDOW_MOST);
     }
-    if (work && work->signals && work->sums && work->pointers) {
-        plan_scratch(work, &layout, d);
+    if (work && work->pointers && work->window) {
+        plan_window(work, d->params.radius);
+        plan_scratch(work, &layout, nplanes);
         layout.memory = work->memory = calloc(layout.used, sizeof(float));
     }
-    if (work)
-        work->window = malloc(sizeof *work->window * WINDOW_MOST);
-    if (!work || !work->memory || !work->window) {
+    if (!work || !work->memory) {
         retex_denoise_scratch_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
-    plan_scratch(work, &layout, d);
-    plan_window(work, d->params.radius);
+    plan_scratch(work, &layout, nplanes);
     return RETEX_OK;
 }
 
@@ -166,8 +176,6 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
     if (!work)
         return;
     free(work->memory);
-    free(work->signals);
-    free(work->sums);
     free(work->pointers);
     free(work->window);
     free(work);
@@ -279,11 +287,19 @@ static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const R
     }
 }
 
-static int is_empty(const SignalScratch *r)
+/* Lists the planes with light, and finds whether there is any. */
+static int is_empty(SignalScratch *r)
 {
     int empty = 1;
-    for (int k = 0; k < r->nplanes && empty; k++)
-        empty = retex_denoise_plane_is_zero(r->planes[k]);
+    r->nlit = 0;
+    for (int k = 0; k < r->nplanes; k++) {
+        if (retex_denoise_plane_is_zero(r->planes[k]))
+            continue;
+        r->lit_planes[r->nlit] = r->planes[k], r->lit_sums[r->nlit++] = r->sums[k];
+        empty = 0;
+    }
+    if (r->nplanes <= 3) /* the total is filtered */
+        r->nlit = 0;
     for (int c = 0; c < 3 && empty; c++)
         empty = retex_denoise_plane_is_zero(r->half[0][c]) && retex_denoise_plane_is_zero(r->half[1][c]);
     return empty;
@@ -294,9 +310,6 @@ static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *wo
     RetexDenoiseSignal s = {.kind = r->kind,
                             .modulation = r->mean_modulation,
                             .strength = STRENGTH * STRENGTH * d->params.strength * d->params.strength,
-                            .nplanes = r->nplanes > 3 ? r->nplanes : 0,
-                            .planes = (const float *const *)r->planes,
-                            .sums = r->sums,
                             .scratch = work->scratch};
     double level = 0;
     for (int c = 0; c < 3; c++) {
@@ -496,13 +509,14 @@ static int neighbour_reach(const RetexDenoiser *d)
     return reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
 }
 
-static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const float *weights, const TilePixel *at)
+static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const float *const *weights,
+                           const TilePixel *at)
 {
     int count = 1, number = 0, reach = neighbour_reach(d);
     out[0] = (RetexNeighbour){at->x, at->y, 1};
     for (int dy = -reach; dy <= reach; dy++)
         for (int dx = -reach; dx <= reach; dx++, number++) {
-            float weight = weights[(size_t)number * DENOISE_PIXELS + at->i];
+            const float weight = weights[number] ? weights[number][at->i] : 0;
             if ((dx || dy) && weight > LEAST_WEIGHT)
                 out[count++] = (RetexNeighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
         }
@@ -537,20 +551,8 @@ static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const 
     if (r->nclusters) {
         RetexNeighbour neighbours[NEIGHBOURS_MAX];
         neighbours[0] = (RetexNeighbour){at->x, at->y, 1};
-        const int count = r->is_empty ? 1 : find_neighbours(neighbours, d, r->neighbours, at);
+        const int count = r->is_empty ? 1 : find_neighbours(neighbours, d, (const float *const *)r->neighbours, at);
         retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, out);
-    }
-}
-
-static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *work, const TilePixel *at, RetexDenoisedRows *out,
-                         RetexSignalSums *sums)
-{
-    for (int s = 0; s < d->signals.count; s++)
-        finish_signal(&work->signals[s], d, &d->signals.of[s], at, out, &sums[s]);
-    if (d->params.footprints && d->set->nfootprints) {
-        RetexNeighbour neighbours[NEIGHBOURS_MAX];
-        int count = find_neighbours(neighbours, d, work->neighbours, at);
-        retex_denoise_pool_interreflections(d->footprints, d, at->x, at->y, neighbours, count, out);
     }
 }
 
@@ -564,65 +566,100 @@ static int neighbour_number(const RetexDenoiser *d, int dx, int dy)
     return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
 }
 
-/* The next displacements of the window, from the `first` on, as a batch. */
-static RetexDenoiseBatch next_batch(RetexDenoiseScratch *work, const RetexDenoiser *d,
-                                    const RetexDenoiseFeatures *features, int first, int numbers[DENOISE_BATCH])
+static void find_similarities(RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexDenoiseFeatures *features)
 {
-    RetexDenoiseBatch batch = {0};
-    for (int n = 0; n < DENOISE_BATCH && first + n < work->nwindow; n++, batch.count++) {
-        const RetexDenoiseDisplacement o = batch.of[n] = work->window[first + n];
-        numbers[n] = neighbour_number(d, o.dx, o.dy);
-        retex_denoise_features_kernel(work->alike + n, features, o.dx, o.dy, d->params.scalar);
-        batch.alike[n] = work->alike + n;
-        if (numbers[n] >= 0)
-            memcpy(work->neighbours + (size_t)numbers[n] * DENOISE_PIXELS, work->alike[n].strict,
-                   sizeof work->alike->strict);
-    }
-    return batch;
+    for (int n = 0; n < work->nwindow; n++)
+        retex_denoise_features_kernel(work->alike + n, features, work->window[n].dx, work->window[n].dy,
+                                      d->params.scalar);
 }
 
-static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseFeatures *features,
-                          const RetexDenoiseSignal *signals)
+/* Adds the pixels at `count` displacements of the window, from the `first` on, to the sums of the signal. */
+static void search_part(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseSignal *signal, int first,
+                        int count)
 {
-    for (int first = 0; first < work->nwindow; first += DENOISE_BATCH) {
-        int numbers[DENOISE_BATCH];
-        RetexDenoiseBatch batch = next_batch(work, d, features, first, numbers);
-        for (int s = 0; s < d->signals.count; s++) {
-            float *kept = work->signals[s].neighbours;
-            if (work->signals[s].is_empty)
-                continue;
-            for (int n = 0; n < batch.count; n++)
-                batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
-            retex_denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
+    const SignalScratch *r = &work->signal;
+    const RetexDenoiseImages images = {r->nlit, r->lit_planes, r->lit_sums};
+    const int are_kept = r->nlit || r->nclusters;
+    for (int n = 0; n < count; n += DENOISE_BATCH) {
+        RetexDenoiseBatch batch = {.count = count - n < DENOISE_BATCH ? count - n : DENOISE_BATCH};
+        for (int k = 0; k < batch.count; k++) {
+            batch.of[k] = work->window[first + n + k], batch.alike[k] = work->alike + first + n + k;
+            batch.weights[k] = are_kept ? work->weights[n + k] : NULL;
         }
+        retex_denoise_signal_kernel(signal, &batch, d->params.scalar);
+    }
+    retex_denoise_images_kernel(&images, work->window + first, (const float *const *)work->weights, count,
+                                d->params.scalar);
+    for (int n = 0; n < count && r->nclusters; n++) {
+        const int number = neighbour_number(d, work->window[first + n].dx, work->window[first + n].dy);
+        if (number >= 0)
+            memcpy(r->neighbours[number], work->weights[n], sizeof(float) * DENOISE_PIXELS);
+    }
+}
+
+/* ---- the tile ---- */
+
+static void filter_signal(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseFeatures *features,
+                          const RetexSignal *signal, int x0, int y0)
+{
+    SignalScratch *r = &work->signal;
+    r->nplanes = 3 * count_images(signal, &r->nclusters);
+    load_members(r, work, d, signal, x0, y0);
+    find_modulation(r, work, d, signal, x0, y0);
+    split_halves(r, work, d, signal, x0, y0);
+    lower_fireflies(r, work, d, features->valid);
+    for (int c = 0; c < 3; c++)
+        retex_denoise_variance_plane(r->variance[c], r->half[0][c], r->half[1][c], work->spare);
+    const RetexDenoiseSignal sums = start_signal(r, work, d);
+    r->is_empty = is_empty(r);
+    if (r->is_empty)
+        return;
+    for (int first = 0; first < work->nwindow; first += DENOISE_WEIGHTS) {
+        const int left = work->nwindow - first;
+        search_part(d, work, &sums, first, left < DENOISE_WEIGHTS ? left : DENOISE_WEIGHTS);
+    }
+    choose(r, work, sums.epsilon, features->valid);
+}
+
+/* The pixels of the tile that are results, in order. Returns 0 after the last one. */
+static int next_pixel(TilePixel *at, const RetexDenoiser *d, const RetexDenoisedRows *out, int left)
+{
+    const int end = left + DENOISE_STEP < d->roi.x1 ? left + DENOISE_STEP : d->roi.x1;
+    if (++at->x >= end)
+        at->x = left, at->y++;
+    const int x = at->x - left + DENOISE_MARGIN, y = at->y - out->first + DENOISE_MARGIN;
+    at->p = denoise_at(x, y), at->i = (size_t)y * DENOISE_TILE + (size_t)x;
+    return at->y < out->first + out->rows;
+}
+
+/* Pools the footprints that no signal has, by the similarity of features. */
+static void pool_footprints(const RetexDenoiser *d, const RetexDenoiseScratch *work, RetexDenoisedRows *out, int left)
+{
+    RetexNeighbour neighbours[NEIGHBOURS_MAX];
+    const float *alike[NEIGHBOURS_MAX] = {NULL}; /* corners of the grid may lie outside of the window */
+    for (int n = 0; n < work->nwindow; n++) {
+        const int number = neighbour_number(d, work->window[n].dx, work->window[n].dy);
+        if (number >= 0)
+            alike[number] = work->alike[n].strict;
+    }
+    for (TilePixel at = {.x = left - 1, .y = out->first}; next_pixel(&at, d, out, left);) {
+        const int count = find_neighbours(neighbours, d, alike, &at);
+        retex_denoise_pool_interreflections(d->footprints, d, at.x, at.y, neighbours, count, out);
     }
 }
 
 void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *out,
                         RetexSignalSums *sums)
 {
-    int x0 = left - DENOISE_MARGIN, y0 = out->first - DENOISE_MARGIN;
+    const int x0 = left - DENOISE_MARGIN, y0 = out->first - DENOISE_MARGIN;
     RetexDenoiseFeatures features;
-    RetexDenoiseSignal *signals = work->sums;
     retex_denoise_load_features(&features, work->features, d, x0, y0);
+    find_similarities(work, d, &features);
     for (int s = 0; s < d->signals.count; s++) {
-        SignalScratch *r = &work->signals[s];
-        load_members(r, work, d, &d->signals.of[s], x0, y0);
-        find_modulation(r, work, d, &d->signals.of[s], x0, y0);
-        split_halves(r, work, d, &d->signals.of[s], x0, y0);
-        lower_fireflies(r, work, d, features.valid);
-        for (int c = 0; c < 3; c++)
-            retex_denoise_variance_plane(r->variance[c], r->half[0][c], r->half[1][c], work->spare);
-        signals[s] = start_signal(r, work, d);
-        r->is_empty = is_empty(r);
+        filter_signal(d, work, &features, &d->signals.of[s], x0, y0);
+        for (TilePixel at = {.x = left - 1, .y = out->first}; next_pixel(&at, d, out, left);)
+            finish_signal(&work->signal, d, &d->signals.of[s], &at, out, &sums[s]);
     }
-    search_window(d, work, &features, signals);
-    for (int s = 0; s < d->signals.count; s++)
-        if (!work->signals[s].is_empty)
-            choose(&work->signals[s], work, signals[s].epsilon, features.valid);
-    for (int y = out->first; y < out->first + out->rows; y++)
-        for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
-            TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
-            finish_pixel(d, work, &at, out, sums);
-        }
+    if (d->params.footprints && d->footprints && d->set->nfootprints)
+        pool_footprints(d, work, out, left);
 }

@@ -23,7 +23,7 @@ typedef struct RetexDenoiseTotals {
     float share; /* of them in the total that is used, above 0 */
     int count;   /* of signals */
     size_t width;
-    float **of; /* by signal */
+    float **of; /* by signal of the set */
 } RetexDenoiseTotals;
 
 /* The state of one call of retex_denoise. */
@@ -31,14 +31,15 @@ typedef struct RetexDenoiser {
     RetexSet *set;
     RetexDenoiseParams params;
     RetexRoi roi;
-    int features[RETEX_FEATURE_COUNT]; /* parts */
-    RetexSignals signals;
-    struct RetexDenoiseFootprints *footprints;
-    RetexDenoisePassed *passed;              /* rows of the region */
-    RetexDenoiseTotals *totals;              /* or NULL */
-    int uses_originals;                      /* 0: albedos of footprints stay as they are */
-    struct RetexDenoiseOriginals *originals; /* or NULL */
-    int first_row;                           /* of the set's rows in the totals: above 0 where the set is a strip */
+    int features[RETEX_FEATURE_COUNT];         /* parts */
+    RetexSignals signals;                      /* of the set, or of a bundle of those: see retex_denoise_bundle */
+    int first_signal, nsignals;                /* the number of the bundle's first one, and of all that the set has */
+    struct RetexDenoiseFootprints *footprints; /* NULL where the signals are a lamp's */
+    RetexDenoisePassed *passed;                /* rows of the region, of the signals */
+    RetexDenoiseTotals *totals;                /* or NULL */
+    int uses_originals;                        /* 0: albedos of footprints stay as they are */
+    struct RetexDenoiseOriginals *originals;   /* or NULL */
+    int first_row;                             /* of the set's rows in the totals: above 0 where the set is a strip */
 } RetexDenoiser;
 
 /* Sums over the pixels of a signal's total: as rendered but for what fireflies were lowered by, that, and after the

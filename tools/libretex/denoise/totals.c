@@ -250,7 +250,8 @@ void retex_denoise_mix_total(float total[3], const RetexDenoiser *d, int signal,
     const RetexDenoiseTotals *totals = d->totals;
     if (!totals || (total[0] == 0 && total[1] == 0 && total[2] == 0))
         return;
-    const float *other = totals->of[signal] + 3 * ((size_t)(d->first_row + y) * totals->width + (size_t)x);
+    const float *other =
+        totals->of[d->first_signal + signal] + 3 * ((size_t)(d->first_row + y) * totals->width + (size_t)x);
     for (int c = 0; c < 3; c++)
         total[c] = (1 - totals->share) * total[c] + totals->share * other[c];
 }

@@ -156,6 +156,18 @@ static float member_weight(const RetexSet *set, const RetexTerm *term)
     return weight;
 }
 
+/* Those of all light first, then those of each lamp. */
+static void order_by_lamp(RetexSignals *signals)
+{
+    for (int k = 1; k < signals->count; k++) {
+        const RetexSignal signal = signals->of[k];
+        int to = k;
+        for (; to > 0 && signals->of[to - 1].lamp > signal.lamp; to--)
+            signals->of[to] = signals->of[to - 1];
+        signals->of[to] = signal;
+    }
+}
+
 /* Sorts the terms by signal. */
 static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
@@ -163,6 +175,7 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
     for (int t = 0; t < set->nterms; t++)
         if (is_member(&set->terms[t]) && !signal_of(signals, set, &set->terms[t]))
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
+    order_by_lamp(signals);
     if (!set->nterms) {
         signals->members[0] = (RetexSignalMember){.weight = 1, .term = -1, .cluster = -1};
         RetexSignal *beauty = signal_of(signals, set, NULL);

@@ -27,7 +27,7 @@ typedef struct RetexSignal {
 
 typedef struct RetexSignals {
     int count;
-    RetexSignal *of;
+    RetexSignal *of; /* those of all light first, then those of each lamp */
     RetexSignalMember *members;    /* of all signals */
     int covers[RETEX_MAX_TARGETS]; /* parts guide_cover_… by target; -1 where no signal is of the target */
 } RetexSignals;
