@@ -2,18 +2,14 @@
 #include "denoise/residual.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "set/set.h"
 
-enum { NEIGHBOURS = 4 }; /* pixels to each side over which the variance is averaged, in the row */
-
-/* What one lamp adds to a signal of all light, in one pixel and channel. */
-typedef struct Product {
-    const RetexSignal *signal;
-    double kept;     /* the lamp's value in all light; 0: it adds nothing */
-    double value;    /* of the product */
-    double variance; /* up to a factor that all have */
-} Product;
+enum {
+    NEIGHBOURS = 4, /* pixels to each side over which the variance is averaged, in the row */
+    PIXELS = 64     /* of a row, computed together */
+};
 
 static float *light_at(const RetexDenoiser *d, const RetexSignalMember *member, int x, int y)
 {
@@ -21,33 +17,55 @@ static float *light_at(const RetexDenoiser *d, const RetexSignalMember *member, 
     return im->pixels + retex_image_index(im, x, y);
 }
 
-static double total_of(const RetexDenoiser *d, const RetexSignal *signal, int x, int y, int c)
+/* Pixels of a row, from x on. */
+typedef struct Span {
+    int x, y, count;
+} Span;
+
+/* A signal in a span. */
+typedef struct Totals {
+    const RetexSignal *signal;
+    double of[3 * PIXELS];    /* by pixel and channel */
+    double variances[PIXELS]; /* of a lamp's light of value 1 */
+} Totals;
+
+/* What one lamp adds to a signal of all light, in one pixel and channel. */
+typedef struct Product {
+    const Totals *lamp;
+    double kept;     /* the lamp's value in all light, above 0 */
+    double value;    /* of the product */
+    double variance; /* up to a factor that all have */
+} Product;
+
+static void find_totals(Totals *totals, const RetexDenoiser *d, const Span *at)
 {
-    double total = 0;
-    for (int k = 0; k < signal->nmembers; k++)
-        if (!signal->members[k].corrects)
-            total += (double)signal->members[k].weight * (double)light_at(d, &signal->members[k], x, y)[c];
-    return total;
+    double *restrict to = totals->of;
+    memset(to, 0, sizeof totals->of);
+    for (int k = 0; k < totals->signal->nmembers; k++) {
+        const RetexSignalMember *member = &totals->signal->members[k];
+        const float *restrict light = light_at(d, member, at->x, at->y);
+        const double weight = (double)member->weight;
+        for (int i = 0; i < 3 * at->count && !member->corrects; i++)
+            to[i] += weight * (double)light[i];
+    }
 }
 
-/* The variance of a lamp's light of value 1. */
-static double variance_of(const RetexDenoiser *d, const RetexSignal *signal, int x, int y)
+static void find_variances(Totals *totals, const RetexDenoiser *d, const Span *at)
 {
-    const RetexImage *noise = &d->set->parts[signal->noise].image;
-    const int end = x + NEIGHBOURS + 1 < noise->width ? x + NEIGHBOURS + 1 : noise->width;
-    double sum = 0;
-    for (int u = x > NEIGHBOURS ? x - NEIGHBOURS : 0; u < end; u++)
-        for (int c = 0; c < 3; c++) {
-            const double n = (double)noise->pixels[retex_image_index(noise, u, y) + (size_t)c];
-            sum += n * n;
-        }
-    return isfinite(sum) ? sum : 0;
+    const RetexImage *noise = &d->set->parts[totals->signal->noise].image;
+    const float *row = noise->pixels + retex_image_index(noise, 0, at->y);
+    for (int k = 0; k < at->count; k++) {
+        const int x = at->x + k, end = x + NEIGHBOURS + 1 < noise->width ? x + NEIGHBOURS + 1 : noise->width;
+        double sum = 0;
+        for (int i = x > NEIGHBOURS ? 3 * (x - NEIGHBOURS) : 0; i < 3 * end; i++)
+            sum += (double)row[i] * (double)row[i];
+        totals->variances[k] = isfinite(sum) ? sum : 0;
+    }
 }
 
 /* Members keep their proportions; where all are 0 the first one takes all. */
-static void set_total(const RetexDenoiser *d, const RetexSignal *signal, int x, int y, int c, double total)
+static void set_total(const RetexDenoiser *d, const RetexSignal *signal, int x, int y, int c, double old, double total)
 {
-    const double old = total_of(d, signal, x, y, c);
     for (int k = 0; k < signal->nmembers; k++) {
         float *light = &light_at(d, &signal->members[k], x, y)[c];
         if (signal->members[k].corrects)
@@ -97,9 +115,8 @@ static void close_sum(Product *products, int count, double whole)
     products[largest].value = fmax(whole, 0);
 }
 
-static void share(const RetexDenoiser *d, const RetexSignal *whole, Product *products, int count, int x, int y, int c)
+static void share(const RetexDenoiser *d, double total, Product *products, int count, const Span *at, int pixel, int c)
 {
-    const double total = fmax(total_of(d, whole, x, y, c), 0);
     double residual = total;
     for (int k = 0; k < count; k++)
         residual -= products[k].value;
@@ -109,38 +126,64 @@ static void share(const RetexDenoiser *d, const RetexSignal *whole, Product *pro
         residual = add_residual(products, count, residual);
     close_sum(products, count, total);
     for (int k = 0; k < count; k++)
-        set_total(d, products[k].signal, x, y, c, products[k].value / products[k].kept);
+        set_total(d, products[k].lamp->signal, at->x + pixel, at->y, c, products[k].lamp->of[3 * pixel + c],
+                  products[k].value / products[k].kept);
 }
 
 /* The products of a signal of all light with a value above 0. */
-static int list_products(Product *products, const RetexDenoiser *d, const RetexSignal *whole, int x, int y, int c)
+static int list_products(Product *products, const RetexDenoiser *d, const Totals *lamps, int nlamps, int pixel, int c)
 {
     int count = 0;
-    for (int s = 0; s < d->signals.count && count < RETEX_PARAMETERS_MAX; s++) {
-        const RetexSignal *signal = &d->signals.of[s];
-        if (signal->lamp < 0 || signal->target != whole->target || signal->kind != whole->kind)
-            continue;
-        const double kept = (double)d->set->parameters[signal->lamp].kept[c];
-        if (!(kept > 0))
-            continue;
-        products[count++] = (Product){.signal = signal,
-                                      .kept = kept,
-                                      .value = kept * fmax(total_of(d, signal, x, y, c), 0),
-                                      .variance = kept * kept * variance_of(d, signal, x, y)};
+    for (int k = 0; k < nlamps; k++) {
+        const double kept = (double)d->set->parameters[lamps[k].signal->lamp].kept[c];
+        if (kept > 0)
+            products[count++] = (Product){.lamp = &lamps[k],
+                                          .kept = kept,
+                                          .value = kept * fmax(lamps[k].of[3 * pixel + c], 0),
+                                          .variance = kept * kept * lamps[k].variances[pixel]};
     }
     return count;
 }
 
+/* The signals of lamps that are part of a signal of all light. */
+static int list_lamps(Totals *lamps, const RetexDenoiser *d, const RetexSignal *whole)
+{
+    int count = 0;
+    for (int s = 0; s < d->signals.count && count < RETEX_PARAMETERS_MAX; s++) {
+        const RetexSignal *signal = &d->signals.of[s];
+        if (signal->lamp >= 0 && signal->target == whole->target && signal->kind == whole->kind)
+            lamps[count++].signal = signal;
+    }
+    return count;
+}
+
+static void share_signal(const RetexDenoiser *d, const RetexSignal *signal, const Span *at)
+{
+    Totals whole = {.signal = signal}, lamps[RETEX_PARAMETERS_MAX];
+    Product products[RETEX_PARAMETERS_MAX];
+    const int nlamps = list_lamps(lamps, d, signal);
+    if (nlamps)
+        find_totals(&whole, d, at);
+    for (int k = 0; k < nlamps; k++) {
+        find_totals(&lamps[k], d, at);
+        find_variances(&lamps[k], d, at);
+    }
+    for (int pixel = 0; pixel < at->count && nlamps; pixel++)
+        for (int c = 0; c < 3; c++) {
+            const int count = list_products(products, d, lamps, nlamps, pixel, c);
+            if (count)
+                share(d, fmax(whole.of[3 * pixel + c], 0), products, count, at, pixel, c);
+        }
+}
+
 void retex_denoise_share_residual(const RetexDenoiser *d, int y)
 {
-    Product products[RETEX_PARAMETERS_MAX];
     if (!retex_set_has_role(d->set, RETEX_ROLE_LAMP))
         return;
-    for (int s = 0; s < d->signals.count; s++)
-        for (int x = d->roi.x0; x < d->roi.x1 && d->signals.of[s].lamp < 0; x++)
-            for (int c = 0; c < 3; c++) {
-                const int count = list_products(products, d, &d->signals.of[s], x, y, c);
-                if (count)
-                    share(d, &d->signals.of[s], products, count, x, y, c);
-            }
+    for (int x = d->roi.x0; x < d->roi.x1; x += PIXELS) {
+        const Span at = {x, y, d->roi.x1 - x < PIXELS ? d->roi.x1 - x : PIXELS};
+        for (int s = 0; s < d->signals.count; s++)
+            if (d->signals.of[s].lamp < 0)
+                share_signal(d, &d->signals.of[s], &at);
+    }
 }

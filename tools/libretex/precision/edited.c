@@ -15,6 +15,7 @@ typedef struct Corrections {
 
 struct RetexEdited {
     int ntargets;
+    int nlight, *light; /* terms */
     Corrections of[RETEX_MAX_TARGETS];
 };
 
@@ -91,8 +92,12 @@ int retex_edited_open(RetexEdited **result, const RetexSet *set, RetexError *err
     if (!edited)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the corrections of a set");
     edited->ntargets = set->ntargets;
+    edited->light = malloc(sizeof *edited->light * (size_t)(set->nterms + 1));
+    for (int t = 0; t < set->nterms && edited->light; t++)
+        if (retex_term_is_light(&set->terms[t]))
+            edited->light[edited->nlight++] = t;
     for (int t = 0; t < set->ntargets; t++) {
-        if (!list_terms(&edited->of[t], set, t)) {
+        if (!list_terms(&edited->of[t], set, t) || !edited->light) {
             retex_edited_close(result);
             return retex_fail(err, RETEX_ENOMEM, "no memory for the corrections of a set");
         }
@@ -106,6 +111,8 @@ void retex_edited_close(RetexEdited **edited)
 {
     for (int t = 0; *edited && t < (*edited)->ntargets; t++)
         free((*edited)->of[t].terms);
+    if (*edited)
+        free((*edited)->light);
     free(*edited);
     *edited = NULL;
 }
@@ -120,6 +127,12 @@ int retex_edited_terms(const RetexEdited *edited, int target, int power, const i
     const Corrections *list = &edited->of[target];
     *terms = list->terms + list->first[power];
     return list->first[power + 1] - list->first[power];
+}
+
+int retex_edited_light_terms(const RetexEdited *edited, const int **terms)
+{
+    *terms = edited->light;
+    return edited->nlight;
 }
 
 /* ---- one pixel ---- */
@@ -182,12 +195,12 @@ void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int tar
         return;
     for (int m = 0; m < rows->nmixtures; m++)
         mixtures[m] = mixture_factor(rows, &rows->mixtures[m], target, at);
-    for (int t = 0; t < rows->nterms; t++) {
-        const RetexTerm *term = &rows->terms[t];
+    for (int t = 0; t < edited->nlight; t++) {
+        const RetexTerm *term = &rows->terms[edited->light[t]];
         const float *radiance = retex_pixel_at(rows, term->radiance, at);
         RetexEditedLight product = {{(double)radiance[0], (double)radiance[1], (double)radiance[2]}};
         int powers = 0;
-        if (!retex_term_is_light(term) || (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0))
+        if (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0)
             continue;
         for (int k = 0; k < term->nfactors; k++) {
             const RetexFactor factor = term->factors[k];

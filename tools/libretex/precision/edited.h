@@ -24,6 +24,9 @@ int retex_edited_powers(const RetexEdited *edited, int target);
 /* The corrections of a target with so many factors: a list of terms. */
 int retex_edited_terms(const RetexEdited *edited, int target, int power, const int **terms);
 
+/* The terms that are light of all lamps. */
+int retex_edited_light_terms(const RetexEdited *edited, const int **terms);
+
 /* The polynomial in pixel `at` of rows of the set, without corrections. */
 void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, RetexEditedLight light);
 /* 1 if every factor of the term has a place in the pixel, without which it is black. */

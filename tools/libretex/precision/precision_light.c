@@ -36,20 +36,29 @@ static double largest_channel(const double sum[3])
 static double white_pixel(const RetexPixelLight *p)
 {
     double sum[3] = {0, 0, 0};
-    for (int t = 0; t < p->rows->nterms; t++)
-        for (int c = 0; c < 3 && retex_term_is_light(&p->rows->terms[t]); c++)
-            sum[c] += (double)radiance_of(p, t)[c];
+    const int *terms, count = retex_edited_light_terms(p->edited, &terms);
+    for (int t = 0; t < count; t++)
+        for (int c = 0; c < 3; c++)
+            sum[c] += (double)radiance_of(p, terms[t])[c];
     return largest_channel(sum);
 }
 
-static double white_pixel_of_lamp(const RetexPixelLight *p, int lamp)
+static void find_whites_of_lamps(RetexPixelLight *p)
 {
-    double sum[3] = {0, 0, 0};
-    for (int k = 0; k < p->signals->count; k++)
-        for (int m = 0; m < p->signals->of[k].nmembers && p->signals->of[k].lamp == lamp; m++)
-            for (int c = 0; c < 3 && !p->signals->of[k].members[m].corrects; c++)
-                sum[c] += (double)retex_pixel_at(p->rows, p->signals->of[k].members[m].part, p->at)[c];
-    return largest_channel(sum);
+    for (int i = 0; i < p->rows->nparameters; i++)
+        p->whites[i] = 0;
+    for (int first = 0, next; first < p->signals->count; first = next) { /* those of one lamp follow each other */
+        const int lamp = p->signals->of[first].lamp;
+        double sum[3] = {0, 0, 0};
+        for (next = first; next < p->signals->count && p->signals->of[next].lamp == lamp; next++)
+            for (int m = 0; m < p->signals->of[next].nmembers && lamp >= 0; m++) {
+                const float *light = retex_pixel_at(p->rows, p->signals->of[next].members[m].part, p->at);
+                for (int c = 0; c < 3; c++)
+                    sum[c] += (double)light[c];
+            }
+        if (lamp >= 0)
+            p->whites[lamp] = largest_channel(sum);
+    }
 }
 
 /* What a signal's light is part of. */
@@ -182,8 +191,7 @@ static void correct(const RetexPixelLight *p, int target)
 void retex_pixel_light_keep(RetexPixelLight *p)
 {
     p->white = white_pixel(p);
-    for (int i = 0; i < p->rows->nparameters; i++)
-        p->whites[i] = white_pixel_of_lamp(p, i);
+    find_whites_of_lamps(p);
     for (int t = 0; t < p->rows->ntargets; t++)
         retex_edited_light(p->edited, p->rows, t, p->at, p->before[t]);
 }
