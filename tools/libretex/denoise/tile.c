@@ -1,7 +1,7 @@
 /* See tile.h. Weights are those of Rousselle et al. 2012, limited by features as in Rousselle et al. 2013. There are
  * several candidate filters; the error of each is estimated by comparing its result in one half of the samples with the
  * other half. */
-#include "denoise/tile.h"
+#include "denoise/results.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,10 +9,7 @@
 
 #include "denoise/features.h"
 #include "denoise/fireflies.h"
-#include "denoise/footprints.h"
-#include "denoise/passed.h"
 #include "denoise/planes_kernel.h"
-#include "denoise/totals.h"
 #include "set/set.h"
 
 #define STRENGTH 0.45f /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
@@ -21,31 +18,8 @@
 #define ERROR_RADIUS 2         /* radius of the patch over which candidates are compared */
 #define CHOICE_RADIUS 2        /* radius over which the choice is smoothed */
 #define SPIKE 40               /* times the variance around: such a squared difference of halves is a spike */
-#define NEIGHBOUR_STEP 3       /* footprints are pooled over a grid of pixels of this step, */
-#define NEIGHBOUR_REACH 2      /* so many steps to each side */
-#define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))
-#define LEAST_WEIGHT 0.02f /* weight below which a neighbour is not pooled */
 
 _Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen must not depend on tiles");
-
-/* The choices: the noisy pixel, and the candidates. */
-enum { CHOICES = DENOISE_CANDIDATES + 1 };
-
-/* Scratch memory of a tile for the signal that is being filtered. */
-typedef struct SignalScratch {
-    int nclusters, nplanes;
-    int is_empty; /* no light around the tile: nothing to filter */
-    float *half[2][3], *variance[3], *lost[3], *kind, *modulation[3], *mean_modulation; /* planes; lost: what fireflies
-                                                                                         were lowered by */
-    float **planes, **sums;   /* images to filter, by channel: the sum of all clusters if there are any, then the other
-                               members */
-    const float **lit_planes; /* those of them with light, where there are several images; */
-    float **lit_sums;
-    int nlit;
-    RetexDenoiseSums candidates[DENOISE_CANDIDATES];
-    float *chosen[CHOICES];            /* weight of each choice, by pixel */
-    float *neighbours[NEIGHBOURS_MAX]; /* weights by neighbour, if there are clusters */
-} SignalScratch;
 
 struct RetexDenoiseScratch {
     float *memory;
@@ -57,7 +31,7 @@ struct RetexDenoiseScratch {
     int nwindow;
     RetexDenoiseSimilarity *alike;   /* by displacement of the window */
     float *weights[DENOISE_WEIGHTS]; /* of displacements */
-    SignalScratch signal;
+    RetexTileSignal signal;
     float **pointers;
 };
 
@@ -96,7 +70,7 @@ static int most_planes(const RetexDenoiser *d)
     return most;
 }
 
-static void plan_signal(SignalScratch *r, Layout *l, int nplanes, float **pointers)
+static void plan_signal(RetexTileSignal *r, Layout *l, int nplanes, float **pointers)
 {
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
@@ -191,8 +165,8 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 /* ---- signals ---- */
 
 /* Loads the images to filter; their weighted sum goes to the planes of the first half. */
-static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
-                         int x0, int y0)
+static void load_members(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
+                         const RetexSignal *signal, int x0, int y0)
 {
     int image = r->nclusters > 0;
     for (int k = 0; k < r->nplanes; k++)
@@ -210,7 +184,7 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
 }
 
 /* The albedo of the seen surface; for targets, white in the guide, DENOISE_TARGET_BRIGHTNESS. */
-static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
+static void find_seen_modulation(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
         retex_denoise_load_plane(r->modulation[c], d->set, d->features[RETEX_FEATURE_SEEN_ALBEDO], c, x0, y0);
@@ -228,7 +202,7 @@ static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, co
  * compared. Light directly from a target is proportional to the target's coverage, other light to the albedo of the
  * seen surface. Factors below LEAST_MODULATION are raised to it: guides of few samples have large relative errors
  * there. */
-static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
+static void find_modulation(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
                             const RetexSignal *signal, int x0, int y0)
 {
     const int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
@@ -262,8 +236,8 @@ static int has_rounded_noise(const RetexDenoiser *d)
 
 /* Computes both halves from the total and its noise. Rounded noise may be more than the total: it is limited to that,
  * so that no half is less than 0. */
-static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
-                         int x0, int y0)
+static void split_halves(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
+                         const RetexSignal *signal, int x0, int y0)
 {
     const float second = 2 * first_part(d), weights[2] = {2 - second, second};
     for (int c = 0; c < 3; c++) {
@@ -274,7 +248,7 @@ static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const Rete
 }
 
 /* Lowers fireflies in the halves and, in the same proportion, in the images. */
-static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const float *valid)
+static void lower_fireflies(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const float *valid)
 {
     const float part = first_part(d);
     retex_denoise_lower_fireflies(r->half, work->kept, r->kind, valid, has_rounded_noise(d) ? DENOISE_UNKNOWN_HALF : 0);
@@ -294,7 +268,7 @@ static void lower_fireflies(SignalScratch *r, RetexDenoiseScratch *work, const R
 }
 
 /* Lists the planes with light, and finds whether there is any. */
-static int is_empty(SignalScratch *r)
+static int is_empty(RetexTileSignal *r)
 {
     int empty = 1;
     r->nlit = 0;
@@ -311,7 +285,7 @@ static int is_empty(SignalScratch *r)
     return empty;
 }
 
-static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d)
+static RetexDenoiseSignal start_signal(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d)
 {
     RetexDenoiseSignal s = {.kind = r->kind,
                             .modulation = r->mean_modulation,
@@ -363,7 +337,7 @@ static void box(float *restrict image, float *restrict spare, int radius)
 }
 
 /* Turns the sums of the candidates into means. */
-static void find_means(SignalScratch *r)
+static void find_means(RetexTileSignal *r)
 {
     for (int k = 0; k < DENOISE_CANDIDATES; k++)
         for (int h = 0; h < 2; h++)
@@ -373,12 +347,6 @@ static void find_means(SignalScratch *r)
                 for (int i = 0; i < DENOISE_PIXELS; i++)
                     sum[i] /= norm[i];
             }
-}
-
-/* The value of a choice for one half and channel. */
-static float choice_value(const SignalScratch *r, int choice, int half, int c, size_t p, size_t i)
-{
-    return choice ? r->candidates[choice - 1].sum[half][c][i] : r->half[half][c][p];
 }
 
 /* Adds the squared differences of both halves of a choice, one colour of a row, to the other halves. */
@@ -392,7 +360,7 @@ static void add_errors(float *restrict errors, const float *restrict first, cons
 }
 
 /* The squared difference of each choice to the other half, in units of noise, averaged around each pixel. */
-static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
+static void find_errors(const RetexTileSignal *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     for (int k = 0; k < CHOICES; k++) {
         float *errors = work->errors[k];
@@ -427,7 +395,7 @@ static int best_choice(const RetexDenoiseScratch *work, size_t i)
 }
 
 /* A single bright path in one half: other pixels are better without it and keep their own choice. */
-static int is_spike(const SignalScratch *r, size_t p)
+static int is_spike(const RetexTileSignal *r, size_t p)
 {
     float squared = 0, variance = 0;
     for (int c = 0; c < 3; c++) {
@@ -437,7 +405,7 @@ static int is_spike(const SignalScratch *r, size_t p)
     return squared > SPIKE * variance;
 }
 
-static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
+static void choose(RetexTileSignal *r, RetexDenoiseScratch *work, float epsilon, const float *valid)
 {
     unsigned char best[DENOISE_PIXELS];
     find_means(r);
@@ -457,120 +425,7 @@ static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon, c
         }
 }
 
-/* ---- results ---- */
-
-/* A pixel of the tile. */
-typedef struct TilePixel {
-    int x, y;    /* in the picture */
-    size_t p, i; /* index in planes; index in sums */
-} TilePixel;
-
-/* The filtered total of one channel, of which passed receives both halves. */
-static float filtered_total(const SignalScratch *r, const TilePixel *at, int c, float *passed)
-{
-    float total = 0;
-    for (int h = 0; h < 2; h++) {
-        float half = 0;
-        for (int k = 0; k < CHOICES; k++)
-            half += r->chosen[k][at->i] * choice_value(r, k, h, c, at->p, at->i);
-        passed[DENOISE_PASSED_HALVES + 3 * h + c] = half;
-        total += half;
-    }
-    return passed[DENOISE_PASSED_TOTAL + c] = fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
-}
-
-/* The total of the members filtered with the first candidate's weights. */
-static float total_of_members(const SignalScratch *r, const RetexSignal *signal, const TilePixel *at, int c)
-{
-    float members = r->nclusters ? r->sums[c][at->i] : 0;
-    int image = r->nclusters > 0;
-    for (int k = 0; k < signal->nmembers; k++)
-        if (signal->members[k].cluster < 0)
-            members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
-    return members;
-}
-
-/* The share of an image in the filtered total: members keep the proportions that the first candidate's weights give.
- * Where these are all 0, or for a single image, which is not filtered, the first image takes all. */
-static float image_value(const SignalScratch *r, const TilePixel *at, int image, int c, float total, float members,
-                         float weight)
-{
-    if (members > 0) /* the sums may be so small that only their quotient is a normal number */
-        return total * (r->sums[3 * image + c][at->i] / members);
-    return image ? 0 : total / weight;
-}
-
-/* A correction, which may have either sign, with the first candidate's weights. */
-static float correction_value(const SignalScratch *r, const TilePixel *at, int image, int c)
-{
-    const RetexDenoiseSums *s = &r->candidates[0];
-    const float norm = 0.5f * (s->norm[0][at->i] + s->norm[1][at->i]);
-    return norm > 0 ? r->mean_modulation[at->p] * (r->sums[3 * image + c][at->i] / norm) : 0;
-}
-
-/* Steps to each side at which neighbours lie within the window. */
-static int neighbour_reach(const RetexDenoiser *d)
-{
-    int reach = d->params.radius / NEIGHBOUR_STEP;
-    return reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
-}
-
-static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const float *const *weights,
-                           const TilePixel *at)
-{
-    int count = 1, number = 0, reach = neighbour_reach(d);
-    out[0] = (RetexNeighbour){at->x, at->y, 1};
-    for (int dy = -reach; dy <= reach; dy++)
-        for (int dx = -reach; dx <= reach; dx++, number++) {
-            const float weight = weights[number] ? weights[number][at->i] : 0;
-            if ((dx || dy) && weight > LEAST_WEIGHT)
-                out[count++] = (RetexNeighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
-        }
-    return count;
-}
-
-static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
-                          const TilePixel *at, RetexDenoisedRows *out, RetexSignalSums *sums)
-{
-    float total[3], members[3], light[3];
-    float *passed = retex_denoise_passed_at(d->passed, d, (int)(signal - d->signals.of), at->x, at->y);
-    int image = r->nclusters > 0;
-    for (int c = 0; c < 3; c++)
-        total[c] = filtered_total(r, at, c, passed);
-    retex_denoise_mix_total(total, d, (int)(signal - d->signals.of), at->x, at->y);
-    for (int c = 0; c < 3; c++) {
-        members[c] = total_of_members(r, signal, at, c);
-        sums->before[c] += r->modulation[c][at->p] * (0.5f * (r->half[0][c][at->p] + r->half[1][c][at->p]));
-        sums->lost[c] += r->modulation[c][at->p] * r->lost[c][at->p];
-        light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
-    }
-    for (int k = 0; k < signal->nmembers; k++) {
-        const RetexSignalMember *m = &signal->members[k];
-        if (m->cluster >= 0)
-            continue;
-        float *to = out->parts[m->part] + 3 * ((size_t)(at->y - out->first) * (size_t)d->set->width + (size_t)at->x);
-        for (int c = 0; c < 3; c++)
-            to[c] = m->corrects ? correction_value(r, at, image, c)
-                                : image_value(r, at, image, c, total[c], members[c], m->weight);
-        image++;
-    }
-    if (r->nclusters) {
-        RetexNeighbour neighbours[NEIGHBOURS_MAX];
-        neighbours[0] = (RetexNeighbour){at->x, at->y, 1};
-        const int count = r->is_empty ? 1 : find_neighbours(neighbours, d, (const float *const *)r->neighbours, at);
-        retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, out);
-    }
-}
-
-/* Number of the neighbour at a displacement, or -1. */
-static int neighbour_number(const RetexDenoiser *d, int dx, int dy)
-{
-    int reach = neighbour_reach(d);
-    if (dx % NEIGHBOUR_STEP || dy % NEIGHBOUR_STEP || abs(dx) > reach * NEIGHBOUR_STEP ||
-        abs(dy) > reach * NEIGHBOUR_STEP)
-        return -1;
-    return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
-}
+/* ---- the window ---- */
 
 static void find_similarities(RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexDenoiseFeatures *features)
 {
@@ -583,7 +438,7 @@ static void find_similarities(RetexDenoiseScratch *work, const RetexDenoiser *d,
 static void search_part(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseSignal *signal, int first,
                         int count)
 {
-    const SignalScratch *r = &work->signal;
+    const RetexTileSignal *r = &work->signal;
     const RetexDenoiseImages images = {r->nlit, r->lit_planes, r->lit_sums};
     const int are_kept = r->nlit || r->nclusters;
     for (int n = 0; n < count; n += DENOISE_BATCH) {
@@ -597,7 +452,7 @@ static void search_part(const RetexDenoiser *d, RetexDenoiseScratch *work, const
     retex_denoise_images_kernel(&images, work->window + first, (const float *const *)work->weights, count,
                                 d->params.scalar);
     for (int n = 0; n < count && r->nclusters; n++) {
-        const int number = neighbour_number(d, work->window[first + n].dx, work->window[first + n].dy);
+        const int number = retex_tile_neighbour(d, work->window[first + n].dx, work->window[first + n].dy);
         if (number >= 0)
             memcpy(r->neighbours[number], work->weights[n], sizeof(float) * DENOISE_PIXELS);
     }
@@ -608,7 +463,7 @@ static void search_part(const RetexDenoiser *d, RetexDenoiseScratch *work, const
 static void filter_signal(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseFeatures *features,
                           const RetexSignal *signal, int x0, int y0)
 {
-    SignalScratch *r = &work->signal;
+    RetexTileSignal *r = &work->signal;
     r->nplanes = 3 * count_images(signal, &r->nclusters);
     load_members(r, work, d, signal, x0, y0);
     find_modulation(r, work, d, signal, x0, y0);
@@ -627,31 +482,15 @@ static void filter_signal(const RetexDenoiser *d, RetexDenoiseScratch *work, con
     choose(r, work, sums.epsilon, features->valid);
 }
 
-/* The pixels of the tile that are results, in order. Returns 0 after the last one. */
-static int next_pixel(TilePixel *at, const RetexDenoiser *d, const RetexDenoisedRows *out, int left)
+static void pool_footprints(const RetexDenoiser *d, const RetexDenoiseScratch *work, int left, RetexDenoisedRows *out)
 {
-    const int end = left + DENOISE_STEP < d->roi.x1 ? left + DENOISE_STEP : d->roi.x1;
-    if (++at->x >= end)
-        at->x = left, at->y++;
-    const int x = at->x - left + DENOISE_MARGIN, y = at->y - out->first + DENOISE_MARGIN;
-    at->p = denoise_at(x, y), at->i = (size_t)y * DENOISE_TILE + (size_t)x;
-    return at->y < out->first + out->rows;
-}
-
-/* Pools the footprints that no signal has, by the similarity of features. */
-static void pool_footprints(const RetexDenoiser *d, const RetexDenoiseScratch *work, RetexDenoisedRows *out, int left)
-{
-    RetexNeighbour neighbours[NEIGHBOURS_MAX];
     const float *alike[NEIGHBOURS_MAX] = {NULL}; /* corners of the grid may lie outside of the window */
     for (int n = 0; n < work->nwindow; n++) {
-        const int number = neighbour_number(d, work->window[n].dx, work->window[n].dy);
+        const int number = retex_tile_neighbour(d, work->window[n].dx, work->window[n].dy);
         if (number >= 0)
             alike[number] = work->alike[n].strict;
     }
-    for (TilePixel at = {.x = left - 1, .y = out->first}; next_pixel(&at, d, out, left);) {
-        const int count = find_neighbours(neighbours, d, alike, &at);
-        retex_denoise_pool_interreflections(d->footprints, d, at.x, at.y, neighbours, count, out);
-    }
+    retex_tile_pool(d, alike, left, out);
 }
 
 void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *out,
@@ -663,9 +502,8 @@ void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int l
     find_similarities(work, d, &features);
     for (int s = 0; s < d->signals.count; s++) {
         filter_signal(d, work, &features, &d->signals.of[s], x0, y0);
-        for (TilePixel at = {.x = left - 1, .y = out->first}; next_pixel(&at, d, out, left);)
-            finish_signal(&work->signal, d, &d->signals.of[s], &at, out, &sums[s]);
+        retex_tile_finish(&work->signal, d, &d->signals.of[s], left, out, &sums[s]);
     }
     if (d->params.footprints && d->footprints && d->set->nfootprints)
-        pool_footprints(d, work, out, left);
+        pool_footprints(d, work, left, out);
 }
