@@ -2,6 +2,7 @@
  * inherit what they lack from the compounds around them; an object without any texture has the default texture in
  * force where it is placed. */
 #include <string.h>
+#include "light/ies.h"
 #include "light/source.h"
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
@@ -194,6 +195,8 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
         builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_capacity, sizeof *scene->lights);
     Light *light = &scene->lights[scene->nlights++];
     *light = *object->light;
+    if (light->ies)
+        ies_place(light, to_world);
     light->location = transform_point(to_world, light->location);
     light->point_at = transform_point(to_world, light->point_at);
     light->axis1 = transform_vector(to_world, light->axis1);
