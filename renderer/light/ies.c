@@ -81,9 +81,11 @@ double ies_light_share(const Light *light, Vec3 direction)
 {
     const Vec3 *axes = light->ies_axes;
     const double x = vec_dot(direction, axes[0]), y = vec_dot(direction, axes[1]), z = vec_dot(direction, axes[2]);
+    const double vertical = atan2(sqrt(x * x + y * y), z) * 180 / PI;
+    if (light->ies->symmetry == IES_AXIAL)
+        return ies_share(light->ies, vertical, 0);
     const double horizontal = atan2(y, x) * 180 / PI;
-    return ies_share(light->ies, atan2(sqrt(x * x + y * y), z) * 180 / PI,
-                     horizontal < 0 ? horizontal + 360 : horizontal);
+    return ies_share(light->ies, vertical, horizontal < 0 ? horizontal + 360 : horizontal);
 }
 
 double ies_light_cone(const Light *light, Vec3 *axis)
