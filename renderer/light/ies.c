@@ -1,6 +1,5 @@
 /* Light distributions: the share of a direction, and how the luminaire hangs. */
 #include "light/ies.h"
-#include "light/source.h"
 
 /* The lower one of the two rising numbers that x lies between, and how far it is to the upper one, 0 to 1. */
 static int interval(const double *numbers, int n, double x, double *part)
@@ -42,7 +41,7 @@ static double share_of_column(const Ies *ies, int column, int k, double part)
 double ies_share(const Ies *ies, double vertical, double horizontal)
 {
     double up, round;
-    if (vertical < ies->vertical[0] || vertical > ies->vertical[ies->nvertical - 1])
+    if (!(vertical >= ies->vertical[0] && vertical <= ies->vertical[ies->nvertical - 1]))
         return 0;
     const int k = interval(ies->vertical, ies->nvertical, vertical, &up);
     if (ies->symmetry == IES_AXIAL)
@@ -57,15 +56,13 @@ double ies_share(const Ies *ies, double vertical, double horizontal)
 static Vec3 tilted(Vec3 d, Vec3 axis)
 {
     const Vec3 about = vec_cross(vec3(0, -1, 0), axis);
-    if (1 - axis.y < 1e-12)
+    if (1 - axis.y < 1e-9)
         return vec3(d.x, -d.y, -d.z); /* straight up: about x */
     return vec_add(vec_mad(vec_scale(d, -axis.y), about, vec_dot(about, d) / (1 - axis.y)), vec_cross(about, d));
 }
 
-void ies_place(Light *light, const Transform *to_world)
+void ies_place(Light *light, Vec3 axis, const Transform *to_world)
 {
-    const int hangs = !light->is_aimed && light->ops == &light_point;
-    const Vec3 axis = hangs ? vec3(0, -1, 0) : light_axis(light);
     const double turn = light->ies_turn * PI / 180, c = cos(turn), s = sin(turn);
     const Vec3 along = transform_vector(to_world, tilted(vec3(c, 0, s), axis));
     const Vec3 across = transform_vector(to_world, tilted(vec3(-s, 0, c), axis));

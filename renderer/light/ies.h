@@ -31,9 +31,9 @@ typedef struct Ies {
  * horizontal: 0 to 360. */
 double ies_share(const Ies *ies, double vertical, double horizontal);
 
-/* Fill ies_axes of a light that has a distribution, once location and point_at are final in its own space; to_world is
- * where that goes. */
-void ies_place(Light *light, const Transform *to_world);
+/* Fill ies_axes of a light that has a distribution. axis: where vertical angle 0 looks in its own space, of unit
+ * length; to_world is where that goes. */
+void ies_place(Light *light, Vec3 axis, const Transform *to_world);
 /* The share of its light that such a light gives to a direction, of unit length, away from it. */
 double ies_light_share(const Light *light, Vec3 direction);
 /* A cone that it does not shine out of: its half-angle in radians, and *axis in world space. */

@@ -1,5 +1,5 @@
-/* What all light sources share: fading, light distributions, the grid of an area_light, projected_through, and how the list of lights sees
- * them. */
+/* What all light sources share: fading, light distributions, the grid of an area_light, projected_through, and how the
+ * list of lights sees them. */
 #include "light/entry.h"
 #include "light/ies.h"
 #include "shape/csg.h"

@@ -1,5 +1,5 @@
-/* Light distributions, from files of IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric type C: lines of text, the
- * line TILT=, and after it numbers, with white space or commas between them. Intensities are taken as shares of the
+/* Light distributions, from files of IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric type C: lines of text,
+ * the line TILT=, and after it numbers, with white space or commas between them. Intensities are taken as shares of the
  * greatest one, so lumens, multipliers, ballast factors and watts, and the luminaire's size, mean nothing here. */
 #include <ctype.h>
 #include <stdlib.h>
