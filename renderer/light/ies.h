@@ -20,7 +20,7 @@ typedef enum IesSymmetry {
 
 typedef struct Ies {
     IesSymmetry symmetry;
-    int nvertical, nhorizontal;          /* angles, each at least 1; of IES_NONE the last one is 360 */
+    int nvertical, nhorizontal;          /* angles, at least 2 and 1; of IES_NONE the last one is 360 */
     const double *vertical, *horizontal; /* rising: vertical ones within 0 to 180; of IES_AXIAL there is one of these */
     int ncolumns;                        /* nhorizontal, or one less where the last one is the first again */
     const float *shares;                 /* of each horizontal angle, then of each vertical one */
