@@ -1,6 +1,7 @@
-/* What all light sources share: fading, the grid of an area_light, projected_through, and how the list of lights sees
- * them. */
+/* What all light sources share: fading, light distributions, the grid of an area_light, projected_through, and how the
+ * list of lights sees them. */
 #include "light/entry.h"
+#include "light/ies.h"
 #include "shape/csg.h"
 
 static double distance_fade(const Light *light, double distance)
@@ -84,7 +85,9 @@ double point_shine(const Light *light, Vec3 position, Vec3 place, Vec3 *directio
 
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 place, Vec3 *direction, double *distance)
 {
-    const double share = light->ops->shine(light, position, place, direction, distance);
+    double share = light->ops->shine(light, position, place, direction, distance);
+    if (share > 0 && light->ies)
+        share *= ies_light_share(light, vec_neg(*direction));
     return share > 0 ? rgb_scale(light->color, (float)(PI * share * distance_fade(light, *distance))) : rgb_grey(0);
 }
 
@@ -223,6 +226,9 @@ static LightBounds source_bounds(const LightEntry *e, int face)
         b.axis = light_axis(light);
         b.theta_o = 0;
         b.theta_e = half > 0 ? fmin(half, PI / 2) : PI / 2;
+    } else if (light->ies) {
+        b.theta_o = ies_light_cone(light, &b.axis);
+        b.theta_e = 0;
     }
     if (light->area) {
         double x = vec_length(light->axis1), y = vec_length(light->axis2), most = (x + y) / 2;

@@ -138,7 +138,7 @@ static void start_from_emitter(const Tracing *m, uint32_t photon, Start *start)
     start->power = point.power * fabs(vec_dot(start->ray.direction, point.normal)) * angle;
 }
 
-/* Estimate of the light that a source sends to a caster. Spots may light a part of it only. */
+/* Estimate of the light that a source sends to a caster. Spots and light distributions may light a part of it only. */
 static double source_weight(const Light *light, const Aim *c)
 {
     Vec3 direction;
@@ -147,7 +147,7 @@ static double source_weight(const Light *light, const Aim *c)
     if (!light->caustics)
         return 0;
     const double seen = rgb_luminance(source_irradiance(light, c->center, light->location, &direction, &distance));
-    whole.ops = &light_point;
+    whole.ops = &light_point, whole.ies = NULL;
     return fmax(seen,
                 0.05 * rgb_luminance(source_irradiance(&whole, c->center, light->location, &direction, &distance)));
 }

@@ -466,7 +466,11 @@ typedef struct Light {
     const IdentList *idents; /* names of the objects it is part of */
     const PlaceList *places; /* their statements */
     Vec3 location, point_at;
+    int is_aimed;            /* point_at is written */
     Rgb color;               /* irradiance pi * color on a surface that faces it */
+    const struct Ies *ies;   /* light/ies.h: share of the colour by direction; NULL: its kind alone says */
+    double ies_turn;         /* degrees, from the distribution's horizontal angle 0 to 90 */
+    Vec3 ies_axes[3];        /* of unit length, in world space: horizontal angles 0 and 90, and vertical angle 0 */
     double radius, falloff;  /* spot: half-angles in degrees; cylinder: lengths */
     double tightness;
     double fade_distance, fade_power; /* fade_power 0 = none */

@@ -12,7 +12,8 @@ case $KEEP in /*) ;; *) KEEP=$here/$KEEP ;; esac
 mkdir -p "$KEEP"
 KEEP=$(cd "$KEEP" && pwd)
 
-# What scenes read: includes as they are, and in the place of every texture a picture of a few pixels.
+# What scenes read: includes and a light distribution as they are, and in the place of every texture a picture of a few
+# pixels.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/textures"
@@ -20,6 +21,7 @@ for include in scenes/*/*.inc; do cp "$include" "$work"; done # of two that have
 for texture in scenes/*/textures/*.jpg; do
     "$BUILD/tests/bin/make_picture" "$work/textures/${texture##*/}" size=6x5 || exit 2
 done
+cp tests/data/lamp.ies "$work"
 scenes=
 for scene in tests/fuzz/seeds/*.pov tests/scenes/*.pov scenes/*/*.pov; do scenes="$scenes $here/$scene"; done
 

@@ -277,6 +277,7 @@ typedef struct Builder {
     const ParsedTexture *inherited_texture; /* stands for the instance's while a prototype is placed */
     int instance_capacity;
     struct FontFiles *fonts; /* font.c */
+    struct IesFile *ies_files; /* ies.c */
 } Builder;
 
 static inline Builder *builder_of(Sdl *sdl)
@@ -467,6 +468,8 @@ Font *font_open(Sdl *sdl, const char *name);
 unsigned font_letter_index(Font *font, unsigned long character); /* 0: the font lacks it */
 const Letter *font_letter(Sdl *sdl, Font *font, unsigned index);
 double font_kerning(const Font *font, unsigned left, unsigned right);
+
+const struct Ies *parse_ies(Sdl *sdl); /* ies.c: the name of a file that has a light distribution, after `ies` */
 
 /* extent.c, trace.c: see SdlBuilder */
 int object_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);

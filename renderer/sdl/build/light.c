@@ -87,7 +87,7 @@ static void looks_like(Sdl *sdl, Object *object)
 static int accept_geometry(Sdl *sdl, Light *light)
 {
     if (sdl_accept(sdl, "point_at"))
-        light->point_at = sdl_vector(sdl);
+        light->point_at = sdl_vector(sdl), light->is_aimed = 1;
     else if (sdl_accept(sdl, "area_light"))
         area_light(sdl, light);
     else if (sdl_accept(sdl, "radius"))
@@ -152,17 +152,30 @@ static void photons(Sdl *sdl, Light *light)
                       (flags & OBJECT_PHOTONS_REFLECT ? CAUSTICS_REFLECT : 0);
 }
 
-/* Our extension: retex{ radius R }. */
+/* Our extension: retex{ radius R ies "FILE" turn DEGREES }. */
 static void extension(Sdl *sdl, Light *light)
 {
     sdl_expect(sdl, "{");
     while (!sdl_accept(sdl, "}")) {
-        if (!sdl_accept(sdl, "radius"))
-            sdl_expected(sdl, "radius or } in retex");
-        light->size = sdl_float(sdl);
-        if (!(light->size > 0))
-            sdl_error(sdl, "the radius of a light must be above 0, not %g", light->size);
+        if (sdl_accept(sdl, "radius")) {
+            light->size = sdl_float(sdl);
+            if (!(light->size > 0))
+                sdl_error(sdl, "the radius of a light must be above 0, not %g", light->size);
+        } else if (sdl_accept(sdl, "ies")) {
+            light->ies = parse_ies(sdl);
+            light->ies_turn = sdl_accept(sdl, "turn") ? sdl_float(sdl) : 0;
+        } else
+            sdl_expected(sdl, "radius, ies or } in retex");
     }
+}
+
+/* A light distribution needs light that leaves a point, and an axis. */
+static void check_ies(Sdl *sdl, const Light *light)
+{
+    if (light_is_beam(light))
+        sdl_error(sdl, "a light with ies cannot be %s: all of its light would go one way", light->ops->name);
+    if (light->is_aimed && vec_length(vec_sub(light->point_at, light->location)) <= 0)
+        sdl_error(sdl, "a light with ies has no axis: its point_at is its location");
 }
 
 /* The object's transform is applied when it is placed: location and point_at are in its own space. */
@@ -219,6 +232,8 @@ const Object *parse_light_source(Sdl *sdl)
     object->light = light;
     while (!sdl_accept(sdl, "}"))
         modifier(sdl, object, light), sdl_optional_comma(sdl);
+    if (light->ies)
+        check_ies(sdl, light);
     if (rgb_luminance(light->color) < 0)
         sdl_unsupported(sdl, "light_source of negative colour", "it takes no light away");
     return object;

@@ -2,6 +2,7 @@
  * inherit what they lack from the compounds around them; an object without any texture has the default texture in
  * force where it is placed. */
 #include <string.h>
+#include "light/ies.h"
 #include "light/source.h"
 #include "sdl/build/builder.h"
 #include "shape/shape.h"
@@ -186,6 +187,12 @@ static const Csg *placed_projector(Sdl *sdl, const Object *projector, const Tran
     return csg_of_object(sdl, placed);
 }
 
+/* A luminaire that is not aimed hangs. Spotlights always are. */
+static Vec3 ies_axis(const Light *light)
+{
+    return !light->is_aimed && light->ops == &light_point ? vec3(0, -1, 0) : light_axis(light);
+}
+
 static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
 {
     const Transform *to_world = &here->to_world;
@@ -194,6 +201,8 @@ static void place_light(Sdl *sdl, const Object *object, const Inherited *here)
         builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_capacity, sizeof *scene->lights);
     Light *light = &scene->lights[scene->nlights++];
     *light = *object->light;
+    if (light->ies)
+        ies_place(light, ies_axis(light), to_world);
     light->location = transform_point(to_world, light->location);
     light->point_at = transform_point(to_world, light->point_at);
     light->axis1 = transform_vector(to_world, light->axis1);

@@ -11,6 +11,7 @@ light_source { <5, 8, -5>, rgb <1, 0.9, 0.8>
   spotlight point_at 0 radius 20 falloff 30 tightness 5 fade_distance 4 fade_power 2 }
 light_source { <-5, 8, -5>, rgb 0.4
   area_light x, z, 3, 2 circular orient jitter adaptive 1 parallel point_at y }
+light_source { <0, 4, 2>, 1 retex { ies "lamp.ies" turn 30 } point_at 0 }
 light_source { y * 5, 1
   cylinder point_at 0 radius 1 falloff 2 looks_like { sphere { 0, 0.2 pigment { rgb 1 } } } shadowless }
 plane { y, -1 }
