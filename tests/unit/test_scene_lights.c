@@ -253,6 +253,7 @@ static void test_names_of_insides(void **state)
     Scene *scene =
         parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
     const char *specs[] = {"Lining"};
+    assert_int_equal(scene->primitives[0].interior_target, -1); /* before any is asked for */
     assert_int_equal(scene_resolve_targets(scene, specs, 1, NULL), 0);
     assert_int_equal(scene->primitives[0].interior_target, 0);
     assert_int_equal(scene->primitives[0].target, -1);

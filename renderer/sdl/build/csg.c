@@ -63,8 +63,12 @@ static void add_leaf(Sdl *sdl, const Object *object, const Transform *to_world, 
     if (object->shape.mesh)
         index_mesh(sdl, object->shape.mesh);
     leaf->object = object;
-    leaf->primitive =
-        (Primitive){.shape = object->shape, .transform = *to_world, .inverse = inverse != 0, .csg = node, .target = -1};
+    leaf->primitive = (Primitive){.shape = object->shape,
+                                  .transform = *to_world,
+                                  .inverse = inverse != 0,
+                                  .csg = node,
+                                  .target = -1,
+                                  .interior_target = -1};
     node->primitive = &leaf->primitive;
 }
 

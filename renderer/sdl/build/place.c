@@ -173,7 +173,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
     p->idents = in->idents;
     p->places = in->places;
     p->line = object->line;
-    p->target = -1;
+    p->target = p->interior_target = -1;
     cutaway_add(sdl, in, texture);
 }
 
