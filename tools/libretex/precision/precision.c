@@ -49,6 +49,8 @@ typedef struct Scratch {
     double *light;      /* by footprint: light that it multiplies in the pixel */
     double *mixed;      /* by mixture */
     int *order;         /* of footprints */
+    double *whites;     /* of a row, by parameter, then column: the largest channel of all light of the lamp */
+    double *colors;     /* of a row */
 } Scratch;
 
 #define EVEN_DEVIATION 0.28867513 /* of an axis of 1: the root of 1/12 */
@@ -223,6 +225,32 @@ static void take_noise(const RetexPrecision *p, Scratch *s, const RetexSet *rows
 static double noise_of(const RetexPrecision *p, const Scratch *s, int signal)
 {
     return s->deviations[signal < 0 ? p->signals.count : signal];
+}
+
+/* ---- lamps ---- */
+
+static void add_row(double *restrict sums, const float *restrict row, int count)
+{
+    for (int i = 0; i < count; i++)
+        sums[i] += (double)row[i];
+}
+
+/* How bright each lamp with white targets is in the pixels of row y. */
+static void find_whites(const RetexPrecision *p, Scratch *s, const RetexSet *rows, int y)
+{
+    const int width = rows->width;
+    for (int first = 0, next; first < p->signals.count; first = next) { /* those of one lamp follow each other */
+        const int lamp = p->signals.of[first].lamp;
+        memset(s->colors, 0, sizeof *s->colors * 3 * (size_t)width);
+        for (next = first; next < p->signals.count && p->signals.of[next].lamp == lamp; next++)
+            for (int m = 0; m < p->signals.of[next].nmembers && lamp >= 0; m++)
+                add_row(s->colors, retex_pixel_at(rows, p->signals.of[next].members[m].part, (size_t)y * (size_t)width),
+                        3 * width);
+        for (int x = 0; x < width && lamp >= 0; x++) {
+            const double *c = s->colors + 3 * x;
+            s->whites[(size_t)lamp * (size_t)width + (size_t)x] = (double)(float)fmax(c[0], fmax(c[1], c[2]));
+        }
+    }
 }
 
 /* ---- one pixel ---- */
@@ -432,6 +460,7 @@ static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *row
                              .rows = rows,
                              .at = at,
                              .has_noise = p->has_noise,
+                             .whites = s->whites + at % (size_t)rows->width,
                              .noise = s->deviations};
     take_noise(p, s, rows, pixel);
     retex_pixel_light_keep(&light);
@@ -454,6 +483,8 @@ static void close_scratch(Scratch *s)
     free(s->light);
     free(s->mixed);
     free(s->order);
+    free(s->whites);
+    free(s->colors);
 }
 
 static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *rows, RetexError *err)
@@ -463,8 +494,10 @@ static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *row
                    .deviations = malloc(sizeof *s->deviations * (size_t)(p->signals.count + 1)),
                    .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
                    .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
-                   .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1))};
-    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order)
+                   .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1)),
+                   .whites = malloc(sizeof *s->whites * (size_t)rows->width * (size_t)(rows->nparameters + 1)),
+                   .colors = malloc(sizeof *s->colors * 3 * (size_t)rows->width)};
+    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order && s->whites && s->colors)
         return RETEX_OK;
     close_scratch(s);
     return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");
@@ -519,12 +552,14 @@ static int round_band(void *context, int band, int thread, RetexError *err)
     if (code)
         return code;
     find_noise(r->precision, &s, r->rows, top, lines);
-    for (int y = y0; y < y1; y++)
+    for (int y = y0; y < y1; y++) {
+        find_whites(r->precision, &s, r->rows, y);
         for (int x = r->roi.x0; x < r->roi.x1; x++) {
             const size_t at = (size_t)y * (size_t)r->rows->width + (size_t)x;
             const size_t pixel = at - (size_t)top * (size_t)r->rows->width;
             round_pixel(r->precision, &s, r->rows, at, pixel);
         }
+    }
     round_lone_numbers(r, y0, y1);
     close_scratch(&s);
     return RETEX_OK;

@@ -43,28 +43,10 @@ static double white_pixel(const RetexPixelLight *p)
     return largest_channel(sum);
 }
 
-static void find_whites_of_lamps(RetexPixelLight *p)
-{
-    for (int i = 0; i < p->rows->nparameters; i++)
-        p->whites[i] = 0;
-    for (int first = 0, next; first < p->signals->count; first = next) { /* those of one lamp follow each other */
-        const int lamp = p->signals->of[first].lamp;
-        double sum[3] = {0, 0, 0};
-        for (next = first; next < p->signals->count && p->signals->of[next].lamp == lamp; next++)
-            for (int m = 0; m < p->signals->of[next].nmembers && lamp >= 0; m++) {
-                const float *light = retex_pixel_at(p->rows, p->signals->of[next].members[m].part, p->at);
-                for (int c = 0; c < 3; c++)
-                    sum[c] += (double)light[c];
-            }
-        if (lamp >= 0)
-            p->whites[lamp] = largest_channel(sum);
-    }
-}
-
 /* What a signal's light is part of. */
 static double white_of(const RetexPixelLight *p, const RetexSignal *signal)
 {
-    return signal->lamp < 0 ? p->white : p->whites[signal->lamp];
+    return signal->lamp < 0 ? p->white : p->whites[p->rows->width * signal->lamp];
 }
 
 /* ---- light ---- */
@@ -191,7 +173,6 @@ static void correct(const RetexPixelLight *p, int target)
 void retex_pixel_light_keep(RetexPixelLight *p)
 {
     p->white = white_pixel(p);
-    find_whites_of_lamps(p);
     for (int t = 0; t < p->rows->ntargets; t++)
         retex_edited_light(p->edited, p->rows, t, p->at, p->before[t]);
 }

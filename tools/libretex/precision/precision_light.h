@@ -13,11 +13,11 @@ typedef struct RetexPixelLight {
     const RetexSignals *signals;
     const RetexEdited *edited;
     const RetexSet *rows;
-    size_t at;                           /* the pixel's number in them */
-    int has_noise;                       /* 0: all steps are the finest */
-    const double *noise;                 /* by signal, then of all together */
-    double white;                        /* the largest channel of the sum of all terms of light */
-    double whites[RETEX_PARAMETERS_MAX]; /* the same of each lamp's, by parameter */
+    size_t at;            /* the pixel's number in them */
+    int has_noise;        /* 0: all steps are the finest */
+    const double *noise;  /* by signal, then of all together */
+    double white;         /* the largest channel of the sum of all terms of light */
+    const double *whites; /* the same of each lamp's, by parameter, a row of the set apart */
     RetexEditedLight before[RETEX_MAX_TARGETS];
 } RetexPixelLight;
 
