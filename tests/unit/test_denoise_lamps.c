@@ -10,6 +10,7 @@
 #include <retex/host/set_build.h>
 #include <retex/retex.h>
 
+#include "denoise/filter.h"
 #include "denoise/residual.h"
 #include "lib_folder.h"
 #include "set/parts.h"
@@ -107,6 +108,31 @@ static void expect_sums(const RetexSet *set, const RetexSignals *signals, double
                 if (fabs(whole - sum) > tolerance * whole + 1e-7)
                     fail_msg("signal %d at %d, %d: %g, lamps %g", s, x, y, whole, sum);
             }
+}
+
+/* All light is filtered first, then each lamp, in whatever order terms come. */
+static void lamps_are_filtered_one_by_one(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 70, 52, 1, 0);
+    for (int t = 0; t < set->nterms / 2; t++) {
+        const RetexTerm term = set->terms[t];
+        set->terms[t] = set->terms[set->nterms - 1 - t], set->terms[set->nterms - 1 - t] = term;
+    }
+    const RetexDenoiser all = {.set = set, .signals = denoise_signals(set)};
+    RetexDenoiser bundle;
+    int lamp = -1, next = 0;
+    for (int count; (count = retex_denoise_bundle(&bundle, &all, next)) > 0; next += count, lamp++) {
+        assert_int_equal(bundle.first_signal, next);
+        assert_int_equal(bundle.signals.count, count);
+        for (int s = 0; s < count; s++)
+            assert_int_equal(bundle.signals.of[s].lamp, lamp);
+    }
+    assert_int_equal(lamp, LAMPS);
+    assert_int_equal(next, all.signals.count);
+    RetexSignals signals = all.signals;
+    retex_signals_close(&signals);
+    retex_set_close(&set);
 }
 
 static void lamps_add_up_to_all_light(void **state)
@@ -213,6 +239,37 @@ static void each_lamp_becomes_cleaner(void **state)
     }
 }
 
+static double sum_of_part(const RetexSet *set, const char *name)
+{
+    const RetexImage *im = &set->parts[retex_set_find_part(set, name)].image;
+    double sum = 0;
+    for (size_t i = 0; i < retex_image_index(im, 0, im->height); i++)
+        sum += fabs((double)im->pixels[i]);
+    return sum;
+}
+
+/* A term without light gets none, and the others keep theirs. */
+static void terms_without_light_stay_so(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 70, 52, 1, 0);
+    RetexSignals signals = denoise_signals(set);
+    char dark[RETEX_NAME_MAX] = "", lit[RETEX_NAME_MAX] = "";
+    for (int s = 0; s < signals.count; s++)
+        if (signals.of[s].lamp >= 0 && signals.of[s].nmembers >= 3) { /* where all are 0 the first takes all */
+            snprintf(dark, sizeof dark, "%s", set->parts[signals.of[s].members[1].part].name);
+            snprintf(lit, sizeof lit, "%s", set->parts[signals.of[s].members[2].part].name);
+        }
+    const double light = sum_of_part(set, lit);
+    memset(set->parts[retex_set_find_part(set, dark)].image.pixels, 0, sizeof(float) * 3 * 70 * 52);
+    assert_true(light > 0);
+    denoise_all(set, &denoise_exactly, 2);
+    assert_true(sum_of_part(set, dark) == 0);
+    assert_true(sum_of_part(set, lit) > light / 2);
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+}
+
 /* The picture of a lamp with all originals is that of its filtered terms. */
 static void pictures_of_lamps_are_renewed(void **state)
 {
@@ -265,10 +322,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_light_is_as_without_lamps),
+        cmocka_unit_test(lamps_are_filtered_one_by_one),
         cmocka_unit_test(lamps_add_up_to_all_light),
         cmocka_unit_test(the_residual_is_shared),
         cmocka_unit_test(the_noisiest_lamp_takes_most),
         cmocka_unit_test(each_lamp_becomes_cleaner),
+        cmocka_unit_test(terms_without_light_stay_so),
         cmocka_unit_test(pictures_of_lamps_are_renewed),
         cmocka_unit_test(strips_and_threads_change_nothing),
     };
