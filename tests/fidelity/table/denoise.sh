@@ -20,12 +20,7 @@ scenes=${DENOISE_SCENES:-$all_scenes}
 few=128 more=512 many=1024 # samples: of what is compared, four times as many, and where there is little noise
 guide_spp=256              # of the light that regions are found from
 work=$build/fidelity-denoise
-export PYTHONDONTWRITEBYTECODE=1
-python=${PYTHON:-/usr/bin/python3}
-"$python" -c 'import numpy, OpenImageIO' || {
-    echo "fidelity-denoise: $python needs numpy and OpenImageIO (python3-numpy, python3-openimageio)" >&2
-    exit 1
-}
+figures_python fidelity-denoise
 # The part of a scene's picture.
 view() {
     echo "--size $size"
@@ -42,13 +37,8 @@ view() {
 
 mkdir -p "$work/truth" "$work/guides" "$work/again" "$work/sets" "$work/retextured" "$work/scores"
 
-# Pictures of another size or of other truths are not to be taken for these.
 settings="$size $truth_spp"
-[ -e "$work/settings" ] || echo "$settings" >"$work/settings"
-if [ "$(cat "$work/settings")" != "$settings" ]; then
-    echo "fidelity-denoise: $work has pictures of $(cat "$work/settings") (size, samples of the truth): remove it" >&2
-    exit 1
-fi
+figures_settings fidelity-denoise "$work" "$settings"
 if [ -n "${DENOISE_FRESH:-}" ]; then
     for scene in $scenes; do
         rm -f "$work/sets/$scene"-*denoised-seed*.exr "$work/retextured/$scene"-*denoised-seed*.exr \

@@ -17,21 +17,11 @@ PATH=$build/bin:$PATH
 work=${FRAMES_WORK:-$build/fidelity-frames}
 scenes=${FRAMES_SCENES:-cornell-box living-room} height=${FRAMES_HEIGHT:-120} spp=${FRAMES_SPP:-64}
 truth_spp=${FRAMES_TRUTH_SPP:-1024} seeds=${FRAMES_SEEDS:-1} frames=12
-export PYTHONDONTWRITEBYTECODE=1
-python=${PYTHON:-/usr/bin/python3}
-"$python" -c 'import numpy, OpenImageIO' || {
-    echo "fidelity-frames: $python needs numpy and OpenImageIO (python3-numpy, python3-openimageio)" >&2
-    exit 1
-}
+figures_python fidelity-frames
 mkdir -p "$work"
 
-# Pictures of another size or of other truths are not to be taken for these.
 settings="$height $spp $truth_spp"
-[ -e "$work/settings" ] || echo "$settings" >"$work/settings"
-if [ "$(cat "$work/settings")" != "$settings" ]; then
-    echo "fidelity-frames: $work has frames of $(cat "$work/settings") (height, samples, of the truth): remove it" >&2
-    exit 1
-fi
+figures_settings fidelity-frames "$work" "$settings"
 
 size() {
     case $1 in living-room) echo $((height * 4 / 3))x$((height * 3 / 4)) ;; *) echo "${height}x$height" ;; esac

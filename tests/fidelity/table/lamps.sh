@@ -19,21 +19,11 @@ work=$build/fidelity-lamps
 spp=${LAMPS_SPP:-128} truth_spp=${LAMPS_TRUTH_SPP:-2048} height=${LAMPS_HEIGHT:-96}
 picture_height=${LAMPS_PICTURE_HEIGHT:-270} picture_spp=${LAMPS_PICTURE_SPP:-512}
 size=${LAMPS_SIZE:-960x540} size_spp=${LAMPS_SIZE_SPP:-64} counts=${LAMPS_COUNTS:-4 8 16}
-export PYTHONDONTWRITEBYTECODE=1
-python=${PYTHON:-/usr/bin/python3}
-"$python" -c 'import numpy, OpenImageIO' || {
-    echo "fidelity-lamps: $python needs numpy and OpenImageIO (python3-numpy, python3-openimageio)" >&2
-    exit 1
-}
+figures_python fidelity-lamps
 mkdir -p "$work"
 
-# Pictures of another size or of other truths are not to be taken for these.
 settings="$spp $truth_spp $height $picture_height $picture_spp $size $size_spp"
-[ -e "$work/settings" ] || echo "$settings" >"$work/settings"
-if [ "$(cat "$work/settings")" != "$settings" ]; then
-    echo "fidelity-lamps: $work has pictures of $(cat "$work/settings"): remove it" >&2
-    exit 1
-fi
+figures_settings fidelity-lamps "$work" "$settings"
 
 # Makes FILE by a command that takes -o, unless it is there: made FILE COMMAND...
 made() {
