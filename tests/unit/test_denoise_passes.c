@@ -9,6 +9,7 @@
 
 #include "denoise/filter.h"
 #include "denoise/second.h"
+#include "lib_folder.h"
 #include "lib_footprints.h"
 #include "set/parts.h"
 
@@ -297,6 +298,23 @@ static void test_numbers_are_those_of_a_file(void **state)
 
 /* ---- regions ---- */
 
+/* A set whose only term is its picture has no light to filter. */
+static void test_set_without_light(void **state)
+{
+    (void)state;
+    RetexSet *set = denoise_set("footprints", 40, 130);
+    RetexError err = {0};
+    const RetexTerm picture = {.role = RETEX_ROLE_PICTURE, .target = -1};
+    set->nterms = 0;
+    test_must(retex_set_add_term(set, &picture, NULL, &err), &err);
+    test_must(retex_set_write(set, NULL, test_in_folder("dark.exr"), NULL, 2, &err), &err);
+    retex_set_close(&set);
+    test_must(retex_set_open(test_in_folder("dark.exr"), &set, NULL, 2, &err), &err);
+    test_must(retex_denoise(set, NULL, NULL, 2, &err), &err);
+    test_must(retex_set_load(set, 2, &err), &err);
+    retex_set_close(&set);
+}
+
 /* Pixels beyond those that a tile is loaded with are of no matter. */
 static void test_region_from_afar(void **state)
 {
@@ -436,9 +454,10 @@ int main(void)
         cmocka_unit_test(test_even_surface),
         cmocka_unit_test(test_detail_above_noise),
         cmocka_unit_test(test_numbers_are_those_of_a_file),
+        cmocka_unit_test(test_set_without_light),
         cmocka_unit_test(test_region_from_afar),
         cmocka_unit_test(test_tiles_without_light),
         cmocka_unit_test(test_second_pass_of_a_region),
     };
-    return cmocka_run_group_tests_name("denoise_passes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("denoise_passes", tests, test_make_folder, test_remove_folder);
 }

@@ -357,6 +357,8 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     int code = retex_denoise_result_open(&s.result, denoiser, err);
     for (int k = 0; k < 2; k++)
         s.images[k] = malloc(sizeof *s.images[k] * ((size_t)denoiser->set->nparts + 1));
+    for (int k = 0; s.images[0] && k < denoiser->set->nparts; k++)
+        s.images[0][k] = -1; /* of a set without light nothing is filtered */
     s.wanted = calloc((size_t)denoiser->set->nparts + 1, 1);
     if (!code && (!s.images[0] || !s.images[1] || !s.wanted))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
