@@ -36,7 +36,7 @@ $ retex-denoise -q grey.exr --variance variance -o o.exr; sh check changed grey.
 > Y
 > A
 # A picture of our own renderer.
-$ for k in 1 2 t; do spp=8; seed=$k; [ $k = t ] && spp=512 && seed=3; mkdir r$k; retex-render -q --plain --size 96x72 --seed $seed --spp $spp "$SCENES/cornell-box/cornell-box.pov" --aov-dir r$k --aov normal_mean,albedo_mean,position -o p.exr; done 2>/dev/null; sh check render; for o in '--other-half r2.exr r1.exr' r.exr; do retex-denoise -q $o -o o.exr; sh check gain o.exr r.exr rt.exr least=4; done
+$ for k in 1 2 t; do spp=8; seed=$k; [ $k = t ] && spp=512 && seed=3; mkdir r$k; retex-render -q --plain --size 96x72 --seed $seed --spp $spp "$SCENES/cornell-box/cornell-box.pov" --aov-dir r$k --aov normal_mean,albedo_mean,position -o p.exr; done 2>/dev/null; sh check render; for o in '--other-half r2.exr r1.exr' r.exr; do retex-denoise -q $o -o o.exr; sh check gain o.exr r.exr rt.exr least=4.4; done
 > nearer
 > nearer
 
