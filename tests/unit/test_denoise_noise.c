@@ -347,6 +347,74 @@ static void test_proportions_of_clusters(void **state)
     }
 }
 
+/* Where the light of a sharp signal has a relative deviation of `noise`, its clusters' proportions are between those of
+ * their light and of their cover: the more noise the nearer to these, but as if no sample varied by more than its
+ * light. */
+static double expected_share(const RetexSet *set, double noise, int x, int y)
+{
+    double light[2], cover[2], chance = 0, differs = 0;
+    for (int k = 0; k < 2; k++) {
+        light[k] = (double)pixel(set, set->terms[1 + k].radiance, x, y)[1];
+        cover[k] = (double)pixel(set, set->footprints[k].uv, x, y)[2];
+    }
+    const double by_light = light[0] / (light[0] + light[1]), all = cover[0] + cover[1], by_cover = cover[0] / all;
+    for (int k = 0; k < 2; k++) {
+        const double samples = set->spp * cover[k], of_light = k ? 1 - by_light : by_light,
+                     variance = fmin(1 / samples, noise * noise * all / cover[k]);
+        chance += of_light * of_light * variance;
+        differs += pow(by_light - by_cover, 2);
+    }
+    const double belief = differs > chance ? 1 - chance / differs : 0;
+    return belief * by_light + (1 - belief) * by_cover;
+}
+
+static void test_clusters_are_believed_by_their_noise(void **state)
+{
+    (void)state;
+    static const double noises[] = {0, 0.01, 0.03, 0.1, 1};
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.footprints = 0, params.full_precision = 1;
+    for (int n = 0; n < 5; n++) {
+        RetexSet *set = denoise_set("footprints", 60, 50), *before = denoise_set("footprints", 60, 50);
+        int part = -1;
+        for (int k = 0; k < 2; k++) {
+            RetexSet *to = k ? set : before;
+            RetexSignals signals = denoise_signals(to);
+            for (int s = 0; s < signals.count; s++)
+                if (signals.of[s].target == 0 && signals.of[s].kind == RETEX_FOOTPRINT_SHARP)
+                    part = signals.of[s].noise;
+            for (int i = 0; i < 60 * 50; i++) {
+                float *light[2] = {to->parts[to->terms[1].radiance].image.pixels + 3 * i,
+                                   to->parts[to->terms[2].radiance].image.pixels + 3 * i};
+                for (int c = 0; c < 3; c++) {
+                    light[0][c] *= 1.4f, light[1][c] *= 0.8f;
+                    to->parts[part].image.pixels[3 * i + c] = (float)noises[n] * (light[0][c] + light[1][c]);
+                }
+                for (int f = 0; f < 2; f++)
+                    to->parts[to->footprints[f].uv].image.pixels[3 * i + 2] *= 0.5f;
+            }
+            retex_signals_close(&signals);
+        }
+        denoise_all(set, &params, 1);
+        int seen = 0;
+        for (int i = 0; i < 60 * 50; i++) {
+            const int x = i % 60, y = i / 60;
+            const float a = pixel(set, set->terms[1].radiance, x, y)[1],
+                        b = pixel(set, set->terms[2].radiance, x, y)[1];
+            if (!(a + b > 0) || !(pixel(before, set->terms[1].radiance, x, y)[1] > 0))
+                continue;
+            const double share = expected_share(before, noises[n], x, y);
+            seen++;
+            if (!(fabs((double)(a / (a + b)) - share) < 2e-3))
+                fail_msg("noise of %g: %d,%d has a share of %g, not %g", noises[n], x, y, (double)(a / (a + b)), share);
+        }
+        printf("# noise of %g: %d pixels\n", noises[n], seen);
+        assert_true(seen > 500);
+        retex_set_close(&set);
+        retex_set_close(&before);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -357,6 +425,7 @@ int main(void)
         cmocka_unit_test(test_silhouette),
         cmocka_unit_test(test_shares_of_members),
         cmocka_unit_test(test_proportions_of_clusters),
+        cmocka_unit_test(test_clusters_are_believed_by_their_noise),
     };
     return cmocka_run_group_tests_name("denoise_noise", tests, NULL, NULL);
 }

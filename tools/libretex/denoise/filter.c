@@ -91,12 +91,15 @@ static void commit_rows(const RetexDenoisedRows *out, const RetexDenoiser *d)
 static void add_sums(Filter *w)
 {
     int count = w->denoiser->signals.count;
-    for (int k = 0; k < w->tiles_x * count; k++)
+    for (int k = 0; k < w->tiles_x * count; k++) {
+        RetexSignalSums *sums = &w->result->sums[w->denoiser->first_signal + k % count];
+        sums->lit += w->sums[k].lit;
         for (int c = 0; c < 3; c++) {
-            RetexSignalSums *sums = &w->result->sums[w->denoiser->first_signal + k % count];
             sums->before[c] += w->sums[k].before[c];
             sums->lost[c] += w->sums[k].lost[c];
+            sums->variance[c] += w->sums[k].variance[c];
         }
+    }
 }
 
 static int open_filter(Filter *w, RetexError *err)

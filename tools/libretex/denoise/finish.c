@@ -1,6 +1,8 @@
 /* Finishes a filtered set: see filter.h. */
 #include "denoise/filter.h"
 
+#include <math.h>
+
 #include <retex/combine.h>
 #include <retex/parallel.h>
 
@@ -12,15 +14,17 @@
 /* Noise after filtering, as a share of that before: less than what is left of most light. */
 static const double REMAINING_NOISE = 0.3;
 
-/* Light of fireflies, as a share of a signal's other light, that its pixels share: more would be seen. */
-static const double FIREFLIES = 0.03;
+/* Light of fireflies that a signal's other pixels share: more would be seen. As a share of the signal's light, and of
+ * its noise. */
+static const double FIREFLIES = 0.03, FIREFLIES_OF_NOISE = 0.15;
 
 static const double LARGEST = 1e30; /* by which light is multiplied */
 
 /* By what a signal is multiplied so that its sum is what it was, apart from many or large fireflies. */
-static float scale_of(double before, double lost, double after)
+static float scale_of(const RetexSignalSums *sums, int c)
 {
-    before += lost < FIREFLIES * before ? lost : FIREFLIES * before;
+    const double light = sums->before[c], noise = sqrt(sums->lit * sums->variance[c]), after = sums->after[c],
+                 before = light + fmin(sums->lost[c], fmin(FIREFLIES * light, FIREFLIES_OF_NOISE * noise));
     return after > 0 && before > 0 && before / after < LARGEST ? (float)(before / after) : 1;
 }
 
@@ -32,7 +36,7 @@ static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *resu
         const float *factors = retex_denoise_passed_at(d->passed, d, s, 0, y) + DENOISE_PASSED_TOTAL;
         float scale[3];
         for (int c = 0; c < 3; c++)
-            scale[c] = scale_of(sums->before[c], sums->lost[c], sums->after[c]);
+            scale[c] = scale_of(sums, c);
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
             if (d->signals.of[s].members[k].corrects)
                 continue;

@@ -7,8 +7,10 @@
 #include <retex/host/uv_stats.h>
 
 #include "denoise/pools.h"
+#include "set/set.h"
 
 #define NEGLIGIBLE 1e-2f /* neighbours with less weight are left out */
+#define NOISE_REACH 2    /* pixels to each side whose noise tells how much there is */
 #define CLUSTERS_LEAST 2 /* clusters of broad light that a pixel may always have */
 #define CLUSTERS_MOST 3
 #define NEAR 0.1 /* fraction of a cluster's width that another pixel's may be away */
@@ -169,19 +171,35 @@ static float lit_coverage(const RetexFootprintImages *place, size_t i)
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
 
+/* The variance of the pixel's light of the class, relative to its square, by the noise there and in the pixels at both
+ * sides. */
+static double relative_variance(const RetexFootprintClass *g, const RetexImage *noise, size_t at)
+{
+    const size_t width = (size_t)noise->width, x = at % width, row = at - x, reach = NOISE_REACH,
+                 first = x > reach ? x - reach : 0, last = x + reach < width ? x + reach : width - 1;
+    double variance = 0, squares = 0;
+    for (size_t i = row + first; i <= row + last; i++) {
+        const double light = sum_over(g, i, cluster_light), n = (double)footprint_luminance(noise->pixels + 3 * i);
+        variance += n * n, squares += light * light;
+    }
+    return variance < squares ? variance / squares : 1;
+}
+
 /* How far the clusters' light is credible, 0..1, where its proportions differ from those of the coverage: in part the
- * brightness of a cluster is noise. The relative variance of a sum of n effective samples is 1/n; the part of the
- * squared difference beyond that is real (James and Stein 1961). */
-static double light_confidence(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, size_t from)
+ * brightness of a cluster is noise. The part of the squared difference beyond that is real (James and Stein 1961). The
+ * relative variance of a sum of n effective samples is 1/n, or less: as that of all the light, of more samples. */
+static double light_confidence(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const RetexImage *noise,
+                               size_t from)
 {
     double cover = sum_over(g, from, lit_coverage), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
     if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
         return 1;
+    const double variance = fmin(1.0 / f->spp, cover * relative_variance(g, noise, from)); /* of what covers a pixel */
     for (int k = 0; k < g->nlit; k++) {
         double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_coverage(&g->of[k], from);
         if (!(of_cover > 0))
             continue;
-        chance += of_light * of_light / (of_cover * f->spp);
+        chance += of_light * of_light * variance / of_cover;
         differs += (of_light - of_cover / cover) * (of_light - of_cover / cover);
     }
     return differs > chance ? 1 - chance / differs : 0;
@@ -206,8 +224,8 @@ static void share_cluster(const RetexFootprintClass *g, int k, const Pixel *p, s
     }
 }
 
-static void keep_clusters(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const Pixel *p,
-                          const RetexNeighbour *neighbours, int count, const float light[3])
+static void keep_clusters(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const RetexImage *noise,
+                          const Pixel *p, const RetexNeighbour *neighbours, int count, const float light[3])
 {
     size_t from = p->at;
     double all = sum_over(g, from, cluster_light);
@@ -219,7 +237,7 @@ static void keep_clusters(const RetexDenoiseFootprints *f, const RetexFootprintC
     float (*value)(const RetexFootprintImages *, size_t) = all > 0 ? cluster_light : cluster_cover;
     if (!(all > 0))
         all = sum_over(g, from, value);
-    double belief = value == cluster_light ? light_confidence(f, g, from) : 0;
+    double belief = value == cluster_light ? light_confidence(f, g, noise, from) : 0;
     for (int k = 0; k < g->nlit; k++)
         if (g->of[k].light.pixels && value == cluster_light)
             share_cluster(g, k, p, from, belief, light);
@@ -427,7 +445,7 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoi
     const Pixel p = pixel_at(f, out, x, y);
     int pooled = g->kind == RETEX_FOOTPRINT_BROAD && g->movable && d->params.footprints && g->nlit;
     if (!pooled || !pool_clusters(f, g, &p, neighbours, count, light))
-        keep_clusters(f, g, &p, neighbours, count, light);
+        keep_clusters(f, g, &d->set->parts[signal->noise].image, &p, neighbours, count, light);
 }
 
 static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours,

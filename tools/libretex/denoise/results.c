@@ -129,8 +129,12 @@ static void mix_totals(RowValues total[3], const RetexDenoiser *d, int signal, c
 static void add_row_sums(RetexSignalSums *sums, const RetexTileSignal *r, const TileRow *row, int c)
 {
     for (size_t p = row->p; p < row->p + (size_t)row->count; p++) {
-        sums->before[c] += r->modulation[c][p] * (0.5f * (r->half[0][c][p] + r->half[1][c][p]));
+        const float light = r->modulation[c][p] * (0.5f * (r->half[0][c][p] + r->half[1][c][p])),
+                    noise = r->modulation[c][p] * (0.5f * (r->half[0][c][p] - r->half[1][c][p]));
+        sums->before[c] += light;
         sums->lost[c] += r->modulation[c][p] * r->lost[c][p];
+        sums->variance[c] += (double)noise * noise;
+        sums->lit += c == 1 && light > 0;
     }
 }
 

@@ -42,10 +42,11 @@ typedef struct RetexDenoiser {
     int first_row;                             /* of the set's rows in the totals: above 0 where the set is a strip */
 } RetexDenoiser;
 
-/* Sums over the pixels of a signal's total: as rendered but for what fireflies were lowered by, that, and after the
- * second pass. */
+/* Sums over the pixels of a signal's total: as rendered but for what fireflies were lowered by, that, the variance of
+ * the former, and after the second pass. */
 typedef struct RetexSignalSums {
-    double before[3], lost[3], after[3];
+    double before[3], lost[3], variance[3], after[3];
+    double lit; /* pixels with light */
 } RetexSignalSums;
 
 /* Scratch memory of one thread. */
@@ -54,7 +55,7 @@ int retex_denoise_scratch_create(RetexDenoiseScratch **work, const RetexDenoiser
 void retex_denoise_scratch_close(RetexDenoiseScratch **work);
 
 /* Filter DENOISE_STEP x DENOISE_STEP pixels from (x0, out->first) on, as far as they are in out's rows and the region,
- * into out and denoiser->passed. Adds to sums->before and lost; sums has an entry for each signal. */
+ * into out and denoiser->passed. Adds to the sums of before the second pass; sums has an entry for each signal. */
 void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *out,
                         RetexSignalSums *sums);
 
