@@ -2,7 +2,9 @@
  * the lamps, as exactly as without these; footprints are shared, and lie where they lie without lamps. */
 #include "lib_compact.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -10,6 +12,7 @@
 #include <retex/metrics.h>
 
 #include "lib_folder.h"
+#include "pack/plan.h"
 
 enum { PARAMETERS = 2 };
 static const float colors[][3 * PARAMETERS] = {
@@ -321,6 +324,83 @@ static void scales_are_for_each_single_lamp(void **state)
     retex_set_close(&compact);
 }
 
+static double mean_of(const RetexSet *set, int part)
+{
+    const RetexImage *im = &set->parts[part].image;
+    const int count = im->width * im->height * im->channels;
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += (double)im->pixels[i];
+    return sum / count;
+}
+
+/* A gain of a lamp: its step in levels of 255, whose radiance it is of, and how much light of the lamp has it. */
+typedef struct Gain {
+    int part, radiance, lamp;
+    double step, share;
+} Gain;
+
+static int find_gains(Gain *gains, const RetexSet *set, const RetexPackPart *plan)
+{
+    double sums[LAMPS] = {0};
+    int count = 0;
+    for (int t = 0; t < set->nterms; t++) {
+        const RetexTerm *term = &set->terms[t];
+        int part = -1, at = 0;
+        for (int k = 0; k < term->nfactors && term->role == RETEX_ROLE_LAMP; k++)
+            part = term->factors[k].kind == RETEX_FACTOR_IMAGE ? term->factors[k].index : part;
+        if (part < 0 || plan[part].codec != RETEX_PACK_JPEG)
+            continue;
+        const double share =
+            mean_of(set, term->radiance) * mean_of(set, part) * pow((double)grey[0], retex_term_hits(term));
+        while (at < count && gains[at].part != part)
+            at++;
+        if (at == count)
+            gains[count++] = (Gain){part, term->radiance, retex_set_term_lamp(set, term),
+                                    255 * plan[part].jpeg_step / plan[part].curve.levels, 0};
+        gains[at].share = fmax(gains[at].share, share);
+    }
+    for (int k = 0; k < count; k++)
+        sums[gains[k].lamp] += gains[k].share;
+    for (int k = 0; k < count; k++)
+        gains[k].share /= sums[gains[k].lamp];
+    return count;
+}
+
+/* What adds little to the picture by a lamp has larger steps. Gains of the same radiance are compared, whose steps are
+ * alike for the same share. */
+static void steps_of_lamps_follow_their_light(void **state)
+{
+    (void)state;
+    const RetexPackQuantizer quantizer = retex_pack_quantizer(45);
+    RetexSet *set = set_of_lamp_terms(2, 3, 0), *compact = compacted(set, 1, 1, 1);
+    RetexPackPart *plan = calloc((size_t)compact->nparts, sizeof *plan);
+    Gain *gains = calloc((size_t)compact->nparts, sizeof *gains);
+    RetexError err = {0};
+    int compared = 0, different = 0;
+    test_must(retex_pack_plan(plan, compact, &quantizer, 1, &err), &err);
+    const int count = find_gains(gains, compact, plan);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < i; k++) {
+            double finer[2];
+            for (int n = 0; n < 2; n++)
+                finer[n] = fmax(1.0 / 32, fmin(1, pow(gains[n ? i : k].share / 0.3, 0.7)));
+            if (gains[i].radiance != gains[k].radiance)
+                continue;
+            compared++, different += finer[0] != finer[1];
+            if (!(fabs(gains[i].step * finer[1] / (gains[k].step * finer[0]) - 1) < 0.01))
+                fail_msg("%s has a step of %g and a share of %g, %s of %g and %g", compact->parts[gains[i].part].name,
+                         gains[i].step, gains[i].share, compact->parts[gains[k].part].name, gains[k].step,
+                         gains[k].share);
+        }
+    printf("# %d gains, %d pairs compared, %d of unlike steps\n", count, compared, different);
+    assert_true(compared > 10 && different > 10);
+    free(plan);
+    free(gains);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -328,6 +408,7 @@ int main(void)
         cmocka_unit_test(footprints_are_those_of_all_light), cmocka_unit_test(scales_are_for_each_lamp),
         cmocka_unit_test(values_as_rendered_do_not_matter),  cmocka_unit_test(single_lamps_are_gains_of_all_light),
         cmocka_unit_test(packs_hold_gains_of_single_lamps),  cmocka_unit_test(scales_are_for_each_single_lamp),
+        cmocka_unit_test(steps_of_lamps_follow_their_light),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -20,7 +20,10 @@
 #define BRIGHTER_MOST 4  /* most white of a part of radiance, as a multiple of the set's white */
 #define GAIN_STEP 2.5    /* most step of gains, in steps of their radiance: errors of many gains average out. */
 #define GAIN_FINER 1.5   /* With little noise the step is smaller, but at least this many steps of radiance */
-#define LAMP_STEP 4      /* steps of single lamps' gains, in those of others */
+#define LAMP_STEP 2.5    /* least step of a lamp's gain, in those of others; */
+#define LAMP_COARSER 32  /* it is at most so many times coarser, where little of the lamp's light has the gain, */
+#define LAMP_SHARE 0.3   /* less than this share; */
+#define LAMP_POWER 0.7   /* of 1, all gains would add the same error to the picture by the lamp */
 #define STEP_SHARE 16    /* for the sizes of axes, which are 3.5 deviations, and whose errors add up in steps */
 #define GAIN_NOISE 0.8   /* and this many times the noise: quantization adds a twentieth to its variance */
 
@@ -59,6 +62,7 @@ typedef enum Role {
 typedef struct Range {
     int all_zero, positive; /* positive: all are finite and not negative */
     float most, most_size;  /* the largest sample and the largest magnitude */
+    double sum;             /* of finite samples */
 } Range;
 
 typedef struct Planning {
@@ -70,7 +74,8 @@ typedef struct Planning {
     Role *roles;
     int *means; /* by part of standard deviations: the part of their means */
     Range (*ranges)[RETEX_PACK_CHANNELS_MAX];
-    double *noise; /* by part of radiance, in levels; -1 if memory ran out */
+    double *noise;       /* by part of radiance, in levels; -1 if memory ran out */
+    double *lamp_shares; /* by gain of a lamp: how much of the light of the lamp has it, about; else 0 */
 } Planning;
 
 /* --- roles --- */
@@ -130,16 +135,56 @@ static void find_ranges(void *context, int part, int thread)
     const RetexImage *im = &plan->set->parts[part].image;
     (void)thread;
     for (int c = 0; c < im->channels && c < RETEX_PACK_CHANNELS_MAX; c++) {
-        Range range = {1, 1, 0, 0};
+        Range range = {1, 1, 0, 0, 0};
         for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++) {
             const float v = im->pixels[i * (size_t)im->channels + (size_t)c];
             range.all_zero = range.all_zero && v == 0 && !signbit(v);
             range.positive = range.positive && v >= 0 && isfinite(v);
             range.most = fmaxf(range.most, v);
+            range.sum += isfinite(v) ? (double)v : 0;
             range.most_size = isfinite(v) ? fmaxf(range.most_size, fabsf(v)) : INFINITY;
         }
         plan->ranges[part][c] = range;
     }
+}
+
+static double mean_of(const Planning *plan, int part)
+{
+    const RetexImage *im = &plan->set->parts[part].image;
+    double sum = 0;
+    for (int c = 0; c < im->channels && c < RETEX_PACK_CHANNELS_MAX; c++)
+        sum += plan->ranges[part][c].sum;
+    return sum / ((double)im->width * im->height * im->channels);
+}
+
+/* Finds how much of a lamp's light has each of its gains, by the means of images, with textures of RETEX_COMPACT_GREY. */
+static int find_lamp_shares(Planning *plan, RetexError *err)
+{
+    const RetexSet *set = plan->set;
+    double sums[RETEX_PARAMETERS_MAX] = {0};
+    int *lamps = calloc((size_t)set->nparts + 1, sizeof *lamps);
+    if (!lamps)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    for (int t = 0; t < set->nterms; t++) {
+        const RetexTerm *term = &set->terms[t];
+        const int lamp = term->role == RETEX_ROLE_LAMP ? retex_set_term_lamp(set, term) : -1;
+        for (int k = 0; k < term->nfactors && lamp >= 0; k++) {
+            const int part = term->factors[k].index;
+            if (term->factors[k].kind != RETEX_FACTOR_IMAGE)
+                continue;
+            lamps[part] = lamp;
+            plan->lamp_shares[part] =
+                fmax(plan->lamp_shares[part], mean_of(plan, term->radiance) * mean_of(plan, part) *
+                                                  pow((double)RETEX_COMPACT_GREY, retex_term_hits(term)));
+        }
+    }
+    for (int part = 0; part < set->nparts; part++)
+        sums[lamps[part]] += plan->lamp_shares[part];
+    for (int part = 0; part < set->nparts; part++)
+        if (sums[lamps[part]] > 0)
+            plan->lamp_shares[part] /= sums[lamps[part]];
+    free(lamps);
+    return RETEX_OK;
 }
 
 /* Whether radiance is of one lamp, which may be dim, and is made brighter. */
@@ -304,6 +349,13 @@ static int has_image(const RetexTerm *term, int part)
     return 0;
 }
 
+/* Steps of a lamp's gain, in those of others: errors in what adds little to the picture by the lamp do little. */
+static double lamp_step(const Planning *plan, int part)
+{
+    const double share = plan->lamp_shares[part];
+    return LAMP_STEP * (share < LAMP_SHARE ? fmin(LAMP_COARSER, pow(LAMP_SHARE / share, LAMP_POWER)) : 1);
+}
+
 /* Compact sets scale gains such that a gain is a share of the radiance if all interreflections have the albedo
  * RETEX_COMPACT_GREY. White is a share of 1; of a lamp, which may be dim, what few of its gains exceed. */
 static void plan_gain(Planning *plan, int part)
@@ -319,7 +371,8 @@ static void plan_gain(Planning *plan, int part)
         most = retex_term_hits(term) > most ? retex_term_hits(term) : most;
     }
     const double own = usual_most(&set->parts[part].image), share = pow((double)RETEX_COMPACT_GREY, 1 - most);
-    plan_light(plan, part, of_lamp && own > 0 ? own : share, (of_lamp ? LAMP_STEP : 1) * gain_step(plan, radiance));
+    plan_light(plan, part, of_lamp && own > 0 ? own : share,
+               (of_lamp ? lamp_step(plan, part) : 1) * gain_step(plan, radiance));
 }
 
 /* Whether spreads can be quantized: standard deviations that are positive, or axes that are the steps of means. */
@@ -484,8 +537,9 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
                      calloc(count + 1, sizeof *plan.roles),
                      calloc(count + 1, sizeof *plan.means),
                      calloc(count + 1, sizeof *plan.ranges),
-                     calloc(count + 1, sizeof *plan.noise)};
-    int code = plan.roles && plan.means && plan.ranges && plan.noise && plan.whites
+                     calloc(count + 1, sizeof *plan.noise),
+                     calloc(count + 1, sizeof *plan.lamp_shares)};
+    int code = plan.roles && plan.means && plan.ranges && plan.noise && plan.whites && plan.lamp_shares
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
     for (int i = 0; !code && i < set->nparts; i++) {
@@ -502,6 +556,7 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
         for (int i = 0; i < set->nparts && !code; i++)
             if (plan.noise[i] < 0)
                 code = retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+        code = code ? code : find_lamp_shares(&plan, err);
     }
     if (!code) {
         plan_parts(&plan);
@@ -512,5 +567,6 @@ int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQ
     free(plan.ranges);
     free(plan.noise);
     free(plan.whites);
+    free(plan.lamp_shares);
     return code;
 }
