@@ -31,8 +31,9 @@ static RetexSet *sharp_set(RetexFootprintKind kind)
     return set;
 }
 
-/* of_light: how far proportions are believed, 0..1; the rest goes by cover, which is the same for both. */
-static void expect_proportions(RetexFootprintKind kind, int footprints, int spp, float of_light)
+/* noise: of all pixels. of_light: how far proportions are believed, 0..1; the rest goes by cover, which is the same for
+ * both. */
+static void expect_proportions(RetexFootprintKind kind, int footprints, int spp, float noise, float of_light)
 {
     static const float weights[] = {1, 1, 1, 1}, light[] = {2, 4, 8};
     RetexSet *set = sharp_set(kind);
@@ -40,6 +41,9 @@ static void expect_proportions(RetexFootprintKind kind, int footprints, int spp,
     put_rgb(set, light_part(set, 0), 1, 1, 0.5f, 0.5f, 0.5f);
     put_rgb(set, light_part(set, 2), 1, 1, 1.5f, 0.5f, 0); /* of red 3/4, of green half, of blue nothing */
     Work w = open_work(set, footprints);
+    for (int x = 0; x < WIDTH; x++)
+        put_rgb(set, retex_set_find_part(set, kind == RETEX_FOOTPRINT_SHARP ? "noise_T0_sharp" : "noise_T0_broad"), x, 1,
+                noise, noise, noise);
     share_light(&w, kind, weights, 4, light);
     float red = of_light * 0.25f + (1 - of_light) * 0.5f, blue = of_light + (1 - of_light) * 0.5f;
     EXPECT(1e-3f, result(&w, light_part(set, 0)), 2 * red, 4 * 0.5f, 8 * blue);
@@ -53,10 +57,11 @@ static void expect_proportions(RetexFootprintKind kind, int footprints, int spp,
 static void test_proportions_are_kept(void **state)
 {
     (void)state;
-    expect_proportions(RETEX_FOOTPRINT_SHARP, 0, 1 << 20, 1);
-    expect_proportions(RETEX_FOOTPRINT_SHARP, 1, 1 << 20, 1);
-    expect_proportions(RETEX_FOOTPRINT_SHARP, 1, 2, 0); /* so few samples tell nothing of it */
-    expect_proportions(RETEX_FOOTPRINT_BROAD, 0, 2, 1);
+    expect_proportions(RETEX_FOOTPRINT_SHARP, 0, 1 << 20, 2, 1);
+    expect_proportions(RETEX_FOOTPRINT_SHARP, 1, 1 << 20, 2, 1);
+    expect_proportions(RETEX_FOOTPRINT_SHARP, 1, 2, 2, 0); /* so few samples tell nothing of it, */
+    expect_proportions(RETEX_FOOTPRINT_SHARP, 1, 2, 0, 1); /* unless there is no noise */
+    expect_proportions(RETEX_FOOTPRINT_BROAD, 0, 2, 2, 1);
 }
 
 /* Clusters without light take it by coverage. */

@@ -50,20 +50,13 @@ static int open_rows(RetexDenoisedRows *out, const RetexDenoiser *d, const unsig
     return out->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
 }
 
-static void mark_members(const RetexSignals *signals, unsigned char *written)
-{
-    for (int s = 0; s < signals->count; s++)
-        for (int k = 0; k < signals->of[s].nmembers; k++)
-            written[signals->of[s].members[k].part] = 1;
-}
-
 static int open_outs(Filter *w, RetexError *err)
 {
     const RetexDenoiser *d = w->denoiser;
     unsigned char *own = calloc((size_t)d->set->nparts + 1, 1);
     int code = own ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     if (own) {
-        mark_members(&d->signals, own);
+        retex_signals_mark_members(&d->signals, own, 1);
         if (d->footprints)
             retex_denoise_mark_written(d->footprints, d, own);
     }
@@ -188,7 +181,7 @@ int retex_denoise_result_open(RetexDenoiseResult *result, const RetexDenoiser *d
     result->written = calloc((size_t)denoiser->set->nparts + 1, sizeof *result->written);
     if (!result->sums || !result->written)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
-    mark_members(&denoiser->signals, result->written);
+    retex_signals_mark_members(&denoiser->signals, result->written, 1);
     return RETEX_OK;
 }
 

@@ -165,11 +165,9 @@ static void mark_features(unsigned char *wanted, const RetexSet *set)
 
 static void mark_signals(unsigned char *wanted, const RetexSignals *signals, unsigned char mark)
 {
-    for (int s = 0; s < signals->count; s++) {
+    retex_signals_mark_members(signals, wanted, mark);
+    for (int s = 0; s < signals->count; s++)
         wanted[signals->of[s].noise] = mark;
-        for (int k = 0; k < signals->of[s].nmembers; k++)
-            wanted[signals->of[s].members[k].part] = mark;
-    }
 }
 
 /* What the first pass reads for a bundle: light of lamps only the lamp's own, footprints only all light. */

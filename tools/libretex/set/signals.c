@@ -240,6 +240,13 @@ int retex_signals_are_there(const RetexSet *set)
     return there;
 }
 
+void retex_signals_mark_members(const RetexSignals *signals, unsigned char *marks, unsigned char mark)
+{
+    for (int s = 0; s < signals->count; s++)
+        for (int k = 0; k < signals->of[s].nmembers; k++)
+            marks[signals->of[s].members[k].part] = mark;
+}
+
 void retex_signals_close(RetexSignals *signals)
 {
     free(signals->of);

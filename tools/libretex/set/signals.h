@@ -37,6 +37,8 @@ int retex_signals_sort(RetexSignals *signals, const RetexSet *set, RetexError *e
 /* Find a set's signals, and their parts: RETEX_ENOTFOUND where one is missing. */
 int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err);
 void retex_signals_close(RetexSignals *signals);
+/* Set marks[part] to `mark` for the parts of all members. */
+void retex_signals_mark_members(const RetexSignals *signals, unsigned char *marks, unsigned char mark);
 /* 1 where retex_signals_open finds all parts; needs no memory. */
 int retex_signals_are_there(const RetexSet *set);
 
