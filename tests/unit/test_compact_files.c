@@ -140,10 +140,12 @@ static void survives_writing(void **state)
 
 static void wrong_params_are_refused(void **state)
 {
-    static const RetexCompactParams wrong[] = {
-        {.psnr = 55, .broad = 3, .noise = 1}, {.psnr = 55, .interreflection = 16, .noise = 1},
-        {.psnr = 55, .gain = -1, .noise = 1}, {.psnr = 10, .noise = 1},
-        {.psnr = NAN, .noise = 1},            {.psnr = 55, .noise = 1.5}};
+    static const RetexCompactParams wrong[] = {{.psnr = 55, .broad = 3, .noise = 1},
+                                               {.psnr = 55, .interreflection = 16, .noise = 1},
+                                               {.psnr = 55, .gain = -1, .noise = 1},
+                                               {.psnr = 10, .noise = 1},
+                                               {.psnr = NAN, .noise = 1},
+                                               {.psnr = 55, .noise = 1.5}};
     RetexSet *set = whole_set(1, 1), *compact;
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

@@ -42,8 +42,8 @@ static void expect_proportions(RetexFootprintKind kind, int footprints, int spp,
     put_rgb(set, light_part(set, 2), 1, 1, 1.5f, 0.5f, 0); /* of red 3/4, of green half, of blue nothing */
     Work w = open_work(set, footprints);
     for (int x = 0; x < WIDTH; x++)
-        put_rgb(set, retex_set_find_part(set, kind == RETEX_FOOTPRINT_SHARP ? "noise_T0_sharp" : "noise_T0_broad"), x, 1,
-                noise, noise, noise);
+        put_rgb(set, retex_set_find_part(set, kind == RETEX_FOOTPRINT_SHARP ? "noise_T0_sharp" : "noise_T0_broad"), x,
+                1, noise, noise, noise);
     share_light(&w, kind, weights, 4, light);
     float red = of_light * 0.25f + (1 - of_light) * 0.5f, blue = of_light + (1 - of_light) * 0.5f;
     EXPECT(1e-3f, result(&w, light_part(set, 0)), 2 * red, 4 * 0.5f, 8 * blue);

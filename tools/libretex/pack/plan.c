@@ -157,7 +157,8 @@ static double mean_of(const Planning *plan, int part)
     return sum / ((double)im->width * im->height * im->channels);
 }
 
-/* Finds how much of a lamp's light has each of its gains, by the means of images, with textures of RETEX_COMPACT_GREY. */
+/* Finds how much of a lamp's light has each of its gains, by the means of images, with textures of
+ * RETEX_COMPACT_GREY. */
 static int find_lamp_shares(Planning *plan, RetexError *err)
 {
     const RetexSet *set = plan->set;
