@@ -65,17 +65,24 @@ static float difference(const RetexSet *set)
     return pixel(set, set->footprints[0].albedo, 2, 1)[0] - (0.25f + 0.5f * U);
 }
 
-/* variance: of red and green within the footprint; explained: so many of it are noise of one sample. */
+/* How far a difference stays: 2 / r of it are taken where it is r times what noise explains, squared, and 0.6 / m where
+ * that is m in the mean of the pixels around, each at most 10. */
+static float left(double difference, double around)
+{
+    const double squared = difference * difference;
+    return (float)(difference * (1 - fmin(1, fmin(2 / squared, 0.6 / around))));
+}
+
+/* variance: of red and green within the footprint; explained: so many of it are noise of one sample. The pixel is the
+ * only one of its row. */
 static void expect_limit(RetexFootprintKind kind, int is_whole, float variance, float explained)
 {
     const float limit = sqrtf(explained * variance / SPP);
-    const struct {
-        float before, after;
-    } cases[] = {{0, 0}, {0.7f, 0}, {-0.7f, 0}, {2, 1.5f}, {-2, -1.5f}, {10, 9.9f}};
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        RetexSet *set = ramp_set(kind, is_whole, cases[k].before * limit);
+    static const float before[] = {0, 0.7f, -0.7f, 0.9f, 2, -2, 10};
+    for (size_t k = 0; k < sizeof before / sizeof *before; k++) {
+        RetexSet *set = ramp_set(kind, is_whole, before[k] * limit);
         use(set);
-        assert_float_equal(difference(set) / limit, cases[k].after, 0.06);
+        assert_float_equal(difference(set) / limit, left((double)before[k], fmin(10, before[k] * before[k])), 0.06);
         assert_float_equal(pixel(set, set->footprints[0].albedo, 3, 1)[1], 0.9, 0);
         retex_set_close(&set);
     }
@@ -91,6 +98,31 @@ static void test_limits(void **state)
     expect_limit(RETEX_FOOTPRINT_SHARP, 1, even, 6 * 0.1f); /* a quarter is all that a quadrant can cover */
 }
 
+/* The pixels around tell noise, which differs from pixel to pixel, from what is no noise. */
+static void test_pixels_around(void **state)
+{
+    (void)state;
+    const float limit = sqrtf(4 / COVER * (0.25f + 0.0625f) * SPREAD * SPREAD / SPP);
+    static const float own[] = {0.6f, 1.3f, 2}, others[] = {0, 1, 2, 100};
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 4; n++) {
+            RetexSet *set = ramp_set(RETEX_FOOTPRINT_BROAD, 0, own[k] * limit);
+            int count = 1;
+            for (int x = 0; x < set->width && x <= 2 + 3; x++, count++)
+                if (x != 2) {
+                    put(set, 0, x, 1, U, 0.5f, COVER);
+                    put_spread(set, 0, x, 1, SPREAD, 0.01f, 0);
+                    put_rgb(set, set->footprints[0].albedo, x, 1, 0.25f + 0.5f * U + others[n] * limit,
+                            0.5f * (0.25f + 0.5f * U), 0);
+                } else
+                    count--;
+            const double around = (own[k] * own[k] + (count - 1) * fmin(10, others[n] * others[n])) / count;
+            use(set);
+            assert_float_equal(difference(set) / limit, left((double)own[k], around), 0.06);
+            retex_set_close(&set);
+        }
+}
+
 /* The less even the light, the more noise. */
 static void test_uneven_light(void **state)
 {
@@ -99,7 +131,7 @@ static void test_uneven_light(void **state)
     RetexSet *set = ramp_set(RETEX_FOOTPRINT_SHARP, 1, 2 * limit);
     pixel(set, set->footprints[0].uv, 2, 1)[2] = COVER / 2;
     use(set);
-    assert_float_equal(difference(set) / limit, 1.5, 0.06);
+    assert_float_equal(difference(set) / limit, left(2, 4), 0.06);
     retex_set_close(&set);
 }
 
@@ -125,7 +157,7 @@ static void test_shared_albedos(void **state)
 {
     (void)state;
     for (int quadrants = 0; quadrants < 2; quadrants++) {
-        RetexSet *set = ramp_set(RETEX_FOOTPRINT_SHARP, 1, 0.01f);
+        RetexSet *set = ramp_set(RETEX_FOOTPRINT_SHARP, 1, 0.008f);
         const int other = add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 2, "RGB");
         pixel(set, set->footprints[0].uv, 2, 1)[2] = 0.01f;
         set->footprints[other].albedo = set->footprints[0].albedo;
@@ -134,7 +166,7 @@ static void test_shared_albedos(void **state)
         for (int k = 0; quadrants && k < 2; k++)
             set->footprints[k ? other : 0].quadrant = 1 + k;
         use(set);
-        assert_float_equal(difference(set), quadrants ? 0 : 0.01, 0.001);
+        assert_float_equal(difference(set), quadrants ? 0 : 0.008, 0.001);
         retex_set_close(&set);
     }
 }
@@ -176,8 +208,9 @@ static void test_denoising(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_limits),         cmocka_unit_test(test_uneven_light), cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_shared_albedos), cmocka_unit_test(test_no_original), cmocka_unit_test(test_denoising),
+        cmocka_unit_test(test_limits),    cmocka_unit_test(test_pixels_around),  cmocka_unit_test(test_uneven_light),
+        cmocka_unit_test(test_rectangle), cmocka_unit_test(test_shared_albedos), cmocka_unit_test(test_no_original),
+        cmocka_unit_test(test_denoising),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

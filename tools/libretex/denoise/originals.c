@@ -19,6 +19,11 @@
  * noise than that of as many samples anywhere. */
 #define EXPLAINED_OF_PARTS 1.0f
 #define EXPLAINED_OF_PIXELS 6.0f
+/* So many times this in the pixel itself, and in the mean of the pixels around: these tell what is no noise. */
+#define EXPLAINED_HERE 2.0f
+#define EXPLAINED_AROUND 0.6f
+#define UNEXPLAINED_MOST 10.0f /* of a pixel in that mean */
+#define AROUND 3               /* pixels to each side */
 #define SPREAD 0.1f /* variance of the mean of evenly spread samples of a whole pixel, of that of as many anywhere */
 
 /* A footprint whose albedo is no other one's, but for quadrants: of these the first stands for the whole pixel. */
@@ -122,8 +127,7 @@ static void find_places(RetexDenoiseOriginals *o, const RetexSet *set)
         f.quadrant = 0;
         if (o->textures[f.target] && is_whole(set, f.uv, 3, 3) && is_whole(set, f.spread, 2, RETEX_AXES) &&
             is_whole(set, f.albedo, 3, 3) && !shares_albedo(set, &f) && !is_placed(o, f.albedo))
-            o->places[o->nplaces++] =
-                (Place){f.uv, f.spread, f.albedo, f.target, retex_footprint_filter(set, &f)};
+            o->places[o->nplaces++] = (Place){f.uv, f.spread, f.albedo, f.target, retex_footprint_filter(set, &f)};
     }
 }
 
@@ -197,19 +201,37 @@ static float explained(RetexTextureFilter filter, float cover, float samples)
     return (filter == RETEX_TEXTURE_BROAD ? EXPLAINED : EXPLAINED_OF_PARTS) / fmaxf(cover * samples, 1);
 }
 
-/* How far the mean of the original texture takes the albedo's place. */
-static float share_of(const float albedo[3], const float mean[3], const float variance[3], float most)
+/* The squared difference of an albedo from the mean of the original texture, as a multiple of the most that noise
+ * explains; less than 0 where this is nothing. */
+static float unexplained(const float albedo[3], const float mean[3], const float variance[3], float most)
 {
     float squared = 0, expected = 0;
     for (int c = 0; c < 3; c++) {
         squared += (mean[c] - albedo[c]) * (mean[c] - albedo[c]);
         expected += variance[c];
     }
-    return squared > most * expected ? most * expected / squared : 1;
+    return most * expected > 0 ? squared / (most * expected) : -1;
 }
 
-/* means, variances: of the pixels of the row. */
-static void use_place(const Use *u, const Place *p, int y, float *means, float *variances)
+/* The mean over the pixels around, in the row. Noise differs from pixel to pixel; where it is more than noise, the
+ * footprint is not what pixels see. */
+static float unexplained_around(const float *ratios, int x, int width)
+{
+    float sum = 0, count = 0;
+    for (int k = x < AROUND ? 0 : x - AROUND; k <= x + AROUND && k < width; k++)
+        if (ratios[k] >= 0)
+            sum += fminf(ratios[k], UNEXPLAINED_MOST), count++;
+    return count > 0 ? sum / count : 0;
+}
+
+/* How far the mean of the original texture takes an albedo's place. */
+static float share_of(float ratio, float around)
+{
+    return ratio < 0 ? 0 : fminf(1, fminf(EXPLAINED_HERE / ratio, EXPLAINED_AROUND / around));
+}
+
+/* means, variances, ratios: of the pixels of the row. */
+static void use_place(const Use *u, const Place *p, int y, float *means, float *variances, float *ratios)
 {
     const RetexImage *uv = &u->rows->parts[p->uv].image, *spread = &u->rows->parts[p->spread].image;
     RetexImage *albedo = &u->rows->parts[p->albedo].image;
@@ -224,14 +246,16 @@ static void use_place(const Use *u, const Place *p, int y, float *means, float *
     float *to = albedo->pixels + retex_image_index(albedo, x0, y);
     retex_sample_row(u->originals->textures[p->target], p->filter, &row, means);
     retex_variance_row(u->originals->textures[p->target], u->originals->squares[p->target], p->filter, &row, variances);
-    for (int x = 0; x < width; x++, to += 3) {
+    for (int x = 0; x < width; x++) {
         const float cover = row.uv[3 * x + 2];
-        if (!(cover > 0))
-            continue;
-        const float most = explained(p->filter, cover, (float)u->originals->spp),
-                    share = share_of(to, means + 3 * x, variances + 3 * x, most);
-        for (int c = 0; c < 3; c++)
-            to[c] += share * (means[3 * x + c] - to[c]);
+        ratios[x] = cover > 0 ? unexplained(to + 3 * x, means + 3 * x, variances + 3 * x,
+                                            explained(p->filter, cover, (float)u->originals->spp))
+                              : -1;
+    }
+    for (int x = 0; x < width; x++) {
+        const float share = share_of(ratios[x], unexplained_around(ratios, x, width));
+        for (int c = 0; c < 3 && share > 0; c++)
+            to[3 * x + c] += share * (means[3 * x + c] - to[3 * x + c]);
     }
 }
 
@@ -239,12 +263,12 @@ static int use_row(void *context, int index, int thread, RetexError *err)
 {
     const Use *u = context;
     const size_t floats = 3 * (size_t)(u->roi.x1 - u->roi.x0);
-    float *memory = malloc(2 * floats * sizeof *memory);
+    float *memory = malloc((2 * floats + floats / 3) * sizeof *memory);
     (void)thread;
     if (!memory)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < u->originals->nplaces; k++)
-        use_place(u, &u->originals->places[k], u->roi.y0 + index, memory, memory + floats);
+        use_place(u, &u->originals->places[k], u->roi.y0 + index, memory, memory + floats, memory + 2 * floats);
     free(memory);
     return RETEX_OK;
 }
