@@ -7,6 +7,8 @@
 #include "lib_test.h"
 #include <cmocka.h>
 
+#include <math.h>
+
 #include "web/light.h"
 
 enum { TILES = 9, NEAR = 3 };
@@ -18,10 +20,33 @@ static const struct {
 } sizes[TILES] = {{1500, 9, 3}, {1501, 20, 1}, {2000, 17, 3}, {2050, 3, 1}, {4000, 8, 3},
                   {100, 30, 1}, {7, 7, 3},     {2041, 16, 1}, {33, 12, 3}};
 
+/* The steps that the plan asks for: the atlas has the finest; others have fewer levels, but at least 16. */
+static const double steps[TILES] = {1.5, 3, 12, 1.5, 2, 400, 6, 1.5, 5};
+
+static float most_of(int tile)
+{
+    return 0.08f * (float)(tile + 1);
+}
+
 static void fill(RetexImage *im, int tile)
 {
     for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++)
-        im->pixels[i] = 0.08f * (float)(tile + 1) * (im->channels == 3 && i % 3 == 1 ? 0.9f : 1);
+        im->pixels[i] = most_of(tile) * (im->channels == 3 && i % 3 == 1 ? 0.9f : 1);
+}
+
+/* The step of a tile whose white, at level 255, is its largest value. */
+static double own_step(int tile)
+{
+    return fmax(1, steps[tile] * pow(1 / (double)most_of(tile), 1 / 2.4));
+}
+
+static void expect_levels(const RetexWebTile tiles[TILES])
+{
+    double least = INFINITY;
+    for (int i = 0; i < TILES; i++)
+        least = fmin(least, own_step(i));
+    for (int i = 0; i < TILES; i++)
+        assert_float_equal(tiles[i].curve.levels, fmax(16, 255 * least / own_step(i)), 0.01);
 }
 
 static unsigned char *decode(const RetexPackJpeg *jpeg, int width, int height)
@@ -74,11 +99,12 @@ static void tiles_are_where_they_say(void **state)
         test_must(retex_set_add_part(set, name, sizes[i].channels == 3 ? "RGB" : "R", RETEX_HALF, sizes[i].width,
                                      sizes[i].height, &tiles[i].part, &err),
                   &err);
-        packed[tiles[i].part] = (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = {1, 255}, .jpeg_step = 1};
+        packed[tiles[i].part] = (RetexPackPart){.codec = RETEX_PACK_JPEG, .curve = {1, 255}, .jpeg_step = steps[i]};
     }
     for (int i = 0; i < TILES; i++)
         fill(&set->parts[tiles[i].part].image, i);
     test_must(retex_web_atlas_encode(&jpeg, tiles, TILES, &width, &height, set, packed, &err), &err);
+    expect_levels(tiles);
     assert_true(width <= RETEX_WEB_ATLAS_SIDE_MAX && height <= RETEX_WEB_ATLAS_SIDE_MAX);
     unsigned char *atlas = decode(&jpeg, width, height);
     for (int i = 0; i < TILES; i++) {

@@ -12,8 +12,9 @@
 static const double LEVEL_MOST = 255;
 /* White is at least at this level, however bright the brightest pixel; 24 times white is clipped. */
 static const double WHITE_LEVEL_LEAST = 160;
-static const double GAMMA = 2.4; /* of sRGB */
-enum { TILE = 8 };               /* sides of JPEG's blocks */
+static const double GAMMA = 2.4;       /* of sRGB */
+static const double LEVELS_LEAST = 16; /* of a tile in an atlas */
+enum { TILE = 8 };                     /* sides of JPEG's blocks */
 
 static int no_memory(RetexError *err)
 {
@@ -100,26 +101,32 @@ static void draw(float *levels, int width, const RetexWebTile *tile, const Retex
         }
 }
 
-/* The step is the mean of those that the tiles alone would have: most are gains, whose errors average out. */
+/* All tiles have the step of the one that needs the finest; where coarser steps do, they have fewer levels. */
 int retex_web_atlas_encode(RetexPackJpeg *jpeg, RetexWebTile *tiles, int count, int *width, int *height,
                            const RetexSet *set, const RetexPackPart *packed, RetexError *err)
 {
-    double step = 0;
+    double step = INFINITY;
     if (!place(tiles, count, width, height, set))
         return retex_fail(err, RETEX_EUNSUPPORTED, "the set's reduced images do not fit into a texture of %d texels",
                           RETEX_WEB_ATLAS_SIDE_MAX);
     if (!count)
         return 0;
+    double *own = calloc((size_t)count, sizeof *own);
     float *levels = calloc((size_t)*width * (size_t)*height * 3, sizeof *levels);
-    if (!levels)
+    if (!levels || !own) {
+        free(levels);
+        free(own);
         return no_memory(err);
-    for (int i = 0; i < count; i++) {
-        const RetexImage *im = &set->parts[tiles[i].part].image;
-        double own;
-        tiles[i].curve = choose_curve(im, &packed[tiles[i].part], &own);
-        step += own / count;
-        draw(levels, *width, &tiles[i], im);
     }
+    for (int i = 0; i < count; i++) {
+        tiles[i].curve = choose_curve(&set->parts[tiles[i].part].image, &packed[tiles[i].part], &own[i]);
+        step = fmin(step, own[i]);
+    }
+    for (int i = 0; i < count; i++) {
+        tiles[i].curve.levels = fmax(tiles[i].curve.levels * step / own[i], LEVELS_LEAST);
+        draw(levels, *width, &tiles[i], &set->parts[tiles[i].part].image);
+    }
+    free(own);
     int code = retex_pack_jpeg_encode(jpeg, levels, *width, *height, 3, step, err);
     free(levels);
     return code;
