@@ -254,6 +254,49 @@ static void test_silhouette(void **state)
 
 /* ---- members of a signal ---- */
 
+static double brightness_of(const RetexSet *set, int footprint)
+{
+    const float *albedo = set->targets[set->footprints[footprint].target].mean_albedo;
+    return fmin(1, fmax(0.5, 0.2126 * (double)albedo[0] + 0.7152 * (double)albedo[1] + 0.0722 * (double)albedo[2]));
+}
+
+/* Further hits count as bright as their targets in what is filtered, and by half in what there is noise of. */
+static void test_weights_of_members(void **state)
+{
+    (void)state;
+    static const float albedos[][3] = {{0.9f, 0.8f, 0.7f}, {0.2f, 0.3f, 0.1f}, {1.5f, 1.5f, 1.5f}};
+    int bright = 0;
+    for (int k = 1; k < 3; k++)
+        for (int n = 0; n < 3; n++) {
+            RetexSet *set = denoise_set(layouts[k], 40, 30);
+            memcpy(set->targets[0].mean_albedo, albedos[n], sizeof albedos[n]);
+            RetexSignals signals = denoise_signals(set);
+            for (int s = 0; s < signals.count; s++)
+                for (int m = 0; m < signals.of[s].nmembers; m++) {
+                    const RetexSignalMember *member = &signals.of[s].members[m];
+                    const RetexTerm *term = &set->terms[member->term];
+                    double expected = member->weight;
+                    int hits = 0;
+                    for (int f = 0; f < term->nfactors; f++) {
+                        double most = 0;
+                        if (term->factors[f].kind == RETEX_FACTOR_FOOTPRINT)
+                            most = brightness_of(set, term->factors[f].index);
+                        if (term->factors[f].kind == RETEX_FACTOR_MIXTURE)
+                            for (int i = 0; i < set->mixtures[term->factors[f].index].nshares; i++)
+                                most =
+                                    fmax(most,
+                                         brightness_of(set, set->mixtures[term->factors[f].index].shares[i].footprint));
+                        expected *= most > 0 && hits++ ? most / 0.5 : 1;
+                    }
+                    assert_float_equal(member->bright, expected, 1e-5);
+                    bright += member->bright > member->weight;
+                }
+            retex_signals_close(&signals);
+            retex_set_close(&set);
+        }
+    assert_true(bright > 4);
+}
+
 /* A set with and without noise, and after denoising. */
 typedef struct Sets {
     RetexSet *truth, *noisy, *denoised;
@@ -302,6 +345,47 @@ static double share_error(const RetexSet *set, const Sets *sets, const RetexSign
     return sum;
 }
 
+/* Noise is as large, relative to light, where further hits count more than in what there is noise of: light of the most
+ * further hits alone, on a white target, in a smooth region. */
+static void test_noise_of_white_targets(void **state)
+{
+    (void)state;
+    double errors[2][REGIONS];
+    int tested = 0;
+    RetexSet *set = denoise_set("paper", 150, 130), *truth = denoise_set("paper", 150, 130);
+    RetexSignals signals = denoise_signals(set);
+    for (int k = 0; k < 2; k++) {
+        RetexSet *to = k ? set : truth;
+        for (int t = 0; t < to->ntargets; t++)
+            for (int c = 0; c < 3; c++)
+                to->targets[t].mean_albedo[c] = 1;
+        for (int s = 0; s < signals.count; s++)
+            for (int m = 0; m < signals.of[s].nmembers; m++)
+                if (signals.of[s].members[m].weight > 0.26f)
+                    memset(to->parts[signals.of[s].members[m].part].image.pixels, 0, sizeof(float) * 3 * 150 * 130);
+    }
+    denoise_add_noise(set, 7);
+    RetexSet *noisy = denoise_set("paper", 150, 130);
+    for (int part = 0; part < set->nparts; part++)
+        memcpy(noisy->parts[part].image.pixels, set->parts[part].image.pixels,
+               sizeof(float) * (size_t)set->parts[part].image.width * (size_t)set->parts[part].image.height *
+                   (size_t)set->parts[part].image.channels);
+    denoise_all(set, &denoise_exactly, 2);
+    for (int s = 0; s < signals.count; s++) {
+        find_errors(errors[0], noisy, truth, &signals.of[s]);
+        find_errors(errors[1], set, truth, &signals.of[s]);
+        const double gain = decibels(errors[0][SMOOTH], errors[1][SMOOTH]);
+        printf("# %s: %.1f dB\n", denoise_signal_name(truth, &signals.of[s]), gain);
+        if (errors[0][SMOOTH] > 0)
+            assert_true(gain > 9), tested++;
+    }
+    assert_true(tested > 0);
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+    retex_set_close(&noisy);
+    retex_set_close(&truth);
+}
+
 static void test_shares_of_members(void **state)
 {
     (void)state;
@@ -348,8 +432,8 @@ static void test_proportions_of_clusters(void **state)
 }
 
 /* Where the light of a sharp signal has a relative deviation of `noise`, its clusters' proportions are between those of
- * their light and of their cover: the more noise the nearer to these, but as if no sample varied by more than its
- * light. */
+ * their light and of their cover: the more noise the nearer to these, but as if no sample's variance were more than its
+ * light squared, or less than half of that. */
 static double expected_share(const RetexSet *set, double noise, int x, int y)
 {
     double light[2], cover[2], chance = 0, differs = 0;
@@ -360,7 +444,7 @@ static double expected_share(const RetexSet *set, double noise, int x, int y)
     const double by_light = light[0] / (light[0] + light[1]), all = cover[0] + cover[1], by_cover = cover[0] / all;
     for (int k = 0; k < 2; k++) {
         const double samples = set->spp * cover[k], of_light = k ? 1 - by_light : by_light,
-                     variance = fmin(1 / samples, noise * noise * all / cover[k]);
+                     variance = fmin(1, fmax(0.5, noise * noise * all * set->spp)) / samples;
         chance += of_light * of_light * variance;
         differs += pow(by_light - by_cover, 2);
     }
@@ -371,7 +455,7 @@ static double expected_share(const RetexSet *set, double noise, int x, int y)
 static void test_clusters_are_believed_by_their_noise(void **state)
 {
     (void)state;
-    static const double noises[] = {0, 0.01, 0.03, 0.1, 1};
+    static const double noises[] = {0, 0.2, 0.42, 0.5, 1};
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     params.footprints = 0, params.full_precision = 1;
     for (int n = 0; n < 5; n++) {
@@ -423,6 +507,8 @@ int main(void)
         cmocka_unit_test(test_means),
         cmocka_unit_test(test_firefly),
         cmocka_unit_test(test_silhouette),
+        cmocka_unit_test(test_weights_of_members),
+        cmocka_unit_test(test_noise_of_white_targets),
         cmocka_unit_test(test_shares_of_members),
         cmocka_unit_test(test_proportions_of_clusters),
         cmocka_unit_test(test_clusters_are_believed_by_their_noise),

@@ -9,9 +9,10 @@
 #include "denoise/pools.h"
 #include "set/set.h"
 
-#define NEGLIGIBLE 1e-2f /* neighbours with less weight are left out */
-#define NOISE_REACH 2    /* pixels to each side whose noise tells how much there is */
-#define CLUSTERS_LEAST 2 /* clusters of broad light that a pixel may always have */
+#define NEGLIGIBLE 1e-2f   /* neighbours with less weight are left out */
+#define LEAST_VARIANCE 0.5 /* of a sample in a cluster, relative to its light squared */
+#define NOISE_REACH 2      /* pixels to each side whose noise tells how much there is */
+#define CLUSTERS_LEAST 2   /* clusters of broad light that a pixel may always have */
 #define CLUSTERS_MOST 3
 #define NEAR 0.1 /* fraction of a cluster's width that another pixel's may be away */
 #define FAR 0.05 /* share of its weight that merging may lose: with more a cluster stays apart, within capacity */
@@ -187,14 +188,16 @@ static double relative_variance(const RetexFootprintClass *g, const RetexImage *
 
 /* How far the clusters' light is credible, 0..1, where its proportions differ from those of the coverage: in part the
  * brightness of a cluster is noise. The part of the squared difference beyond that is real (James and Stein 1961). The
- * relative variance of a sum of n effective samples is 1/n, or less: as that of all the light, of more samples. */
+ * relative variance of a sum of n effective samples is 1/n, or less: as that of all the light, of more samples. But
+ * samples are spread evenly over pixels, not over clusters, so that these have more noise than the pixel tells. */
 static double light_confidence(const RetexDenoiseFootprints *f, const RetexFootprintClass *g, const RetexImage *noise,
                                size_t from)
 {
     double cover = sum_over(g, from, lit_coverage), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
     if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
         return 1;
-    const double variance = fmin(1.0 / f->spp, cover * relative_variance(g, noise, from)); /* of what covers a pixel */
+    const double variance = /* of what covers a pixel */
+        fmin(1, fmax(LEAST_VARIANCE, f->spp * cover * relative_variance(g, noise, from))) / f->spp;
     for (int k = 0; k < g->nlit; k++) {
         double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_coverage(&g->of[k], from);
         if (!(of_cover > 0))

@@ -44,7 +44,7 @@ static void find_totals(Totals *totals, const RetexDenoiser *d, const Span *at)
     for (int k = 0; k < totals->signal->nmembers; k++) {
         const RetexSignalMember *member = &totals->signal->members[k];
         const float *restrict light = light_at(d, member, at->x, at->y);
-        const double weight = (double)member->weight;
+        const double weight = (double)member->bright;
         for (int i = 0; i < 3 * at->count && !member->corrects; i++)
             to[i] += weight * (double)light[i];
     }
@@ -71,7 +71,7 @@ static void set_total(const RetexDenoiser *d, const RetexSignal *signal, int x, 
         if (signal->members[k].corrects)
             continue;
         if (!(old > 0)) {
-            *light = (float)(total / (double)signal->members[k].weight);
+            *light = (float)(total / (double)signal->members[k].bright);
             return;
         }
         *light = (float)(total * ((double)*light / old));

@@ -56,7 +56,7 @@ static void totals_of_members(RowValues totals, const RetexTileSignal *r, const 
     for (int k = 0; k < signal->nmembers; k++) {
         if (signal->members[k].cluster >= 0)
             continue;
-        const float *restrict sum = r->sums[3 * image++ + c] + row->i, weight = signal->members[k].weight;
+        const float *restrict sum = r->sums[3 * image++ + c] + row->i, weight = signal->members[k].bright;
         for (int x = 0; x < row->count; x++)
             totals[x] += weight * sum[x];
     }
@@ -173,7 +173,7 @@ static void finish_row(const RetexTileSignal *r, const RetexDenoiser *d, const R
             if (m->corrects)
                 correction_values(values[c], r, row, image, c);
             else
-                image_values(values[c], r, row, image, c, total[c], members[c], m->weight);
+                image_values(values[c], r, row, image, c, total[c], members[c], m->bright);
         }
         for (int x = 0; x < row->count; x++)
             for (int c = 0; c < 3; c++)

@@ -164,21 +164,26 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 
 /* ---- signals ---- */
 
-/* Loads the images to filter; their weighted sum goes to the planes of the first half. */
+/* Loads the images to filter. Their sum goes to the planes of the first half; that of which there is noise to those of
+ * the second. */
 static void load_members(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
                          const RetexSignal *signal, int x0, int y0)
 {
     int image = r->nclusters > 0;
     for (int k = 0; k < r->nplanes; k++)
         memset(r->planes[k], 0, sizeof(float) * DENOISE_PLANE);
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
+        memset(r->half[1][c], 0, sizeof(float) * DENOISE_PLANE);
+    }
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
         int to = m->cluster >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
             retex_denoise_load_plane(work->spare, d->set, m->part, c, x0, y0);
-            retex_denoise_add_plane(r->planes[3 * to + c], r->half[0][c], work->spare, m->weight);
+            retex_denoise_add_plane(r->planes[3 * to + c], r->half[0][c], work->spare, m->bright);
+            for (int i = 0; i < DENOISE_PLANE; i++)
+                r->half[1][c][i] += m->weight * work->spare[i];
         }
     }
 }
@@ -234,6 +239,13 @@ static int has_rounded_noise(const RetexDenoiser *d)
     return d->set->nterms > 0;
 }
 
+/* Of light with other weights there is as much noise, relative to it. */
+static void scale_noise(float *noise, const float *total, const float *of_noise)
+{
+    for (int i = 0; i < DENOISE_PLANE; i++)
+        noise[i] = of_noise[i] > 0 && total[i] != of_noise[i] ? noise[i] * (total[i] / of_noise[i]) : noise[i];
+}
+
 /* Computes both halves from the total and its noise. Rounded noise may be more than the total: it is limited to that,
  * so that no half is less than 0. */
 static void split_halves(RetexTileSignal *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
@@ -242,6 +254,7 @@ static void split_halves(RetexTileSignal *r, RetexDenoiseScratch *work, const Re
     const float second = 2 * first_part(d), weights[2] = {2 - second, second};
     for (int c = 0; c < 3; c++) {
         retex_denoise_load_plane(work->spare, d->set, signal->noise, c, x0, y0);
+        scale_noise(work->spare, r->half[0][c], r->half[1][c]);
         retex_denoise_split_plane(r->half[0][c], r->half[1][c], r->modulation[c], work->spare, weights,
                                   has_rounded_noise(d));
     }

@@ -64,8 +64,8 @@ static int load_color(const Pictures *p, int thread, int y, RetexError *err)
     int code = RETEX_OK;
     memset(to, 0, length * sizeof *to);
     for (int k = 0; k < p->signal->nmembers && !code; k++)
-        if (p->signal->members[k].weight != 0)
-            code = add_row(to, p, thread, p->signal->members[k].part, p->signal->members[k].weight, y, err);
+        if (p->signal->members[k].bright != 0)
+            code = add_row(to, p, thread, p->signal->members[k].part, p->signal->members[k].bright, y, err);
     return code;
 }
 

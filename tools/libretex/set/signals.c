@@ -1,6 +1,7 @@
 /* See signals.h. */
 #include "set/signals.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -141,18 +142,45 @@ static int is_member(const RetexTerm *term)
     return !retex_term_is_picture(term);
 }
 
-/* Further hits are taken as grey, parameters as rendered, but those of lamps as 1; corrections, of either sign, do not
- * count. */
-static float member_weight(const RetexSet *set, const RetexTerm *term)
+/* The luminance of a target's mean albedo, at least 1/2: in total light, hits of what is darker count as much. */
+static float brightness(const RetexTarget *t)
+{
+    const float albedo = retex_luminance(t->mean_albedo[0], t->mean_albedo[1], t->mean_albedo[2]);
+    return albedo > 0.5f ? fminf(albedo, 1) : 0.5f;
+}
+
+/* The brightest target that a factor is of. */
+static float factor_brightness(const RetexSet *set, const RetexFactor *f)
+{
+    float most = 0.5f;
+    if (f->kind == RETEX_FACTOR_FOOTPRINT)
+        return brightness(&set->targets[set->footprints[f->index].target]);
+    for (int k = 0; f->kind == RETEX_FACTOR_MIXTURE && k < set->mixtures[f->index].nshares; k++)
+        most =
+            fmaxf(most, brightness(&set->targets[set->footprints[set->mixtures[f->index].shares[k].footprint].target]));
+    return most;
+}
+
+/* Parameters are taken as rendered, but those of lamps as 1; corrections, of either sign, do not count. */
+static float first_weight(const RetexSet *set, const RetexTerm *term)
 {
     float weight = term->role == RETEX_ROLE_CORRECTION ? 0 : 1;
-    for (int n = 1; n < retex_term_hits(term); n++)
-        weight *= 0.5f;
     for (int k = 0; k < term->nfactors && term->role != RETEX_ROLE_LAMP; k++)
         if (term->factors[k].kind == RETEX_FACTOR_PARAMETER && weight > 0)
             weight *= retex_luminance(set->parameters[term->factors[k].index].value[0],
                                       set->parameters[term->factors[k].index].value[1],
                                       set->parameters[term->factors[k].index].value[2]);
+    return weight;
+}
+
+/* Further hits are taken as grey or, `bright`, as bright as their targets. */
+static float member_weight(const RetexSet *set, const RetexTerm *term, int bright)
+{
+    float weight = first_weight(set, term);
+    int hits = 0;
+    for (int k = 0; k < term->nfactors; k++)
+        if (retex_factor_is_hit(term->factors[k]) && hits++)
+            weight *= bright ? factor_brightness(set, &term->factors[k]) : 0.5f;
     return weight;
 }
 
@@ -177,7 +205,7 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
     order_by_lamp(signals);
     if (!set->nterms) {
-        signals->members[0] = (RetexSignalMember){.weight = 1, .term = -1, .cluster = -1};
+        signals->members[0] = (RetexSignalMember){.weight = 1, .bright = 1, .term = -1, .cluster = -1};
         RetexSignal *beauty = signal_of(signals, set, NULL);
         beauty->nmembers = 1;
         beauty->members = signals->members;
@@ -190,7 +218,8 @@ static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *er
             if (!is_member(term) || signal_of(signals, set, term) != signal)
                 continue;
             signal->members[signal->nmembers++] = (RetexSignalMember){term->radiance,
-                                                                      member_weight(set, term),
+                                                                      member_weight(set, term, 0),
+                                                                      member_weight(set, term, 1),
                                                                       t,
                                                                       retex_term_hits(term),
                                                                       term->role == RETEX_ROLE_CORRECTION,

@@ -7,7 +7,8 @@
 /* A member of a signal: the radiance of one of its terms. */
 typedef struct RetexSignalMember {
     int part;
-    float weight; /* its factor in the signal's total: 0 of corrections */
+    float weight; /* its factor in the signal's total, of which there is noise: 0 of corrections */
+    float bright; /* its factor in the total that is filtered: further hits on bright targets are taken as so bright */
     int term;     /* -1: the beauty of a set without terms */
     int hits;     /* of the term */
     int corrects; /* 1: a correction. These are members of the signal that no target's texture multiplies */
