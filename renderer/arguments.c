@@ -17,6 +17,9 @@ enum {
     OPT_LAMPS,
     OPT_LIST_LAMPS,
     OPT_LIGHT_SHARE,
+    OPT_FINISH,
+    OPT_SHOW,
+    OPT_LIST_FINISHES,
     OPT_LIGHT,
     OPT_SOLO,
     OPT_REPLACE,
@@ -78,6 +81,12 @@ static const CliOption options[] = {
                         0},
     [OPT_LIGHT_SHARE] = {"light-share", 0, "X",
                          "least share of the samples of direct light for lamps, all alike; 0 to 1, default 0.1", 0},
+    [OPT_FINISH] = {"finish", 0, "TARGET=NAME,…",
+                    "keep the light of a target's finishes apart, to choose from later: those that the scene declares, "
+                    "matt, satin, polished, metal, original; up to 4, the first one is in the picture; repeatable",
+                    0},
+    [OPT_SHOW] = {"show", 0, "TARGET=NAME", "another finish of --finish in the picture; repeatable", 0},
+    [OPT_LIST_FINISHES] = {"list-finishes", 0, NULL, "print the finishes that --finish can name, and stop", 0},
     [OPT_LIGHT] = {"light", 0, "NAME=VALUE",
                    "render lamp NAME in another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K; as --light of "
                    "retex-combine; repeatable",
@@ -211,6 +220,15 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_LIST_LAMPS:
         a->list_lamps = 1;
         break;
+    case OPT_FINISH:
+        push(cli, a->finishes, &a->nfinishes, o->name);
+        break;
+    case OPT_SHOW:
+        push(cli, a->shown, &a->nshown, o->name);
+        break;
+    case OPT_LIST_FINISHES:
+        a->list_finishes = 1;
+        break;
     case OPT_LIGHT:
         push(cli, a->lights, &a->nlights, o->name);
         break;
@@ -340,9 +358,8 @@ static void check_denoise(const Arguments *a)
     if (a->no_denoise_data)
         cli_die(a->cli, "--denoise needs the data that --no-denoise-data omits");
     if (answers(a) || a->variants || a->control)
-        cli_die(
-            a->cli,
-            "--denoise cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or --control");
+        cli_die(a->cli, "--denoise cannot be combined with --list-targets, --list-lamps, --list-finishes, "
+                        "--trace-pixel, --variants or --control");
     if (a->render.control_data)
         cli_die(a->cli, "--denoise and --control-data exclude each other");
     if (a->render.spp < 2)
@@ -358,8 +375,32 @@ static void check_lamps(const Arguments *a)
         cli_die(a->cli, "--layout paper keeps no lamps apart");
     if (lamps && (a->render.control_data || a->control))
         cli_die(a->cli, "lamps cannot be combined with --control or --control-data");
-    if (a->list + a->list_lamps + a->tracing > 1)
-        cli_die(a->cli, "--list-targets, --list-lamps and --trace-pixel exclude each other");
+    if (a->list + a->list_lamps + a->list_finishes + a->tracing > 1)
+        cli_die(a->cli, "--list-targets, --list-lamps, --list-finishes and --trace-pixel exclude each other");
+}
+
+static void check_finishes(const Arguments *a)
+{
+    if (a->nshown && !a->nfinishes)
+        cli_die(a->cli, "--show chooses among the finishes of --finish, of which there are none");
+    if (a->nfinishes && a->render.paper)
+        cli_die(a->cli, "--layout paper keeps no finishes apart");
+    if (a->nfinishes && (a->render.control_data || a->control))
+        cli_die(a->cli, "--finish cannot be combined with --control or --control-data");
+}
+
+/* Without -t, --finish names targets. */
+static void name_finished(Arguments *a)
+{
+    static char names[LIST_MAX][RETEX_NAME_MAX];
+    for (int k = 0; k < a->nfinishes && !a->named; k++) {
+        const char *equals = strrchr(a->finishes[k], '=');
+        const size_t length = equals ? (size_t)(equals - a->finishes[k]) : 0;
+        if (length == 0 || length >= RETEX_NAME_MAX || a->ntargets == LIST_MAX)
+            continue; /* it is told later what is wrong */
+        snprintf(names[k], RETEX_NAME_MAX, "%.*s", (int)length, a->finishes[k]);
+        add_target(a, names[k]);
+    }
 }
 
 static void check_noise(const Arguments *a)
@@ -377,8 +418,9 @@ static void check_pieces(const Arguments *a)
     if (!option)
         return;
     if (answers(a) || a->variants || a->control || r->control_data)
-        cli_die(a->cli, "--%s cannot be combined with %s", option,
-                "--list-targets, --list-lamps, --trace-pixel, --variants, --control or --control-data");
+        cli_die(
+            a->cli, "--%s cannot be combined with %s", option,
+            "--list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants, --control or --control-data");
     if (a->nmerged && (r->resume || r->nshards))
         cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
@@ -440,23 +482,32 @@ void parse_arguments(Arguments *a)
     if (a->variants && cli->output)
         cli_die(cli, "the table of --variants names the outputs: no -o");
     if (a->variants && (answers(a) || a->render.aovs || a->stats))
-        cli_die(cli, "--variants makes pictures only: no --list-targets, --list-lamps, --trace-pixel, --aov or "
-                     "--stats");
+        cli_die(
+            cli,
+            "--variants makes pictures only: no --list-targets, --list-lamps, --list-finishes, --trace-pixel, --aov or "
+            "--stats");
     if (a->control && (!a->nreplacements || a->variants))
         cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
     name_lamps(a);
+    name_finished(a);
     check_denoise(a);
     check_lamps(a);
+    check_finishes(a);
     check_noise(a);
     check_pieces(a);
     if (a->aov_dir && (answers(a) || a->variants || a->control))
-        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --trace-pixel, --variants or "
+        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, "
+                     "--variants or "
                      "--control");
     if (a->aov_dir && !a->render.aovs)
         a->render.aovs = RETEX_AOV_ALL;
-    const char *answer = a->list ? "list-targets" : a->list_lamps ? "list-lamps" : a->tracing ? "trace-pixel" : NULL;
+    const char *answer = a->list            ? "list-targets"
+                         : a->list_lamps    ? "list-lamps"
+                         : a->list_finishes ? "list-finishes"
+                         : a->tracing       ? "trace-pixel"
+                                            : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);
     if (answer && a->stats)

@@ -86,6 +86,10 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
         d = digest_bytes(d, &lamp->value, sizeof lamp->value);
         d = digest_bytes(d, &lamp->weight, sizeof lamp->weight);
     }
+    for (int t = 0; t < scene->ntargets; t++)
+        for (int k = 0; k < scene->targets[t].nfinishes; k++)
+            d = digest_text(digest_number(d, (uint64_t)t), scene->targets[t].finishes[k].name);
+    d = digest_number(d, (uint64_t)scene->shown);
     d = digest_bytes(d, &r->light_share, sizeof r->light_share);
     for (int k = 0; k < a->nreplacements; k++)
         d = digest_texture(d, &a->replacements[k]);

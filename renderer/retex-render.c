@@ -237,6 +237,10 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
                             .ntargets = a->ntargets,
                             .lamps = a->lamps,
                             .nlamps = a->nlamps,
+                            .finishes = a->finishes,
+                            .nfinishes = a->nfinishes,
+                            .shown = a->shown,
+                            .nshown = a->nshown,
                             .each_lamp = a->each_lamp};
     int code = job_open_scene(scene, a->scene, &a->sdl, &a->render, &names, err);
     if (!code && (code = light_lamps(a, *scene, err)))
@@ -249,10 +253,20 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
         code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
     if (code)
         return code;
-    if (!a->list && !a->list_lamps)
+    if (!answers(a))
         job_warn_dark(*scene, &a->sdl);
     check_targets(a, *scene);
     return !a->list || lists_pixels(a) ? job_check_size(*scene, &a->render, err) : RETEX_OK;
+}
+
+static void list_finishes(const Scene *scene)
+{
+    const char *name;
+    for (int k = 0; k < scene->nnamed_finishes; k++)
+        printf("%s\n", scene->named_finishes[k].name);
+    for (int k = 0; (name = scene_built_in_finish(k)); k++)
+        printf("%s\tbuilt in\n", name);
+    printf("original\tas the scene has it\n");
 }
 
 /* What is asked for of a scene. *status: the answer, where there is no error. */
@@ -265,6 +279,8 @@ static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *s
         list_targets(a, scene);
     else if (a->list_lamps)
         list_lamps(a, scene);
+    else if (a->list_finishes)
+        list_finishes(scene);
     else if (a->variants)
         *status = make_variants(a, scene);
     else if (a->control)

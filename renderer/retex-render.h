@@ -25,6 +25,8 @@ typedef struct Arguments {
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     const char *lamps[LIST_MAX];
     int nlamps, each_lamp, list_lamps;
+    const char *finishes[LIST_MAX], *shown[LIST_MAX];
+    int nfinishes, nshown, list_finishes;
     const char *lights[LIST_MAX], *solo; /* values of lamps, as arguments of --light */
     int nlights, lamps_by_light; /* 1: they name the lamps, too */
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
@@ -50,7 +52,10 @@ typedef struct Arguments {
 } Arguments;
 
 /* Whether it prints an answer, and makes no picture. */
-static inline int answers(const Arguments *a) { return a->list || a->list_lamps || a->tracing; }
+static inline int answers(const Arguments *a)
+{
+    return a->list || a->list_lamps || a->list_finishes || a->tracing;
+}
 
 /* ---- arguments.c ---- */
 

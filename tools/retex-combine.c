@@ -10,6 +10,7 @@
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts as in retex-sample", 1},
     {"light", 0, "NAME=VALUE", "give lamp NAME another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K", 0},
+    {"finish", 0, "TARGET=NAME", "give TARGET another of the finishes that the set has for it", 0},
     {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
     {"display", 0, "NAME", "OCIO display for the picture", 0},
     {"view", 0, "NAME", "OCIO view of that display", 0},
@@ -48,6 +49,8 @@ static void parse(Cli *cli, Job *job)
             texture_args_add(cli, &job->textures);
         } else if (strcmp(option->name, "light") == 0) {
             check(cli, retex_edit_light(job->lights, cli->value, &err), &err);
+        } else if (strcmp(option->name, "finish") == 0) {
+            check(cli, retex_edit_finish(job->lights, cli->value, &err), &err);
         } else if (strcmp(option->name, "solo") == 0) {
             check(cli, retex_edit_solo(solo, cli->value, &err), &err);
         } else if (strcmp(option->name, "display") == 0) {

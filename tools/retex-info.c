@@ -105,6 +105,9 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
         fprintf(out, "  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
                 target->uv_scale[1]);
     fprintf(out, "  share        %.2f%% of the picture\n", 100 * target->share);
+    for (int k = 0; k < target->nfinishes; k++)
+        fprintf(out, "%s%s%s%s", k ? ", " : "  finishes     ", plain(text, target->finishes[k]),
+                k == target->finish ? " (as rendered)" : "", k + 1 == target->nfinishes ? "\n" : "");
     fprintf(out, "  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
             (double)target->mean_albedo[2]);
     fprintf(out, "  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],
@@ -123,13 +126,16 @@ static void print_color(FILE *out, const char *what, const float color[3])
     fprintf(out, "  %-11s  %.6g %.6g %.6g\n", what, (double)color[0], (double)color[1], (double)color[2]);
 }
 
-static void print_parameter(FILE *out, const RetexParameter *parameter)
+/* Lamps only: what a set with finishes has besides follows from them. */
+static void print_parameter(FILE *out, const RetexSet *set, int number)
 {
+    const RetexParameter *parameter = retex_set_parameter(set, number);
+    const char *lamp = retex_parameter_lamp(set, number);
     char text[512];
 
-    if (parameter->kind != RETEX_PARAMETER_COLOR)
+    if (!lamp)
         return;
-    fprintf(out, "parameter %s\n", plain(text, parameter->name));
+    fprintf(out, "parameter %s\n", plain(text, lamp));
     print_color(out, "as rendered", parameter->value);
     if (memcmp(parameter->kept, parameter->value, sizeof parameter->kept) != 0)
         print_color(out, "shines with", parameter->kept);
@@ -198,7 +204,7 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
     if (info.generator[0])
         fprintf(out, "generator      %s\n", plain(text, info.generator));
     for (int i = 0; i < info.nparameters; i++)
-        print_parameter(out, retex_set_parameter(set, i));
+        print_parameter(out, set, i);
     for (int i = 0; i < info.ntargets; i++)
         print_target(out, set, retex_set_target(set, i));
     fprintf(out, "AOVs           %d: %d radiance, %d UV, %d spread\n",

@@ -8,12 +8,19 @@
 #define RENDERER_FILM_CONTRIBUTION_H
 
 #include "base/color4.h"
+#include "scene/scene.h"
+
+/* What a surface does with one of the finishes of its target. */
+typedef struct FinishFactor {
+    Float4 d, i;
+} FinishFactor;
 
 /* A surface that light scatters at or passes, or that emits it. */
 typedef struct Factor {
     int target;          /* -1: none */
     Float4 d, i, albedo; /* it is d albedo + i */
     const Rgb *albedos;  /* by variant, or NULL: the same in all */
+    const FinishFactor *finishes; /* by finish of the target, or NULL: the same in all; d and i are those shown */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* no vertex between it and the camera scattered widely */
@@ -29,6 +36,12 @@ static inline Float4 factor_whole(const Factor *f)
 static inline Float4 factor_of_variant(const Factor *f, int variant)
 {
     return f->d * (f->albedos ? color4(f->albedos[variant]) : f->albedo) + f->i;
+}
+
+/* The part of it with the finish that its target has in a combination. */
+static inline FinishFactor factor_of_combination(const Factor *f, const Scene *scene, int combination)
+{
+    return f->finishes ? f->finishes[scene->finish_of[combination][f->target]] : (FinishFactor){f->d, f->i};
 }
 
 typedef struct Contribution {

@@ -415,7 +415,7 @@ float *film_image_pixel(FilmPixel *p, int image, int x, int y)
 
 long film_floats(const FilmParams *params, int ntargets)
 {
-    long layout = params->split && (ntargets > 0 || params->nlamps > 0) ? params->layout->floats(params, ntargets) : 0;
+    long layout = params->split && (ntargets > 0 || params->nkept > 0) ? params->layout->floats(params, ntargets) : 0;
     return 3 + 3 * noise_count(params, ntargets) + layout;
 }
 
@@ -441,6 +441,17 @@ long film_limited(const Film *film)
 
 /* ---- into a set ---- */
 
+static void add_finishes(RetexTarget *target, const Scene *scene, int t)
+{
+    const Target *own = &scene->targets[t];
+    if (own->nfinishes < 2)
+        return;
+    target->nfinishes = own->nfinishes;
+    target->finish = scene->finish_of[scene->shown][t];
+    for (int k = 0; k < own->nfinishes; k++)
+        snprintf(target->finishes[k], sizeof target->finishes[k], "%s", own->finishes[k].name);
+}
+
 static int describe_split(const Film *film, RetexSet *set, RetexError *err)
 {
     RetexSetInfo info = retex_set_info(set);
@@ -451,6 +462,7 @@ static int describe_split(const Film *film, RetexSet *set, RetexError *err)
         RetexTarget target = {.original = -1};
         snprintf(target.name, sizeof target.name, "%s", film->scene->targets[t].name);
         snprintf(target.idents, sizeof target.idents, "%s", film->scene->targets[t].idents);
+        add_finishes(&target, film->scene, t);
         code = retex_set_add_target(set, &target, NULL, err);
     }
     return code;

@@ -12,7 +12,7 @@
 
 #define LAYOUT_SIGNALS_MAX 2 /* of a target */
 /* Of all light, and of each lamp and the rest. */
-#define NOISE_SIGNALS_MAX ((1 + LAYOUT_SIGNALS_MAX * RETEX_MAX_TARGETS) * (2 + LAMPS_MAX))
+#define NOISE_SIGNALS_MAX ((1 + LAYOUT_SIGNALS_MAX * RETEX_MAX_TARGETS) * (1 + KEPT_MAX))
 
 /* Luminance, summed; as of RetexBandStats. */
 typedef struct LightSums {
@@ -20,7 +20,7 @@ typedef struct LightSums {
 } LightSums;
 
 /* Sums over a pixel's samples so far, by signal: light that no target's texture multiplies (the beauty, where there is
- * no split), then the signals of each target; then as many of each lamp. */
+ * no split), then the signals of each target; then as many of each kept light. */
 typedef struct SignalTotals {
     double of[NOISE_SIGNALS_MAX][3];
 } SignalTotals;

@@ -6,7 +6,7 @@ int noise_count(const FilmParams *params, int ntargets)
 {
     if (!params->noise || params->spp < 2)
         return 0;
-    return !params->split ? 1 : (1 + ntargets * params->layout->nsignals) * (1 + params->nlamps);
+    return !params->split ? 1 : (1 + ntargets * params->layout->nsignals) * (1 + params->nkept);
 }
 
 static void signal_name(const Scene *scene, const FilmParams *params, int number, char name[RETEX_NAME_MAX])
@@ -15,7 +15,7 @@ static void signal_name(const Scene *scene, const FilmParams *params, int number
     const int own = params->split ? 1 + scene->ntargets * layout->nsignals : 1;
     const int lamp = number / own - 1, signal = number % own;
     if (lamp >= 0)
-        retex_lamp_noise_part_name(name, scene->lamps[lamp].name,
+        retex_lamp_noise_part_name(name, scene->kept[lamp].name,
                                    signal ? scene->targets[(signal - 1) / layout->nsignals].name : NULL,
                                    signal ? layout->signals[(signal - 1) % layout->nsignals] : RETEX_SIGNAL_INDEP);
     else if (signal == 0)

@@ -21,7 +21,7 @@ typedef struct FilmParams {
     int extra_broad, extra_interreflections; /* so many more of these in pixels where merging them shows, 0.. */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int quadrants; /* layout footprints: keep quarters of pixels apart, where paths say where in the pixel they are */
-    int nlamps;    /* of the scene: their light is kept apart */
+    int nkept;     /* of the scene: its kept light */
     int noise;     /* also keep how noisy each signal is, see noise.h; needs two samples */
     RetexBandStore *store; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
     int stored;            /* 1: images leave memory for the store */

@@ -11,7 +11,7 @@
 #define RENDERER_FILM_TARGET_TREE_H
 
 #include <retex/set.h>
-#include "base/color4.h"
+#include "film/contribution.h"
 
 #define TARGET_NODES_MAX 64  /* of one path, those of its shadow rays too */
 #define MONOMIALS_MAX 256 /* of a path multiplied out: eight hits with both parts; of diffuse targets each has one */
@@ -54,6 +54,7 @@ static inline void target_counts_add(TargetCounts *counts, int target, int both_
 typedef struct TargetNode {
     Float4 dependent, independent; /* D, I */
     Float4 before_d, before_i;     /* d, i: what the hit before this one does to light that comes from here */
+    const FinishFactor *before_finishes; /* the same by finish of that hit's target; or NULL */
     TargetVertex at;
     struct TargetNode *before,
         *earlier;    /* the next hit towards the camera; the one that was added last before it. Or NULL */
@@ -68,19 +69,22 @@ typedef struct SeenTarget {
     float place[2]; /* within the pixel, 0..1 from its upper left corner */
 } SeenTarget;
 
-/* Light of one lamp: D and I at a hit, or without one. */
+/* Kept light (KeptLight): D and I at a hit, or without one. That of a combination is divided by their number, so that
+ * the sum over all of them is their mean. */
 typedef struct LampLight {
     Float4 dependent, independent;
     Float4 light;                    /* with all factors */
     const TargetNode *hit;           /* NULL: independent is light without a hit */
     const struct LampLight *earlier; /* or NULL */
-    int lamp;
+    int kept;
 } LampLight;
 
 typedef struct TargetTree {
     TargetNode *last; /* that was added, or NULL */
-    LampLight *lamp_light; /* the last that was added, of scenes with lamps; or NULL. D and I of nodes are their sums */
+    LampLight *lamp_light; /* the last that was added, of scenes with kept light; or NULL. D and I of nodes are their
+                              sums */
     int count;
+    int met; /* 1: some light met a target with several finishes */
     SeenTarget seen;
     Float4 without_hit; /* sum of contributions without a hit */
     int nwithout_hit;   /* their number */
@@ -90,12 +94,20 @@ typedef struct TargetTree {
 static inline TargetNode *target_tree_add(TargetTree *hits, TargetNode *hit, const TargetVertex *at, TargetNode *before,
                                      Float4 before_d, Float4 before_i)
 {
+    hit->before_finishes = NULL;
     hit->dependent = hit->independent = splat(0);
     hit->before_d = before_d, hit->before_i = before_i;
     hit->at = *at;
     hit->before = before, hit->earlier = hits->last;
     hit->number = hits->count++, hit->connections = 0;
     return hits->last = hit;
+}
+
+/* What the hit before does in a combination. */
+static inline FinishFactor target_node_before(const TargetNode *hit, const Scene *scene, int combination)
+{
+    return hit->before_finishes ? hit->before_finishes[scene->finish_of[combination][hit->before->at.target]]
+                                : (FinishFactor){hit->before_d, hit->before_i};
 }
 
 /* Add light that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */

@@ -20,6 +20,8 @@ int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const
         code = job_resolve_targets(*scene, render, names->targets, names->ntargets, err);
     if (!code)
         code = job_resolve_lamps(*scene, render, names, err);
+    if (!code)
+        code = job_resolve_finishes(*scene, names, err);
     if (code)
         scene_close(scene);
     return code;

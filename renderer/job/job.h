@@ -18,14 +18,15 @@ int job_numbers(const char *text, char separator, int count, int *numbers);
  * which nobody means. Values of built-in names must be numbers. */
 int job_check_declare(const char *declare, RetexError *err);
 
-/* What of a scene is to be changed later: targets, each in the form of -t, and lamps, each in the form of -l.
- * each_lamp: 1: all that have a name, instead, and light sources without one, and the sky. */
+/* What of a scene is to be changed later: targets, each in the form of -t, lamps, each in the form of -l, and finishes,
+ * each in the form of --finish; shown: of --show. each_lamp: 1: all that have a name, instead, and light sources
+ * without one, and the sky. */
 typedef struct JobNames {
-    const char *const *targets, *const *lamps;
-    int ntargets, nlamps, each_lamp;
+    const char *const *targets, *const *lamps, *const *finishes, *const *shown;
+    int ntargets, nlamps, each_lamp, nfinishes, nshown;
 } JobNames;
 
-/* Read a scene and find its targets and lamps. render: the size of the picture whose pixels they may name. */
+/* Read a scene and find its targets, lamps and finishes. render: the size of the picture whose pixels they may name. */
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const RenderParams *render,
                    const JobNames *names, RetexError *err);
 
@@ -35,6 +36,9 @@ int job_resolve_targets(Scene *scene, const RenderParams *render, const char *co
 
 /* The same of lamps. */
 int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *names, RetexError *err);
+
+/* The same of finishes, after both. RETEX_EUNSUPPORTED for targets that let light through. */
+int job_resolve_finishes(Scene *scene, const JobNames *names, RetexError *err);
 
 /* Whether no surface belongs to target t. A surface belongs to the first target that names it, so a target without
  * surfaces is a mistake. */

@@ -6,7 +6,7 @@
 
 int path_worker_open(PathWorker *w, RetexError *err)
 {
-    return w->context->split ? split_open(&w->split, w->pixel, PATHS_MAX, w->context->scene->nlamps, err) : RETEX_OK;
+    return w->context->split ? split_open(&w->split, w->pixel, PATHS_MAX, w->context->scene, err) : RETEX_OK;
 }
 
 void path_worker_close(PathWorker *w)
@@ -16,8 +16,12 @@ void path_worker_close(PathWorker *w)
 
 Factor shading_factor(const Shading *s, Float4 d, Float4 i)
 {
-    return (Factor){
-        s->surface.target, d, i, color4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0, 0};
+    return (Factor){.target = s->surface.target,
+                    .d = d,
+                    .i = i,
+                    .albedo = color4(shading_albedo(s, 0)),
+                    .albedos = s->replaced ? s->albedos : NULL,
+                    .uv = s->uv};
 }
 
 const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
@@ -42,17 +46,18 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->specular = 0, path->light_group = NULL;
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
-    split_start(&path->split);
+    split_start(&w->split, &path->split, (int)(path->control - w->controls));
     if (w->control)
         control_start(path->control, c->nvariants);
 }
 
-int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
+int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, const FinishFactor *finishes,
+                      int reflects)
 {
     const PathContext *c = w->context;
     Rgb *betas = path->control->betas;
     Factor factor = shading_factor(s, d, i);
-    factor.reflects = reflects;
+    factor.finishes = finishes, factor.reflects = reflects;
     set_seen(&factor, path);
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)

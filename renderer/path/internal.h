@@ -48,7 +48,15 @@ typedef struct DirectLightSample {
     float pdf;       /* with which the BSDF and the guide would sample its direction */
     Factor factors[1 + LIGHT_FACTORS_MAX];
     int nfactors;
+    FinishFactor finishes[FINISHES_MAX]; /* of the vertex, where it has several */
 } DirectLightSample;
+
+/* What scatters at a vertex on a target with finishes, by finish. */
+typedef struct VertexFinishes {
+    int count; /* 0: the surface's own is the only one */
+    int shown; /* the one in the picture, whose BSDF the shading has too */
+    Bsdf of[FINISHES_MAX];
+} VertexFinishes;
 
 /* Where a ray met the scene, and what is chosen there. */
 typedef struct Vertex {
@@ -62,6 +70,7 @@ typedef struct Vertex {
     LightPick pick;
     DirectLightSample light;
     Texture white;            /* in place of the surface's own, where PathContext.white */
+    VertexFinishes finishes;
     float wavelength;         /* that light has on the far side of a surface that disperses it; -1: none of its own */
     const CausticsCell *cell; /* of the guide to caustics; NULL: none here, or nothing scatters widely */
 } Vertex;
@@ -93,14 +102,15 @@ static inline int path_is_alive(const PathWorker *w, const Path *path)
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
     path->beta *= color4(by);
-    path->split.rest *= color4(by);
+    split_scale(&w->split, &path->split, color4(by));
     for (int v = 1; v < w->context->nvariants; v++)
         path->control->betas[v] = rgb_mul(path->control->betas[v], by);
     return path_is_alive(w, path);
 }
-/* Multiply throughput by the factor of a surface, d times its colour plus i: in sets this may be a hit. Returns
- * path_is_alive. */
-int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i, int reflects);
+/* Multiply throughput by the factor of a surface, d times its colour plus i, or by finish where it has several (else
+ * NULL): in sets this may be a hit. Returns path_is_alive. */
+int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i,
+                      const FinishFactor *finishes, int reflects);
 /* Hand a contribution to all sinks. */
 void path_contribute(PathWorker *worker, Path *path, const Contribution *contribution);
 /* Hand the path's light over to the film, which takes paths one after the other. */
@@ -176,11 +186,25 @@ static inline double shadow_ray_end(Vec3 position, const LightSample *light)
 }
 /* Emitted radiance over albedo: only the opaque share of a surface emits. */
 Split surface_emission(const Shading *s);
-const CausticsCell *guide_cell(const PathContext *context, const Shading *s);
+const CausticsCell *guide_cell(const PathContext *context, const Vertex *vertex);
 void sample_direct_light(PathWorker *worker, const Path *path, Vertex *vertex);
 /* Sample a direction by the BSDF or by the guide: first between delta lobes and the rest. The sample's weight and
- * density are the BSDF's own; *pdf gets the density of both together. */
-int sample_direction(const Vertex *vertex, BsdfSample *sample, float *pdf);
+ * density are the BSDF's own; *pdf gets the density of both together. weights: of each finish, where there are
+ * several. */
+int sample_direction(const Vertex *vertex, BsdfSample *sample, Split weights[FINISHES_MAX], float *pdf);
+
+/* ---- finishes.c: vertices on targets with finishes ---- */
+
+/* Make the BSDFs of all finishes, once the shading is known but for its own; that becomes the one shown. */
+void finishes_setup(Vertex *vertex, const Scene *scene, Vec3 wo);
+/* As bsdf_eval, with one finish: of the one shown, and by finish; the density is the mean of theirs, by which finishes_
+ * sample samples. */
+Split finishes_eval(const Vertex *vertex, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf);
+int finishes_sample(const Vertex *vertex, float u_lobe, float u1, float u2, BsdfSample *sample,
+                    Split weights[FINISHES_MAX]);
+/* As bsdf_wide_probability and split_neutral, their means. */
+float finishes_wide_probability(const Vertex *vertex);
+float finishes_neutral(const Vertex *vertex, const Split weights[FINISHES_MAX]);
 
 static inline float mis_weight(float a, float b)
 {
@@ -226,11 +250,12 @@ void add_direct_light(PathWorker *worker, Path *path, Vertex *vertex);
 /* Sample the BSDF, multiply throughput, and make the ray to go on with. Returns 0 where the path ends. */
 int scatter(PathWorker *worker, Path *path, const Vertex *vertex, BsdfSample *next, Ray *ray);
 /* Multiply throughput by the weight of a BSDF sample. Returns path_is_alive. */
-static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight, int reflects)
+static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight,
+                                    const FinishFactor *finishes, int reflects)
 {
     if (surface_is_unsplit(w->context, s) && !s->replaced)
         return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
-    return path_apply_factor(w, path, s, color4(weight.d), color4(weight.i), reflects);
+    return path_apply_factor(w, path, s, color4(weight.d), color4(weight.i), finishes, reflects);
 }
 /* Begin the next segment, whose direction was sampled with density pdf, of which the BSDF's own share is bsdf_pdf. */
 static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)

@@ -95,7 +95,7 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     double density;
     Vec3 normal, geometric;
     if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal ||
-        s->surface.primitive->double_illuminate)
+        s->surface.primitive->double_illuminate || shading_has_finishes(s, c->scene))
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
     LightSampleContext context = {s->surface.position, normal, s->surface.primitive->light_group};
@@ -169,7 +169,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->beta_neutral *= at_most(split_neutral(weight), 1);
-    if (!path_apply_weight(w, path, s, weight, 1))
+    if (!path_apply_weight(w, path, s, weight, NULL, 1))
         return 0;
     path->kind = RAY_BOUNCE;
     path->prev_context =

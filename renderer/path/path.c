@@ -76,7 +76,11 @@ static void print_hit(const PathContext *c, const Hit *hit, const Shading *s)
 void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *hit)
 {
     const PathContext *c = w->context;
-    shading_bsdf(&v->s, path->leaving ? v->s.surface.shading_normal : vec_neg(ray->direction));
+    v->finishes.count = 0;
+    if (shading_has_finishes(&v->s, c->scene) && !path->leaving && !(c->white && is_first_hit(path)))
+        finishes_setup(v, c->scene, vec_neg(ray->direction));
+    else
+        shading_bsdf(&v->s, path->leaving ? v->s.surface.shading_normal : vec_neg(ray->direction));
     if (c->white && is_first_hit(path))
         whiten(v, ray);
     v->wavelength = -1;
@@ -84,7 +88,7 @@ void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *
         disperse(w, path, v, vec_neg(ray->direction));
     if (c->trace)
         print_hit(c, hit, &v->s);
-    v->cell = guide_cell(c, &v->s);
+    v->cell = guide_cell(c, v);
 }
 
 void observe_first_hit(PathWorker *w, const Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
@@ -204,19 +208,23 @@ static void meet_sources(PathWorker *w, Path *path, const Vertex *v, const BsdfS
 int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *ray)
 {
     const Shading *s = &v->s;
+    Split weights[FINISHES_MAX];
+    FinishFactor finishes[FINISHES_MAX];
     float pdf;
     path->leaving = 0;
     if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts))
         return 0; /* no segment is left, and nothing passes straight */
-    if (!sample_direction(v, next, &pdf))
+    if (!sample_direction(v, next, weights, &pdf))
         return 0;
     /* By the BSDF's own weight: the guide sends more paths to where light is expected, which must not end them. */
-    path->beta_neutral *= at_most(split_neutral(next->weight) * eta_scale(&s->bsdf, next), 1);
-    if (pdf != next->pdf) {
-        float guided = next->pdf / pdf;
+    const float neutral = v->finishes.count ? finishes_neutral(v, weights) : split_neutral(next->weight);
+    path->beta_neutral *= at_most(neutral * eta_scale(&s->bsdf, next), 1);
+    const float guided = pdf != next->pdf ? next->pdf / pdf : 1;
+    if (pdf != next->pdf)
         next->weight = (Split){rgb_scale(next->weight.d, guided), rgb_scale(next->weight.i, guided)};
-    }
-    if (!path_apply_weight(w, path, s, next->weight, !next->transmitted))
+    for (int k = 0; k < v->finishes.count; k++)
+        finishes[k] = (FinishFactor){color4(weights[k].d) * splat(guided), color4(weights[k].i) * splat(guided)};
+    if (!path_apply_weight(w, path, s, next->weight, v->finishes.count ? finishes : NULL, !next->transmitted))
         return 0;
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,

@@ -45,11 +45,25 @@ void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *var
         s->opacity = pigment_opacity(s->surface.texture->pigment, c);
 }
 
+static inline void setup(const Shading *s, const Surface *surface, Vec3 wo, Bsdf *bsdf)
+{
+    bsdf_setup(bsdf, surface, wo, s->filter, s->transmit, s->opacity);
+    if (s->is_layer)
+        bsdf_stop_passing(bsdf);
+}
+
 void shading_bsdf(Shading *s, Vec3 wo)
 {
-    bsdf_setup(&s->bsdf, &s->surface, wo, s->filter, s->transmit, s->opacity);
-    if (s->is_layer)
-        bsdf_stop_passing(&s->bsdf);
+    setup(s, &s->surface, wo, &s->bsdf);
+}
+
+void shading_bsdf_finish(const Shading *s, const Finish *finish, Vec3 wo, Bsdf *bsdf)
+{
+    Surface surface = s->surface;
+    Texture texture = *surface.texture;
+    texture.finish = finish;
+    surface.texture = &texture;
+    setup(s, &surface, wo, bsdf);
 }
 
 void shading_bsdf_wavelength(Shading *s, Vec3 wo, double wavelength)

@@ -34,8 +34,15 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
 
+/* Whether its target is rendered with other finishes than its own. */
+static inline int shading_has_finishes(const Shading *s, const Scene *scene)
+{
+    return s->surface.target >= 0 && scene->targets[s->surface.target].nfinishes > 0;
+}
 /* Make the BSDF, once the rest is known; below, for light of one wavelength. */
 void shading_bsdf(Shading *shading, Vec3 wo);
+/* The same with another finish. */
+void shading_bsdf_finish(const Shading *shading, const Finish *finish, Vec3 wo, Bsdf *bsdf);
 /* Whether it lets light through, which it refracts by wavelength. */
 static inline int shading_disperses(const Shading *s)
 {

@@ -44,9 +44,27 @@ LightSampleContext light_sample_context(const Shading *s)
 
 /* ---- directions by the guide to caustics ---- */
 
-const CausticsCell *guide_cell(const PathContext *c, const Shading *s)
+static inline float wide_probability(const Vertex *v)
 {
-    return c->caustics && bsdf_wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
+    return v->finishes.count ? finishes_wide_probability(v) : bsdf_wide_probability(&v->s.bsdf);
+}
+
+const CausticsCell *guide_cell(const PathContext *c, const Vertex *v)
+{
+    return c->caustics && wide_probability(v) > 0 ? caustics_find(c->caustics, v->s.surface.position) : NULL;
+}
+
+/* Values and density of a direction: of the finish shown, and of all. */
+static inline Split eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf)
+{
+    return v->finishes.count ? finishes_eval(v, wi, light, values, pdf) : bsdf_eval(&v->s.bsdf, wi, light, pdf);
+}
+
+static inline int sample_bsdf(const Vertex *v, float u_lobe, BsdfSample *sample, Split weights[FINISHES_MAX])
+{
+    const float u = v->numbers->direction_u[v->lane], w = v->numbers->direction_v[v->lane];
+    return v->finishes.count ? finishes_sample(v, u_lobe, u, w, sample, weights)
+                             : bsdf_sample(&v->s.bsdf, u_lobe, u, w, sample);
 }
 
 /* Density of a direction by BSDF and guide together, given the BSDF's own. The guide only samples wo's side. */
@@ -59,11 +77,11 @@ static float guided_density(const Vertex *v, Vec3 wi, float pdf)
     if (vec_dot(wi, b->normal) <= 0 || vec_dot(wi, b->geometric) <= 0)
         return pdf;
     /* the guide takes a share of the choice of lobes that are no deltas */
-    return pdf + v->cell->share * bsdf_wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
+    return pdf + v->cell->share * wide_probability(v) * caustics_density(v->cell, v->s.surface.position, wi);
 }
 
 /* Sample a direction by the guide; weight and density are those of the BSDF for it. */
-static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
+static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample, Split weights[FINISHES_MAX])
 {
     const Bsdf *b = &v->s.bsdf;
     *sample = (BsdfSample){0};
@@ -71,31 +89,32 @@ static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
                                  v->numbers->direction_v[v->lane]);
     if (vec_dot(sample->wi, b->normal) <= 0 || vec_dot(sample->wi, b->geometric) <= 0)
         return 0;
-    Split f = bsdf_eval(b, sample->wi, BSDF_ANY_LIGHT, &sample->pdf);
+    Split f = eval(v, sample->wi, BSDF_ANY_LIGHT, weights, &sample->pdf);
     if (sample->pdf <= 0)
         return 0;
     sample->weight = (Split){rgb_scale(f.d, 1 / sample->pdf), rgb_scale(f.i, 1 / sample->pdf)};
+    for (int k = 0; k < v->finishes.count; k++)
+        weights[k] = (Split){rgb_scale(weights[k].d, 1 / sample->pdf), rgb_scale(weights[k].i, 1 / sample->pdf)};
     return 1;
 }
 
-int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
+int sample_direction(const Vertex *v, BsdfSample *sample, Split weights[FINISHES_MAX], float *pdf)
 {
-    const Bsdf *b = &v->s.bsdf;
     const VertexSamples *u = v->numbers;
     float u_lobe = u->lobe[v->lane];
     int found;
     if (!v->cell) {
-        found = bsdf_sample(b, u_lobe, u->direction_u[v->lane], u->direction_v[v->lane], sample);
+        found = sample_bsdf(v, u_lobe, sample, weights);
         *pdf = sample->pdf;
         return found;
     }
-    float share = v->cell->share, wide = bsdf_wide_probability(b), delta = 1 - wide, rest = (u_lobe - delta) / wide;
+    float share = v->cell->share, wide = wide_probability(v), delta = 1 - wide, rest = (u_lobe - delta) / wide;
     if (rest >= 0 && rest < share) {
-        found = sample_guide(v, rest / share, sample);
+        found = sample_guide(v, rest / share, sample, weights);
     } else {
         if (rest >= 0) /* the rest of u, uniform in [0,1) again */
             u_lobe = at_most(delta + (rest - share) / (1 - share) * wide, 1 - 0x1p-24f);
-        found = bsdf_sample(b, u_lobe, u->direction_u[v->lane], u->direction_v[v->lane], sample);
+        found = sample_bsdf(v, u_lobe, sample, weights);
     }
     if (!found)
         return 0;
@@ -121,14 +140,21 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
     if (is_source && !light_reaches(light->source, s->surface.primitive->light_group))
         return;
     const BsdfLight kind = !is_source ? BSDF_ANY_LIGHT : light->shadowless ? BSDF_SHADOWLESS : BSDF_LIGHT_SOURCE;
-    Split f = bsdf_eval(&s->bsdf, light->direction, kind, &sample->pdf);
-    if (rgb_is_black(f.d) && rgb_is_black(f.i))
+    Split values[FINISHES_MAX];
+    Split f = eval(v, light->direction, kind, values, &sample->pdf);
+    int is_black = rgb_is_black(f.d) && rgb_is_black(f.i);
+    for (int i = 0; i < v->finishes.count; i++) {
+        sample->finishes[i] = (FinishFactor){color4(values[i].d), color4(values[i].i)};
+        is_black &= rgb_is_black(values[i].d) && rgb_is_black(values[i].i);
+    }
+    if (is_black)
         return;
     if (!is_source)
         sample->pdf = guided_density(v, light->direction, sample->pdf);
     sample->found = 1;
     sample->traced = 0;
     sample->factors[0] = shading_factor(s, color4(f.d), color4(f.i));
+    sample->factors[0].finishes = v->finishes.count ? sample->finishes : NULL;
     sample->nfactors = 1 + light_factors(w, path, k, light, sample->factors + 1);
     sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
     const Vec3 direction = is_source ? light->shadow_direction : light->direction;

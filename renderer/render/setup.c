@@ -48,7 +48,7 @@ double render_bytes(const Scene *scene, const RenderParams *p, int width, int he
                              .sharp = p->sharp,
                              .broad = p->broad,
                              .spp = p->spp,
-                             .nlamps = scene->nlamps,
+                             .nkept = scene->nkept,
                              .noise = p->denoise_data};
     const double guides = p->denoise_data && !p->stored ? 19 + scene->ntargets : 0;
     return film_bytes(&film, scene->ntargets, p->stored) +
@@ -152,7 +152,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
         code = accel_create_within(&r->accel, scene, r->params.nthreads, r->params.budget, err);
     if (!code)
         code = lights_create(&r->lights, scene, r->params.light_share, err);
-    int split = !r->params.plain && (scene->ntargets > 0 || scene->nlamps > 0);
+    int split = !r->params.plain && (scene->ntargets > 0 || scene->nkept > 0);
     r->context = (PathContext){.scene = scene,
                                .accel = r->accel,
                                .lights = r->lights,
@@ -281,7 +281,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .broad = r->params.broad,
                        .quadrants = r->context.places && !r->params.no_quadrants,
                        .noise = keeps_denoise_data(&r->params),
-                       .nlamps = r->context.split ? r->scene->nlamps : 0,
+                       .nkept = r->context.split ? r->scene->nkept : 0,
                        .stored = r->params.stored};
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);

@@ -413,6 +413,7 @@ int scene_resolve_lamps(Scene *scene, const char *const *specs, int nspecs, Rete
         *rest = (Lamp){.name = REST, .several = 1, .value = rgb_grey(1), .kept = rgb_grey(1)};
     for (int l = 0; l < scene->nlamps; l++)
         scene_light_lamp(&scene->lamps[l], scene->lamps[l].value, 1);
+    scene_number_kept(scene);
     return code;
 }
 
@@ -421,17 +422,6 @@ void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept)
     lamp->value = value;
     lamp->shown = rgb(value.r / lamp->kept.r, value.g / lamp->kept.g, value.b / lamp->kept.b);
     lamp->weight = is_kept ? 1 : fmaxf(LEAST_WEIGHT, rgb_luminance(value) / rgb_luminance(lamp->kept));
-}
-
-RetexParameter lamp_parameter(const Lamp *lamp)
-{
-    RetexParameter parameter = {.kind = RETEX_PARAMETER_COLOR,
-                                .target = -1,
-                                .value = {lamp->value.r, lamp->value.g, lamp->value.b},
-                                .kept = {lamp->kept.r, lamp->kept.g, lamp->kept.b},
-                                .several = lamp->several};
-    snprintf(parameter.name, sizeof parameter.name, "%s", lamp->name);
-    return parameter;
 }
 
 /* ---- each ---- */

@@ -571,12 +571,27 @@ typedef struct Rainbow {
     struct Rainbow *next;
 } Rainbow;
 
+/* A finish that the scene declares, by its name. */
+typedef struct NamedFinish {
+    const char *name;
+    const Finish *finish;
+} NamedFinish;
+
+/* What a target may be finished with, to choose after rendering. */
+#define FINISHES_MAX RETEX_FINISHES_MAX
+typedef struct TargetFinish {
+    char name[RETEX_NAME_MAX];
+    const Finish *finish; /* NULL: what the scene has */
+} TargetFinish;
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
     int is_pointed_at;       /* 1: one of them selects objects or colours that need no name */
     double uv_unit[2];       /* path/target_units.h; 0, 0: UV are those of shapes and patterns */
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
+    int nfinishes;           /* 0: it keeps its own */
+    TargetFinish finishes[FINISHES_MAX];
 } Target;
 
 /* Emitters whose light can be changed after rendering: light sources, surfaces that emit, the sky. A lamp has one
@@ -592,6 +607,16 @@ typedef struct Lamp {
     Rgb shown;        /* by which traced light is multiplied in the picture */
     float weight;     /* of its light where lights are chosen, 0 or more: 1 where its light is kept apart */
 } Lamp;
+
+/* Light whose images sets keep apart: of one lamp, or all where there are none, with one choice among the finishes of
+ * all targets (a combination), or of paths that met no target which has several. */
+#define COMBINATIONS_MAX 8
+#define KEPT_MAX 27 /* LAMPS_MAX lamps and the rest; or with combinations, at most 16 times the lamps, and one more */
+typedef struct KeptLight {
+    char name[RETEX_NAME_MAX]; /* of its parameter */
+    int lamp;
+    int combination; /* -1: such a target was not met, or there is none */
+} KeptLight;
 
 /* What an identifier is called where it comes from, which identifiers cannot be called. */
 typedef struct SceneName {
@@ -639,6 +664,13 @@ typedef struct Scene {
     SceneName *names;        /* of retex_names */
     int ntargets;
     Target targets[RETEX_MAX_TARGETS];
+    int nnamed_finishes;
+    NamedFinish *named_finishes;   /* those that are #declared */
+    int ncombinations;             /* 0: no target has several finishes; else 2 to COMBINATIONS_MAX */
+    int shown;                     /* the combination that the picture has */
+    unsigned char finish_of[COMBINATIONS_MAX][RETEX_MAX_TARGETS]; /* by combination and target, of its finishes */
+    int nkept;                     /* 0: there are neither lamps nor combinations */
+    KeptLight kept[KEPT_MAX];      /* by lamp; of each what met no target with several finishes, then combinations */
 } Scene;
 
 /* The k-th texture of a primitive, from 0: its own, the interior's, those of its parts; and the target that it is as a
@@ -667,6 +699,28 @@ int scene_each_lamp(Scene *scene, int sky_shines, const char *const **specs, int
  * lights are chosen as before; else by what it is now. */
 void scene_light_lamp(Lamp *lamp, Rgb value, int is_kept);
 RetexParameter lamp_parameter(const Lamp *lamp); /* as sets have it */
+
+/* Each of one --finish of the command line: "TARGET=NAME,NAME"; names are those of finishes that the scene declares,
+ * of built-in ones, or `original`. shown: each "TARGET=NAME", the finish in the picture; else it is the first. After
+ * targets and lamps are resolved. */
+int scene_resolve_finishes(Scene *scene, const char *const *specs, int nspecs, const char *const *shown, int nshown,
+                           RetexError *err);
+/* Number the light that is kept apart, once lamps or combinations are known. */
+void scene_number_kept(Scene *scene);
+/* What can be named there besides: the k-th built-in finish, or NULL. */
+const char *scene_built_in_finish(int k);
+/* The finish that a texture of a target has in a combination. */
+static inline const Finish *target_finish(const Target *target, int k, const Finish *own)
+{
+    return target->finishes[k].finish ? target->finishes[k].finish : own;
+}
+RetexParameter kept_parameter(const Scene *scene, int kept); /* as sets have it */
+Rgb kept_color(const Scene *scene, int kept); /* by which its light is multiplied while paths are traced */
+/* The kept light of a lamp and a combination; -1: of paths that met no target with several finishes. */
+static inline int scene_kept(const Scene *scene, int lamp, int combination)
+{
+    return scene->ncombinations ? lamp * (1 + scene->ncombinations) + 1 + combination : lamp;
+}
 /* The light of the air, such as fog, is of the lamp that is the rest. */
 static inline int scene_rest_lamp(const Scene *scene)
 {

@@ -396,6 +396,31 @@ static __attribute__((noinline)) int sample_sheen(const Bsdf *b, float u1, float
     return vec_dot(sample->wi, b->geometric) > 0 && take_direction(b, sample);
 }
 
+static int is_along(const BsdfSample *sample, Vec3 wi, double tolerance)
+{
+    const Vec3 between = vec_sub(sample->wi, wi);
+    return vec_dot(between, between) < tolerance;
+}
+
+Split bsdf_delta(const Bsdf *b, Vec3 wi, double tolerance, float *p)
+{
+    Split sum = {{0, 0, 0}, {0, 0, 0}};
+    BsdfSample sample = {.pdf = 0};
+    *p = 0;
+    if (b->lambert)
+        return sum;
+    if (b->p_mirror > 0 && sample_mirror(b, &sample) && is_along(&sample, wi, tolerance)) {
+        *p = b->p_mirror;
+        sum = b->mirror;
+    }
+    if (b->coating.present && b->coating.coat.p > 0 && !(b->coating.coat.alpha > 0) &&
+        sample_coat(b, 0.5f, 0.5f, &sample) && is_along(&sample, wi, tolerance)) {
+        *p += b->coating.coat.p;
+        sum.i = rgb_add(sum.i, rgb_grey(coating_mirrored(&b->coating, b->wo)));
+    }
+    return sum;
+}
+
 int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
 {
     if (b->lambert)

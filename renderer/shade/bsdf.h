@@ -90,6 +90,10 @@ Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, BsdfLight light, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
 
+/* Weight of the delta lobes of an opaque surface that reflect along wi, where they are sampled with probability *p:
+ * directions whose squared difference is below `tolerance` are the same. 0 and 0 where there is none. */
+Split bsdf_delta(const Bsdf *bsdf, Vec3 wi, double tolerance, float *p);
+
 /* A direction in which light goes below the surface. */
 Vec3 bsdf_enter(const Bsdf *bsdf, float u1, float u2);
 

@@ -114,6 +114,8 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >                               opts as in retex-sample
 >       --light NAME=VALUE      give lamp NAME another brightness or colour: 0,
 >                               2.5, #ffd0a0, 3000K, 1.5*3000K
+>       --finish TARGET=NAME    give TARGET another of the finishes that the set
+>                               has for it
 >       --solo NAME             turn off all lamps but NAME, and those of --light
 >       --display NAME          OCIO display for the picture
 >       --view NAME             OCIO view of that display

@@ -136,8 +136,10 @@ static double share_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp
 
 void test_divide_light(RetexSet *set)
 {
-    RetexParameter lamps[2] = {{"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}, {1, 0.5f, 2}, 0},
-                               {"Window", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}, {1, 1, 1}, 0}};
+    const RetexParameter lamps[2] = {
+        {.name = "Lamp", .target = -1, .value = {1, 0.5f, 2}, .kept = {1, 0.5f, 2}},
+        {.name = "Window", .target = -1, .value = {1, 1, 1}, .kept = {1, 1, 1}},
+    };
     RetexError err = {0};
     const int nterms = set->nterms;
     int numbers[2];
@@ -167,9 +169,10 @@ void test_add_lamp_terms(RetexSet *set, int off, int several)
 {
     enum { LAMPS = 3 };
     const RetexParameter lamps[LAMPS] = {
-        {"Lamp", RETEX_PARAMETER_COLOR, -1, {1, 0.5f, 2}, {1, 0.5f, 2}, several},
-        {"Window", RETEX_PARAMETER_COLOR, -1, {(float)!off, (float)!off, (float)!off}, {1, 1, 1}, 0},
-        {"rest", RETEX_PARAMETER_COLOR, -1, {1, 1, 1}, {1, 1, 1}, 0}};
+        {.name = "Lamp", .target = -1, .value = {1, 0.5f, 2}, .kept = {1, 0.5f, 2}, .several = several},
+        {.name = "Window", .target = -1, .value = {(float)!off, (float)!off, (float)!off}, .kept = {1, 1, 1}},
+        {.name = "rest", .target = -1, .value = {1, 1, 1}, .kept = {1, 1, 1}},
+    };
     RetexError err = {0};
     const int nterms = set->nterms;
     for (int k = 0; k < LAMPS; k++) {

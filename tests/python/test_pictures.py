@@ -193,6 +193,21 @@ def test_cross():
                   combined("room.exr", "--texture", "Floor=" + OAK, "--cross", str(cross)))
 
 
+def test_finishes():
+    """Finishes: as retex-combine makes them; of a text; unknown ones"""
+    lib.run("retex-render", "-q", "--size", "32x24", "--spp", "4", "--finish", "Floor=original,Gloss",
+            lib.ROOT + "/tests/cli/finishes.pov", "-o", "finishes.exr")
+    with retex.open("finishes.exr") as room:
+        gloss = room.combine({"Floor": TERRAZZO}, finishes={"floor": "gloss"})
+        check(gloss, combined("finishes.exr", "--finish", "Floor=Gloss", "--texture", "Floor=" + TERRAZZO))
+        assert np.array_equal(gloss, room.combine(f"Floor={TERRAZZO};finish:Floor=Gloss"))
+        assert not np.array_equal(gloss, room.combine({"Floor": TERRAZZO}))
+        assert "is Gloss meant?" in str(lib.fails(retex.Error, room.combine, finishes={"Floor": "Glos"}))
+        assert "has no lamps" in str(lib.fails(retex.Error, room.combine, lights={"Lamp": 1}))
+    with retex.open("room.exr") as room:
+        assert "--finish" in str(lib.fails(retex.Error, room.combine, finishes={"Floor": "matt"}))
+
+
 def test_lights():
     """Lamps: each alone adds up to the whole; values in all their forms; unknown lamps"""
     lib.run("make_lamp_terms", "room.exr", "lit.exr")

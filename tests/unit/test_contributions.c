@@ -75,13 +75,13 @@ static void end(Fixture *f)
 /* The floor, which reflects d times its albedo of 1/2. */
 static Factor floor_factor(float d, double u)
 {
-    return (Factor){0, color4(rgb_grey(d)), splat(0), color4(rgb_grey(0.5f)), NULL, {u, 0.25}, 1, 0, 0};
+    return (Factor){.d = splat(d), .i = splat(0), .albedo = splat(0.5f), .uv = {u, 0.25}, .reflects = 1};
 }
 
 static void bounce(Fixture *f, double u)
 {
     const Shading floor = {.surface = {.target = 0}, .albedo = rgb_grey(0.5f), .uv = {u, 0.25}};
-    assert_true(path_apply_factor(&f->worker, &f->path, &floor, splat(1), splat(0), 1));
+    assert_true(path_apply_factor(&f->worker, &f->path, &floor, splat(1), splat(0), NULL, 1));
 }
 
 static void bring(Fixture *f, float light)

@@ -58,7 +58,7 @@ test("a picture without a scale lies as the tools lay it", () => {
 });
 
 test("light and tints are statements too", async () => {
-  const state = { textures: Object.assign(Object.create(null), { Floor: { source: "a.jpg", scale: [2, 3], tint: "#fda" } }), light: { exposure: 0.5, warmth: -1 }, lamps: Object.create(null) };
+  const state = { textures: Object.assign(Object.create(null), { Floor: { source: "a.jpg", scale: [2, 3], tint: "#fda" } }), light: { exposure: 0.5, warmth: -1 }, lamps: Object.create(null), finishes: Object.create(null) };
   same(parseEdit("warmth=-1;Floor.tint=#fda&Floor=a.jpg;exposure=.5;Floor.scale=2,3"), state);
   same(editText(state), "Floor=a.jpg;Floor.scale=2,3;Floor.tint=#fda;exposure=0.5;warmth=-1");
   same(parseEdit("exposure=a.jpg;exposure.scale=2").textures.exposure, { source: "a.jpg", scale: [2, 2] });
@@ -106,7 +106,7 @@ test("the slider of warmth knows its own colours, and no others", () => {
 });
 
 test("random states come back from their texts", () => {
-  const next = random(3), lamps = Object.create(null), of = (list) => list[next(0, list.length - 1)];
+  const next = random(3), lamps = Object.create(null), finishes = Object.create(null), of = (list) => list[next(0, list.length - 1)];
   const number = () => (next(-1000, 1000) / 100 || 1) * (next(0, 5) ? 1 : 10 ** next(-30, 30));
   const word = () => Array.from({ length: next(1, 6) }, () => of([..."aZ.;&%25 Eé#()/:_\n"])).join("");
   for (let k = 0; k < 2000; k++) {
@@ -115,8 +115,9 @@ test("random states come back from their texts", () => {
       textures[word()] = { source: `./${word()}=`, scale: [number(), number()], rotate: number(), offset: [number(), number()], flip: of(["u", "v", "uv"]),
         wrap: of(["clamp", "mirror,repeat"]), repeat: "mirror", tint: of(["tan", "#123"]) };
     lamps[word()] = lampText({ gain: Math.min(Math.abs(number()), 1e30), color: next(0, 1) ? kelvinColor(next(1000, 40000)) : null });
-    if (k % 5 === 0) for (const name of Object.keys(lamps)) delete lamps[name];
-    const state = { textures, light: { exposure: number() }, lamps }, text = editText(state);
+    finishes[word()] = word();
+    if (k % 5 === 0) for (const said of [lamps, finishes]) for (const name of Object.keys(said)) delete said[name];
+    const state = { textures, light: { exposure: number() }, lamps, finishes }, text = editText(state);
     same(parseEdit(text), state, text);
     same(editText(parseEdit(text)), text);
   }

@@ -213,22 +213,36 @@ static int next_row(Reader *reader, TableRow *row)
     }
 }
 
+static const char *after_prefix(const TextureTable *table, int column, const char *prefix)
+{
+    const char *name = table->columns[column];
+    return strncmp(name, prefix, strlen(prefix)) == 0 ? name + strlen(prefix) : NULL;
+}
+
 const char *texture_table_lamp(const TextureTable *table, int column)
 {
-    static const char prefix[] = "light:";
-    const char *name = table->columns[column];
-    return strncmp(name, prefix, sizeof prefix - 1) == 0 ? name + sizeof prefix - 1 : NULL;
+    return after_prefix(table, column, "light:");
+}
+
+const char *texture_table_finish(const TextureTable *table, int column)
+{
+    return after_prefix(table, column, "finish:");
+}
+
+int texture_table_is_target(const TextureTable *table, int column)
+{
+    return !texture_table_lamp(table, column) && !texture_table_finish(table, column);
 }
 
 /* Parse a cell that is not empty. */
 static int parse_cell(const TextureTable *table, RetexTextureSpec *spec, int column, const char *cell, RetexError *err)
 {
     const char *name = table->columns[column];
-    const int is_lamp = texture_table_lamp(table, column) != NULL;
+    const int is_target = texture_table_is_target(table, column);
     retex_edit_clear(table->edit);
     const int code =
-        is_lamp ? retex_edit_set(table->edit, name, cell, err) : retex_edit_cell(table->edit, name, cell, err);
-    if (!code && !is_lamp)
+        is_target ? retex_edit_cell(table->edit, name, cell, err) : retex_edit_set(table->edit, name, cell, err);
+    if (!code && is_target)
         *spec = *retex_edit_texture(table->edit, 0);
     return code;
 }
@@ -269,7 +283,7 @@ static int read_columns(Reader *reader)
     int targets = 0;
     for (int i = 0; i < row.ncells - 1; i++) {
         table->columns[i] = table->cells[1 + i];
-        targets += !texture_table_lamp(table, i);
+        targets += texture_table_is_target(table, i);
     }
     if (targets > RETEX_MAX_TARGETS) {
         texture_table_mistake(table, TABLE_ITSELF, "too many cells");
@@ -319,7 +333,7 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
 {
     const TableRow *r = &table->rows[row];
     char *cell = column + 1 < r->ncells ? table->cells[r->first + 1 + (size_t)column] : NULL;
-    if (!cell || !*cell || texture_table_lamp(table, column))
+    if (!cell || !*cell || !texture_table_is_target(table, column))
         return RETEX_ENOTFOUND;
     const int code = parse_cell(table, spec, column, cell, NULL);
     if (code)
@@ -344,7 +358,7 @@ int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, Re
     int code = RETEX_OK;
     for (int i = 0; i < table->ncolumns && i + 1 < r->ncells && !code; i++) {
         const char *cell = table->cells[r->first + 1 + (size_t)i];
-        if (*cell && texture_table_lamp(table, i))
+        if (*cell && !texture_table_is_target(table, i))
             code = retex_edit_set(edit, table->columns[i], cell, err);
     }
     return code;

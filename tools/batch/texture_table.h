@@ -63,7 +63,11 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS]);
 /* The lamp of a column, or NULL. */
 const char *texture_table_lamp(const TextureTable *table, int column);
-/* Add the lamps of a row to an edit. */
+/* The target whose finish a column is, or NULL. */
+const char *texture_table_finish(const TextureTable *table, int column);
+/* Whether it has textures for a target. */
+int texture_table_is_target(const TextureTable *table, int column);
+/* Add the lamps and finishes of a row to an edit. */
 int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, RetexError *err);
 
 /* Add a mistake of a row, or of the table itself, which line 1 stands for. */

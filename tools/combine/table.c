@@ -29,7 +29,7 @@ static void find_columns(TextureTable *table, const RetexSet *set)
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
         int t;
-        if (texture_table_lamp(table, i))
+        if (!texture_table_is_target(table, i))
             continue;
         if (retex_target_find(&t, &names, table->columns[i], &err)) {
             texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
@@ -55,6 +55,26 @@ static void find_lamps(TextureTable *table, const RetexSet *set)
             texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
         else if (taken[lamp]++)
             texture_table_mistake(table, TABLE_ITSELF, "lamp '%s' has two columns", name);
+    }
+}
+
+/* The same of finishes. */
+static void find_finishes(TextureTable *table, const RetexSet *set)
+{
+    int taken[RETEX_MAX_TARGETS] = {0}, t;
+    RetexTargetNames names;
+    retex_set_target_names(&names, set);
+    for (int i = 0; i < table->ncolumns; i++) {
+        RetexError err = {0};
+        const char *name = texture_table_finish(table, i);
+        if (!name)
+            continue;
+        if (retex_target_find(&t, &names, name, &err))
+            texture_table_mistake(table, TABLE_ITSELF, "%s", err.message);
+        else if (!retex_set_target(set, t)->nfinishes)
+            texture_table_mistake(table, TABLE_ITSELF, "the set has no finishes of '%s'", names.names[t]);
+        else if (taken[t]++)
+            texture_table_mistake(table, TABLE_ITSELF, "the finish of '%s' has two columns", names.names[t]);
     }
 }
 
@@ -175,6 +195,7 @@ int job_run_table(const Cli *cli, Job *job)
     batch_open(batch, cli, job->table);
     find_columns(&batch->table, job->set);
     find_lamps(&batch->table, job->set);
+    find_finishes(&batch->table, job->set);
     RetexError err = {0};
     if (retex_edit_bind_lamps(job->lights, job->set, &err))
         cli_fail(cli, &err);

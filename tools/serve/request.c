@@ -127,7 +127,7 @@ static int add_edits(ServeRequest *request, RetexEdit *edit, const char *text)
     return retex_edit_parse(edit, text, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
 }
 
-/* TARGET.OPTION=VALUE or light:LAMP=VALUE of a query. */
+/* TARGET.OPTION=VALUE, light:LAMP=VALUE or finish:TARGET=NAME of a query. */
 static int add_option(ServeRequest *request, RetexEdit *edit, const char *key, const char *value)
 {
     RetexError err = {0};
@@ -168,11 +168,13 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
-        } else if (retex_edit_key_is_option(query) || strncmp(query, "light:", 6) == 0) {
+        } else if (retex_edit_key_is_option(query) || strncmp(query, "light:", 6) == 0 ||
+                   strncmp(query, "finish:", 7) == 0) {
             if (add_option(request, edit, query, value))
                 return request->status;
         } else {
-            return serve_refuse(request, 400, "`%s`: expected crop, quality, TARGET.OPTION or light:LAMP, each once",
+            return serve_refuse(request, 400,
+                                "`%s`: expected crop, quality, TARGET.OPTION, light:LAMP or finish:TARGET, each once",
                                 query);
         }
     }

@@ -8,7 +8,8 @@
  *     /iiif/3/ID/REGION/SIZE/ROTATION/QUALITY.FORMAT
  *
  * EDITS are the text of an edit, see retex/edit.h, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have
- * further options of these targets, lamps `light:LAMP=VALUE`, and crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is
+ * further options of these targets, lamps `light:LAMP=VALUE`, finishes `finish:TARGET=NAME`, and crop=X,Y,WIDTH,HEIGHT,
+ * quality=1..100. SIZE is
  * WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
  *
  * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be

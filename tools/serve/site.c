@@ -355,6 +355,12 @@ static void write_target(FILE *file, const RetexTarget *target)
     fprintf(file, ", \"uv_max\": [%.6g, %.6g]", target->uv_max[0], target->uv_max[1]);
     if (target->uv_scale[0] > 0)
         fprintf(file, ", \"uv_scale\": [%.6g, %.6g]", target->uv_scale[0], target->uv_scale[1]);
+    for (int k = 0; k < target->nfinishes; k++) {
+        fputs(k ? ", " : ", \"finishes\": [", file);
+        json_text(file, target->finishes[k]);
+        if (k + 1 == target->nfinishes)
+            fprintf(file, "], \"finish\": %d", target->finish);
+    }
     fprintf(file, ", \"periodic\": [%s, %s]}", target->periodic[0] ? "true" : "false",
             target->periodic[1] ? "true" : "false");
 }
@@ -372,11 +378,11 @@ static void write_room(FILE *file, const ServeRequest *request, const RetexSet *
     }
     const char *divider = "], \"lamps\": [";
     for (int i = 0; i < info.nparameters; i++) {
-        const RetexParameter *parameter = retex_set_parameter(set, i);
-        if (parameter->kind != RETEX_PARAMETER_COLOR)
+        const char *lamp = retex_parameter_lamp(set, i);
+        if (!lamp)
             continue;
         fputs(divider, file);
-        json_text(file, parameter->name);
+        json_text(file, lamp);
         divider = ", ";
     }
     fputs("]}\n", file);

@@ -57,24 +57,31 @@ const OPTIONS = {
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
   tint: [(text) => (parseColor(text) ? text : undefined), "#ffffff"],
 };
-const LIGHT = ["exposure", "warmth"], LAMP = "light:";
+const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
 
 /* The option that a key ends with. */
 const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
 
 /* What the text of an edit says, as getState() has it. A target without a scale has the tools', not a picture's own. */
 function parseEdit(text) {
-  const textures = Object.create(null), light = {}, lamps = Object.create(null);
+  const textures = Object.create(null), light = {}, lamps = Object.create(null), finishes = Object.create(null);
   const decode = (part) => part.replace(/%(25|26|2e|3b)/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
   for (const statement of text ? text.split(/[;&]/) : []) {
     const equals = statement.indexOf("="), key = statement.slice(0, Math.max(equals, 0)), word = optionOf(key);
     const target = decode(word ? key.slice(0, -word.length - 1) : key), value = decode(statement.slice(equals + 1));
-    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE, TARGET.OPTION=VALUE or light:LAMP=VALUE.`);
+    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE, TARGET.OPTION=VALUE, light:LAMP=VALUE or finish:TARGET=NAME.`);
     if (key.startsWith(LAMP)) {
       const lamp = decode(key.slice(LAMP.length));
       if (!lamp) throw new Error(`'${statement}': expected the name of a lamp.`);
       if (lamp in lamps) throw new Error(`${key} is given twice.`);
       lamps[lamp] = lampText(parseLamp(value));
+      continue;
+    }
+    if (key.startsWith(FINISH)) {
+      const finished = decode(key.slice(FINISH.length));
+      if (!finished) throw new Error(`'${statement}': expected the name of a target.`);
+      if (finished in finishes) throw new Error(`${key} is given twice.`);
+      finishes[finished] = value;
       continue;
     }
     const isLight = LIGHT.includes(key) && isFinite(numberOf(value)), said = isLight ? light : (textures[target] ||= {});
@@ -90,7 +97,7 @@ function parseEdit(text) {
     if (!parseColor(said.source)) said.scale ||= [1, 1];
   }
   if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
-  return { textures, light, lamps };
+  return { textures, light, lamps, finishes };
 }
 
 /* The fewest digits that mean the same, as printf has them; single: as a float. */
@@ -102,7 +109,7 @@ function numberText(x, single) {
 }
 
 /* The text of an edit that says what a state does. */
-function editText({ textures = {}, light = {}, lamps = {} }) {
+function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
   const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
   const statements = [];
@@ -115,5 +122,6 @@ function editText({ textures = {}, light = {}, lamps = {} }) {
     }
   }
   for (const lamp of Object.keys(lamps).sort()) statements.push(`${LAMP}${encode(lamp)}=${lamps[lamp]}`);
+  for (const target of Object.keys(finishes).sort()) statements.push(`${FINISH}${encode(target)}=${encode(finishes[target])}`);
   return [...statements, ...LIGHT.filter((key) => light[key]).map((key) => `${key}=${numberText(light[key])}`)].join(";");
 }

@@ -195,11 +195,11 @@ static int finish_lamp_kind(FootprintFilm *film, RetexSet *set, const int *image
 static int finish_lamps(FootprintFilm *film, RetexSet *set, const Places *places, RetexError *err)
 {
     int code = RETEX_OK, parameter;
-    for (int l = 0; l < film->scene->nlamps && !code; l++) {
+    for (int l = 0; l < film->scene->nkept && !code; l++) {
         const LampImages *images = &film->lamps[l];
         RetexTerm picture = {.role = RETEX_ROLE_LAMP_PICTURE, .target = -1},
                   indep = {.role = RETEX_ROLE_LAMP, .target = -1};
-        const RetexParameter lamp = lamp_parameter(&film->scene->lamps[l]);
+        const RetexParameter lamp = kept_parameter(film->scene, l);
         code = retex_set_add_parameter(set, &lamp, &parameter, err);
         add_factors(&picture, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);
         add_factors(&indep, retex_factor(RETEX_FACTOR_PARAMETER, parameter), 1);

@@ -15,6 +15,7 @@ static void close_pixel(void **pixel)
     if (!p)
         return;
     lamps_pixel_close(&p->lamps);
+    free(p->combined);
     free(p->targets);
     free(p);
     *pixel = NULL;
@@ -28,10 +29,13 @@ static int create_pixel(void **out, void *layout, LightSums *light, UvRange *ran
         p->film = film;
         p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
         p->light = light, p->range = range;
+        if (film->scene->ncombinations)
+            p->combined = aligned_alloc(sizeof(Float4), TARGET_NODES_MAX * sizeof *p->combined);
         p->quadrants.target = QUADRANTS_NONE;
     }
-    const int code = p && p->targets ? lamps_pixel_create(&p->lamps, film, err)
-                                     : retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    const int has_memory = p && p->targets && (p->combined || !film->scene->ncombinations);
+    const int code = has_memory ? lamps_pixel_create(&p->lamps, film, err)
+                                : retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
     if (code)
         close_pixel(out);
     return code;
@@ -100,34 +104,38 @@ static inline void start_light(const FootprintFilm *film, HitLight *light, Float
     light->used = 0;
 }
 
-/* Set what the hits before this one, towards the camera, do to light that comes from it. */
-static inline void start_node(const FootprintFilm *film, Node *node, const TargetNode *hit, const Node *before)
+/* Set the light of a hit, D and I, and what the hits before it, towards the camera, do to light that comes from it. */
+static inline void start_node(const FootprintFilm *film, Node *node, FinishFactor light, FinishFactor by,
+                              const Node *before)
 {
-    start_light(film, &node->dependent, hit->dependent);
-    start_light(film, &node->independent, hit->independent);
-    node->white = target_factor_white(hit->dependent, hit->independent);
+    start_light(film, &node->dependent, light.d);
+    start_light(film, &node->independent, light.i);
+    node->white = target_factor_white(light.d, light.i);
     if (!before) {
         node->none = node->original = node->half = splat(1);
         return;
     }
-    node->none = before->none * hit->before_i;
-    node->original = before->original * (hit->before_i + hit->before_d * before->albedo);
-    node->half = before->half * (hit->before_i + hit->before_d * splat(0.5f));
+    node->none = before->none * by.i;
+    node->original = before->original * (by.i + by.d * before->albedo);
+    node->half = before->half * (by.i + by.d * splat(0.5f));
 }
 
-/* Add a hit that is an interreflection, in the monomials that have a factor of a hit before it. */
-static int add_interreflection(FootprintPixel *p, const TargetNode *hit, const Node *node)
+/* The light of a hit that is an interreflection, in the monomials that have a factor of a hit before it. */
+static inline Interreflection find_interreflection(const TargetNode *hit, const Node *node)
 {
     const HitLight *light = &node->dependent;
-    const double weight = luminance4((node->half - node->none) * (light->c[0] + light->half));
-    if (!(weight > 0))
+    return (Interreflection){.target = hit->at.target,
+                             .uv = {hit->at.uv.u, hit->at.uv.v},
+                             .weight = luminance4((node->half - node->none) * (light->c[0] + light->half)),
+                             .light = (node->original - node->none) * (light->c[0] + light->original),
+                             .albedo = color4(hit->at.albedo)};
+}
+
+static int add_interreflection(FootprintPixel *p, const Interreflection *further)
+{
+    if (!(further->weight > 0))
         return 0;
-    const Interreflection further = {.target = hit->at.target,
-                                     .uv = {hit->at.uv.u, hit->at.uv.v},
-                                     .weight = weight,
-                                     .light = (node->original - node->none) * (light->c[0] + light->original),
-                                     .albedo = color4(hit->at.albedo)};
-    clusters_add_interreflection(&p->targets[further.target], &further, p->film->params.periodic[further.target]);
+    clusters_add_interreflection(&p->targets[further->target], further, p->film->params.periodic[further->target]);
     return 1;
 }
 
@@ -170,13 +178,13 @@ static void scale_light(const FootprintFilm *film, HitLight *light, Float4 by)
 }
 
 /* Add a hit's light to the hit before it, once it has the light of all further hits itself. */
-static void gather_node(FootprintPixel *p, const TargetNode *hit, Node *node, Node *before)
+static void gather_node(FootprintPixel *p, const TargetNode *hit, Node *node, FinishFactor by, Node *before)
 {
     add_textured(p->film, &node->independent, &node->dependent, &hit->at, node->albedo);
-    add_times(p->film, &before->dependent, &node->independent, hit->before_d);
-    if (!is_black4(hit->before_i))
-        add_times(p->film, &before->independent, &node->independent, hit->before_i);
-    before->white += node->white * target_factor_white(hit->before_d, hit->before_i);
+    add_times(p->film, &before->dependent, &node->independent, by.d);
+    if (!is_black4(by.i))
+        add_times(p->film, &before->independent, &node->independent, by.i);
+    before->white += node->white * target_factor_white(by.d, by.i);
 }
 
 static void add_range(FootprintPixel *p, const TargetNode *hit)
@@ -189,7 +197,8 @@ static void finish_node(FootprintPixel *p, const SeenTarget *seen, const TargetN
 {
     int was_met = 0;
     if (hit->before) {
-        was_met = add_interreflection(p, hit, node);
+        const Interreflection further = find_interreflection(hit, node);
+        was_met = add_interreflection(p, &further);
         scale_light(p->film, &node->dependent, node->none);
     }
     was_met |= add_first(p, seen, hit, &node->dependent);
@@ -209,21 +218,92 @@ static void end_single(FootprintPixel *p, const TargetTree *path, Float4 *indep,
         add_range(p, hit);
 }
 
-static void end_several(FootprintPixel *p, const TargetTree *path, const TargetNode *const *hits, Float4 *indep,
-                        Float4 *white)
+/* Gather the light of all hits in a combination of finishes, 0 where there are none. light: D and I by hit; NULL: those
+ * of the hits. */
+static void gather_path(FootprintPixel *p, const TargetTree *path, const TargetNode *const *hits, int combination,
+                        const FinishFactor *light)
 {
+    const Scene *scene = p->film->scene;
     for (int k = 0; k < path->count; k++) {
         const TargetNode *before = hits[k]->before;
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
-        start_node(p->film, &p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
+        start_node(p->film, &p->nodes[k], light ? light[k] : (FinishFactor){hits[k]->dependent, hits[k]->independent},
+                   target_node_before(hits[k], scene, combination), before ? &p->nodes[before->number] : NULL);
     }
     for (int k = path->count - 1; k >= 0; k--)
         if (hits[k]->before)
-            gather_node(p, hits[k], &p->nodes[k], &p->nodes[hits[k]->before->number]);
+            gather_node(p, hits[k], &p->nodes[k], target_node_before(hits[k], scene, combination),
+                        &p->nodes[hits[k]->before->number]);
+}
+
+static void end_several(FootprintPixel *p, const TargetTree *path, const TargetNode *const *hits, Float4 *indep,
+                        Float4 *white)
+{
+    gather_path(p, path, hits, 0, NULL);
     for (int k = 0; k < path->count; k++) {
         if (!hits[k]->before)
             *indep += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
         finish_node(p, &path->seen, hits[k], &p->nodes[k]);
+    }
+}
+
+/* Light of the hits of a path in a combination; that which met no target with several finishes is in each of them. */
+static void find_combined_light(const Scene *scene, const TargetTree *path, int combination, FinishFactor *light)
+{
+    memset(light, 0, (size_t)path->count * sizeof *light);
+    for (const LampLight *l = path->lamp_light; l; l = l->earlier) {
+        const int own = scene->kept[l->kept].combination;
+        if (!l->hit || (own >= 0 && own != combination))
+            continue;
+        const Float4 share = splat(own < 0 ? 1 / (float)scene->ncombinations : 1);
+        light[l->hit->number].d += l->dependent * share;
+        light[l->hit->number].i += l->independent * share;
+    }
+}
+
+static void add_light(const FootprintFilm *film, HitLight *sum, const HitLight *light)
+{
+    const unsigned used = sum->used | light->used;
+    for (unsigned left = used & ~sum->used; left; left &= left - 1)
+        sum->c[__builtin_ctz(left)] = splat(0);
+    sum->used = used;
+    add_times(film, sum, light, splat(1));
+}
+
+/* As end_several, where finishes of hits differ: a path's light is gathered in each combination, and its hits get their
+ * sum. */
+static __attribute__((noinline)) void end_combined(FootprintPixel *p, const TargetTree *path,
+                                                   const TargetNode *const *hits, Float4 *indep, Float4 *white)
+{
+    const Scene *scene = p->film->scene;
+    CombinedHit *sums = p->combined;
+    FinishFactor light[TARGET_NODES_MAX];
+    for (int c = 0; c < scene->ncombinations; c++) {
+        find_combined_light(scene, path, c, light);
+        gather_path(p, path, hits, c, light);
+        lamps_end_path(p->lamps, path, hits, p->nodes, c);
+        for (int k = 0; k < path->count; k++) {
+            Node *node = &p->nodes[k];
+            if (c == 0)
+                start_light(p->film, &sums[k].first, splat(0));
+            if (!hits[k]->before) {
+                *indep += node->independent.c[0], *white += node->white;
+            } else {
+                const Interreflection further = find_interreflection(hits[k], node);
+                if (c == 0)
+                    sums[k].further = further;
+                else
+                    sums[k].further.weight += further.weight, sums[k].further.light += further.light;
+                scale_light(p->film, &node->dependent, node->none);
+            }
+            add_light(p->film, &sums[k].first, &node->dependent);
+        }
+    }
+    for (int k = 0; k < path->count; k++) {
+        int was_met = hits[k]->before && add_interreflection(p, &sums[k].further);
+        was_met |= add_first(p, &path->seen, hits[k], &sums[k].first);
+        if (was_met)
+            add_range(p, hits[k]);
     }
 }
 
@@ -238,10 +318,12 @@ static void end_path(void *pixel, const TargetTree *path)
         hits[hit->number] = hit;
     if (path->count == 1)
         end_single(p, path, &indep, &white);
+    else if (path->count && path->met)
+        end_combined(p, path, hits, &indep, &white);
     else if (path->count)
         end_several(p, path, hits, &indep, &white);
-    if (p->lamps)
-        lamps_end_path(p->lamps, path, hits, p->nodes);
+    if (p->lamps && !(path->count > 1 && path->met))
+        lamps_end_path(p->lamps, path, hits, p->nodes, -1);
     for (int c = 0; c < 3; c++)
         p->indep[c] += (double)indep[c];
     p->light->total_white += luminance4(white);

@@ -28,7 +28,7 @@ struct LampPixel {
 
 int lamps_images_needed(const FootprintFilm *film)
 {
-    return film->scene->nlamps ? 2 + 2 * film->scene->ntargets * film->lamp_plan.count : 0;
+    return film->scene->nkept ? 2 + 2 * film->scene->ntargets * film->lamp_plan.count : 0;
 }
 
 static int add_images(FootprintFilm *film, int l, RetexError *err)
@@ -36,7 +36,7 @@ static int add_images(FootprintFilm *film, int l, RetexError *err)
     const Scene *scene = film->scene;
     LampImages *images = &film->lamps[l];
     char name[RETEX_NAME_MAX], word[RETEX_NAME_MAX];
-    retex_lamp_word(word, scene->lamps[l].name, NULL);
+    retex_lamp_word(word, scene->kept[l].name, NULL);
     int code = bands_add(film->bands, word, "RGB", RETEX_HALF, &images->picture, err);
     snprintf(name, sizeof name, "%.90s_indep", word);
     if (!code)
@@ -44,7 +44,7 @@ static int add_images(FootprintFilm *film, int l, RetexError *err)
     const int count = film->lamp_plan.count;
     for (int n = 0; n < 2 * scene->ntargets * count && !code; n++) {
         const int i = n % count, kind = n / count % 2, t = n / count / 2;
-        retex_lamp_word(word, scene->lamps[l].name, scene->targets[t].name);
+        retex_lamp_word(word, scene->kept[l].name, scene->targets[t].name);
         plan_light_name(name, &film->lamp_plan, word, kind, i);
         code = bands_add(film->bands, name, "RGB", RETEX_HALF, &images->kinds[t][kind][i], err);
     }
@@ -55,10 +55,10 @@ int lamps_create(FootprintFilm *film, RetexError *err)
 {
     const Scene *scene = film->scene;
     int code = RETEX_OK;
-    if (!scene->nlamps)
+    if (!scene->nkept)
         return RETEX_OK;
-    film->lamps = calloc((size_t)scene->nlamps, sizeof *film->lamps);
-    for (int l = 0; l < scene->nlamps && film->lamps && !code; l++) {
+    film->lamps = calloc((size_t)scene->nkept, sizeof *film->lamps);
+    for (int l = 0; l < scene->nkept && film->lamps && !code; l++) {
         LampImages *images = &film->lamps[l];
         images->kinds = calloc((size_t)scene->ntargets + 1, sizeof *images->kinds);
         code = images->kinds ? add_images(film, l, err) : RETEX_ENOMEM;
@@ -68,7 +68,7 @@ int lamps_create(FootprintFilm *film, RetexError *err)
 
 void lamps_close(FootprintFilm *film)
 {
-    for (int l = 0; film->lamps && l < film->scene->nlamps; l++)
+    for (int l = 0; film->lamps && l < film->scene->nkept; l++)
         free(film->lamps[l].kinds);
     free(film->lamps);
 }
@@ -78,17 +78,17 @@ int lamps_pixel_create(LampPixel **out, const FootprintFilm *film, RetexError *e
     const Scene *scene = film->scene;
     const size_t kinds = 2 * (size_t)scene->ntargets + 1;
     *out = NULL;
-    if (!scene->nlamps)
+    if (!scene->nkept)
         return RETEX_OK;
     LampPixel *p = *out = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
     if (!p)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the lamps of a thread");
     p->film = film;
-    p->lamps = calloc((size_t)scene->nlamps, sizeof *p->lamps);
-    for (int l = 0; p->lamps && l < scene->nlamps; l++)
+    p->lamps = calloc((size_t)scene->nkept, sizeof *p->lamps);
+    for (int l = 0; p->lamps && l < scene->nkept; l++)
         if (!(p->lamps[l].kinds = calloc(kinds, sizeof *p->lamps[l].kinds)))
             break;
-    if (p->lamps && p->lamps[scene->nlamps - 1].kinds)
+    if (p->lamps && p->lamps[scene->nkept - 1].kinds)
         return RETEX_OK;
     lamps_pixel_close(out);
     return retex_fail(err, RETEX_ENOMEM, "out of memory for the lamps of a thread");
@@ -97,7 +97,7 @@ int lamps_pixel_create(LampPixel **out, const FootprintFilm *film, RetexError *e
 void lamps_pixel_close(LampPixel **pixel)
 {
     LampPixel *p = *pixel;
-    for (int l = 0; p && p->lamps && l < p->film->scene->nlamps; l++)
+    for (int l = 0; p && p->lamps && l < p->film->scene->nkept; l++)
         free(p->lamps[l].kinds);
     if (p)
         free(p->lamps);
@@ -135,17 +135,17 @@ static inline void add_textured(PlanLight *sum, const PlanLight *light, const Pl
 }
 
 /* The light of a lamp at the path's hits, without further hits. Returns 0 where it has only light without a hit. */
-static int start_nodes(LampPixel *p, const TargetTree *path, int lamp)
+static int start_nodes(LampPixel *p, const TargetTree *path, int kept)
 {
     int found = 0;
     for (int k = 0; k < path->count; k++)
         p->dependent[k].used = p->independent[k].used = 0;
     for (const LampLight *light = path->lamp_light; light; light = light->earlier) {
-        if (light->lamp != lamp)
+        if (light->kept != kept)
             continue;
-        p->lamps[lamp].picture += light->light;
+        p->lamps[kept].picture += light->light;
         if (!light->hit) {
-            p->lamps[lamp].indep += light->independent;
+            p->lamps[kept].indep += light->independent;
             continue;
         }
         add_coefficient(&p->dependent[light->hit->number], 0, light->dependent);
@@ -157,8 +157,9 @@ static int start_nodes(LampPixel *p, const TargetTree *path, int lamp)
 
 /* From the last hit to the first, as gather_node and finish_node of footprints.c. */
 static void gather_nodes(LampPixel *p, const TargetTree *path, const TargetNode *const *hits, const Node *nodes,
-                         LampSums *sums)
+                         int combination, LampSums *sums)
 {
+    const Scene *scene = p->film->scene;
     for (int k = path->count - 1; k >= 0; k--) {
         const TargetNode *hit = hits[k];
         PlanLight *dependent = &p->dependent[k], *independent = &p->independent[k];
@@ -173,22 +174,28 @@ static void gather_nodes(LampPixel *p, const TargetTree *path, const TargetNode 
         }
         const int before = hit->before->number;
         add_textured(independent, dependent, &p->film->lamp_plan, &hit->at);
-        add_times(&p->dependent[before], independent, hit->before_d);
-        if (!is_black4(hit->before_i))
-            add_times(&p->independent[before], independent, hit->before_i);
+        const FinishFactor by = target_node_before(hit, scene, combination);
+        add_times(&p->dependent[before], independent, by.d);
+        if (!is_black4(by.i))
+            add_times(&p->independent[before], independent, by.i);
         add_times(kind, dependent, nodes[k].none);
     }
 }
 
-void lamps_end_path(LampPixel *p, const TargetTree *path, const TargetNode *const *hits, const Node *nodes)
+void lamps_end_path(LampPixel *p, const TargetTree *path, const TargetNode *const *hits, const Node *nodes,
+                    int combination)
 {
+    const Scene *scene = p->film->scene;
     unsigned present = 0;
-    for (const LampLight *light = path->lamp_light; light; light = light->earlier)
-        present |= 1u << light->lamp;
+    for (const LampLight *light = path->lamp_light; light; light = light->earlier) {
+        const int own = scene->kept[light->kept].combination;
+        if (combination < 0 || own == combination || (own < 0 && combination == 0))
+            present |= 1u << light->kept;
+    }
     for (; present; present &= present - 1) {
-        const int lamp = __builtin_ctz(present);
-        if (start_nodes(p, path, lamp))
-            gather_nodes(p, path, hits, nodes, &p->lamps[lamp]);
+        const int kept = __builtin_ctz(present);
+        if (start_nodes(p, path, kept))
+            gather_nodes(p, path, hits, nodes, combination < 0 ? 0 : combination, &p->lamps[kept]);
     }
 }
 
@@ -197,14 +204,14 @@ void lamps_end_path(LampPixel *p, const TargetTree *path, const TargetNode *cons
 /* From light of the colour that a lamp has in paths to light of the value 1. */
 static Float4 to_white(const Scene *scene, int l)
 {
-    const Rgb kept = scene->lamps[l].kept;
+    const Rgb kept = kept_color(scene, l);
     return color4(rgb(1 / kept.r, 1 / kept.g, 1 / kept.b));
 }
 
 void lamps_totals(const LampPixel *p, SignalTotals *totals, int first)
 {
     const Scene *scene = p->film->scene;
-    for (int l = 0; l < scene->nlamps; l++) {
+    for (int l = 0; l < scene->nkept; l++) {
         const Float4 white = to_white(scene, l);
         for (int c = 0; c < 3; c++)
             totals->of[first][c] = (double)(p->lamps[l].indep[c] * white[c]);
@@ -234,7 +241,7 @@ static void store(BandRows *rows, int image, Float4 light, int x, int y)
 void lamps_store(LampPixel *p, BandRows *rows, int spp, int x, int y)
 {
     const Scene *scene = p->film->scene;
-    for (int l = 0; l < scene->nlamps; l++) {
+    for (int l = 0; l < scene->nkept; l++) {
         const LampImages *images = &p->film->lamps[l];
         const Float4 scale = to_white(scene, l) * splat(1 / (float)spp);
         store(rows, images->indep, p->lamps[l].indep * scale, x, y);

@@ -173,12 +173,19 @@ typedef struct Node {
     Float4 none, original, half;
 } Node;
 
+/* Light of a hit in all combinations of finishes: as the first hit, and as an interreflection. */
+typedef struct CombinedHit {
+    HitLight first;
+    Interreflection further;
+} CombinedHit;
+
 struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
     double indep[3];
     TargetClusters *targets;
-    struct LampPixel *lamps; /* NULL where the scene has none */
+    struct LampPixel *lamps; /* NULL where the scene keeps no light apart */
+    CombinedHit *combined;   /* of the current path; NULL where there are no combinations */
     Quadrants quadrants;
     Node nodes[TARGET_NODES_MAX];
     LightSums *light; /* of contributions */

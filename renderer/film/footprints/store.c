@@ -123,7 +123,7 @@ static int parts_needed(const FootprintFilm *film)
     return film->scene->ntargets *
                (CLUSTER_PARTS * (most_of_kind(p, 0) + most_of_kind(p, 1)) + 2 * film->plan.count +
                 4 * (INTERREFLECTION_CLUSTERS + p->extra_interreflections) + 1 + CORRECTION_KINDS * CORRECTION_POWERS) +
-           film->scene->nlamps * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
+           film->scene->nkept * (lamps_images_needed(film) + 1 + 2 * film->scene->ntargets);
 }
 
 static void give_up(const FootprintFilm *film, int most, int *extra)
@@ -134,7 +134,7 @@ static void give_up(const FootprintFilm *film, int most, int *extra)
 
 static void shorten_lamps(FootprintFilm *film, int most, int together)
 {
-    while (film->scene->nlamps && parts_needed(film) > most)
+    while (film->scene->nkept && parts_needed(film) > most)
         if (!plan_shorten(&film->lamp_plan, film->scene->ntargets, together))
             return;
 }
@@ -146,7 +146,7 @@ static void shorten_lamps(FootprintFilm *film, int most, int together)
 static void fit_parts(FootprintFilm *film)
 {
     FilmParams *p = &film->params;
-    const int most = film->scene->nlamps ? PARTS_MAX : PARTS_EXTRA, ntargets = film->scene->ntargets;
+    const int most = film->scene->nkept ? PARTS_MAX : PARTS_EXTRA, ntargets = film->scene->ntargets;
     film->lamp_plan = film->plan;
     if (p->extra && ntargets) {
         p->extra_broad = least(EXTRA_BROAD, FILM_CLUSTERS_MAX - p->broad);
@@ -174,7 +174,7 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT,
                           "the set may need %d parts, more than %d: take fewer targets%s or clusters",
-                          parts_needed(film), PARTS_MAX, scene->nlamps ? ", lamps" : "");
+                          parts_needed(film), PARTS_MAX, scene->nkept ? ", lamps, finishes" : "");
     film->quadrants = params->quadrants && parts_needed(film) + scene->ntargets * QUADRANT_IMAGES <= PARTS_MAX;
     int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->indep, err);
     for (int t = 0; t < scene->ntargets && !code; t++)
@@ -198,7 +198,7 @@ long footprints_floats(const FilmParams *params, int ntargets)
     Plan plan;
     plan_make(&plan, ntargets, params->orders, RETEX_MAX_HITS);
     /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
-    return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1)) + 3 * params->nlamps * (1 + 2 * ntargets);
+    return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1)) + 3 * params->nkept * (1 + 2 * ntargets);
 }
 
 /* ---- the finished pixel ---- */

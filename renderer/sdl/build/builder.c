@@ -314,6 +314,12 @@ static void add_name(Sdl *sdl, Value *value, const char *name, int line)
         value->data = pigment;
         break;
     }
+    case VALUE_FINISH: {
+        ParsedFinish *finish = finish_new(sdl, value->data);
+        finish->name = sdl_ident_add(sdl, NULL, name, line)->name;
+        value->data = finish;
+        break;
+    }
     case VALUE_INTERIOR: {
         ParsedInterior *interior = sdl_alloc(sdl, sizeof *interior);
         *interior = *(const ParsedInterior *)value->data;

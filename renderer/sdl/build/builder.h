@@ -75,6 +75,7 @@ typedef struct ParsedFinish {
     Finish finish; /* first */
     double ior;    /* written in the finish, as old scenes do; 0 = not */
     int shines;    /* its ambient is emission, or what is left of it */
+    const char *name; /* that it was declared by, or NULL */
     Gaps gaps;
     struct ParsedFinish *next;
 } ParsedFinish;

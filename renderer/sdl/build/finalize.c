@@ -70,14 +70,8 @@ static void decode_colors(Sdl *sdl)
 
 /* ---- images ---- */
 
-static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *context)
+static void load_finish_images(Sdl *sdl, const Finish *finish)
 {
-    (void)context;
-    load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish));
-    normal_load(sdl, texture->texture.normal);
-    const Finish *finish = texture->texture.finish;
-    if (!finish)
-        return;
     normal_load(sdl, finish->retex.clearcoat_normal);
     const Pigment *const maps[] = {finish->retex.metallic_map,     finish->retex.roughness_map,
                                    finish->retex.transmission_map, finish->retex.clearcoat_map,
@@ -86,6 +80,15 @@ static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *conte
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
         if (maps[i])
             load_pigment_images(sdl, maps[i], maps[i] == finish->retex.emission_map);
+}
+
+static void load_leaf_images(Sdl *sdl, const ParsedTexture *texture, void *context)
+{
+    (void)context;
+    load_pigment_images(sdl, texture->texture.pigment, finish_is_emitter(texture->texture.finish));
+    normal_load(sdl, texture->texture.normal);
+    if (texture->texture.finish)
+        load_finish_images(sdl, texture->texture.finish);
 }
 
 /* ---- every texture in use ---- */
@@ -207,6 +210,28 @@ static void set_emission(Sdl *sdl)
     }
 }
 
+/* What can be chosen for a target. Of two finishes of a name the later one is meant, which stands first. */
+static void list_finishes(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    int count = 0;
+    for (const ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next)
+        count += f->name != NULL;
+    scene->named_finishes = sdl_alloc(sdl, (size_t)(count + 1) * sizeof *scene->named_finishes);
+    for (const ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
+        int k = 0;
+        while (f->name && k < scene->nnamed_finishes && strcmp(scene->named_finishes[k].name, f->name) != 0)
+            k++;
+        if (f->name && k == scene->nnamed_finishes)
+            scene->named_finishes[scene->nnamed_finishes++] = (NamedFinish){f->name, &f->finish};
+    }
+    for (int k = 0; 2 * k < scene->nnamed_finishes - 1; k++) { /* in the scene's order */
+        NamedFinish *a = &scene->named_finishes[k], *b = &scene->named_finishes[scene->nnamed_finishes - 1 - k];
+        const NamedFinish first = *a;
+        *a = *b, *b = first;
+    }
+}
+
 /* ---- names ---- */
 
 typedef struct Names {
@@ -315,6 +340,9 @@ static void load_images(Sdl *sdl)
     const ParsedPigment *bokeh = builder_of(sdl)->bokeh;
     if (bokeh)
         load_pigment_images(sdl, &bokeh->pigment, 0);
+    for (const ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next)
+        if (f->name) /* a target may get it */
+            load_finish_images(sdl, &f->finish);
 }
 
 void finalize_scene(Sdl *sdl)
@@ -337,5 +365,6 @@ void finalize_scene(Sdl *sdl)
     set_emission(sdl);
     find_caustics(sdl);
     complete_air(sdl);
+    list_finishes(sdl);
     list_all_names(sdl);
 }

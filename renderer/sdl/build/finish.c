@@ -20,6 +20,7 @@ ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from)
             .reflection_exponent = 1,
             .retex = {.ior = 1.5, .specular_tint = 1, .sheen_roughness = 0.3},
         };
+    finish->name = NULL;
     finish->next = builder->finishes;
     builder->finishes = finish;
     return finish;
@@ -273,7 +274,7 @@ ParsedFinish *parse_finish(Sdl *sdl, const ParsedFinish *from)
         if ((known = accept_ident(sdl, VALUE_FINISH))) {
             ParsedFinish *next = finish->next;
             *finish = *known;
-            finish->next = next;
+            finish->name = NULL, finish->next = next;
         } else
             item(sdl, finish);
     return finish;

@@ -10,6 +10,7 @@
 #include <retex/nearest.h>
 
 #include "edit/edit.h"
+#include "edit/finishes.h"
 #include "edit/lights.h"
 #include "edit/statement.h"
 
@@ -29,7 +30,7 @@ void retex_edit_close(RetexEdit **edit)
 
 void retex_edit_clear(RetexEdit *edit)
 {
-    edit->count = edit->nlights = 0;
+    edit->count = edit->nlights = edit->nfinishes = 0;
 }
 
 int retex_edit_count(const RetexEdit *edit)
@@ -70,7 +71,8 @@ static int find_texture(RetexEdit *edit, const char *target, int *index, RetexEr
 static const char *find_option(const char *key)
 {
     const char *dot = strrchr(key, '.');
-    return dot && !retex_edit_key_lamp(key) && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
+    const int is_other = retex_edit_key_lamp(key) || retex_edit_key_finish(key);
+    return dot && !is_other && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
 }
 
 int retex_edit_key_is_option(const char *key)
@@ -80,7 +82,9 @@ int retex_edit_key_is_option(const char *key)
 
 static int no_statement(const char *key, RetexError *err)
 {
-    return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE or light:LAMP=VALUE",
+    return retex_fail(err, RETEX_EPARSE,
+                      "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE, light:LAMP=VALUE or "
+                      "finish:TARGET=NAME",
                       key);
 }
 
@@ -97,6 +101,15 @@ static int state(RetexEdit *edit, const char *target, const char *option /* or N
     return retex_statement_kinds[kind].parse(&edit->specs[at], value, err);
 }
 
+/* A statement that is decoded; option: or NULL. */
+static int add_statement(RetexEdit *edit, const char *key, const char *option, const char *value, RetexError *err)
+{
+    const char *lamp = retex_edit_key_lamp(key), *finished = retex_edit_key_finish(key);
+    return lamp       ? retex_edit_add_light(edit, lamp, value, err)
+           : finished ? retex_edit_add_finish(edit, finished, value, err)
+                      : state(edit, key, option, value, err);
+}
+
 int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexError *err)
 {
     char target[STATEMENT_MAX];
@@ -107,8 +120,7 @@ int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexErr
     memcpy(target, key, length);
     target[length] = '\0';
     RetexEdit next = *edit;
-    const char *lamp = retex_edit_key_lamp(target);
-    const int code = lamp ? retex_edit_add_light(&next, lamp, value, err) : state(&next, target, option, value, err);
+    const int code = add_statement(&next, target, option, value, err);
     if (!code)
         *edit = next;
     return code;
@@ -158,8 +170,7 @@ static int parse_statement(RetexEdit *edit, char *text, RetexError *err)
     decode(value);
     if (!*text || !*value)
         return no_statement(text, err);
-    const char *lamp = retex_edit_key_lamp(text);
-    return lamp ? retex_edit_add_light(edit, lamp, value, err) : state(edit, text, option, value, err);
+    return add_statement(edit, text, option, value, err);
 }
 
 int retex_edit_parse(RetexEdit *edit, const char *text, RetexError *err)
@@ -261,28 +272,6 @@ int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, Retex
 }
 
 /* ---- targets ---- */
-
-int retex_target_find(int *target, const RetexTargetNames *names, const char *name, RetexError *err)
-{
-    char all[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
-    const char *dot = strrchr(name, '.');
-    RetexNearest nearest = {name, NULL, 0};
-    *target = retex_target_index(names, name);
-    if (*target >= 0)
-        return RETEX_OK;
-    for (int i = 0; i < names->count; i++) {
-        const size_t used = strlen(all), length = dot ? (size_t)(dot - name) : 0;
-        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", names->names[i]);
-        retex_nearest_try(&nearest, names->names[i]);
-        if (length && strlen(names->names[i]) == length && strncasecmp(names->names[i], name, length) == 0)
-            return retex_statement_unknown(dot + 1, err);
-    }
-    if (!names->count)
-        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': %s has no targets%s", name, names->of,
-                          names->advice);
-    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; %s has %.700s%s", name, names->of, all,
-                      nearest.best ? retex_meant(nearest.best, meant) : names->advice);
-}
 
 int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err)
 {

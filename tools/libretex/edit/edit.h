@@ -14,12 +14,19 @@ typedef struct RetexEditLight {
     RetexLampValue value;
 } RetexEditLight;
 
+/* A target's finish. */
+typedef struct RetexEditFinish {
+    char target[RETEX_NAME_MAX], finish[RETEX_NAME_MAX];
+} RetexEditFinish;
+
 struct RetexEdit {
     int count;
     RetexTextureSpec specs[RETEX_MAX_TARGETS]; /* sorted by target */
     unsigned said[RETEX_MAX_TARGETS]; /* bit k: a statement of kind k; of textures of options and cells only bit 0 */
     int nlights;
     RetexEditLight lights[RETEX_EDIT_LIGHTS_MAX]; /* sorted by lamp */
+    int nfinishes;
+    RetexEditFinish finishes[RETEX_MAX_TARGETS]; /* sorted by target */
 };
 
 #endif

@@ -201,21 +201,16 @@ int retex_lamp_value_apply(float color[3], const RetexLampValue *value, const Re
     return RETEX_OK;
 }
 
-static int is_lamp(const RetexParameter *parameter)
-{
-    return parameter->kind == RETEX_PARAMETER_COLOR;
-}
-
 int retex_lamp_find(int *parameter, const RetexSet *set, const char *name, RetexError *err)
 {
     char all[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {name, NULL, 0};
     int found = -1, alike = 0, lamps = 0;
     for (int i = 0; i < set->nparameters; i++) {
-        const char *own = set->parameters[i].name;
-        const size_t used = strlen(all);
-        if (!is_lamp(&set->parameters[i]))
+        const char *own = retex_parameter_lamp(set, i);
+        if (!own)
             continue;
+        const size_t used = strlen(all);
         *parameter = i;
         if (strcmp(own, name) == 0)
             return RETEX_OK;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "edit/edit.h"
+#include "edit/finishes.h"
 #include "set/set.h"
 
 #define PREFIX "light:"
@@ -77,7 +78,7 @@ int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err)
 
 int retex_edit_lights(const RetexEdit *edit)
 {
-    return edit->nlights;
+    return edit->nlights + edit->nfinishes;
 }
 
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err)
@@ -90,6 +91,8 @@ int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexErro
         if (!there)
             code = insert(&next, from->lights[i].lamp, &from->lights[i].value, err);
     }
+    if (!code)
+        code = retex_edit_complete_finishes(&next, from, err);
     if (!code)
         *edit = next;
     return code;
@@ -108,10 +111,46 @@ int retex_edit_bind_lamps(RetexEdit *edit, const RetexSet *set, RetexError *err)
         if (strcmp(name, OTHERS) != 0 || !retex_set_has_lamps(set))
             code = retex_lamp_find(&lamp, set, name, err);
         if (!code)
-            code = insert(&next, lamp < 0 ? name : set->parameters[lamp].name, &edit->lights[i].value, err);
+            code = insert(&next, lamp < 0 ? name : retex_parameter_lamp(set, lamp), &edit->lights[i].value, err);
     }
     if (!code)
+        code = retex_edit_bind_finishes(&next, set, err);
+    if (!code)
         *edit = next;
+    return code;
+}
+
+/* The parameter that has the value of a lamp, if another one is of its light with a finish. */
+static const RetexParameter *lamp_of(const RetexSet *set, const RetexParameter *light)
+{
+    for (int i = 0; i < set->nparameters; i++)
+        if (retex_parameter_lamp(set, i) && strcmp(retex_parameter_lamp(set, i), light->lamp) == 0)
+            return &set->parameters[i];
+    return NULL;
+}
+
+/* Whether light met targets with the finishes that the edit has. */
+static int has_finishes(const RetexEdit *edit, const RetexSet *set, const RetexParameter *light)
+{
+    int same = 1;
+    for (int t = 0; t < set->ntargets; t++)
+        same &= !light->finishes[t] || light->finishes[t] == 1 + retex_edit_finish_of(edit, &set->targets[t]);
+    return same;
+}
+
+static int light_value(const RetexEdit *edit, const RetexSet *set, const RetexParameter *light, float value[3],
+                       RetexError *err)
+{
+    static const float white[3] = {1, 1, 1};
+    const int has_name = !retex_set_has_finishes(set) || light->lamp[0];
+    const RetexParameter *lamp = !retex_set_has_finishes(set) ? light : has_name ? lamp_of(set, light) : NULL;
+    int there = 0, at = lamp ? place_of(edit, retex_parameter_lamp(set, (int)(lamp - set->parameters)), &there) : 0;
+    if (lamp && !there)
+        at = place_of(edit, OTHERS, &there);
+    memcpy(value, lamp ? lamp->value : white, sizeof white);
+    const int code = there ? retex_lamp_value_apply(value, &edit->lights[at].value, lamp, err) : RETEX_OK;
+    if (!has_finishes(edit, set, light))
+        memset(value, 0, sizeof white);
     return code;
 }
 
@@ -123,15 +162,11 @@ int retex_edit_parameters(const RetexEdit *edit, const RetexSet *set, float *val
         *bound = *edit;
         code = retex_edit_bind_lamps(bound, set, err);
     }
-    for (int i = 0; i < set->nparameters && !code; i++) {
-        const RetexParameter *lamp = &set->parameters[i];
-        int there, at = place_of(bound, lamp->name, &there);
-        if (!there)
-            at = place_of(bound, OTHERS, &there);
-        memcpy(values + 3 * i, lamp->value, sizeof lamp->value);
-        if (there && lamp->kind == RETEX_PARAMETER_COLOR)
-            code = retex_lamp_value_apply(values + 3 * i, &bound->lights[at].value, lamp, err);
-    }
+    for (int i = 0; i < set->nparameters && !code; i++)
+        if (set->parameters[i].kind == RETEX_PARAMETER_COLOR)
+            code = light_value(bound, set, &set->parameters[i], values + 3 * i, err);
+        else
+            memcpy(values + 3 * i, set->parameters[i].value, sizeof set->parameters[i].value);
     free(bound);
     return code;
 }

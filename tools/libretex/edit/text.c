@@ -63,6 +63,14 @@ int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError 
         retex_lamp_value_text(&edit->lights[i].value, value);
         fprintf(file, "=%s", value);
     }
+    for (int i = 0; i < edit->nfinishes && file; i++) {
+        if (i || edit->count || edit->nlights)
+            fputc(divider, file);
+        fputs("finish:", file);
+        write_encoded(file, edit->finishes[i].target, NULL);
+        fputc('=', file);
+        write_encoded(file, edit->finishes[i].finish, NULL);
+    }
     return close_text(file, text, err);
 }
 

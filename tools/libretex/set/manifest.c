@@ -79,13 +79,22 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
 {
     const float *albedo = target->mean_albedo;
 
-    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o, s:o}", "name", text(target->name),
+    json_t *json =
+        json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o, s:o}", "name", text(target->name),
                      "idents", text(target->idents), "periodic", target->periodic[0], target->periodic[1], "uv_min",
                      pair(target->uv_min, finite), "uv_max", pair(target->uv_max, finite), "mean_albedo",
                      real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite), "original",
                      part_name(set, target->original), "original_min", pair(target->original_min, finite),
                      "original_max", pair(target->original_max, finite), "share", real(target->share, finite),
                      "uv_scale", pair(target->uv_scale, finite));
+    if (target->nfinishes) {
+        json_t *names = json_array();
+        for (int k = 0; k < target->nfinishes; k++)
+            retex_json_add(&names, text(target->finishes[k]));
+        retex_json_put(&json, "finishes", names);
+        retex_json_put(&json, "finish", json_integer(target->finish));
+    }
+    return json;
 }
 
 static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
@@ -136,7 +145,7 @@ static json_t *write_color(const float color[3], int *finite)
                      real((double)color[2], finite));
 }
 
-static json_t *write_parameter(const RetexParameter *parameter, int *finite)
+static json_t *write_parameter(const RetexSet *set, const RetexParameter *parameter, int *finite)
 {
     json_t *json = json_pack("{s:o, s:s, s:o, s:o}", "name", text(parameter->name), "kind",
                              retex_parameter_kind_name(parameter->kind), "target", target_number(parameter->target),
@@ -146,6 +155,13 @@ static json_t *write_parameter(const RetexParameter *parameter, int *finite)
         retex_json_put(&json, "kept", write_color(parameter->kept, finite));
     if (parameter->several)
         retex_json_put(&json, "several", json_true());
+    if (parameter->kind == RETEX_PARAMETER_COLOR && retex_set_has_finishes(set)) {
+        json_t *finishes = json_array();
+        for (int t = 0; t < set->ntargets; t++)
+            retex_json_add(&finishes, json_integer(parameter->finishes[t]));
+        retex_json_put(&json, "lamp", text(parameter->lamp));
+        retex_json_put(&json, "finishes", finishes);
+    }
     return json;
 }
 
@@ -227,7 +243,7 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     for (int i = 0; i < set->nmixtures; i++)
         retex_json_add(&mixtures, write_mixture(set, &set->mixtures[i]));
     for (int i = 0; i < set->nparameters; i++)
-        retex_json_add(&parameters, write_parameter(&set->parameters[i], finite));
+        retex_json_add(&parameters, write_parameter(set, &set->parameters[i], finite));
     retex_json_put(root, "layout", text(set->layout));
     retex_json_put(root, "filter", text(set->filter));
     retex_json_put(root, "scene", text(set->scene));

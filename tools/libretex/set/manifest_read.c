@@ -121,6 +121,21 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
+static void read_finishes(Reading *reading, const json_t *json, RetexTarget *target)
+{
+    const json_t *names = retex_reading_array(reading, json, "finishes", RETEX_FINISHES_MAX);
+
+    target->nfinishes = (int)json_array_size(names);
+    target->finish = retex_reading_integer(reading, json, "finish", 0, target->nfinishes - 1);
+    for (int k = 0; k < target->nfinishes && !reading->status; k++) {
+        const char *name = json_string_value(json_array_get(names, (size_t)k));
+        if (!name || !*name || strlen(name) >= sizeof target->finishes[k])
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a finish without a proper name");
+        else
+            strcpy(target->finishes[k], name);
+    }
+}
+
 static void read_target(Reading *reading, const json_t *json, RetexSet *set, RetexTarget *target)
 {
     const json_t *periodic = retex_reading_array(reading, json, "periodic", 2);
@@ -143,6 +158,8 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
     get_pair(reading, json, "original_max", target->original_max);
     if (json_object_get(json, "uv_scale"))
         get_pair(reading, json, "uv_scale", target->uv_scale);
+    if (json_object_get(json, "finishes"))
+        read_finishes(reading, json, target);
     target->share = retex_reading_real(reading, json_object_get(json, "share"), "share");
     const json_t *original = json_object_get(json, "original");
     const char *name = json_string_value(original);

@@ -69,6 +69,22 @@ static void read_color(Reading *reading, const json_t *json, const char *key, fl
         color[c] = (float)retex_reading_real(reading, json_array_get(numbers, c), key);
 }
 
+static void read_finishes(Reading *reading, const json_t *json, const RetexSet *set, RetexParameter *parameter)
+{
+    const json_t *numbers = retex_reading_array(reading, json, "finishes", RETEX_MAX_TARGETS);
+
+    retex_reading_text(reading, json, "lamp", parameter->lamp, sizeof parameter->lamp);
+    if (json_array_size(numbers) != (size_t)set->ntargets)
+        retex_reading_fail(reading, RETEX_EFORMAT, "has \"finishes\" that are not as many as its targets");
+    for (int t = 0; t < set->ntargets && !reading->status; t++) {
+        const double number = retex_reading_real(reading, json_array_get(numbers, (size_t)t), "finishes");
+        if (!(number >= 0 && number <= set->targets[t].nfinishes && number == (int)number))
+            retex_reading_fail(reading, RETEX_EFORMAT, "has a finish that its target has not");
+        else
+            parameter->finishes[t] = (signed char)number;
+    }
+}
+
 static void read_parameter(Reading *reading, const json_t *json, RetexSet *set)
 {
     RetexParameter parameter = {.kind = (RetexParameterKind)retex_reading_named(reading, json, "kind", "parameter",
@@ -81,6 +97,8 @@ static void read_parameter(Reading *reading, const json_t *json, RetexSet *set)
     read_color(reading, json, "value", parameter.value);
     if (json_object_get(json, "kept"))
         read_color(reading, json, "kept", parameter.kept);
+    if (json_object_get(json, "finishes"))
+        read_finishes(reading, json, set, &parameter);
     if (!reading->status)
         reading->status = retex_set_add_parameter(set, &parameter, NULL, reading->err);
 }

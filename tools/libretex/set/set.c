@@ -445,6 +445,11 @@ int retex_set_add_parameter(RetexSet *set, const RetexParameter *parameter, int 
         if (corrects || !(parameter->kept[c] >= 0 && parameter->kept[c] <= FLT_MAX))
             return retex_fail(err, RETEX_EINVAL, "the parameter %s is kept with the value %g", parameter->name,
                               (double)parameter->kept[c]);
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        if (parameter->finishes[t] < 0 ||
+            parameter->finishes[t] > (!corrects && t < set->ntargets ? set->targets[t].nfinishes : 0))
+            return retex_fail(err, RETEX_EINVAL, "the parameter %s is of finish %d of target %d", parameter->name,
+                              parameter->finishes[t], t);
     if (index)
         *index = set->nparameters;
     RetexParameter *own = &set->parameters[set->nparameters++];

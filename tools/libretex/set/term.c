@@ -88,12 +88,35 @@ int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term)
     return term->role != RETEX_ROLE_CORRECTION || retex_set_has_role(set, RETEX_ROLE_LAMP) ? lamp : -1;
 }
 
+int retex_set_has_finishes(const RetexSet *set)
+{
+    int finishes = 0;
+
+    for (int t = 0; t < set->ntargets; t++)
+        finishes |= set->targets[t].nfinishes > 0;
+    return finishes;
+}
+
+const char *retex_parameter_lamp(const RetexSet *set, int parameter)
+{
+    const RetexParameter *p = &set->parameters[parameter];
+
+    if (p->kind != RETEX_PARAMETER_COLOR)
+        return NULL;
+    if (!retex_set_has_finishes(set))
+        return p->name;
+    for (int t = 0; t < set->ntargets; t++)
+        if (p->finishes[t])
+            return NULL;
+    return p->lamp[0] ? p->lamp : NULL;
+}
+
 int retex_set_has_lamps(const RetexSet *set)
 {
     int lamps = 0;
 
     for (int i = 0; i < set->nparameters; i++)
-        lamps |= set->parameters[i].kind == RETEX_PARAMETER_COLOR;
+        lamps |= retex_parameter_lamp(set, i) != NULL;
     return lamps;
 }
 

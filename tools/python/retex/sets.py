@@ -321,12 +321,13 @@ class Set:
     def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
               cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
               parameters: Optional[Mapping[str, Sequence[float]]] = None,
-              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None) -> Picture:
+              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
+              finishes: Optional[Mapping[str, str]] = None) -> Picture:
         threads_of(threads)
         with self._shared() as pointer:
-            values = parameters_of(pointer, len(self.manifest["parameters"]), textures, lights, solo)
+            values = parameters_of(pointer, len(self.manifest["parameters"]), textures, lights, solo, finishes)
             if values is not None and parameters:
-                raise ValueError("parameters and lights exclude each other")
+                raise ValueError("parameters and lights or finishes exclude each other")
             params, part = self._params(crop, cross, values if values is not None else self._parameters(parameters))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
             if out is None:
@@ -344,6 +345,7 @@ class Set:
 
     def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
                 lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
+                finishes: Optional[Mapping[str, str]] = None,
                 parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None, cross: int = 3,
                 out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
@@ -353,21 +355,23 @@ class Set:
         lights    new values by lamp: a number that multiplies its light, a colour, which keeps its luminance, or text,
                   as in retex-edit(5): "3000K", "1.5*#ffd0a0"; "*" is all lamps that are not named
         solo      turn off all lamps but this one and those of `lights`
+        finishes  names of finishes that the set has, by target
         parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it
         cross     use cross terms of paths with at most this many hits, 0, 2 or 3
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
         return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters,
-                          lights=lights, solo=solo)
+                          lights=lights, solo=solo, finishes=finishes)
 
     def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
-              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None, crop: Optional[Crop] = None,
-              cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
+              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
+              finishes: Optional[Mapping[str, str]] = None, crop: Optional[Crop] = None, cross: int = 3,
+              out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
         difference to rendering again with these textures."""
         return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads, lights=lights,
-                          solo=solo)
+                          solo=solo, finishes=finishes)
 
     def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, cross: int = 3, threads: int = 0,
               memory: int = 2048 * MEGABYTE, texture_memory: int = 512 * MEGABYTE) -> Iterator[Picture]:

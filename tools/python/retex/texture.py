@@ -155,7 +155,7 @@ Textures = Union[Mapping[str, Union[Source, Texture]], str]
 
 def parse_edit(text: str) -> Dict[str, Texture]:
     """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato".
-    Its lamps are left out."""
+    Its lamps and finishes are left out."""
     with _edit() as edit:
         call("retex_edit_parse", edit, path_bytes(text))
         specs = [lib.retex_edit_texture(edit, index)[0] for index in range(lib.retex_edit_count(edit))]
@@ -176,13 +176,16 @@ def _light_text(value: Light) -> str:
 
 
 def parameters_of(pointer: c_void_p, count: int, textures: Optional[Textures], lights: Optional[Mapping[str, Light]],
-                  solo: Optional[str]) -> Any:
-    """The values of a set's parameters as C takes them, with these lamps and those of an edit; None: as rendered."""
+                  solo: Optional[str], finishes: Optional[Mapping[str, str]]) -> Any:
+    """The values of a set's parameters as C takes them, with these lamps and finishes, and those of an edit; None: as
+    rendered."""
     with _edit() as edit:
         if isinstance(textures, str):
             call("retex_edit_parse", edit, path_bytes(textures))
         for lamp, value in (lights or {}).items():
             call("retex_edit_set", edit, b"light:" + text_bytes(lamp), text_bytes(_light_text(value)))
+        for target, finish in (finishes or {}).items():
+            call("retex_edit_set", edit, b"finish:" + text_bytes(target), text_bytes(finish))
         if solo is not None:
             call("retex_edit_solo", edit, text_bytes(solo))
         if not lib.retex_edit_lights(edit):

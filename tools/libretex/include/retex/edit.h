@@ -8,12 +8,13 @@
  *     TARGET.OPTION=VALUE    how the texture lies; OPTION is scale, rotate, offset, flip, wrap, repeat, width or
  *                            colorspace, see RetexTextureSpec
  *     light:LAMP=VALUE       a lamp's new value, see retex/lamp.h; LAMP `*` is all lamps that the edit does not name
+ *     finish:TARGET=NAME     one of the finishes that the set has for a target
  *
  * as in `Floor=oak.jpg;Floor.scale=2,1;Wall=tomato`. What follows the last point of a key is an option if it is the
  * word of one; else the point belongs to the name of the target. Calls that add to an edit leave it as it was where
  * they fail, with RETEX_EPARSE and a message that says what would be right, or RETEX_EINVAL for a second texture on one
- * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target, and then the values of lamps, sorted by
- * lamp. */
+ * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target, then the values of lamps, sorted by lamp,
+ * and finishes, sorted by target. */
 #ifndef RETEX_EDIT_H
 #define RETEX_EDIT_H
 
@@ -53,7 +54,9 @@ int retex_edit_light(RetexEdit *edit, const char *arg, RetexError *err);
 /* Turn off all lamps that the edit does not name, but this one, which stays as it is: `light:*=0;light:LAMP=1`. A lamp
  * that was rendered while it was off is turned on. */
 int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err);
-/* Add the lamps of another edit that this one does not name. */
+/* Add the finish of an option of a command line, --finish TARGET=NAME. */
+int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err);
+/* Add the lamps, and finishes of targets, of another edit that this one does not name. */
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err);
 /* Whether a key is TARGET.OPTION. */
 int retex_edit_key_is_option(const char *key);
@@ -76,7 +79,7 @@ int retex_edit_count(const RetexEdit *edit);
  * become sizeof(RetexTextureSpec): the library may know more members than its caller. */
 RetexTextureSpec *retex_edit_texture(RetexEdit *edit, int index);
 
-/* How many lamps it names, `*` among them. */
+/* How many lamps it names, `*` among them, and finishes. */
 int retex_edit_lights(const RetexEdit *edit);
 
 /* ---- the targets and lamps that there are ---- */
@@ -87,10 +90,10 @@ int retex_target_find(int *target, const RetexTargetNames *names, const char *na
 /* Give the targets of an edit the names that the set, or scene, has them by. RETEX_EINVAL where two are one there.
  * After a failure the edit is as it was. */
 int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *err);
-/* The same of its lamps, as retex_lamp_find finds them. */
+/* The same of its lamps, as retex_lamp_find finds them, and of its finishes. */
 int retex_edit_bind_lamps(RetexEdit *edit, const RetexSet *set, RetexError *err);
 /* The values of a set's parameters, three numbers each, for RetexCombineParams: as rendered, but where the edit has
- * another one for a lamp. Its lamps need not be bound. */
+ * another one for a lamp or a finish. These need not be bound. */
 int retex_edit_parameters(const RetexEdit *edit, const RetexSet *set, float *values, RetexError *err);
 
 #ifdef __cplusplus

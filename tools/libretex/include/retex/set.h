@@ -34,6 +34,7 @@ extern "C" {
 #define RETEX_PARAMETERS_MAX 64
 #define RETEX_MIXTURES_MAX (5 * RETEX_MAX_TARGETS + 1)
 #define RETEX_SHARES_MAX 20
+#define RETEX_FINISHES_MAX 4 /* of a target */
 #define RETEX_AXES 4        /* channels of a part of axes */
 #define RETEX_QUADRANTS 4   /* of a pixel */
 #define RETEX_NAME_MAX 128  /* bytes of a target or part name, with the final NUL */
@@ -65,6 +66,9 @@ typedef struct RetexTarget {
     double original_min[2], original_max[2]; /* UV rectangle the original covers: an image_map's is 0,0 1,1 */
     double uv_scale[2]; /* scene units a unit of u and of v spans on the surface, at the median; 0 = unknown */
     double share;       /* of the picture's pixels, whose centre sees the target directly; 0..1 */
+    int nfinishes;      /* 0: it has the one that it was rendered with; else 2..RETEX_FINISHES_MAX, to choose from */
+    char finishes[RETEX_FINISHES_MAX][RETEX_NAME_MAX]; /* their names */
+    int finish;         /* the one in the picture as rendered */
 } RetexTarget;
 
 typedef enum RetexFootprintKind {
@@ -163,6 +167,10 @@ typedef struct RetexParameter {
                        `value` */
     int several;    /* of COLOR: 1: the lamp has light of several colours, by which its value is multiplied; 0: the
                        value is the colour of its light */
+    /* Of COLOR, in a set whose targets have finishes; else "" and all 0. */
+    char lamp[RETEX_NAME_MAX];                /* the lamp whose light it is; "": all light */
+    signed char finishes[RETEX_MAX_TARGETS]; /* by target, the number of the finish with which the light met it, from 1;
+                                                 all 0: paths that met no target which has several */
 } RetexParameter;
 
 #define RETEX_SCALE_MAX 8
@@ -274,7 +282,12 @@ int retex_set_find_parameter(const RetexSet *set, const char *name);
 /* The parameter of the lamp whose light or picture, or the correction of that, a term is; -1: all light. Only sets that
  * have terms of role LAMP have such terms. */
 int retex_set_term_lamp(const RetexSet *set, const RetexTerm *term);
-/* 1: the set has lamps: parameters of kind COLOR. */
+/* 1: some target has finishes to choose from. */
+int retex_set_has_finishes(const RetexSet *set);
+/* The name of the lamp whose value a parameter is: its own, or in a set with finishes that of its light which met no
+ * target that has them. NULL: it is another parameter. */
+const char *retex_parameter_lamp(const RetexSet *set, int parameter);
+/* 1: the set has lamps. */
 int retex_set_has_lamps(const RetexSet *set);
 /* 1: the set has a term of that role. */
 int retex_set_has_role(const RetexSet *set, RetexRole role);

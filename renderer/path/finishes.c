@@ -1,0 +1,101 @@
+/* Vertices on targets with several finishes. Directions are sampled from the mixture of their BSDFs, in which all have
+ * the same share; each finish has weights of its own, so that the picture with each is unbiased. Balance-heuristic
+ * weights of Veach's multiple importance sampling come to the same. */
+#include "path/internal.h"
+#include "shade/material.h"
+
+#define SAME_DIRECTION 1e-12 /* of delta lobes: squared distance */
+
+void finishes_setup(Vertex *v, const Scene *scene, Vec3 wo)
+{
+    const Target *target = &scene->targets[v->s.surface.target];
+    VertexFinishes *finishes = &v->finishes;
+    finishes->count = target->nfinishes;
+    finishes->shown = scene->finish_of[scene->shown][v->s.surface.target];
+    for (int k = 0; k < target->nfinishes; k++)
+        shading_bsdf_finish(&v->s, target_finish(target, k, v->s.surface.texture->finish), wo, &finishes->of[k]);
+    v->s.bsdf = finishes->of[finishes->shown];
+}
+
+Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf)
+{
+    const VertexFinishes *finishes = &v->finishes;
+    float sum = 0, own;
+    for (int k = 0; k < finishes->count; k++) {
+        values[k] = bsdf_eval(&finishes->of[k], wi, light, &own);
+        sum += own;
+    }
+    *pdf = sum / (float)finishes->count;
+    return values[finishes->shown];
+}
+
+static Split scaled(Split s, float by)
+{
+    return (Split){rgb_scale(s.d, by), rgb_scale(s.i, by)};
+}
+
+/* A delta lobe of one finish was sampled. Those of the others in the same direction could have been, too. */
+static void weigh_deltas(const VertexFinishes *finishes, const BsdfSample *sample, Split weights[FINISHES_MAX])
+{
+    float sum = 0;
+    for (int k = 0; k < finishes->count; k++) {
+        float p;
+        weights[k] = bsdf_delta(&finishes->of[k], sample->wi, SAME_DIRECTION, &p);
+        sum += p;
+    }
+    for (int k = 0; k < finishes->count; k++)
+        weights[k] = scaled(weights[k], sum > 0 ? (float)finishes->count / sum : 0);
+}
+
+/* The finish by whose BSDF a direction is sampled; *u becomes the number that chooses among its lobes. Delta lobes of
+ * all finishes come first, as they do in each BSDF: the guide to caustics takes its share from the rest. */
+static int choose_finish(const VertexFinishes *finishes, float *u)
+{
+    float delta[FINISHES_MAX], sum = 0;
+    int k = 0;
+    for (int i = 0; i < finishes->count; i++)
+        sum += delta[i] = 1 - at_most(bsdf_wide_probability(&finishes->of[i]), 1);
+    float left = *u * (float)finishes->count;
+    const int is_wide = left >= sum;
+    for (left -= is_wide ? sum : 0; k < finishes->count - 1; k++) {
+        const float own = is_wide ? 1 - delta[k] : delta[k];
+        if (left < own)
+            break;
+        left -= own;
+    }
+    *u = at_most(is_wide ? delta[k] + left : left, 1 - 0x1p-24f);
+    return k;
+}
+
+int finishes_sample(const Vertex *v, float u_lobe, float u1, float u2, BsdfSample *sample, Split weights[FINISHES_MAX])
+{
+    const VertexFinishes *finishes = &v->finishes;
+    const int k = choose_finish(finishes, &u_lobe);
+    if (!bsdf_sample(&finishes->of[k], u_lobe, u1, u2, sample))
+        return 0;
+    if (sample->pdf > 0) {
+        finishes_eval(v, sample->wi, BSDF_ANY_LIGHT, weights, &sample->pdf);
+        for (int i = 0; i < finishes->count; i++)
+            weights[i] = scaled(weights[i], 1 / sample->pdf);
+    } else {
+        weigh_deltas(finishes, sample, weights);
+    }
+    sample->weight = weights[finishes->shown];
+    return 1;
+}
+
+float finishes_wide_probability(const Vertex *v)
+{
+    float sum = 0;
+    for (int k = 0; k < v->finishes.count; k++)
+        sum += bsdf_wide_probability(&v->finishes.of[k]);
+    return sum / (float)v->finishes.count;
+}
+
+float finishes_neutral(const Vertex *v, const Split weights[FINISHES_MAX])
+{
+    float sum = 0;
+    for (int k = 0; k < v->finishes.count; k++)
+        sum += split_neutral(weights[k]);
+    return sum / (float)v->finishes.count;
+}
