@@ -20,6 +20,7 @@ typedef struct FilmParams {
     int extra;        /* so many more sharp ones in pixels where mirrors or glass show the target, 0.. */
     int extra_broad, extra_interreflections; /* so many more of these in pixels where merging them shows, 0.. */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
+    float brightness[RETEX_MAX_TARGETS]; /* of targets, 1/2..1: what their further hits weigh where noise is kept */
     int quadrants; /* layout footprints: keep quarters of pixels apart, where paths say where in the pixel they are */
     int nkept;     /* of the scene: its kept light */
     int noise;     /* also keep how noisy each signal is, see noise.h; needs two samples */

@@ -1,4 +1,5 @@
 /* Original textures of targets, sampled to images. See originals.h. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <retex/host/set_build.h>
@@ -8,6 +9,8 @@
 #include "render/originals.h"
 #include "shade/pigment.h"
 #include "shape/shapes.h"
+
+enum { MEAN_POINTS = 4 }; /* along each axis, at which a pattern is looked at for its mean */
 
 static void original_size(const Pigment *pigment, int *width, int *height)
 {
@@ -137,4 +140,68 @@ int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *e
             return code;
     }
     return RETEX_OK;
+}
+
+/* ---- brightness ---- */
+
+static Rgb image_mean(const Pigment *pigment)
+{
+    static const double everywhere[3] = {1, 0, 1};
+    float rgba[4];
+    retex_texture_gaussian(pigment->image->texture, 0.5, 0.5, everywhere, rgba);
+    const Rgb mean = rgb(rgba[0], rgba[1], rgba[2]);
+    return pigment->is_tinted ? rgb_mul(mean, rgb(pigment->color.r, pigment->color.g, pigment->color.b)) : mean;
+}
+
+/* The mean of a pattern's colours around 0 of its space, where most patterns show all of them; or over UV. */
+static Rgb pattern_mean(const Pigment *pigment)
+{
+    Rgb sum = rgb_grey(0);
+    for (int k = 0; k < MEAN_POINTS * MEAN_POINTS * MEAN_POINTS; k++) {
+        const int i = k % MEAN_POINTS, j = k / MEAN_POINTS % MEAN_POINTS, l = k / MEAN_POINTS / MEAN_POINTS;
+        const Vec2 uv = {(i + 0.5) / MEAN_POINTS, (j + 0.5) / MEAN_POINTS};
+        const Vec3 at = vec3(2 * uv.u - 1, 2 * uv.v - 1, 2 * (l + 0.5) / MEAN_POINTS - 1);
+        const Rgbft c = pigment_eval(pigment, transform_point(&pigment->transform, at), uv);
+        sum = rgb_add(sum, rgb(c.r, c.g, c.b));
+    }
+    return rgb_scale(sum, 1.0f / (MEAN_POINTS * MEAN_POINTS * MEAN_POINTS));
+}
+
+static float mean_luminance(const Pigment *pigment)
+{
+    if (pigment_is_constant(pigment)) {
+        const Rgbft c = pigment_eval(pigment, vec3(0, 0, 0), (Vec2){0, 0});
+        return rgb_luminance(rgb(c.r, c.g, c.b));
+    }
+    return rgb_luminance(pigment->kind == PIGMENT_IMAGE ? image_mean(pigment) : pattern_mean(pigment));
+}
+
+/* Of a texture, or of those leaves of its tree that are the target; 0: none is. whole: the target of the texture as a
+ * whole. */
+static float brightest_leaf(const Texture *texture, int whole, int target)
+{
+    float most = 0;
+    for (int j = 0; j < texture_leaf_count(texture); j++) {
+        const Texture *leaf = texture_leaf(texture, j);
+        if ((texture->tree ? texture_leaf_target(leaf, whole) : whole) == target && leaf->pigment)
+            most = fmaxf(most, mean_luminance(leaf->pigment));
+    }
+    return most;
+}
+
+float original_brightness(const Scene *scene, int target)
+{
+    float most = 0.5f;
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Texture *texture;
+        int whole;
+        for (int i = 0; (texture = primitive_texture(&scene->primitives[k], i, &whole)); i++)
+            most = fmaxf(most, brightest_leaf(texture, whole, target));
+    }
+    for (int k = 0; k < scene->ninstances; k++) {
+        const Texture *texture = instance_target_texture(scene, &scene->instances[k], target, NULL);
+        if (texture && texture->pigment)
+            most = fmaxf(most, mean_luminance(texture->pigment));
+    }
+    return fminf(most, 1);
 }

@@ -12,4 +12,8 @@
  * nthreads: as of retex_parallel. */
 int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *err);
 
+/* The mean luminance of a target's original, of the brightest one where it has several pigments, 1/2 to 1. Patterns are
+ * looked at in some points. It depends on the scene alone, not on paths: all parts of a picture have the same. */
+float original_brightness(const Scene *scene, int target);
+
 #endif

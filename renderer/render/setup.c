@@ -8,6 +8,7 @@
 #include "render/checkpoints.h"
 #include "path/photons.h"
 #include "render/internal.h"
+#include "render/originals.h"
 
 static int check_params(const RenderParams *p, RetexError *err)
 {
@@ -284,7 +285,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .nkept = r->context.split ? r->scene->nkept : 0,
                        .stored = r->params.stored};
     for (int t = 0; t < r->scene->ntargets; t++)
-        target_periodic(r->scene, t, film.periodic[t]);
+        target_periodic(r->scene, t, film.periodic[t]), film.brightness[t] = original_brightness(r->scene, t);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
     r->controls = calloc((size_t)threads, sizeof *r->controls);
     r->workers = calloc((size_t)threads, sizeof *r->workers);

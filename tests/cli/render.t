@@ -207,7 +207,7 @@ $ set -- -q --size 32x24 --spp 8 -t floor scenes/cornell-box/cornell-box.pov; re
 
 # What denoising reads is in sets of two samples and more, but not in packs and pictures; without it the set is the same.
 $ rm -f ?.exr; set -- -q --size 32x24 --spp 4 -t floor; retex-render "$@" scenes/cornell-box/cornell-box.pov -o d.exr; retex-render "$@" --no-denoise-data scenes/cornell-box/cornell-box.pov -o n.exr; retex-render "$@" --spp 1 scenes/cornell-box/cornell-box.pov -o o.exr; retex-render "$@" scenes/cornell-box/cornell-box.pov -o p.retex; retex-render "$@" --plain --aov depth scenes/cornell-box/cornell-box.pov -o a.exr; for f in d.exr n.exr o.exr p.retex a.exr; do retex-info --json $f | grep -o '"\(noise\|guide_cover\)_[A-Za-z_]*"' | sort -u | wc -l; done; retex-info --json d.exr | grep -o '"\(noise\|guide_cover\)_[A-Za-z_]*"' | sort -u
-> 4
+> 5
 > 0
 > 0
 > 0
@@ -216,6 +216,7 @@ $ rm -f ?.exr; set -- -q --size 32x24 --spp 4 -t floor; retex-render "$@" scenes
 > "noise_floor_broad"
 > "noise_floor_sharp"
 > "noise_indep"
+> "noise_weight"
 $ retex-info --json d.exr | grep -o '"guide_[a-z_]*"' | tr -d '"' | grep -v cover | sort -u >features; grep -c . features | sed 's/[1-9].*/some/'; grep -o 'Cm .*guide_[a-z_]*' "$TESTS/../../man/retex-set.5" | grep -o 'guide_[a-z_]*' | grep -v cover | sort -u | diff features -
 > some
 $ retex-render -q --size 32x24 --spp 4 -t floor --no-denoise-data scenes/cornell-box/cornell-box.pov -o p2.retex; cmp p.retex p2.retex; rm p2.retex

@@ -71,6 +71,7 @@ void expect_equal_terms(const RetexSet *a, const RetexSet *b)
         assert_int_equal(a->terms[i].role, b->terms[i].role);
         assert_int_equal(a->terms[i].target, b->terms[i].target);
         assert_int_equal(a->terms[i].nfactors, b->terms[i].nfactors);
+        assert_true(a->terms[i].noise_weight == b->terms[i].noise_weight);
         for (int f = 0; f < a->terms[i].nfactors; f++)
             expect_equal_factor(a, a->terms[i].factors[f], b, b->terms[i].factors[f]);
         expect_equal_part(a, a->terms[i].radiance, b, b->terms[i].radiance);

@@ -146,6 +146,129 @@ static void noise_is_half_the_difference_of_halves(void **state)
             }
 }
 
+/* The product of the brightness of all hits of a term but the first. */
+static double expected_weight(const RetexSet *set, const RetexTerm *term, const double *brightness)
+{
+    double weight = 1;
+    for (int k = 1; k < term->nfactors; k++) {
+        int target;
+        RetexFootprintKind kind;
+        if (!retex_factor_is_hit(term->factors[k]))
+            continue;
+        retex_factor_target(set, term->factors[k], &target, &kind);
+        weight *= brightness[target];
+        if (term->factors[k].kind == RETEX_FACTOR_MIXTURE) /* of both targets, or of one */
+            for (int i = 0; i < set->mixtures[term->factors[k].index].nshares; i++)
+                if (set->footprints[set->mixtures[term->factors[k].index].shares[i].footprint].target != target)
+                    weight *= fmax(1, brightness[1 - target] / brightness[target]), i = 1 << 20;
+    }
+    return weight;
+}
+
+/* Noise is that of sums in which further hits weigh as their targets are bright in the scene, in the mean, but at least
+ * 1/2. Terms tell these weights, where the set has noise. */
+static void further_hits_weigh_as_targets_are_bright(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *floor, *wall;
+        double brightness[2];
+    } cases[] = {
+        {"checker rgb 1 rgb 0.7 scale 30", "rgb 0.8", {0.85, 0.8}},
+        {"rgbf <1, 0.5, 0.25, 0.5>", "rgb 3", {0.2126 + 0.7152 / 2 + 0.0722 / 4, 1}},
+        {"image_map { ppm \"IMAGE\" gamma 1 interpolate 2 }", "checker rgb 0.9 rgb 0.9", {(1 + 127.0 / 255) / 2, 0.9}}};
+    char image[] = "/tmp/retex-denoise-image-XXXXXX.ppm";
+    const int file = mkstemps(image, 4);
+    assert_true(file >= 0 && dprintf(file, "P3 2 1 2 1 1 1 2 2 2\n") > 0 && !close(file));
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int paper = 0; paper < 2; paper++) {
+            char text[2048], *at;
+            snprintf(text, sizeof text,
+                     "global_settings { assumed_gamma 1 } camera { location <0, 2, -6> look_at <0, 1, 0> }\n"
+                     "#declare Floor = texture { pigment { %s } finish { diffuse 0.8 } }\n"
+                     "#declare Wall = texture { pigment { %s } finish { diffuse 0.8 } }\n"
+                     "plane { y, 0 texture { Floor } } plane { z, 4 texture { Wall } }\n"
+                     "sphere { <0, 4, 0>, 1 pigment { rgb 1 } finish { emission 8 } }\n",
+                     cases[k].floor, cases[k].wall);
+            if ((at = strstr(text, "IMAGE"))) {
+                char rest[2048];
+                snprintf(rest, sizeof rest, "%s", at + 5);
+                snprintf(at, sizeof text - (size_t)(at - text), "%s%s", image, rest);
+            }
+            Scene *scene = read_scene(text, NULL, room_targets, 2);
+            RenderParams p = small(16), h = small(8);
+            int further = 0;
+            p.paper = h.paper = paper;
+            RetexSet *all = render(scene, &p), *half = render(scene, &h);
+            compare_halves(all, half, paper ? 1e-5 : 1e-3);
+            for (int t = 0; t < all->nterms; t++) {
+                const RetexTerm *term = &all->terms[t];
+                if (retex_term_hits(term) < 2 || term->role == RETEX_ROLE_CORRECTION) {
+                    assert_true(term->noise_weight == 0);
+                    continue;
+                }
+                expect((double)term->noise_weight, expected_weight(all, term, cases[k].brightness), 1e-5, "weight");
+                further++;
+            }
+            assert_true(further > 6);
+            p.denoise_data = 0;
+            RetexSet *without = render(scene, &p);
+            for (int t = 0; t < without->nterms; t++)
+                assert_true(without->terms[t].noise_weight == 0);
+            retex_set_close(&all);
+            retex_set_close(&half);
+            retex_set_close(&without);
+            scene_close(&scene);
+        }
+    unlink(image);
+}
+
+/* Light through several panes of glass that is a target: squared noise as stored, and as it is among seeds. Both halves
+ * of a pixel's samples together are spread more evenly than each, so that there is somewhat less among seeds. */
+static void further_light_has_the_noise_that_is_stored(void **state)
+{
+    (void)state;
+    static const char glass[] =
+        "global_settings { assumed_gamma 1 } camera { location <0, 0, -6> look_at 0 }\n"
+        "#declare Glass = texture { pigment { rgbf <1, 1, 1, 1> } finish { diffuse 0\n"
+        "  reflection { 0.05 } } }\n"
+        "#declare Slab = box { <-4, -3, 0>, <4, 3, 0.2> texture { Glass } interior { ior 1.1 } }\n"
+        "object { Slab } object { Slab translate z } object { Slab translate 2 * z }\n"
+        "plane { z, 4 pigment { rgb 0.8 } finish { diffuse 1 } }\n"
+        "sphere { <2, 3, 3>, 0.3 pigment { rgb 1 } finish { emission 40 } }\n";
+    enum { SEEDS = 12, VALUES = 16 * 12 * 3 };
+    static const char *const targets[] = {"Glass"};
+    static double sum[VALUES], squares[VALUES];
+    Scene *scene = read_scene(glass, NULL, targets, 1);
+    double stored = 0, real = 0;
+    for (int k = 0; k < SEEDS; k++) {
+        RetexSignals signals;
+        RetexError err = {0};
+        RenderParams p = small(16);
+        p.width = 16, p.height = 12, p.seed = (uint32_t)k + 1;
+        RetexSet *set = render(scene, &p);
+        test_must(retex_signals_open(&signals, set, &err), &err);
+        for (int s = 0; s < signals.count; s++)
+            for (int i = 0; i < VALUES && signals.of[s].target == 0 && signals.of[s].kind == RETEX_FOOTPRINT_SHARP;
+                 i++) {
+                double light = 0;
+                for (int m = 0; m < signals.of[s].nmembers; m++) {
+                    assert_float_equal(signals.of[s].members[m].bright, 1, 1e-6);
+                    light += (double)set->parts[signals.of[s].members[m].part].image.pixels[i];
+                }
+                sum[i] += light, squares[i] += light * light;
+                stored += pow((double)set->parts[signals.of[s].noise].image.pixels[i], 2) / SEEDS;
+            }
+        retex_signals_close(&signals);
+        retex_set_close(&set);
+    }
+    for (int i = 0; i < VALUES; i++)
+        real += (squares[i] - sum[i] * sum[i] / SEEDS) / (SEEDS - 1);
+    printf("# squared noise: %.3g stored, %.3g among seeds\n", stored, real);
+    assert_true(real > 0 && stored > 0.8 * real && stored < 2 * real);
+    scene_close(&scene);
+}
+
 static int count_data(const RetexSet *set)
 {
     int count = 0;
@@ -545,6 +668,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_is_half_the_difference_of_halves),
+        cmocka_unit_test(further_hits_weigh_as_targets_are_bright),
+        cmocka_unit_test(further_light_has_the_noise_that_is_stored),
         cmocka_unit_test(parts_are_those_of_the_terms),
         cmocka_unit_test(signals_without_noise_have_their_part),
         cmocka_unit_test(one_sample_tells_nothing),

@@ -234,6 +234,38 @@ static void terms_are_found_again_by_the_names_of_their_images(void **state)
     }
 }
 
+/* All hits but the first weigh as their targets are bright. */
+static void terms_weigh_as_targets_are_bright(void **state)
+{
+    (void)state;
+    static const float brightness[] = {0.5f, 0.75f, 1};
+    const struct {
+        int role;
+        HitMask hits;
+        int first;
+        double weight;
+    } cases[] = {{RETEX_ROLE_DEP, hit_bit(0, 0), 0, 1},
+                 {RETEX_ROLE_DEP, hit_bit(1, 0) | hit_bit(1, 1) | hit_bit(1, 2), 1, 0.5625},
+                 {RETEX_ROLE_DEP, hit_bit(0, 0) | hit_bit(1, 0), 0, 0.75},
+                 {RETEX_ROLE_DEP, hit_bit(0, 0) | hit_bit(0, 1) | hit_bit(2, 0), 0, 0.5},
+                 {RETEX_ROLE_CROSS3, hit_bit(1, 1) | hit_bit(2, 0), 1, 1},
+                 {RETEX_ROLE_CROSS2, hit_bit(2, 1), 2, 1},
+                 {RETEX_ROLE_INDEP, 3, -1, 1}};
+    RetexError err = {0};
+    Bands *bands = NULL;
+    TermTable table = {0};
+    TermCache cache = {{0}, {0}};
+    test_must(bands_create(&bands, 1, 1, NULL, 1, &err), &err);
+    test_must(terms_create(&table, bands, 3, 3, &err), &err);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const int term = terms_find(&table, &cache, (TermKey)cases[k].role << 56 | cases[k].hits);
+        assert_int_equal(terms_first_target(&table, term), cases[k].first);
+        assert_float_equal(terms_weight(&table, term, brightness), cases[k].weight, 1e-12);
+    }
+    terms_close(&table);
+    bands_close(&bands);
+}
+
 /* Names of other images, and of terms that this render cannot have. */
 static void no_terms_have_other_names(void **state)
 {
@@ -264,6 +296,7 @@ int main(void)
                                        cmocka_unit_test(two_targets_are_named_by_their_hits),
                                        cmocka_unit_test(terms_are_of_their_first_target),
                                        cmocka_unit_test(terms_are_found_again_by_the_names_of_their_images),
-                                       cmocka_unit_test(no_terms_have_other_names)};
+                                       cmocka_unit_test(no_terms_have_other_names),
+                                       cmocka_unit_test(terms_weigh_as_targets_are_bright)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Which coefficients clusters keep: all combinations of few hits, mixtures for more, and the limits between them. */
 #include "lib_test.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
@@ -79,6 +80,33 @@ static void few_hits_are_combined(void **state)
     }
 }
 
+/* Each further hit weighs as its target is bright, one of whatever target as the brightest. */
+static void coefficients_weigh_as_targets_are_bright(void **state)
+{
+    (void)state;
+    static const float brightness[RETEX_MAX_TARGETS] = {0.5f, 0.9f, 1, 0.75f, 0.6f, 0.5f, 0.8f, 0.95f};
+    for (int ntargets = 1; ntargets <= RETEX_MAX_TARGETS; ntargets++) {
+        Plan plan;
+        plan_make(&plan, ntargets, RETEX_MAX_ORDERS, RETEX_MAX_HITS);
+        plan_weigh(&plan, ntargets, brightness);
+        assert_true(plan.coefficients[0].weight == 1);
+        for (int k = 0; k < plan.count; k++)
+            for (int t = 0; t < ntargets; t++) {
+                const PlanCoefficient *c = &plan.coefficients[k];
+                const int next = c->next[t];
+                const float most = ntargets == 1 ? 0.5f : ntargets == 2 ? 0.9f : 1;
+                if (next < 0)
+                    continue;
+                if (!plan.coefficients[next].mixed)
+                    assert_float_equal(plan.coefficients[next].weight, c->weight * (double)brightness[t], 1e-9);
+                else if (c->mixed)
+                    assert_float_equal(plan.coefficients[next].weight, c->weight * (double)most, 1e-9);
+                else
+                    assert_float_equal(plan.coefficients[next].weight, pow((double)most, hits_of(c) + 1), 1e-9);
+            }
+    }
+}
+
 /* Shorter and shorter plans: each keeps less than the one before, all combinations of the fewest further hits last, and
  * a hit beyond leads nowhere. */
 static void plans_are_shortened(void **state)
@@ -114,6 +142,8 @@ static void plans_are_shortened(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_target_has_all_powers), cmocka_unit_test(steps_count_hits),
-                                       cmocka_unit_test(few_hits_are_combined), cmocka_unit_test(plans_are_shortened)};
+                                       cmocka_unit_test(few_hits_are_combined),
+                                       cmocka_unit_test(coefficients_weigh_as_targets_are_bright),
+                                       cmocka_unit_test(plans_are_shortened)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

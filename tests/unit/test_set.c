@@ -46,13 +46,14 @@ static void test_set_there_and_back(void **state)
 }
 
 /* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is,
- * mixtures. */
+ * mixtures. And what a term weighs in noise. */
 static void test_footprints_there_and_back(void **state)
 {
     (void)state;
     RetexSet *set = test_set(30, 20, 7), *back;
     RetexError err = {0};
     test_make_footprints(set);
+    set->terms[set->nterms - 1].noise_weight = 0.3f;
     test_must(retex_set_write(set, NULL, path, NULL, 0, &err), &err);
     test_must(retex_set_check(path, 0, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 0, &err), &err);

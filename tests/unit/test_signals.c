@@ -168,6 +168,46 @@ static void test_signals_of_footprints(void **state)
     retex_set_close(&set);
 }
 
+/* Terms that say what they weigh where noise is summed weigh as much where light is filtered, whatever their target. */
+static void test_weights_of_terms(void **state)
+{
+    (void)state;
+    RetexSet *set = footprints_set();
+    RetexSignals signals;
+    RetexError err = {0};
+    int found = 0;
+    for (int c = 0; c < 3; c++)
+        set->targets[0].mean_albedo[c] = 0.9f, set->targets[1].mean_albedo[c] = 0.2f;
+    for (int t = 0; t < set->nterms; t++)
+        if (retex_term_hits(&set->terms[t]) > 1)
+            set->terms[t].noise_weight = 0.75f;
+    test_must(retex_signals_sort(&signals, set, &err), &err);
+    for (int s = 0; s < signals.count; s++)
+        for (int m = 0; m < signals.of[s].nmembers; m++) {
+            const RetexSignalMember *member = &signals.of[s].members[m];
+            assert_true(member->weight == (member->hits > 1 ? 0.75f : 1) && member->bright == member->weight);
+            found += member->hits > 1;
+        }
+    assert_true(found >= 7);
+    retex_signals_close(&signals);
+    retex_set_close(&set);
+}
+
+static void test_terms_without_sense(void **state)
+{
+    (void)state;
+    static const float weights[] = {-0.5f, 1e-9f, 1.5f, INFINITY, NAN};
+    RetexSet *set = test_set(16, 12, 1);
+    RetexError err = {0};
+    for (size_t k = 0; k < sizeof weights / sizeof *weights; k++) {
+        RetexTerm term = set->terms[0];
+        term.noise_weight = weights[k];
+        assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+        assert_non_null(strstr(err.message, "weight in noise"));
+    }
+    retex_set_close(&set);
+}
+
 static RetexSet *plain_set(void)
 {
     RetexSet *set;
@@ -343,6 +383,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_signals_of_paper),        cmocka_unit_test(test_signals_of_footprints),
+        cmocka_unit_test(test_weights_of_terms),        cmocka_unit_test(test_terms_without_sense),
         cmocka_unit_test(test_signal_of_plain),         cmocka_unit_test(test_missing_and_wrong_parts),
         cmocka_unit_test(test_too_many_signals),        cmocka_unit_test(test_which_parts_are_dropped),
         cmocka_unit_test(test_noise_that_is_no_number), cmocka_unit_test(test_footprints_without_parts),

@@ -3,6 +3,7 @@
 #include <retex/host/set_build.h>
 
 #include "film/footprints/lamps.h"
+#include "film/noise.h"
 
 /* A footprint of three parts; index: its number in the set. */
 static int finish_footprint(FootprintFilm *film, RetexSet *set, const FootprintImages *images, RetexFootprint *f,
@@ -145,11 +146,12 @@ static int goes_on(const FootprintFilm *film, const Plan *plan, int coefficient)
            (film->scene->ntargets == 1 || plan->coefficients[coefficient].mixed);
 }
 
-/* The factors of interreflected light of one kind. */
+/* The factors of interreflected light of one kind, and its weight. */
 static void add_interreflected_factors(RetexTerm *term, const FootprintFilm *film, const Plan *plan, int t, int kind,
                                        int coefficient, const Places *places)
 {
     const PlanCoefficient *c = &plan->coefficients[coefficient];
+    term->noise_weight = noise_count(&film->params, film->scene->ntargets) ? (float)c->weight : 0;
     add_factors(term, places->kinds[t][kind], 1);
     add_factors(term, places->any, c->mixed);
     for (int b = 0; b < film->scene->ntargets; b++)

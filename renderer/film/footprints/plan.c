@@ -39,12 +39,11 @@ int plan_hits(const PlanCoefficient *c)
     return sum;
 }
 
-/* What each weighs, and where one more hit leads: its combination, else the mixture of as many hits. */
+/* Where one more hit leads: its combination, else the mixture of as many hits. */
 static void complete(Plan *plan, int ntargets, int first_mixed)
 {
     for (int k = 0; k < plan->count; k++) {
         PlanCoefficient *c = &plan->coefficients[k];
-        c->weight = ldexp(1, -plan_hits(c));
         memset(c->next, -1, sizeof c->next);
         for (int t = 0; t < ntargets; t++) {
             unsigned char more[RETEX_MAX_TARGETS];
@@ -75,6 +74,19 @@ void plan_make(Plan *plan, int ntargets, int orders, int factors)
 {
     make_within(plan, ntargets, combined(ntargets),
                 ntargets == 0 ? 0 : ntargets == 1 ? orders - 1 : factors - 1);
+}
+
+void plan_weigh(Plan *plan, int ntargets, const float *brightness)
+{
+    double most = 0;
+    for (int t = 0; t < ntargets; t++)
+        most = fmax(most, (double)brightness[t]);
+    for (int k = 0; k < plan->count; k++) {
+        PlanCoefficient *c = &plan->coefficients[k];
+        c->weight = pow(most, c->mixed);
+        for (int t = 0; t < ntargets; t++)
+            c->weight *= pow((double)brightness[t], c->powers[t]);
+    }
 }
 
 int plan_shorten(Plan *plan, int ntargets, int together)

@@ -14,7 +14,7 @@
 typedef struct PlanCoefficient {
     unsigned char powers[RETEX_MAX_TARGETS]; /* further hits of each target; all 0 where mixed */
     unsigned char mixed;                     /* further hits of whatever target, or 0 */
-    double weight;                           /* 2^-n of n further hits, each as albedo 1/2 */
+    double weight;                           /* in sums of which there is noise: see plan_weigh */
     signed char next[RETEX_MAX_TARGETS];     /* the coefficient after one more hit of a target, or -1 */
 } PlanCoefficient;
 
@@ -34,6 +34,10 @@ void plan_light_name(char name[RETEX_NAME_MAX], const Plan *plan, const char *wo
 /* Without targets there is one coefficient, of light that meets none. orders: most factors of one target, the first hit
  * included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
 void plan_make(Plan *plan, int ntargets, int orders, int factors);
+
+/* Give coefficients their weights: each further hit weighs as its target is bright, one of whatever target as the
+ * brightest. */
+void plan_weigh(Plan *plan, int ntargets, const float *brightness);
 
 /* Make the next smaller plan, which keeps at least so many hits in every combination, or with one target in all.
  * Returns 0 where there is none. */

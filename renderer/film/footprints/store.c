@@ -171,6 +171,8 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_HITS);
     fit_parts(film);
+    plan_weigh(&film->plan, scene->ntargets, params->brightness);
+    plan_weigh(&film->lamp_plan, scene->ntargets, params->brightness);
     if (parts_needed(film) > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT,
                           "the set may need %d parts, more than %d: take fewer targets%s or clusters",

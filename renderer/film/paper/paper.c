@@ -8,6 +8,7 @@
 #include <retex/host/set_build.h>
 #include <retex/target_name.h>
 #include "film/corrections.h"
+#include "film/noise.h"
 #include "film/paper/expansion.h"
 #include "film/paper/paper.h"
 #include "film/paper/terms.h"
@@ -345,8 +346,8 @@ static void sum_signals(const void *pixel, SignalTotals *totals)
     memset(totals->of, 0, sizeof totals->of[0] * (size_t)(1 + p->film->scene->ntargets));
     for (int k = 0; k < p->ntouched; k++) {
         const Float4 sum = p->sums[p->touched[k]];
-        int nfactors, target = terms_place(&p->film->terms, p->touched[k], &nfactors);
-        double weight = nfactors ? 2.0 / (double)(1u << nfactors) : 1;
+        const int target = terms_first_target(&p->film->terms, p->touched[k]);
+        const double weight = terms_weight(&p->film->terms, p->touched[k], p->film->params.brightness);
         for (int c = 0; c < 3; c++)
             totals->of[1 + target][c] += weight * sum[c];
     }
@@ -463,9 +464,10 @@ static int finish_film(void *layout, RetexSet *set, RetexError *err)
     if (film->lost)
         return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
                           TERMS_MAX, "take fewer targets or orders");
+    const int noise = noise_count(&film->params, film->scene->ntargets);
     int code = finish_footprints(film, set, err);
     if (!code)
-        code = terms_finish(&film->terms, set, err);
+        code = terms_finish(&film->terms, set, noise ? film->params.brightness : NULL, err);
     return code ? code : finish_corrections(film, set, err);
 }
 

@@ -216,18 +216,24 @@ int hits_on_target(HitMask hits, int target)
     return count_bits(target_bits(hits, target));
 }
 
-int terms_place(const TermTable *table, int term, int *nfactors)
+int terms_first_target(const TermTable *table, int term)
 {
-    TermKey key = table->keys[term];
-    RetexRole kind = (RetexRole)(key >> 56);
-    int target = 0;
-    *nfactors = 0;
-    if (kind == RETEX_ROLE_FULL || kind == RETEX_ROLE_INDEP)
-        return -1;
-    *nfactors = count_bits(REST(key));
-    while (!target_bits(key, target))
-        target++;
-    return target;
+    const HitMask hits = terms_hits(table, term);
+    for (int t = 0; t < table->ntargets; t++)
+        if (target_bits(hits, t))
+            return t;
+    return -1;
+}
+
+double terms_weight(const TermTable *table, int term, const float *brightness)
+{
+    const HitMask hits = terms_hits(table, term);
+    double weight = 1;
+    int is_further = 0;
+    for (int t = 0; t < table->ntargets; t++)
+        for (int n = hits_on_target(hits, t); n > 0; n--, is_further = 1)
+            weight *= is_further ? (double)brightness[t] : 1;
+    return weight;
 }
 
 static void term_factors(RetexTerm *term, TermKey key, int ntargets, int orders)
@@ -258,7 +264,7 @@ static int compare_keys(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
+int terms_finish(TermTable *table, RetexSet *set, const float *brightness, RetexError *err)
 {
     TermKey(*order)[2] = calloc((size_t)table->count + 1, sizeof *order);
     if (!order)
@@ -271,6 +277,8 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
     for (int k = 0; k < table->count && !code; k++) {
         RetexTerm term = {.role = (RetexRole)(order[k][0] >> 56), .target = -1};
         term_factors(&term, order[k][0], table->ntargets, info.orders);
+        if (brightness && term.nfactors > 1)
+            term.noise_weight = (float)terms_weight(table, (int)order[k][1], brightness);
         if (!info.strict_paper)
             add_further(&term, table->ntargets, info.orders);
         code = bands_move_part(table->bands, table->images[order[k][1]], set, &term.radiance, err);

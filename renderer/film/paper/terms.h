@@ -42,9 +42,12 @@ int terms_resume(TermTable *table, const char *name, RetexError *err);
 HitMask terms_hits(const TermTable *table, int term);
 /* How many hits of a mask are on a target. */
 int hits_on_target(HitMask hits, int target);
-/* The target of a term's first factor, or -1, and how many factors it has. */
-int terms_place(const TermTable *table, int term, int *nfactors);
-/* Make all terms the set's, in an order that does not depend on when they came; footprints must be there already. */
-int terms_finish(TermTable *table, RetexSet *set, RetexError *err);
+/* The target of a term's first factor, or -1. */
+int terms_first_target(const TermTable *table, int term);
+/* What a term weighs in sums of which there is noise: its hits after the first as their targets are bright. */
+double terms_weight(const TermTable *table, int term, const float *brightness);
+/* Make all terms the set's, in an order that does not depend on when they came; footprints must be there already.
+ * brightness: of targets, where the set keeps noise, else NULL. */
+int terms_finish(TermTable *table, RetexSet *set, const float *brightness, RetexError *err);
 
 #endif

@@ -62,9 +62,12 @@ int retex_compact_copy_terms(RetexSet *copy, const RetexSet *set, RetexError *er
         code = retex_set_add_footprint(copy, &set->footprints[i], NULL, err);
     for (int i = 0; i < set->nmixtures && !code; i++)
         code = retex_set_add_mixture(copy, &set->mixtures[i], NULL, err);
-    for (int i = 0; i < set->nterms && !code; i++)
+    for (int i = 0; i < set->nterms && !code; i++) {
+        RetexTerm term = set->terms[i];
+        term.noise_weight = 0; /* noise is not copied */
         if (!retex_term_is_picture(&set->terms[i]))
-            code = retex_set_add_term(copy, &set->terms[i], NULL, err);
+            code = retex_set_add_term(copy, &term, NULL, err);
+    }
     return code;
 }
 

@@ -36,6 +36,8 @@ void retex_denoise_drop_data(RetexSet *set)
     for (int k = set->nparts - 1; k > 0; k--)
         if (retex_part_is_denoise_data(set, k))
             retex_set_remove_part(set, k);
+    for (int t = 0; t < set->nterms; t++)
+        set->terms[t].noise_weight = 0;
 }
 
 static int is_preview(const RetexDenoiseParams *p)

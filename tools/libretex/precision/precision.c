@@ -115,11 +115,14 @@ static void plan_mixtures(RetexPrecision *p, const RetexSet *set)
     }
 }
 
-/* The members of a signal with the smallest weights first, because errors are carried on to the next ones. */
+/* The members of a signal with the smallest weights first, because errors are carried on to the next ones; where all
+ * weigh the same, as of white targets, those with the most hits. */
 static int compare_members(const void *a, const void *b)
 {
     const RetexSignalMember *x = a, *y = b;
-    return x->weight != y->weight ? (x->weight < y->weight ? -1 : 1) : x->term - y->term;
+    return x->weight != y->weight ? (x->weight < y->weight ? -1 : 1)
+           : x->hits != y->hits   ? y->hits - x->hits
+                                  : x->term - y->term;
 }
 
 int retex_precision_open(RetexPrecision **result, const RetexSet *set, double remaining, RetexError *err)
@@ -255,8 +258,8 @@ static void find_whites(const RetexPrecision *p, Scratch *s, const RetexSet *row
 
 /* ---- one pixel ---- */
 
-/* How much light every footprint and every mixture multiplies, further hits being grey. Light of lamps is the same
- * light again. */
+/* How much light every footprint and every mixture multiplies, further hits weighing as in the noise of it. Light of
+ * lamps is the same light again. */
 static void gather_light(const RetexPrecision *p, Scratch *s, const RetexSet *rows, size_t at)
 {
     memset(s->light, 0, sizeof *s->light * (size_t)(p->nfootprints + 1));

@@ -129,14 +129,18 @@ static json_t *target_number(int target)
     return target < 0 ? json_null() : json_integer(target);
 }
 
-static json_t *write_term(const RetexSet *set, const RetexTerm *term)
+static json_t *write_term(const RetexSet *set, const RetexTerm *term, int *finite)
 {
     json_t *factors = json_array();
 
     for (int i = 0; i < term->nfactors; i++)
         retex_json_add(&factors, write_factor(set, term->factors[i]));
-    return json_pack("{s:s, s:o, s:o, s:o}", "role", retex_role_name(term->role), "target", target_number(term->target),
-                     "radiance", part_name(set, term->radiance), "factors", factors);
+    json_t *json =
+        json_pack("{s:s, s:o, s:o, s:o}", "role", retex_role_name(term->role), "target", target_number(term->target),
+                  "radiance", part_name(set, term->radiance), "factors", factors);
+    if (term->noise_weight > 0)
+        retex_json_put(&json, "noise_weight", real((double)term->noise_weight, finite));
+    return json;
 }
 
 static json_t *write_color(const float color[3], int *finite)
@@ -234,7 +238,7 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     for (int i = 0; i < set->nfootprints; i++)
         retex_json_add(&footprints, write_footprint(set, &set->footprints[i]));
     for (int i = 0; i < set->nterms; i++)
-        retex_json_add(&terms, write_term(set, &set->terms[i]));
+        retex_json_add(&terms, write_term(set, &set->terms[i], finite));
     for (int i = 0; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
         retex_json_add(&parts,

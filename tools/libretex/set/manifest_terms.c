@@ -55,6 +55,8 @@ static void read_term(Reading *reading, const json_t *json, RetexSet *set)
 
     for (int f = 0; f < term.nfactors && !reading->status; f++)
         term.factors[f] = read_factor(reading, json_array_get(factors, (size_t)f), set);
+    if (json_object_get(json, "noise_weight"))
+        term.noise_weight = (float)retex_reading_real(reading, json_object_get(json, "noise_weight"), "noise_weight");
     if (!reading->status)
         retex_reading_check_size(reading, set, term.radiance, "radiance");
     if (!reading->status)

@@ -388,6 +388,9 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
     if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS || retex_term_hits(term) > RETEX_MAX_HITS)
         return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, %d of them hits, not %d", RETEX_MAX_FACTORS,
                           RETEX_MAX_HITS, term->nfactors);
+    if (term->noise_weight != 0 && !(term->noise_weight >= ldexpf(1, -RETEX_MAX_HITS) && term->noise_weight <= 1))
+        return retex_fail(err, RETEX_EINVAL, "a term's weight in noise is %g, not 2^-%d to 1",
+                          (double)term->noise_weight, RETEX_MAX_HITS);
     for (int i = 0; i < term->nfactors && !status; i++)
         status = check_factor(set, term->factors[i], err);
     if (!status)

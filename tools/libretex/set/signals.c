@@ -142,7 +142,8 @@ static int is_member(const RetexTerm *term)
     return !retex_term_is_picture(term);
 }
 
-/* The luminance of a target's mean albedo, at least 1/2: in total light, hits of what is darker count as much. */
+/* The luminance of a target's mean albedo, at least 1/2: in total light, hits of what is darker count as much. For sets
+ * that do not say what their terms weigh. */
 static float brightness(const RetexTarget *t)
 {
     const float albedo = retex_luminance(t->mean_albedo[0], t->mean_albedo[1], t->mean_albedo[2]);
@@ -173,11 +174,13 @@ static float first_weight(const RetexSet *set, const RetexTerm *term)
     return weight;
 }
 
-/* Further hits are taken as grey or, `bright`, as bright as their targets. */
+/* Where the term does not say it, further hits are taken as grey or, `bright`, as bright as their targets. */
 static float member_weight(const RetexSet *set, const RetexTerm *term, int bright)
 {
     float weight = first_weight(set, term);
     int hits = 0;
+    if (term->noise_weight > 0)
+        return weight * term->noise_weight;
     for (int k = 0; k < term->nfactors; k++)
         if (retex_factor_is_hit(term->factors[k]) && hits++)
             weight *= bright ? factor_brightness(set, &term->factors[k]) : 0.5f;

@@ -148,6 +148,8 @@ typedef struct RetexTerm {
     int radiance; /* part "RGB". half */
     int nfactors; /* 0..RETEX_MAX_FACTORS; of these 0..RETEX_MAX_HITS footprints and mixtures */
     RetexFactor factors[RETEX_MAX_FACTORS]; /* in the order of multiplication */
+    float noise_weight; /* by which its light, with the parameters as rendered, is multiplied in the sum whose noise is
+                           stored: 2^-RETEX_MAX_HITS..1. 0: 1/2 for each further hit */
 } RetexTerm;
 
 typedef enum RetexParameterKind {

@@ -5,12 +5,13 @@
  * (spp / 2, rounded down) and that of the rest. Its square estimates the variance of the mean of all (Rousselle et al.
  * 2012). A signal is what is filtered with weights of its own: a picture that is the sum of terms,
  *
- *     total = sum over the terms t of the signal of  C_t L_t / 2^(hits of t - 1)
+ *     total = sum over the terms t of the signal of  C_t L_t W_t
  *
- * as if each further hit had albedo 1/2; L_t is the luminance of the term's parameters as rendered, of terms of role
- * LAMP 1. Corrections do not count. Signals are `indep`, the terms without hits; by target and kind of the first hit's
- * footprint TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all. The
- * light of each lamp has such signals of its own: lamp_LAMP_indep, lamp_LAMP_TARGET_sharp and so on.
+ * W_t is the term's noise_weight, which tells how bright the targets of its further hits are, and where that is 0
+ * 1/2^(hits of t - 1). L_t is the luminance of the term's parameters as rendered, of terms of role LAMP 1. Corrections
+ * do not count. Signals are `indep`, the terms without hits; by target and kind of the first hit's footprint
+ * TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no terms at all. The light of
+ * each lamp has such signals of its own: lamp_LAMP_indep, lamp_LAMP_TARGET_sharp and so on.
  *
  * Features: guide_NAME, see the table, and guide_cover_TARGET, R, half: how much of the target is seen: share of the
  * pixel times the luminance that the mirrors and glass before it leave, 0..1.
