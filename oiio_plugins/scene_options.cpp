@@ -13,10 +13,10 @@ namespace plugins
 namespace
 {
 
-const char *const known = "targets, lamps, light_share, spp, noise, size, width, height, crop, seed, max_depth, "
-                          "filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, "
-                          "caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, no_ambient, lenient, "
-                          "strict, safe and threads";
+const char *const known = "targets, lamps, light_share, finishes, show, spp, noise, size, width, height, crop, seed, "
+                          "max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, "
+                          "no_denoise_data, caustics_guide, include, declare.NAME, caustics, no_caustics, ambient, "
+                          "no_ambient, lenient, strict, safe and threads";
 
 int whole(const std::string &name, const std::string &value, int low, int high)
 {
@@ -62,6 +62,10 @@ void set_option(SceneOptions &options, const std::string &name, const std::strin
         options.targets = selections(name, value, RETEX_MAX_TARGETS);
     } else if (name == "lamps") {
         set_lamps(options, value);
+    } else if (name == "finishes") {
+        options.finishes = selections(name, value, RETEX_MAX_TARGETS);
+    } else if (name == "show") {
+        options.shown = list(name, value);
     } else if (name == "include") {
         options.includes = list(name, value);
     } else if (name == "width") {
@@ -88,6 +92,10 @@ void check(const SceneOptions &options, const Arguments &arguments)
         throw Failure("layout paper has no clusters: one of them");
     if (options.render.paper && arguments.count("lamps"))
         throw Failure("layout paper keeps no lamps apart");
+    if (options.render.paper && arguments.count("finishes"))
+        throw Failure("layout paper keeps no finishes apart");
+    if (!options.shown.empty() && options.finishes.empty())
+        throw Failure("show chooses among finishes, of which there are none");
     if (options.render.width && (options.width || options.height))
         throw Failure("size says it all: no width or height beside it");
     if (options.denoise && options.no_denoise_data)

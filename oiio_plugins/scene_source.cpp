@@ -76,6 +76,7 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     RetexError err{};
     Scene *scene = nullptr;
     std::vector<const char *> targets = pointers(options.targets), lamps = pointers(options.lamps),
+                              finishes = pointers(options.finishes), shown = pointers(options.shown),
                               includes = pointers(options.includes), declares = pointers(options.declares);
     SdlOptions sdl = options.sdl;
     sdl.nthreads = options.render.nthreads;
@@ -86,6 +87,8 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     JobNames names{};
     names.targets = targets.data(), names.ntargets = int(targets.size());
     names.lamps = lamps.data(), names.nlamps = int(lamps.size()), names.each_lamp = options.each_lamp;
+    names.finishes = finishes.data(), names.nfinishes = int(finishes.size());
+    names.shown = shown.data(), names.nshown = int(shown.size());
     must(job_open_scene(&scene, path.c_str(), &sdl, &options.render, &names, &err), err);
     job_warn_dark(scene, &sdl);
     return {scene, close_scene};
