@@ -1,22 +1,18 @@
 /* Finishes of targets, by name; only of surfaces that let no light through, which a finish might change. */
 #include "job/job.h"
-#include "shade/pigment.h"
+#include "shade/texture.h"
 
-/* Whether light stays on its side of the surface. */
-static int is_closed(const Texture *leaf)
-{
-    return !finish_transmits(leaf->finish) && !finish_is_subsurface(leaf->finish) && pigment_is_opaque(leaf->pigment);
-}
-
+/* Layers may be open where what lies below them is not. */
 static int check_texture(const Scene *scene, const Texture *texture, int whole, RetexError *err)
 {
+    const int is_opaque = texture_is_opaque(texture);
     for (int k = 0; k < texture_leaf_count(texture); k++) {
         const Texture *leaf = texture_leaf(texture, k);
-        const int target = texture_leaf_target(leaf, whole);
-        if (target >= 0 && scene->targets[target].nfinishes && !is_closed(leaf))
-            return retex_fail(
-                err, RETEX_EUNSUPPORTED, "--finish: light goes %s target %s: its finish cannot be chosen later",
-                finish_is_subsurface(leaf->finish) ? "below the surface of" : "through", scene->targets[target].name);
+        const int target = texture_leaf_target(leaf, whole), scatters_below = finish_is_subsurface(leaf->finish);
+        if (target >= 0 && scene->targets[target].nfinishes && (!is_opaque || scatters_below))
+            return retex_fail(err, RETEX_EUNSUPPORTED,
+                              "--finish: light goes %s target %s: its finish cannot be chosen later",
+                              scatters_below ? "below the surface of" : "through", scene->targets[target].name);
     }
     return RETEX_OK;
 }

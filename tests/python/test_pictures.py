@@ -195,13 +195,18 @@ def test_cross():
 
 def test_finishes():
     """Finishes: as retex-combine makes them; of a text; unknown ones"""
-    lib.run("retex-render", "-q", "--size", "32x24", "--spp", "4", "--finish", "Floor=original,Gloss",
-            lib.ROOT + "/tests/cli/finishes.pov", "-o", "finishes.exr")
+    lib.run("retex-render", "-q", "--size", "32x24", "--spp", "4", "--full-precision", "-t", "Floor",
+            "-t", "Wall", "--finish", "Floor=original,Gloss", lib.ROOT + "/tests/cli/finishes.pov", "-o", "finishes.exr")
     with retex.open("finishes.exr") as room:
         gloss = room.combine({"Floor": TERRAZZO}, finishes={"floor": "gloss"})
         check(gloss, combined("finishes.exr", "--finish", "Floor=Gloss", "--texture", "Floor=" + TERRAZZO))
         assert np.array_equal(gloss, room.combine(f"Floor={TERRAZZO};finish:Floor=Gloss"))
         assert not np.array_equal(gloss, room.combine({"Floor": TERRAZZO}))
+        colors = {"Floor": (.5, .6, .7), "Wall": (.8, .2, .6)}
+        mean = room.combine(colors, parameters={p["name"]: p.get("kept", p["value"])
+                                                for p in room.manifest["parameters"] if p["kind"] == "color"})
+        parts = [room.combine(colors, finishes={"Floor": name}) for name in ("original", "Gloss")]
+        np.testing.assert_allclose((parts[0] + parts[1]) / 2, mean, rtol=5e-3, atol=1e-4)
         assert "is Gloss meant?" in str(lib.fails(retex.Error, room.combine, finishes={"Floor": "Glos"}))
         assert "has no lamps" in str(lib.fails(retex.Error, room.combine, lights={"Lamp": 1}))
     with retex.open("room.exr") as room:
