@@ -14,7 +14,7 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 > retex-room.js
 > room.json
 > 14
-$ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 73728 && echo small
+$ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 77824 && echo small
 > small
 
 # What a room of this size takes until the first target can be changed, and in all: a little more than it did.
@@ -85,6 +85,35 @@ $ retex-pack off.exr -o y.retex --web-lamps 2
 $ retex-pack off.exr --web off --web-lamps 0
 ! retex-pack: error: --web-lamps: expected a whole number from 1 to 64, not '0'
 = 2
+
+# Finishes: each is the picture of retex-combine, with new textures and with lamps, and those that visitors cannot change
+# apart join `rest` with each finish apart. Their light is loaded at once, and cannot be left out.
+$ cp "$TESTS/finishes.pov" room.pov; retex-render -q --size 96x72 --spp 64 --denoise --finish Floor=original,Gloss --finish Wall=original,satin room.pov -o shine.exr; retex-pack shine.exr --web shine 2>&1 | sed 's/[0-9]\{3,\}/N/g'
+> retex-pack: set shine.exr: N bytes
+> retex-pack: folder shine: N bytes, N until the picture, N until the first target
+> retex-pack: finishes of Floor, Wall: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
+$ near() { /usr/bin/python3 near.py shine.exr shine "$@"; }; near 38; near 38 finish:Floor=Gloss; near 37 finish:Wall=satin; near 38 finish:Floor=Gloss finish:Wall=satin Floor=T/walnut-herringbone.jpg; near 38 finish:Floor=Gloss Wall=0.8,0.2,0.2
+$ python3 -c 'import json; r = json.load(open("shine/room.json")); print([(t["name"], t["finishes"], t["finish"]) for t in r["targets"]]); [print(p["name"], repr(p["lamp"]), p["finishes"], p["value"][0], p["kept"][0]) for p in r["parameters"]]'
+> [('Floor', ['original', 'Gloss'], 0), ('Wall', ['original', 'satin'], 0)]
+> finish0 '' [0, 0] 1.0 1.0
+> finish1 '' [1, 1] 1.0 0.25
+> finish2 '' [2, 1] 0.0 0.25
+> finish3 '' [1, 2] 0.0 0.25
+> finish4 '' [2, 2] 0.0 0.25
+$ retex-render -q --size 96x72 --spp 64 --denoise --finish Floor=original,Gloss -l Lamp -l Panel room.pov -o lit.exr; retex-pack -q lit.exr --web lit; near() { /usr/bin/python3 near.py lit.exr lit "$@"; }; near 40; near 39 finish:Floor=Gloss light:Lamp=0.2; near 33 finish:Floor=Gloss light:Panel=0
+$ retex-pack lit.exr --web lit --web-lamps 1 2>&1 | sed '1,2d; s/[0-9]\{3,\}/N/g'; python3 -c 'import json; [print(p["name"], p["lamp"], p["finishes"], round(p["value"][0], 4), round(p["kept"][0], 4)) for p in json.load(open("lit/room.json"))["parameters"]]'
+> retex-pack: lamps Lamp, rest; finishes of Floor: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
+> retex-pack: Panel joins rest, being dimmest: a page has 1 lamps, or as many as --web-lamps says
+> Lamp finish0 Lamp [0] 1.2 1.2
+> Lamp finish1 Lamp [1] 1.2 0.6
+> Lamp finish2 Lamp [2] 0.0 0.6
+> rest finish0 rest [0] 1.0 1.0
+> rest finish1 rest [1] 1.0 0.5
+> rest finish2 rest [2] 0.0 0.5
+$ near() { /usr/bin/python3 near.py lit.exr lit "$@"; }; near 40 finish:Floor=Gloss; near 39 finish:Floor=Gloss light:Lamp=0.2; /usr/bin/python3 reference.py lit a.exr light:rest=2 finish:Floor=Gloss; retex-combine -q lit.exr --light Panel=2 --finish Floor=Gloss -o b.exr; retex-diff -q a.exr b.exr --fail-psnr 39
+$ retex-pack shine.exr --web dull --no-lamps; test -e dull || echo nothing
+> nothing
+! retex-pack: error: a set with finishes keeps them as lamps, which cannot be left out
 
 # A floor to the horizon, whose UV go far; a target that is not seen; a size and samples so few that nothing spreads.
 $ printf '#declare F = texture { pigment { rgb .5 } } #declare G = texture { pigment { rgb .4 } } camera { location <0, 1, -3> look_at 0 } light_source { <-2, 4, -3> rgb 1 } plane { y, -1 texture { F } } sphere { <0, 0, -99>, 1 texture { G } }' >far.pov; retex-render -q --size 96x72 --spp 16 -t F -t G far.pov -o far.exr; retex-render -q --size 1x1 --spp 1 -t F -t G far.pov -o tiny.exr

@@ -239,6 +239,46 @@ def check_lamps(page):
     page.open(url + "page.html")
 
 
+def check_finishes(page):
+    """A set with finishes and lamps: pictures against retex-combine, buttons by mouse, keys and screen reader, links."""
+    subprocess.run(["retex-render", "-q", "--size", "96x72", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss", "-l", "Lamp",
+                    "-l", "Panel", "tests/cli/finishes.pov", "-o", f"{work}/shine.exr"], check=True)
+    subprocess.run(["retex-pack", "-q", f"{work}/shine.exr", "--web", f"{work}/shine"], check=True)
+
+    def near(least, *options):
+        page.save(f"{work}/canvas.png")
+        subprocess.run(["retex-combine", "-q", f"{work}/shine.exr", *options, "-o", f"{work}/combined.png"], check=True)
+        decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+        result(decibels >= least, f"canvas and retex-combine: {options}, {decibels:.2f} dB")
+    page.open(url + "shine/index.html")
+    page.room("complete")
+    result([lamp["name"] for lamp in page.room("lamps")] == ["Lamp", "Panel"], "finishes are no lamps")
+    near(38)
+    page.press(".finishes label:nth-child(2)")
+    result(page.state()["finishes"] == {"Floor": "Gloss"}, "a finish by a click")
+    near(38, "--finish", "Floor=Gloss")
+    page.shot("finishes-desktop")
+    page.run(f"{PART}('.finishes input:checked').focus()")
+    page.key("ArrowLeft", 37)
+    page.settle()
+    before = page.state()["finishes"]
+    page.key("ArrowRight", 39)
+    page.settle()
+    result((before, page.state()["finishes"]) == ({}, {"Floor": "Gloss"}), "finishes by keys")
+    tree = page.call("Accessibility.getFullAXTree")["nodes"]
+    named = {(n.get("role", {}).get("value"), n.get("name", {}).get("value")) for n in tree}
+    result({("radiogroup", "Finish"), ("radio", "Gloss"), ("button", "Finish: as rendered")} <= named, "screen readers: finishes have names")
+    page.room("setLight('Lamp', '0.2')")
+    state, link = page.state(), page.room("link")
+    page.press("[data-do=rendered]")
+    result(page.state()["finishes"] == {} and page.run(f"{ROOM}.shadowRoot.activeElement.value") == "0", "a finish as rendered, with the focus on it")
+    page.open(link)
+    page.room("complete")
+    result(page.state() == state and "finish:Floor=Gloss" in link, f"a link restores finishes: {link}")
+    near(38, "--finish", "Floor=Gloss", "--light", "Lamp=0.2")
+    page.open(url + "page.html")
+
+
 def set_slider(page, name, touch, end=0.75):
     """Drag a slider from its middle, or tap on it."""
     page.run(f"{PART}('[data-set={name}]').scrollIntoView({{block: 'nearest'}})")
@@ -582,6 +622,7 @@ def main():
         check_placing(page)
         check_parameters(page)
         check_lamps(page)
+        check_finishes(page)
         page.shot("desktop")
         check_controls(page, False)
         check_keyboard(page)

@@ -1,5 +1,6 @@
 """Compares the picture of a folder for browsers, as reference.py makes it, with retex-combine's:
-near.py SET FOLDER DB [TARGET=IMAGE|r,g,b[:OPTIONS]]... [light:LAMP=VALUE]... prints nothing if the PSNR is at least DB decibels."""
+near.py SET FOLDER DB [TARGET=IMAGE|r,g,b[:OPTIONS]]... [light:LAMP=VALUE]... [finish:TARGET=NAME]...
+prints nothing if the PSNR is at least DB decibels."""
 import os
 import subprocess
 import sys
@@ -10,6 +11,9 @@ for text in textures:
     name, image = text.split("=", 1)
     if name.startswith("light:"):
         options += ["--light", f"{name[6:]}={image}"]
+        continue
+    if name.startswith("finish:"):
+        options += ["--finish", f"{name[7:]}={image}"]
         continue
     image, *placed = image.split(":")
     options += [":".join(["--texture", *placed]), f"{name}={image}" if "/" in image else f"{name}=rgb({image})"]

@@ -1,7 +1,7 @@
 """Makes the picture of a folder that retex-pack --web wrote, as the player's shaders do, but on the CPU with numpy.
 
     reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]... [PARAMETER=r,g,b]...
-        [light:LAMP=GAIN[*rgb(r,g,b)]]...  as of retex-edit(5); LAMP may be *
+        [light:LAMP=GAIN[*rgb(r,g,b)]]... [finish:TARGET=NAME]...  as of retex-edit(5); LAMP may be *
 """
 import json
 import sys
@@ -303,6 +303,7 @@ class Room:
         self.tiles, self.lamp_tiles = self.atlas(self.room["reduced"]), self.atlas(self.room.get("lamps"))
         self.values = {p["name"]: np.array(p["value"]) for p in self.room.get("parameters", [])}
         targets = self.room["targets"]
+        self.finishes = [t.get("finish", 0) for t in targets]
         self.classes = [read_class(folder, c, targets[c["target"]]["periodic"]) for c in self.room["classes"]]
 
     def image(self, entry):
@@ -315,11 +316,20 @@ class Room:
         image = self.image(entry)
         return [decode_light(image[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t) for t in entry["tiles"]]
 
-    def set_lamps(self, texts):
-        for p in self.room["parameters"]:
-            text = texts.get(p["name"], texts.get("*"))
-            if text:
-                self.values[p["name"]] = lamp_color(p, text)
+    def set_edit(self, lamps, finishes):
+        """Values of lamps and names of finishes, by name: what parameters are, as retex-web(5) says."""
+        targets, parameters = self.room["targets"], self.room["parameters"]
+        for index, name in finishes.items():
+            self.finishes[index] = targets[index]["finishes"].index(name)
+        colors = {"": np.ones(3)}
+        for p in parameters:
+            if not any(p.get("finishes", [])) and p.get("lamp") != "":
+                name = p.get("lamp", p["name"])
+                text = lamps.get(name, lamps.get("*"))
+                colors[name] = lamp_color(p, text) if text else np.array(p["value"])
+        for p in parameters:
+            chosen = all(f in (0, 1 + self.finishes[t]) for t, f in enumerate(p.get("finishes", [])))
+            self.values[p["name"]] = colors[p.get("lamp", p["name"])] if chosen else np.zeros(3)
 
     def mixture(self, index, textures):
         total = above = None
@@ -378,17 +388,19 @@ class Room:
 def main():
     room = Room(sys.argv[1])
     names = [t["name"] for t in room.room["targets"]]
-    textures, lamps = {}, {}
+    textures, lamps, finishes = {}, {}, {}
     for argument in sys.argv[3:]:
         name, text = argument.split("=", 1)
         if name.startswith("light:"):
             lamps[name[6:]] = text
+        elif name.startswith("finish:"):
+            finishes[names.index(name[7:])] = text
         elif name not in names:
             room.values[name] = np.array([float(x) for x in text.split(",")])
         else:
             textures[names.index(name)] = Texture(text)
-    if lamps:
-        room.set_lamps(lamps)
+    if lamps or finishes:
+        room.set_edit(lamps, finishes)
     picture = room.combine(textures).astype(np.float32)
     out = oiio.ImageOutput.create(sys.argv[2])
     out.open(sys.argv[2], oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { fails, near, random, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 
-const { srgbDecode, readColor, parseColor, parseEdit, editText, parseLamp, lampText, lampColor, kelvinColor, miredOf, kelvinOf } = player();
+const { srgbDecode, readColor, parseColor, parseEdit, editText, parseLamp, lampText, lampColor, kelvinColor, miredOf, kelvinOf, lampsOf, parameterColors } = player();
 
 /* ---- colours ---- */
 
@@ -94,6 +94,34 @@ test("what a value makes of a lamp: numbers multiply, colours keep its luminance
   near(of("rgb(7,7,7)*2", lamp), Array(3).fill(2 * luminance(lamp.value)), 1e-9);
   near(of("rgb(1,1,2)", { ...lamp, several: true }), [5, 5.6, 12.6].map((x) => x / luminance([1, 1, 2])), 1e-5);
   same(of("3", { value: [1, 0.5, 2] }), [3, 1.5, 6]); // a set without terms of single lamps
+});
+
+/* Two targets of two and three finishes and one without, two lamps and light of none. */
+function withFinishes() {
+  const parameters = [], add = (lamp, value, finishes, name = `${lamp} ${finishes}`) => parameters.push({ name, lamp, value, kept: value, finishes });
+  for (const [lamp, value] of [["Sun", [2, 4, 6]], ["", [1, 1, 1]], ["Spot", [0, 0, 0]]])
+    for (const finishes of [[1, 0, 2], [0, 0, 0], [2, 0, 2], [2, 0, 3]]) add(lamp, value, finishes);
+  parameters[9].kept = [3, 3, 3]; // of Spot, which is off
+  return { targets: [{ name: "Floor", finishes: ["matt", "satin"], finish: 0 }, { name: "Rug" }, { name: "Wall", finishes: ["a", "b", "c"], finish: 1 }], parameters };
+}
+
+test("light has its lamp's colour with the finishes that are chosen, and none with others", () => {
+  const room = withFinishes(), black = [0, 0, 0], white = [1, 1, 1], sun = [2, 4, 6];
+  same(lampsOf(room).map((l) => [l.name, l.index]), [["Sun", 1], ["Spot", 9]]);
+  same(parameterColors(room, [null, null], [0, 0, 1]), [sun, sun, black, black, white, white, black, black, black, black, black, black]);
+  same(parameterColors(room, [null, null], [1, 0, 1]), [black, sun, sun, black, black, white, white, black, black, black, black, black]);
+  same(parameterColors(room, [null, null], [1, 0, 2]), [black, sun, black, sun, black, white, black, white, black, black, black, black]);
+  same(parameterColors(room, [null, null], [0, 0, 0]).map((c) => c[2]), [0, 6, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0]);
+  const lit = parameterColors(room, [parseLamp("0.5"), parseLamp("2")], [1, 0, 2]);
+  same(lit, [black, [1, 2, 3], black, [1, 2, 3], black, white, black, white, black, [6, 6, 6], black, [6, 6, 6]]);
+  same(parameterColors({ targets: room.targets, parameters: [{ name: "x", lamp: "Gone", value: black, finishes: [1, 0, 0] }] }, [], [0, 0, 0]), [white]);
+});
+
+test("where there are no finishes, all parameters are lamps", () => {
+  const room = { targets: [{ name: "Floor" }], parameters: [{ name: "Sun", value: [2, 4, 6] }, { name: "Spot", value: [0, 0, 0], kept: [3, 3, 3] }] };
+  same(lampsOf(room).map((l) => l.name), ["Sun", "Spot"]);
+  same(parameterColors(room, [parseLamp("2"), null], [0]), [[4, 8, 12], [0, 0, 0]]);
+  same([lampsOf({}), parameterColors({}, [], [])], [[], []]);
 });
 
 test("the slider of warmth knows its own colours, and no others", () => {

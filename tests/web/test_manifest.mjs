@@ -66,6 +66,22 @@ test("the light of single lamps: an atlas of its own, whose terms are of groups 
     await fails(() => checkManifest({ ...manifest(), parameters, lamps, ...wrong }), /damaged|undefined|null/, JSON.stringify(wrong));
 });
 
+test("finishes of targets, which parameters refer to", async () => {
+  const part = (finishes, value = [1, 1, 1]) => ({ name: `light ${finishes}`, value, lamp: "Lamp", finishes });
+  const shiny = ({ targets: of = {}, ...changes } = {}) => ({ ...manifest(), targets: [{ ...manifest().targets[0], finishes: ["matt", "satin"], finish: 1, ...of }, manifest().targets[1]],
+    parameters: [part([0, 0]), part([1, 0]), part([2, 0]), { ...part([2, 0]), lamp: "" }], ...changes });
+  checkManifest(shiny());
+  checkManifest(shiny({ targets: { finishes: ["a", "b", "c", "d"], finish: 3 } }));
+  checkManifest(shiny({ parameters: undefined }));
+  for (const targets of [{ finish: 2 }, { finish: -1 }, { finish: "satin" }, { finish: undefined }, { finishes: ["matt"], finish: 0 }, { finishes: [], finish: 0 }, { finishes: "matt" }, { finishes: null },
+    { finishes: ["matt", 3] }, { finishes: ["a", "b", "c", "d", "e"] }, { finishes: undefined }])
+    await fails(() => checkManifest(shiny({ targets })), DAMAGED, JSON.stringify(targets));
+  for (const wrong of [part([3, 0]), part([-1, 0]), part([0.5, 0]), part(["1", 0]), part([1, 1]), part([1]), part([1, 0, 0]), part(1), part(undefined), { ...part([1, 0]), lamp: undefined }, { ...part([1, 0]), lamp: 3 }])
+    await fails(() => checkManifest(shiny({ parameters: [part([0, 0]), wrong] })), DAMAGED, JSON.stringify(wrong));
+  for (const key of ["lamp", "finishes"]) // of a room without finishes
+    await fails(() => checkManifest({ ...manifest(), parameters: [{ name: "Lamp", value: [1, 1, 1], [key]: part([0, 0])[key] }] }), DAMAGED, key);
+});
+
 test("no factor is finer than what it is multiplied at", async () => {
   await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: -1, factors: [1] }] }), DAMAGED);
   await fails(() => checkManifest({ ...manifest(), finest: 4, terms: [{ group: 1, gain: 0, factors: [] }] }), DAMAGED);

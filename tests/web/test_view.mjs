@@ -101,6 +101,74 @@ test("links have lamps, and a state names all others by a star", async () => {
   await fails(() => room.setState({ lamps: { Lamp: "bleu" } }), /bleu/);
 });
 
+/* A floor with three finishes, a wall with two and a rug without, a lamp and light of none. */
+function withFinishes(RetexRoom, has = {}) {
+  const parameters = [], targets = [{ name: "Floor", finishes: ["matt", "Gloss", "a;b"], finish: 1 }, { name: "Rug" }, { name: "Wall", finishes: ["matt", "satin"], finish: 0 }];
+  for (const lamp of ["Lamp", ""])
+    for (const finishes of [[0, 0, 0], [1, 0, 1], [2, 0, 1], [3, 0, 1], [1, 0, 2], [2, 0, 2], [3, 0, 2]])
+      parameters.push({ name: `${lamp}${finishes}`, lamp, finishes, value: [1, 1, 1], kept: [1, 1, 1] });
+  const { room, events } = withLamps(RetexRoom, { id: "", room: { parameters, lamps: {}, targets }, said: [null], finishes: [1, 0, 0], setTexture: async () => {}, ...has });
+  room.recolor();
+  return { room, events, lit: () => room.colors.map((c, i) => c[0] && parameters[i].finishes.join("")).filter(Boolean) };
+}
+
+test("a finish is chosen by its name, and lamps go on as they are", async () => {
+  const { RetexRoom } = player(), { room, events, lit } = withFinishes(RetexRoom);
+  same([room.lamps, lit()], [[{ name: "Lamp", value: null, color: [1, 1, 1] }], ["000", "201", "000", "201"]]);
+  await room.setFinish("Floor", "MATT");
+  same([lit(), room.getState().finishes], [["000", "101", "000", "101"], { Floor: "matt" }]);
+  await room.setFinish("Wall", "satin");
+  await room.setLight("lamp", "0.25");
+  same([lit(), room.getState().finishes], [["000", "102", "000", "102"], { Floor: "matt", Wall: "satin" }]);
+  same([room.colors[0], room.colors[4], room.colors[7], room.colors[11]], [[0.25, 0.25, 0.25], [0.25, 0.25, 0.25], [1, 1, 1], [1, 1, 1]]);
+  for (const [target, finish, message] of [["Floor", "gold", "Floor has no finish 'gold'."], ["Rug", "matt", "Rug has no finish 'matt'."], ["Roof", "matt", "The room has no 'Roof'."]])
+    await fails(() => room.setFinish(target, finish), message);
+  await room.setFinish("Rug");
+  await room.setFinish("Floor", "Gloss"); // as rendered: nothing is said
+  await room.setFinish("Wall", null);
+  same([lit(), room.getState().finishes, room.lamps[0].value], [["000", "201", "000", "201"], {}, "0.25"]);
+  same(events.filter((e) => e !== "update"), ["Floor: matt", "Wall: satin", "Rug: finish as rendered", "Floor: Gloss", "Wall: matt"]);
+});
+
+test("links have finishes; those that a room has not are left alone", async () => {
+  const location = { href: "https://x.org/p", hash: "" }, { RetexRoom, parseEdit } = player({ location }), { room, lit } = withFinishes(RetexRoom, { renderer: {}, hasAttribute: () => false, loadLamps: () => {} });
+  await room.setFinish("Floor", "a;b");
+  await room.setFinish("Wall", "satin");
+  same(new URL(room.link).hash, "#room=finish:Floor=a%253Bb;finish:Wall=satin");
+  location.hash = new URL(room.link).hash;
+  await room.setState({});
+  same([lit(), new URL(room.link).hash], [["000", "201", "000", "201"], "#room="]);
+  await room.restore();
+  same([lit(), room.getState().finishes], [["000", "302", "000", "302"], { Floor: "a;b", Wall: "satin" }]);
+  await room.setState(parseEdit("finish:floor=matt;finish:Wall=gold;finish:Rug=matt;finish:Roof=matt;light:Lamp=2"));
+  same([lit(), room.getState().finishes, room.lamps[0].value], [["000", "101", "000", "101"], { Floor: "matt" }, "2"]);
+});
+
+test("the panel has the finishes of the target that it is for", async () => {
+  const made = [], tag = () => ({ dataset: {}, append(...all) { Object.assign(this, { input: all[0], text: all[1] }); made.push(this); } });
+  const { RetexRoom } = player({ document: { createElement: tag } }), { room } = withFinishes(RetexRoom, { renderer: {}, textures: [{}, {}, {}], selected: 0, loadLamps: () => {} });
+  room.$(".finishes").dataset = {};
+  room.$(".finishes").querySelectorAll = () => made.map((label) => label.input);
+  room.$(".finishes").replaceChildren = (...labels) => made.splice(0, made.length, ...labels);
+  const shown = () => (room.refreshFinishes(), [room.$(".finish").hidden, made.map((l) => (l.input.checked ? `*${l.text}` : l.text)), room.$("[data-do=rendered]").disabled]);
+  same(shown(), [false, ["matt", "*Gloss", "a;b"], true]);
+  same(made.map((label) => label.title), ["", "As rendered", ""]);
+  await room.setControl({ dataset: { set: "finish" }, value: "2" });
+  const [last] = made;
+  same([shown(), made[0] === last], [[false, ["matt", "Gloss", "*a;b"], false], true]); // the one with the focus stays
+  room.$(".finishes input:checked").focus = () => {};
+  await room.command("rendered");
+  same(shown(), [false, ["matt", "*Gloss", "a;b"], true]);
+  room.selected = 2;
+  same(shown(), [false, ["*matt", "satin"], true]);
+  room.selected = 1;
+  same(shown()[0], true);
+  room.renderer = null;
+  room.selected = 0;
+  shown();
+  same(made.map((l) => l.input.disabled), [true, true, true]);
+});
+
 test("a lamp's row: strength, warmth, off, and on again as it was", async () => {
   const { RetexRoom } = player(), { room, events } = withLamps(RetexRoom);
   room.$(".lamps").children = [{}, {}, {}];
@@ -162,7 +230,7 @@ test("links have the state of this room beside others, and the state comes back"
   same(new URL(colored.link).hash.split("&").at(-1), "b=Sofa=tan"); // a colour has no proportions
   const state = room.getState();
   same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: 2, rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
-    light: { exposure: 1, warmth: -0.5 }, lamps: {} });
+    light: { exposure: 1, warmth: -0.5 }, lamps: {}, finishes: {} });
   const restored = [];
   Object.assign(room, { renderer: {}, hasAttribute: () => false, setState: async (all) => restored.push(all) });
   location.hash = link.hash;
@@ -271,6 +339,16 @@ test("the light of lamps comes when one is changed; with what is needed first, w
   same(needed.slice(8, 10), ["fetch lamps.jpg", "fetch wall.z"]);
   for (const [file, size] of [["lamps.jpg", [10, 6]], ["lamps.jpg", [10]]])
     same((await load({ [file]: size }, lit([0, 0, 0]))).log.at(-1), "failed: lamps.jpg is damaged.");
+});
+
+test("the light of finishes is needed for the picture as rendered, and a link chooses one", async () => {
+  const shiny = (room, crc32) => ({ ...room, targets: room.targets.map((t, i) => (i ? { ...t, finishes: ["matt", "satin"], finish: 0 } : t)),
+    parameters: [[0, 0], [0, 1], [0, 2]].map((finishes, i) => ({ name: `${i}`, lamp: "", finishes, value: Array(3).fill(i < 2 ? 1 : 0), kept: Array(3).fill(i ? 0.5 : 1) })),
+    lamps: { file: "lamps.jpg", bytes: 2, crc32: crc32(Uint8Array.from(FILES["lamps.jpg"])), width: 10, height: 5, finest: 2,
+      tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 1, levels: 255 }], terms: [{ group: 0, gain: 0, parameter: 2, factors: [] }] } });
+  const { room, log } = await load({}, shiny, "#room=finish:Floor=satin");
+  same([log.slice(3, 5), log.at(-1)], [["fetch lamps.jpg", "fetch reduced.jpg"], "retex-complete"]);
+  same([room.colors, room.renderer.rendered, room.lamps], [[[1, 1, 1], [0, 0, 0], [1, 1, 1]], [[1, 1, 1], [1, 1, 1], [0, 0, 0]], []]);
 });
 
 test("a target can be changed once all that its light needs is there", async () => {

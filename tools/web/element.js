@@ -11,6 +11,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.light = { exposure: 0, warmth: 0 };
     this.colors = [];
     this.said = [];
+    this.finishes = [];
     this.zoom = { times: 1, x: 0, y: 0 };
     this.selected = 0;
     this.loading = 0;
@@ -44,7 +45,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* The lamps: names; values as in links, null as rendered; and colours, linear numbers. */
   get lamps() {
-    return (this.room?.parameters || []).map(({ name }, i) => ({ name, value: this.said[i], color: [...this.colors[i]] }));
+    return lampsOf(this.room || {}).map(({ name, index }, i) => ({ name, value: this.said[i], color: [...this.colors[index]] }));
   }
 
   /* Resolves when all is loaded. */
@@ -107,17 +108,46 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* By name. Their light is loaded when the first of them needs it. */
   async setLamps(values) {
-    const { parameters = [] } = this.room || {};
+    const lamps = lampsOf(this.room || {}), said = [...this.said];
     for (const [name, value] of Object.entries(values)) {
-      const index = lampNamed(parameters, name), parsed = value === null ? null : parseLamp(String(value));
+      const index = indexNamed(lamps, name), parsed = value === null ? null : parseLamp(String(value));
       if (index < 0) throw new Error(`The room has no '${name}'.`);
-      const color = parsed ? lampColor(parsed, parameters[index]) : parameters[index].value;
-      if (!color.every((x) => x < 3e38)) throw new Error(`The light of ${name} becomes too bright.`);
-      this.colors[index] = color.map(Number);
-      this.said[index] = parsed && lampText(parsed);
+      if (parsed && !lampColor(parsed, lamps[index]).every((x) => x < 3e38)) throw new Error(`The light of ${name} becomes too bright.`);
+      said[index] = parsed && lampText(parsed);
     }
+    this.said = said;
+    await this.relight();
+  }
+
+  /* One of a target's finishes by name; null: as rendered. Resolves when it is drawn. */
+  async setFinish(name, finish = null) {
+    const index = this.indexOf(name), chosen = this.finishNumber(index, finish);
+    if (chosen < 0) throw new Error(`${name} has no finish '${finish}'.`);
+    this.finishes[index] = chosen;
+    this.say(`${name}: ${this.finishName(index) || "finish as rendered"}`);
+    await this.relight();
+  }
+
+  /* Draw with what is said of lamps and finishes. */
+  async relight() {
+    this.recolor();
     this.update();
     await this.loadLamps();
+  }
+
+  recolor() {
+    this.colors = parameterColors(this.room || {}, this.said.map((text) => text && parseLamp(text)), this.finishes);
+  }
+
+  /* -1: the target does not have it. */
+  finishNumber(target, name) {
+    const { finishes = [] } = this.room.targets[target];
+    return name === null ? finishesAsRendered(this.room)[target] : indexNamed(finishes.map((text) => ({ name: text })), String(name));
+  }
+
+  /* Of the one that is chosen. */
+  finishName(target) {
+    return this.room.targets[target].finishes?.[this.finishes[target]];
   }
 
   getState() {
@@ -127,7 +157,11 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat };
     });
     const lamps = Object.fromEntries(this.lamps.filter((l) => l.value).map((l) => [l.name, l.value]));
-    return { textures, light: { ...this.light }, lamps };
+    const finishes = {}, rendered = finishesAsRendered(this.room || {});
+    this.targets.forEach((name, i) => {
+      if (this.finishName(i) && this.finishes[i] !== rendered[i]) finishes[name] = this.finishName(i);
+    });
+    return { textures, light: { ...this.light }, lamps, finishes };
   }
 
   async setState(state) {
@@ -135,9 +169,15 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     let failed;
     const lamps = state.lamps || {}, others = lamps["*"] ?? null, values = Object.fromEntries(this.lamps.map((l) => [l.name, others]));
     for (const name of Object.keys(lamps)) {
-      const index = lampNamed(this.lamps, name);
+      const index = indexNamed(this.lamps, name);
       if (index >= 0) values[this.lamps[index].name] = lamps[name];
     }
+    this.finishes = finishesAsRendered(this.room || {});
+    for (const [name, finish] of Object.entries(state.finishes || {})) {
+      const index = indexNamed(this.room?.targets || [], name), chosen = index < 0 ? -1 : this.finishNumber(index, finish);
+      if (chosen >= 0) this.finishes[index] = chosen;
+    }
+    this.recolor();
     await this.setLamps(values).catch((error) => (failed = error));
     for (const name of this.targets) {
       const { source = null, ...options } = state.textures?.[name] || {};
@@ -208,7 +248,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     if (signal.aborted) return;
     this.room = room;
     this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
-    if (!kept) this.colors = (room.parameters || []).map((p) => p.value), this.said = this.colors.map(() => null);
+    if (!kept) this.said = lampsOf(room).map(() => null), this.finishes = finishesAsRendered(room);
+    this.recolor();
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
     this.$(".view").style.setProperty("--ratio", room.width / room.height);
     this.refresh();
@@ -421,18 +462,39 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
     show("tint", texture.tint, "");
     show("repeat", texture.repeat, "");
+    this.refreshFinishes();
     this.refreshLamps();
     show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
     show("warmth", this.light.warmth, (this.light.warmth > 0 ? "+" : "") + this.light.warmth.toFixed(2));
     const lamps = this.lamps.filter((l) => l.value).map((l) => `${l.name}: ${isBlack(l.color) ? "off" : "changed"}`);
-    this.$("canvas").setAttribute("aria-label", `The room. ${[...this.targets.map((n, i) => `${n}: ${this.textures[i].label}`), ...lamps].join(", ")}.`);
+    this.$("canvas").setAttribute("aria-label", `The room. ${[...this.targets.map((n, i) => `${n}: ${this.textures[i].label}${this.finishName(i) ? ` (${this.finishName(i)})` : ""}`), ...lamps].join(", ")}.`);
+  }
+
+  /* The finishes of the target that the controls change. */
+  refreshFinishes() {
+    const box = this.$(".finishes"), { name, finishes = [] } = this.room.targets[this.selected], of = [name, ...finishes].join();
+    const chosen = this.finishes[this.selected], rendered = this.finishNumber(this.selected, null);
+    this.$(".finish").hidden = !finishes.length;
+    if (box.dataset.of !== of)
+      box.replaceChildren(...finishes.map((text, i) => {
+        const label = document.createElement("label"), input = document.createElement("input");
+        label.className = "file";
+        label.title = i === rendered ? "As rendered" : "";
+        Object.assign(input, { type: "radio", name: "finish", value: i });
+        input.dataset.set = "finish";
+        label.append(input, text);
+        return label;
+      }));
+    box.dataset.of = of;
+    for (const input of box.querySelectorAll("input")) input.checked = Number(input.value) === chosen, input.disabled = !this.renderer;
+    this.$("[data-do=rendered]").disabled = !this.renderer || chosen === rendered;
   }
 
   /* A row a lamp. */
   refreshLamps() {
-    const box = this.$(".lamps"), { parameters = [] } = this.room;
-    if (box.children.length !== parameters.length)
-      box.replaceChildren(...parameters.map(({ name }, i) => {
+    const box = this.$(".lamps"), all = lampsOf(this.room);
+    if (box.children.length !== all.length)
+      box.replaceChildren(...all.map(({ name }, i) => {
         const row = document.createElement("div");
         row.className = "lamp";
         row.innerHTML = LAMP_ROW;
@@ -447,8 +509,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
         reset.onclick = () => (lit.focus(), this.try(() => this.setLight(name)));
         return row;
       }));
-    parameters.forEach((lamp, i) => {
-      const row = box.children[i], { gain, color } = this.lampValue(i), lit = !isBlack(this.colors[i]);
+    all.forEach((lamp, i) => {
+      const row = box.children[i], { gain, color } = this.lampValue(i), lit = !isBlack(this.colors[lamp.index]);
       const [button, reset] = row.querySelectorAll("button"), mired = miredOf(color || (lamp.several || isBlack(lamp.value) ? [1, 1, 1] : lamp.value));
       const show = (key, value, text) => {
         const input = row.querySelector(`[data-set=${key}]`);
@@ -469,12 +531,12 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* What is said of a lamp, as parseLamp has it. */
   lampValue(index) {
-    return this.said[index] ? parseLamp(this.said[index]) : { gain: isBlack(this.room.parameters[index].value) ? 0 : 1, color: null };
+    return this.said[index] ? parseLamp(this.said[index]) : { gain: isBlack(lampsOf(this.room)[index].value) ? 0 : 1, color: null };
   }
 
   /* Change what is said of a lamp; as it was rendered nothing is. */
   changeLamp(index, change) {
-    const { name, value } = this.room.parameters[index], said = { ...this.lampValue(index), ...change };
+    const { name, value } = lampsOf(this.room)[index], said = { ...this.lampValue(index), ...change };
     const isPlain = !said.color && said.gain === (isBlack(value) ? 0 : 1);
     return this.try(() => this.setLight(name, isPlain ? null : lampText(said)));
   }
@@ -483,7 +545,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   switchLamp(index) {
     const { gain, color } = this.lampValue(index), row = this.$(".lamps").children[index], on = !gain;
     if (gain) row.before = gain;
-    this.say(`${this.room.parameters[index].name}: ${on ? "on" : "off"}`);
+    this.say(`${lampsOf(this.room)[index].name}: ${on ? "on" : "off"}`);
     return this.changeLamp(index, { gain: on ? row.before || 1 : 0, color });
   }
 
@@ -507,6 +569,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
         break;
       }
       case "color": return this.try(() => this.setTexture(name, input.value));
+      case "finish": return this.try(() => this.setFinish(name, this.room.targets[this.selected].finishes[value]));
       case "size": {
         const times = 2 ** -value, old = texture.scale;
         return this.place(name, { scale: Array.isArray(old) ? [times, old[1] / old[0] * times] : times });
@@ -536,6 +599,11 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       case "out": return this.zoomBy(1 / 1.5);
       case "full": return document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen();
       case "original": return this.setTexture(this.targets[this.selected], null);
+      case "rendered": {
+        const done = this.setFinish(this.targets[this.selected]);
+        this.$(".finishes input:checked").focus(); // the button cannot be used any more
+        return done;
+      }
       case "link": {
         const local = this.textures.some((t) => t.local);
         let where = "Link copied.";
@@ -715,10 +783,10 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
 const drawingContext = (width, height) => Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
 
-/* The lamp that a name means: exactly, else ignoring case if that is unique; or -1. */
-function lampNamed(lamps, name) {
-  const exact = lamps.findIndex((l) => l.name === name), alike = lamps.filter((l) => l.name.toLowerCase() === name.toLowerCase());
-  return exact < 0 && alike.length === 1 ? lamps.indexOf(alike[0]) : exact;
+/* Which one a name means: exactly, else ignoring case if that is unique; or -1. */
+function indexNamed(list, name) {
+  const exact = list.findIndex((l) => l.name === name), alike = list.filter((l) => l.name.toLowerCase() === name.toLowerCase());
+  return exact < 0 && alike.length === 1 ? list.indexOf(alike[0]) : exact;
 }
 
 /* Two repeats as one picture: side by side, the right one moved down, or one above the other, the upper one moved right. */

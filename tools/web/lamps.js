@@ -50,6 +50,21 @@ function lampColor({ gain, color }, { value, kept = value, several }) {
   return base.map((x, k) => gain * (!color ? x : color[k] * (several ? x : luminanceOf(base))));
 }
 
+/* The parameters that are lamps, with their names. Where targets have finishes, light is kept by lamp, or as that of none,
+ * and by finish: the value of a lamp is that of its light which met no such target. */
+const lampsOf = ({ parameters = [] }) => parameters.map((p, index) => ({ ...p, index, name: p.lamp ?? p.name }))
+  .filter((p) => p.lamp !== "" && !p.finishes?.some(Boolean));
+
+/* What colours parameters have: their lamp's, or white; black where light met a target with another finish than it has.
+ * said: of the lamps what parseLamp makes of it, or null: as rendered; chosen: the number of each target's finish. */
+function parameterColors(room, said, chosen) {
+  const lamps = lampsOf(room), own = lamps.map((lamp, i) => (said[i] ? lampColor(said[i], lamp) : lamp.value));
+  return (room.parameters ?? []).map(({ name, lamp = name, finishes = [] }) =>
+    finishes.some((f, t) => f && f !== 1 + chosen[t]) ? [0, 0, 0] : own[lamps.findIndex((l) => l.name === lamp)] ?? [1, 1, 1]);
+}
+
+const finishesAsRendered = ({ targets = [] }) => targets.map((t) => t.finish ?? 0);
+
 /* Warmth is told in mireds, millionths by kelvin, which look even: the nearest of a colour, null where it is far from that
  * of any black body. */
 const MIREDS = Array.from({ length: 91 }, (_, k) => 100 + 5 * k);

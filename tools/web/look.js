@@ -91,6 +91,8 @@ input[type=color], select { width: 44px; height: 36px; padding: 3px; border: 1px
 select { font: inherit; color: inherit; width: 130px; padding: 2px 8px; }
 .lamp { display: grid; grid-template-columns: 1fr 42px; gap: 0 8px; margin-bottom: 14px; } .lamp label { grid-column: 1 / -1; }
 .lamp button { display: flex; gap: 8px; justify-content: space-between; align-items: center; overflow-wrap: anywhere; text-align: left; } .lamp i { font-style: normal; color: var(--soft); } .lamp button + button { justify-content: center; padding: 0; } .lamp label.slider { grid-template-columns: 86px 1fr 56px; }
+.finish { display: grid; grid-template-columns: 1fr 42px; gap: 0 8px; align-items: start; } .finish h2 { grid-column: 1 / -1; margin-top: 12px; } .finish button { padding: 0; }
+.file:has(:checked) { border-color: var(--accent); background: color-mix(in srgb, var(--accent) 9%, #0000); }
 .drop .stage::after { content: ""; position: absolute; inset: 10px; border: 3px dashed #fff; outline: 99vmax solid #0005; border-radius: 14px; pointer-events: none; }
 .drop .name { top: 40%; padding: 12px 24px; border-radius: 24px; font-size: 18px; z-index: 1; }
 .quiet { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
@@ -104,7 +106,7 @@ select { font: inherit; color: inherit; width: 130px; padding: 2px 8px; }
 @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
 @media (forced-colors: active) {
   .swatch, .colors input, .split { forced-color-adjust: none; } .name, .message, .tools { border: 1px solid; }
-  .panel [aria-pressed=true], .tools [aria-pressed=true] { outline: 3px solid Highlight; }
+  .panel [aria-pressed=true], .tools [aria-pressed=true], .file:has(:checked) { outline: 3px solid Highlight; }
 }
 @media (prefers-color-scheme: dark) {
   :host { color: #eee; background: #1b1b1a; color-scheme: dark; --line: #fff3; --paper: #222221; --soft: #bbb; --accent: #8fc7b5; }
@@ -144,6 +146,11 @@ ${TOOLS}
   <div class="panel" part="panel">
     <h2 id="what">Surface</h2>
     <div class="row targets" role="group" aria-labelledby="what"></div>
+    <div class="finish" hidden>
+      <h2 id="how">Finish</h2>
+      <div class="row finishes" role="radiogroup" aria-labelledby="how"></div>
+      <button data-do="rendered" title="As rendered" aria-label="Finish: as rendered">↺</button>
+    </div>
     <h2><span id="with">Texture</span><span class="chosen"></span></h2>
     <div class="row swatches images" role="group" aria-labelledby="with"></div>
     <div class="row swatches colors" role="group" aria-label="Colours"><input type="color" value="#c8b9a6" data-set="color" title="Any colour" aria-label="Any colour"></div>

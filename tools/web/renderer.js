@@ -32,8 +32,23 @@ function checkManifest(room) {
     for (const key of ["uv_min", "uv_max", "uv_scale", "periodic"]) check(isPair(t[key]));
   });
   check(room.targets.length);
+  const hasFinishes = room.targets.some((t) => t.finishes !== undefined), named = (name) => check(typeof name === "string");
+  for (const { finishes, finish } of room.targets) {
+    if (finishes === undefined) continue;
+    list(finishes, 4, named);
+    check(finishes.length > 1);
+    inside(finish, finishes);
+  }
   const color = (c) => (list(c, 3, (x) => number(x)), check(c.length === 3));
-  list(room.parameters ?? [], 64, (p) => (check(typeof p.name === "string"), color(p.value)));
+  list(room.parameters ?? [], 64, (p) => {
+    named(p.name);
+    color(p.value);
+    check(hasFinishes || (p.lamp === undefined && p.finishes === undefined));
+    if (!hasFinishes) return;
+    named(p.lamp);
+    list(p.finishes, room.targets.length, (f, t) => whole(f, 0, room.targets[t].finishes?.length ?? 0));
+    check(p.finishes.length === room.targets.length);
+  });
   list(room.lights, 256, (l) => (file(l), levels(l), whole(l.target, -1, 8)));
   const atlas = (entry) => {
     if (entry) file(entry);

@@ -35,6 +35,8 @@ export interface RetexState {
   light: RetexLight;
   /** Values of lamps by name; "*" is all that are not named. */
   lamps?: Record<string, string>;
+  /** Names of finishes by target; those that are not named are as rendered. */
+  finishes?: Record<string, string>;
 }
 
 /** Events of <retex-room>. */
@@ -59,6 +61,8 @@ export class RetexRoom extends HTMLElement {
   setLight(light: Partial<RetexLight>): Promise<void>;
   /** A lamp's new value: 0, 2.5, "#ffd0a0", "3000K", "1.5*3000K"; null: as rendered. */
   setLight(lamp: string, value: string | number | null): Promise<void>;
+  /** One of a target's finishes, by name; null: as rendered. */
+  setFinish(target: string, finish: string | null): Promise<void>;
   getState(): RetexState;
   setState(state: Partial<RetexState>): Promise<void>;
   toBlob(type?: string, quality?: number): Promise<Blob | null>;

@@ -212,6 +212,8 @@ int retex_set_drop_lamps(RetexSet *set, RetexError *err)
     char used[RETEX_SET_PARTS_MAX];
     if (!retex_set_has_role(set, RETEX_ROLE_LAMP))
         return RETEX_OK;
+    if (retex_set_has_finishes(set))
+        return retex_fail(err, RETEX_EINVAL, "a set with finishes keeps them as lamps, which cannot be left out");
     for (int i = 0; i < set->nparameters; i++) {
         const RetexParameter *parameter = &set->parameters[i];
         if (parameter->kind == RETEX_PARAMETER_COLOR &&

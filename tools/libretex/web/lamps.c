@@ -24,12 +24,41 @@ static int is_of_lamp(const RetexSet *set, const RetexTerm *term, int lamp)
     return term->role == RETEX_ROLE_LAMP && retex_set_term_lamp(set, term) == lamp;
 }
 
-int retex_web_is_lamp(const RetexSet *set, int parameter)
+static int has_terms(const RetexSet *set, int parameter)
 {
     for (int i = 0; i < set->nterms; i++)
         if (is_of_lamp(set, &set->terms[i], parameter))
             return 1;
     return 0;
+}
+
+/* The name of the lamp whose light a parameter is; "": of none. */
+static const char *lamp_name(const RetexSet *set, int parameter)
+{
+    const RetexParameter *p = &set->parameters[parameter];
+    return p->kind != RETEX_PARAMETER_COLOR ? "" : retex_set_has_finishes(set) ? p->lamp : p->name;
+}
+
+static int is_same_lamp(const RetexSet *set, int a, int b)
+{
+    return lamp_name(set, a)[0] && strcmp(lamp_name(set, a), lamp_name(set, b)) == 0;
+}
+
+/* The parameter that has the value of the lamp: the same one where there are no finishes; -1: there is no lamp. */
+static int lamp_of(const RetexSet *set, int parameter)
+{
+    for (int i = 0; i < set->nparameters; i++)
+        if (retex_parameter_lamp(set, i) && is_same_lamp(set, i, parameter))
+            return i;
+    return -1;
+}
+
+int retex_web_has_light(const RetexSet *set, int parameter)
+{
+    int has = has_terms(set, parameter);
+    for (int i = 0; i < set->nparameters && retex_parameter_lamp(set, parameter); i++)
+        has |= is_same_lamp(set, parameter, i) && has_terms(set, i);
+    return has;
 }
 
 /* ---- which lamps are dim ---- */
@@ -63,28 +92,44 @@ static double brightness_of(const RetexSet *set, int lamp)
     return sum;
 }
 
+/* With all finishes that it meets. */
+static double brightness_of_lamp(const RetexSet *set, int lamp)
+{
+    double sum = 0;
+    for (int i = 0; i < set->nparameters; i++)
+        sum += is_same_lamp(set, lamp, i) ? brightness_of(set, i) : 0;
+    return sum;
+}
+
 /* Whether the terms of all light have the lamp as it was rendered. */
-static int is_as_rendered(const RetexParameter *lamp)
+static int is_as_rendered(const RetexSet *set, int lamp)
 {
-    return memcmp(lamp->value, lamp->kept, sizeof lamp->value) == 0;
+    const RetexParameter *p = &set->parameters[lamp];
+    return memcmp(p->value, p->kept, sizeof p->value) == 0;
 }
 
-static int is_rest(const RetexParameter *lamp)
+static int is_rest(const RetexSet *set, int parameter)
 {
-    return strcmp(lamp->name, REST) == 0;
+    return strcmp(lamp_name(set, parameter), REST) == 0;
 }
 
-/* Remove the terms of lamps that the picture shows nothing of, and of `rest` where all that shines has a name. */
+/* Remove the terms of lamps and finishes that the picture shows nothing of, and of `rest` where all that shines has a
+ * name. */
 static void drop_dark(RetexSet *set)
 {
     double brightness[RETEX_PARAMETERS_MAX], all = 0;
+    char is_dark[RETEX_PARAMETERS_MAX];
     for (int i = 0; i < set->nparameters; i++)
         all += brightness[i] = brightness_of(set, i);
     for (int i = 0; i < set->nparameters; i++) {
-        const double least = is_rest(&set->parameters[i]) && is_as_rendered(&set->parameters[i]) ? REST_LEAST * all : 0;
-        for (int t = set->nterms - 1; t >= 0 && brightness[i] <= least; t--)
-            if (is_of_lamp(set, &set->terms[t], i))
-                memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(--set->nterms - t));
+        const int rest = is_rest(set, i) ? lamp_of(set, i) : -1;
+        is_dark[i] = brightness[i] <= 0 || (rest >= 0 && is_as_rendered(set, rest) &&
+                                            brightness_of_lamp(set, rest) <= REST_LEAST * all);
+    }
+    for (int t = set->nterms - 1; t >= 0; t--) {
+        const int own = set->terms[t].role == RETEX_ROLE_LAMP ? retex_set_term_lamp(set, &set->terms[t]) : -1;
+        if (own >= 0 && is_dark[own])
+            memmove(&set->terms[t], &set->terms[t + 1], sizeof *set->terms * (size_t)(--set->nterms - t));
     }
 }
 
@@ -95,16 +140,16 @@ static int choose_joined(const RetexSet *set, int most, char joined[RETEX_PARAME
     int count = 0, rest = -1;
     *into = -1;
     for (int i = 0; i < set->nparameters; i++) {
-        const RetexParameter *lamp = &set->parameters[i];
         brightness[i] = -1;
-        if (!retex_web_is_lamp(set, i))
+        const int has_light = retex_web_has_light(set, i);
+        if (!retex_parameter_lamp(set, i))
             continue;
-        if (is_rest(lamp))
+        if (is_rest(set, i) && (has_light || is_as_rendered(set, i)))
             rest = i;
-        else
-            count++, brightness[i] = is_as_rendered(lamp) ? brightness_of(set, i) : -1;
+        else if (has_light)
+            count++, brightness[i] = is_as_rendered(set, i) ? brightness_of_lamp(set, i) : -1;
     }
-    const int can_join = rest < 0 || is_as_rendered(&set->parameters[rest]);
+    const int can_join = rest < 0 || is_as_rendered(set, rest);
     for (; count > most; count--) {
         int dimmest = -1;
         for (int i = 0; i < set->nparameters && can_join; i++)
@@ -113,8 +158,8 @@ static int choose_joined(const RetexSet *set, int most, char joined[RETEX_PARAME
         if (dimmest < 0)
             return retex_fail(err, RETEX_EUNSUPPORTED,
                               "a page of %d lamps has no room for all that are off in the picture: --web-lamps has "
-                              "more, --no-lamps none",
-                              most);
+                              "more%s",
+                              most, retex_set_has_finishes(set) ? "" : ", --no-lamps none");
         joined[dimmest] = 1;
         *into = rest >= 0 ? rest : *into < 0 ? dimmest : *into;
     }
@@ -192,19 +237,55 @@ static void set_lamp(RetexTerm *term, int lamp)
             term->factors[k].index = lamp;
 }
 
-/* Add up the light of the lamps that join `into`. */
+/* Which parameter the light of each joins: one of `rest`, with the same finishes; -1: it stays. */
+static void choose_parameters(int to[RETEX_PARAMETERS_MAX], const RetexSet *set,
+                              const char joined[RETEX_PARAMETERS_MAX], int into)
+{
+    for (int i = 0; i < set->nparameters; i++) {
+        const int lamp = lamp_of(set, i);
+        to[i] = lamp >= 0 && (lamp == into || joined[lamp]) ? i : -1;
+        for (int k = set->nparameters - 1; k >= 0 && to[i] >= 0; k--)
+            if (is_same_lamp(set, k, into) && memcmp(set->parameters[k].finishes, set->parameters[i].finishes,
+                                                     sizeof set->parameters[k].finishes) == 0)
+                to[i] = k;
+    }
+}
+
+/* Make a parameter that of `rest`, whose gains have the values of lamps: 1, but with finishes that are not in the
+ * picture 0. The terms of all light have the mean of all finishes. */
+static void become_rest(RetexSet *set, int parameter)
+{
+    RetexParameter *p = &set->parameters[parameter];
+    const char *lamp = lamp_name(set, parameter);
+    char name[sizeof p->name];
+    int shown = 1, choices = 1;
+    for (int t = 0; t < set->ntargets; t++)
+        if (p->finishes[t])
+            choices *= set->targets[t].nfinishes, shown &= p->finishes[t] == 1 + set->targets[t].finish;
+    const size_t begin = strncmp(p->name, lamp, strlen(lamp)) == 0 ? strlen(lamp) : 0;
+    snprintf(name, sizeof name, REST "%s", p->name + begin);
+    snprintf(p->name, sizeof p->name, "%s", name);
+    if (retex_set_has_finishes(set))
+        snprintf(p->lamp, sizeof p->lamp, REST);
+    p->several = 1;
+    for (int c = 0; c < 3; c++)
+        p->value[c] = (float)shown, p->kept[c] = 1 / (float)choices;
+}
+
+/* Add up the light of the lamps that join `into`, with each finish apart. */
 static int join(RetexSet *set, const char joined[RETEX_PARAMETERS_MAX], int into, RetexError *err)
 {
-    int code = RETEX_OK, kept = 0;
+    int code = RETEX_OK, kept = 0, to[RETEX_PARAMETERS_MAX];
+    choose_parameters(to, set, joined, into);
     for (int t = 0; t < set->nterms && !code; t++) {
         RetexTerm term = set->terms[t];
-        const int lamp = term.role == RETEX_ROLE_LAMP ? retex_set_term_lamp(set, &term) : -1;
+        const int own = term.role == RETEX_ROLE_LAMP ? retex_set_term_lamp(set, &term) : -1;
         int same = kept;
-        if (lamp >= 0 && (lamp == into || joined[lamp])) {
-            multiply(&set->parts[own_part(&term)].image, set->parameters[lamp].value);
-            set_lamp(&term, into);
+        if (own >= 0 && to[own] >= 0) {
+            multiply(&set->parts[own_part(&term)].image, set->parameters[lamp_of(set, own)].value);
+            set_lamp(&term, to[own]);
             for (same = 0; same < kept; same++)
-                if (is_of_lamp(set, &set->terms[same], into) && is_same_light(&set->terms[same], &term))
+                if (is_of_lamp(set, &set->terms[same], to[own]) && is_same_light(&set->terms[same], &term))
                     break;
         }
         if (same < kept)
@@ -213,11 +294,9 @@ static int join(RetexSet *set, const char joined[RETEX_PARAMETERS_MAX], int into
             set->terms[kept++] = term;
     }
     set->nterms = code ? set->nterms : kept;
-    RetexParameter *rest = &set->parameters[into];
-    snprintf(rest->name, sizeof rest->name, REST);
-    rest->several = 1;
-    for (int c = 0; c < 3; c++)
-        rest->value[c] = rest->kept[c] = 1;
+    for (int i = 0; i < set->nparameters; i++)
+        if (to[i] == i)
+            become_rest(set, i);
     for (int i = set->nparts - 1; i > 0 && !code; i--) /* not the AOVs of the set, which the page leaves out */
         if (!retex_part_is_used(set, i))
             retex_set_remove_part(set, i);
@@ -260,7 +339,7 @@ static void list_names(char *names, size_t size, const RetexSet *set, const char
     names[0] = '\0';
     for (int i = 0; i < set->nparameters && used < size; i++)
         if (joined[i])
-            used += (size_t)snprintf(names + used, size - used, "%s%s", used ? ", " : "", set->parameters[i].name);
+            used += (size_t)snprintf(names + used, size - used, "%s%s", used ? ", " : "", lamp_name(set, i));
 }
 
 int retex_web_lamps_prepare(RetexSet *set, int most, char *names, size_t size, RetexError *err)

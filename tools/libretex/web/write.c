@@ -304,8 +304,25 @@ static json_t *text(const char *bytes)
     return string ? string : json_string("?");
 }
 
-static json_t *describe_targets(const RetexSet *set)
+/* Whether a parameter is in the manifest's list: a colour that did not join others. */
+static int is_listed(const Web *web, int parameter)
 {
+    return web->set->parameters[parameter].kind == RETEX_PARAMETER_COLOR &&
+           (!web->lamps.ntiles || retex_web_has_light(web->set, parameter));
+}
+
+static void put_finishes(json_t **object, const RetexTarget *target)
+{
+    json_t *names = json_array();
+    for (int k = 0; k < target->nfinishes; k++)
+        retex_json_add(&names, text(target->finishes[k]));
+    retex_json_put(object, "finishes", names);
+    retex_json_put(object, "finish", json_integer(target->finish));
+}
+
+static json_t *describe_targets(const Web *web)
+{
+    const RetexSet *set = web->set;
     json_t *list = json_array();
     for (int i = 0; i < set->ntargets; i++) {
         const RetexTarget *t = &set->targets[i];
@@ -316,16 +333,11 @@ static json_t *describe_targets(const RetexSet *set)
         retex_json_put(
             &object, "mean_albedo",
             json_pack("[f,f,f]", (double)t->mean_albedo[0], (double)t->mean_albedo[1], (double)t->mean_albedo[2]));
+        if (t->nfinishes)
+            put_finishes(&object, t);
         retex_json_add(&list, object);
     }
     return list;
-}
-
-/* Whether a parameter is in the manifest's list: a colour that did not join others. */
-static int is_listed(const Web *web, int parameter)
-{
-    return web->set->parameters[parameter].kind == RETEX_PARAMETER_COLOR &&
-           (!web->lamps.ntiles || retex_web_is_lamp(web->set, parameter));
 }
 
 /* The number of a colour in the manifest's list of parameters. */
@@ -342,6 +354,16 @@ static json_t *describe_color(const float color[3])
     return json_pack("[f,f,f]", (double)color[0], (double)color[1], (double)color[2]);
 }
 
+/* Whose light it is, and with which finishes. */
+static void put_lamp(json_t **object, const RetexSet *set, const RetexParameter *parameter)
+{
+    json_t *finishes = json_array();
+    for (int t = 0; t < set->ntargets; t++)
+        retex_json_add(&finishes, json_integer(parameter->finishes[t]));
+    retex_json_put(object, "lamp", text(parameter->lamp));
+    retex_json_put(object, "finishes", finishes);
+}
+
 /* The colours that can be changed; NULL: none. */
 static json_t *describe_parameters(const Web *web)
 {
@@ -355,6 +377,8 @@ static json_t *describe_parameters(const Web *web)
             retex_json_put(&object, "kept", describe_color(p->kept));
         if (p->several)
             retex_json_put(&object, "several", json_true());
+        if (retex_set_has_finishes(web->set))
+            put_lamp(&object, web->set, p);
         list = list ? list : json_array();
         retex_json_add(&list, object);
     }
@@ -504,7 +528,7 @@ static char *describe(const Web *web, RetexError *err)
         json_pack("{s:i,s:o,s:s,s:i,s:i,s:s,s:i,s:o,s:o,s:o,s:o}", "retex_web", RETEX_WEB_VERSION, "scene",
                   text(set->scene), "id", id, "width", set->width, "height", set->height, "filter", set->filter,
                   "finest", web->model.finest, "picture", describe_file(&web->picture), "targets",
-                  describe_targets(set), "lights", describe_lights(web), "classes", describe_classes(web));
+                  describe_targets(web), "lights", describe_lights(web), "classes", describe_classes(web));
     if (number_of(web, set->nparameters))
         retex_json_put(&object, "parameters", describe_parameters(web));
     retex_json_put(&object, "reduced", web->reduced.ntiles ? describe_atlas(web, &web->reduced) : json_null());
@@ -598,11 +622,22 @@ static int write_all(Web *web, const char *folder, File *manifest, RetexError *e
     return code;
 }
 
+/* Whether the picture as rendered needs the light of single lamps: one is off in it, or finishes are kept apart. */
+static int needs_lamps(const Web *web)
+{
+    int needs = 0;
+    for (int i = 0; i < web->set->nparameters; i++)
+        needs |= is_listed(web, i) && memcmp(web->set->parameters[i].value, web->set->parameters[i].kept,
+                                             sizeof web->set->parameters[i].value) != 0;
+    return needs && web->lamps.ntiles;
+}
+
 static RetexWebBytes count_bytes(const Web *web, size_t manifest)
 {
     RetexWebBytes bytes = {.still = web->picture.bytes + manifest};
-    size_t common = web->reduced.file.bytes, others = web->lamps.file.bytes;
+    size_t common = web->reduced.file.bytes, others = 0;
     int best = 0;
+    *(needs_lamps(web) ? &common : &others) += web->lamps.file.bytes;
     for (int i = 1; i < web->set->ntargets; i++)
         if (web->set->targets[i].share > web->set->targets[best].share)
             best = i;
@@ -621,25 +656,35 @@ static RetexWebBytes count_bytes(const Web *web, size_t manifest)
     return bytes;
 }
 
-/* Tell which lamps there are. */
+/* Append a name to a list. */
+static void list_name(char *names, size_t size, const char *before, const char *name)
+{
+    const size_t used = strlen(names);
+    snprintf(names + used, size - used, "%s%s", before, name);
+}
+
+/* Tell which lamps and finishes there are. */
 static void tell_lamps(const Web *web, const RetexWebParams *params)
 {
+    const RetexSet *set = web->set;
     char names[1024] = "", note[2400];
-    int coarsest = 1;
+    int coarsest = 1, count = 0;
     if (!params->note || !web->lamps.ntiles)
         return;
-    for (int i = 0; i < web->set->nparameters; i++) {
-        const size_t used = strlen(names);
-        if (is_listed(web, i))
-            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", web->set->parameters[i].name);
-    }
+    for (int i = 0; i < set->nparameters; i++)
+        if (is_listed(web, i) && retex_parameter_lamp(set, i))
+            list_name(names, sizeof names, count++ ? ", " : "lamps ", retex_parameter_lamp(set, i));
+    for (int i = 0, finishes = 0; i < set->ntargets; i++)
+        if (set->targets[i].nfinishes)
+            list_name(names, sizeof names, finishes++ ? ", " : count ? "; finishes of " : "finishes of ",
+                      set->targets[i].name);
     for (int i = 0; i < web->lamps.ntiles; i++) {
-        const int scale = retex_set_scale(web->set, &web->set->parts[web->lamps.tiles[i].part].image);
+        const int scale = retex_set_scale(set, &set->parts[web->lamps.tiles[i].part].image);
         coarsest = scale > coarsest ? scale : coarsest;
     }
-    snprintf(note, sizeof note,
-             "lamps %s: %zu bytes, loaded when one is changed; shares of light %d to %d times smaller than the picture",
-             names, web->lamps.file.bytes, web->model.lamps_finest, coarsest);
+    snprintf(note, sizeof note, "%s: %zu bytes, loaded %s; shares of light %d to %d times smaller than the picture",
+             names, web->lamps.file.bytes, needs_lamps(web) ? "at once" : "when one is changed",
+             web->model.lamps_finest, coarsest);
     params->note(params->note_context, note);
     if (*web->joined) {
         snprintf(note, sizeof note, "%s %s rest, being dimmest: a page has %d lamps, or as many as --web-lamps says",
