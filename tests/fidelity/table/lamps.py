@@ -210,7 +210,8 @@ with another floor, `relight` with two lamps changed too, by one thread.
                                for row in sizes)
             print(f"| {key} | {cells} |")
     print("""
-Packs and rooms for browsers keep the light of a lamp as shares of all light, at steps that follow its own brightness.
+Packs and rooms for browsers keep the light of a lamp as shares of all light, at steps that follow its own brightness
+and how much of the lamp's light a number brings.
 
 ## What others do
 
