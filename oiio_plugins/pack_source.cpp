@@ -138,6 +138,16 @@ Edit parse_edit(const Arguments &arguments)
     return edit;
 }
 
+// The file that a texture is read from: of a folder, that of its base colour.
+std::string file_of(const RetexTextureSpec &texture)
+{
+    RetexError err{};
+    char *file = nullptr;
+    must(retex_texture_file(&file, &texture, &err), err);
+    const std::unique_ptr<char, void (*)(void *)> owned(file, std::free);
+    return file ? file : "";
+}
+
 // Finds wrong names of targets and missing files when the name is opened, not when pixels are read.
 std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set, const OwnFolder &own)
 {
@@ -148,7 +158,7 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
     std::vector<RetexTextureSpec> textures;
     for (int i = 0; i < retex_edit_count(edit); i++) {
         RetexTextureSpec texture = *retex_edit_texture(edit, i);
-        const std::string image = texture.constant ? "" : own.find(texture.image);
+        const std::string image = texture.constant ? "" : own.find(texture.image, true); // also a folder
         if (image.size() >= sizeof texture.image)
             throw Failure(std::string(texture.image) + ": the name is too long");
         std::copy_n(image.c_str(), image.size() + 1, texture.image);
@@ -157,6 +167,7 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
             throw Failure("cannot read " + image + ": No such file or directory" +
                           retex_color_meant(texture.image, meant));
         texture.access = own.access();
+        file_of(texture); // refuses a folder without a base colour
         texture.warn = print_warning;
         textures.push_back(texture);
     }
@@ -218,7 +229,7 @@ class PackSource final : public Source
         textures_ = find_textures(edit_.get(), set_->description(), own_);
         parameters_ = find_parameters(edit_.get(), set_->description());
         for (const RetexTextureSpec &texture : textures_)
-            stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
+            stamp_ += texture.constant ? "" : " " + file_stamp(file_of(texture));
         shown_ = text_of(edit_.get());
         key_ = (own_.access()->safe ? "safe:" : "") + path + "?" + shown_;
     }

@@ -3,6 +3,7 @@
 #include <elf.h>
 #include <link.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "base/digest.h"
 #include "retex-render.h"
@@ -57,7 +58,14 @@ static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
     d = digest_bytes(d, &s->rotate, sizeof s->rotate);
     d = digest_bytes(d, s->offset, sizeof s->offset);
     d = digest_bytes(d, s->width, sizeof s->width);
-    return s->constant ? d : digest_file(d, s->image);
+    char *file;
+    if (s->constant)
+        return d;
+    if (retex_texture_file(&file, s, NULL)) /* as above */
+        return digest_text(d, s->image);
+    d = digest_file(d, file);
+    free(file);
+    return d;
 }
 
 uint64_t render_fingerprint(const Arguments *a, const Scene *scene)

@@ -48,19 +48,23 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
         cli_fail(cli, &err);
 }
 
-/* Announce the file of a texture, if it has one. For a name with options, `room.retex?Floor=oak.jpg`, also announce the
- * file before the `?`. */
+/* Announce the file of a texture, if it has one: of a folder, that of its base colour. For a name with options,
+ * `room.retex?Floor=oak.jpg`, also announce the file before the `?`. */
 static inline int texture_args_add_input(const RetexTextureSpec *spec, RetexError *err)
 {
-    char file[sizeof spec->image];
+    char before[sizeof spec->image], *file;
     const char *query = strchr(spec->image, '?');
     if (spec->constant)
         return RETEX_OK;
-    int code = cli_add_input("the texture", spec->image, err);
+    int code = retex_texture_file(&file, spec, err);
+    if (code)
+        return code;
+    code = cli_add_input("the texture", file, err);
     if (!code && query) {
-        snprintf(file, sizeof file, "%.*s", (int)(query - spec->image), spec->image);
-        code = cli_add_input("the texture", file, err);
+        snprintf(before, sizeof before, "%.*s", (int)(query - spec->image), spec->image);
+        code = cli_add_input("the texture", before, err);
     }
+    free(file);
     return code;
 }
 

@@ -197,6 +197,26 @@ def replaced(server):
     expect('gone', ask(server, url).status, 404)
 
 
+def folders(server):
+    """A folder is the texture that it holds, unless there is a file of that name."""
+    os.makedirs('textures/wood/textures'), os.makedirs('textures/empty'), os.makedirs('out')
+    shutil.copy('textures/brick.jpg', 'textures/wood/textures/wood_diff_2k.jpg')
+    shutil.copy('textures/brick.jpg', 'out/color.jpg'), os.symlink('../out', 'textures/away')
+    shutil.copy('textures/oak.jpg', 'textures/wood/wood_rough_2k.jpg')
+    url = '/v1/small/Floor={}/full.png'
+    expect('folder', ask(server, url.format('wood')).body, ask(server, url.format('brick')).body)
+    expect('listed', [name for name in json.loads(ask(server, '/v1').body)['textures'] if '.' not in name], ['wood'])
+    expect('empty', [ask(server, url.format(name)).status for name in ('empty', 'away')], [404, 404])
+    time.sleep(.2)
+    shutil.copy('textures/oak.jpg', 'textures/wood/wood_diff_4k.jpg')
+    expect('larger', ask(server, url.format('wood')).body, ask(server, url.format('oak')).body)
+    shutil.copy('textures/brick.jpg', 'textures/wood.jpg')
+    expect('file', ask(server, url.format('wood')).body, ask(server, url.format('brick')).body)
+    os.remove('textures/wood.jpg'), os.remove('textures/away')
+    for folder in 'textures/wood', 'textures/empty', 'out':
+        shutil.rmtree(folder)
+
+
 def bmp(color, width=8):
     pixels = (bytes(color) * width + bytes(-3 * width % 4)) * 8
     head = struct.pack('<IHHIIiiHHIIiiII', 54 + len(pixels), 0, 0, 54, 40, width, 8, 1, 24, 0, len(pixels), 0, 0, 0, 0)

@@ -4,8 +4,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve pictures parts con
 > pictures
 > parts
 > conditions
-$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced contents refused lists metrics
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve replaced folders contents refused lists metrics
 > replaced
+> folders
 > contents
 > refused
 > lists

@@ -86,6 +86,12 @@ $ retex-diff brick.exr both.exr >/dev/null || echo 'not the same'
 > not the same
 $ cp brick.jpg 'a&b%.jpg'; oiiotool 'room.retex?Floor=a%26b%25.jpg' -d half -o x.exr && retex-diff x.exr brick.exr >/dev/null && echo same
 > same
+# A folder is the base colour that it holds, in safe access too.
+$ mkdir -p planks/textures; cp brick.jpg planks/textures/planks_diff_2k.jpg; touch planks/textures/planks_ao_2k.jpg; for o in Floor=planks 'Floor=planks/&safe=1'; do oiiotool "room.retex?$o" -d half -o x.exr && retex-diff x.exr brick.exr >/dev/null && echo same; done
+> same
+> same
+! retex: warning: planks: the ambient occlusion map is not used
+! retex: warning: planks: the ambient occlusion map is not used
 $ oiiotool 'room.retex?Floor=brick.jpg' --tocolorspace sRGB -o x.png; retex-combine -q room.retex --texture Floor=brick.jpg -o y.png; retex-diff x.png y.png --fail-psnr 60 >/dev/null && echo near
 > near
 $ maketx room.retex -o x.tx && oiiotool 'room.retex?Floor=brick.jpg' -otex y.tx && iinfo x.tx y.tx

@@ -2,6 +2,8 @@
 import itertools
 import json
 import os
+import pathlib
+import shutil
 import warnings
 
 import lib
@@ -58,6 +60,24 @@ def test_files_and_colours():
             check(room.combine({"Floor": OAK, "Wall": (0.8, 0.25, 0.1)}),
                   combined(name, "--texture", "Floor=" + OAK, "--texture", "Wall=rgb(0.8,0.25,0.1)"))
             check(room.combine({"floor": TERRAZZO}), combined(name, "--texture", "Floor=" + TERRAZZO))
+
+
+def test_folders():
+    """A folder is the base colour that it holds, and what else it has is told"""
+    os.makedirs("oak/textures")
+    shutil.copy(OAK, "oak/textures/oak_diff_2k.jpg")
+    shutil.copy(TERRAZZO, "oak/textures/oak_rough_2k.jpg")
+    expected = combined("room.exr", "--texture:scale=2", "Floor=" + OAK)
+    with retex.open("room.exr") as room:
+        for textures in ({"Floor": retex.Texture("oak/", scale=2)}, "Floor=oak;Floor.scale=2",
+                         {"Floor": retex.Texture(pathlib.Path("oak"), scale=2)}):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                check(room.combine(textures), expected)
+            assert [str(warning.message) for warning in told] == ["oak: the roughness map is not used"], told
+        os.remove("oak/textures/oak_diff_2k.jpg")
+        error = lib.fails(retex.Error, room.combine, {"Floor": "oak"})
+        assert str(error).endswith("it has a roughness map") and error.code == retex.Code.EFORMAT, error
 
 
 def test_placement():

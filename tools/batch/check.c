@@ -89,11 +89,14 @@ static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthre
 /* A name that cannot be read may be a misspelt colour. */
 static int check_image(const RetexTextureSpec *spec, const RetexReadParams *params, RetexError *err)
 {
-    char meant[RETEX_MEANT_SIZE];
+    char meant[RETEX_MEANT_SIZE], *file = NULL;
     int code = texture_args_add_input(spec, err);
+    if (!code)
+        code = retex_texture_file(&file, spec, err);
     if (code)
         return code;
-    code = retex_image_read_check(spec->image, params, err);
+    code = retex_image_read_check(file, params, err);
+    free(file);
     const size_t used = strlen(err->message);
     if (code == RETEX_EIO)
         snprintf(err->message + used, sizeof err->message - used, "%s", retex_color_meant(spec->image, meant));

@@ -7,6 +7,7 @@
 
 #include <retex/edit.h>
 #include <retex/file_sum.h>
+#include <retex/texture.h>
 #include <retex/version.h>
 
 #include "batch/sources.h"
@@ -69,16 +70,18 @@ static int close_text(FILE *file)
     return fclose(file) == 0 && !failed;
 }
 
-/* A texture as a cell of the table has it, and the checksum of its file. The name may have options:
- * `room.retex?Floor=…`. */
+/* A texture as a cell of the table has it, and the checksum of its file, which of a folder is its base colour. The name
+ * may have options: `room.retex?Floor=…`. */
 static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s, RetexError *err)
 {
-    char *options = NULL, image[sizeof s->image], text[4 * sizeof s->image], name[sizeof s->image];
+    char *options = NULL, image[sizeof s->image], text[4 * sizeof s->image], *file;
     const char *sum = "";
-    snprintf(name, sizeof name, "%s", s->image);
-    if (strchr(name, '?') && access(name, F_OK) != 0)
-        *strchr(name, '?') = '\0';
-    int code = s->constant ? RETEX_OK : sum_file(&sum, sums, name, s->access, err);
+    int code = retex_texture_file(&file, s, err);
+    if (file && strchr(file, '?') && access(file, F_OK) != 0)
+        *strchr(file, '?') = '\0';
+    if (file)
+        code = sum_file(&sum, sums, file, s->access, err);
+    free(file);
     if (!code)
         code = retex_edit_options_text(s, &options, err);
     if (code)

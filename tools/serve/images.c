@@ -107,18 +107,54 @@ static int find_in(const Images *images, const char *folder, const char *name, c
     return -1;
 }
 
+/* The base colour of a folder in that of the textures. */
+static int find_in_folder(const Images *images, const char *name, char *path, size_t size, FileId *id)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    char *file;
+    const char *folder = images->params.folder;
+    spec.access = images->params.access;
+    if (!folder || (size_t)snprintf(spec.image, sizeof spec.image, "%s/%s", folder, name) >= sizeof spec.image ||
+        retex_texture_file(&file, &spec, NULL))
+        return -1;
+    const int found = strlen(file) < size && file_id_of(id, file) == 0 &&
+                      retex_access_check(images->params.access, "", file) == RETEX_ACCESS_ALLOWED;
+    if (found)
+        strcpy(path, file);
+    free(file);
+    return found ? 0 : -1;
+}
+
 int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id)
 {
     if (!serve_name_is_valid(name)) /* which has no folder in it, and leads nowhere else */
         return -1;
-    return find_in(images, images->params.folder, name, path, size, id)
-               ? find_in(images, images->params.uploads, name, path, size, id)
-               : 0;
+    if (find_in(images, images->params.folder, name, path, size, id) == 0 ||
+        find_in(images, images->params.uploads, name, path, size, id) == 0)
+        return 0;
+    return find_in_folder(images, name, path, size, id);
+}
+
+typedef struct FolderList {
+    const Images *images;
+    void (*tell)(void *context, const char *name);
+    void *context;
+} FolderList;
+
+static void tell_folder(void *context, const char *name)
+{
+    const FolderList *list = context;
+    char path[PATH_MAX];
+    FileId id;
+    if (find_in_folder(list->images, name, path, sizeof path, &id) == 0)
+        list->tell(list->context, name);
 }
 
 int images_list(const Images *images, void (*tell)(void *context, const char *name), void *context)
 {
-    return images->params.folder ? names_list(images->params.folder, endings, 1, tell, context) : 0;
+    const char *folder = images->params.folder;
+    FolderList list = {images, tell, context};
+    return folder ? names_list(folder, endings, 1, tell, context) | names_list(folder, NULL, 1, tell_folder, &list) : 0;
 }
 
 /* ---- images in memory ---- */

@@ -25,7 +25,8 @@ typedef struct ImagesParams {
 int images_open(Images **images, const ImagesParams *params, RetexError *err);
 void images_close(Images *images); /* when no image is in use */
 
-/* The file of a name, with or without its ending, and its identity: 0, or -1 if there is no such file. */
+/* The file of a name, with or without its ending, or of a folder that is a texture, and its identity: 0, or -1 if there
+ * is no such file. */
 int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id);
 
 /* The image of a texture, by the path that images_find gave, read within a time: deadline is one of

@@ -20,8 +20,10 @@ typedef struct Names {
 static int is_wanted(const char *name, const char *const *endings)
 {
     const char *dot = strrchr(name, '.');
-    if (!dot || !serve_name_is_valid(name))
+    if (!serve_name_is_valid(name) || (!dot && endings))
         return 0;
+    if (!endings)
+        return 1;
     for (; *endings; endings++)
         if (strcasecmp(dot + 1, *endings) == 0)
             return 1;
@@ -67,7 +69,7 @@ int names_list(const char *folder, const char *const *endings, int with_ending,
     for (struct dirent *entry; !failed && (entry = readdir(directory));) {
         struct stat info;
         if (is_wanted(entry->d_name, endings) && fstatat(dirfd(directory), entry->d_name, &info, 0) == 0 &&
-            S_ISREG(info.st_mode))
+            (endings ? S_ISREG(info.st_mode) : S_ISDIR(info.st_mode)))
             failed = add(&names, entry->d_name, with_ending);
     }
     if (directory)

@@ -8,8 +8,8 @@
 int names_check_folder(const char *folder, RetexError *err);
 
 /* Call for each different name, sorted, of the regular files with one of these endings ("exr"; the list ends with NULL)
- * that a URL can name. Not 0: the folder cannot be read, or there is no memory. with_ending: 1: tell the whole name of
- * the file. */
+ * that a URL can name; endings NULL: of the folders. Not 0: the folder cannot be read, or there is no memory.
+ * with_ending: 1: tell the whole name. */
 int names_list(const char *folder, const char *const *endings, int with_ending,
                void (*tell)(void *context, const char *name), void *context);
 

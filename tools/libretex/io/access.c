@@ -102,8 +102,8 @@ RetexAccessResult retex_access_check(const RetexAccess *given, const char *folde
     return S_ISREG(info.st_mode) ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_IRREGULAR;
 }
 
-/* Opens a resolved path; -1 with errno set, as open(2). */
-static int open_resolved(const char *resolved)
+/* Opens a resolved path; -1 with errno set, as open(2). flags: of what the path names. */
+static int open_resolved(const char *resolved, int flags)
 {
     char name[NAME_MAX + 1];
     int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
@@ -118,11 +118,8 @@ static int open_resolved(const char *resolved)
         }
         memcpy(name, at, length);
         name[length] = '\0';
-        /* do not wait for the writer of a pipe, and do not acquire a controlling terminal, before the file's type is
-         * known */
         const int next =
-            openat(folder, length ? name : ".",
-                   O_NOFOLLOW | O_CLOEXEC | (is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY));
+            openat(folder, length ? name : ".", O_NOFOLLOW | O_CLOEXEC | (is_last ? flags : O_PATH | O_DIRECTORY));
         const int why = errno;
         close(folder);
         errno = why;
@@ -144,18 +141,29 @@ static int refuse(const char *path, RetexError *err)
     return retex_fail(err, RETEX_EACCESS, "%s is a folder, a device or a pipe: only files are read (--safe)", path);
 }
 
+static int resolve_safely(const RetexAccess *access, const char *path, char resolved[PATH_MAX], struct stat *info,
+                          RetexError *err)
+{
+    if (!realpath(path, resolved) || stat(resolved, info) != 0)
+        return fail_open(path, errno, err);
+    if (!lies_inside(access, resolved))
+        return retex_fail(err, RETEX_EACCESS, "%s is outside the folders that may be read (--safe)", path);
+    return RETEX_OK;
+}
+
 static int open_safely(const RetexAccess *access, const char *path, RetexError *err)
 {
     char resolved[PATH_MAX];
     struct stat info;
+    const int code = resolve_safely(access, path, resolved, &info, err);
 
-    if (!realpath(path, resolved) || stat(resolved, &info) != 0)
-        return fail_open(path, errno, err);
-    if (!lies_inside(access, resolved))
-        return retex_fail(err, RETEX_EACCESS, "%s is outside the folders that may be read (--safe)", path);
+    if (code)
+        return code;
     if (!S_ISREG(info.st_mode)) /* opening a device may already have an effect */
         return refuse(path, err);
-    const int file = open_resolved(resolved);
+    /* do not wait for the writer of a pipe, and do not acquire a controlling terminal, before the file's type is
+     * known */
+    const int file = open_resolved(resolved, O_RDONLY | O_NONBLOCK | O_NOCTTY);
     if (file < 0 || fstat(file, &info) != 0) {
         const int why = errno;
         if (file >= 0)
@@ -179,5 +187,22 @@ int retex_access_open(const RetexAccess *given, const char *path, int *descripto
         return *descriptor < 0 ? *descriptor : RETEX_OK;
     }
     *descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    return *descriptor < 0 ? fail_open(path, errno, err) : RETEX_OK;
+}
+
+int retex_access_open_folder(const RetexAccess *given, const char *path, int *descriptor, RetexError *err)
+{
+    RetexAccess access = RETEX_ACCESS_INIT;
+    char resolved[PATH_MAX];
+    struct stat info;
+    int code = RETEX_PARAMS_COPY(&access, given, err);
+
+    *descriptor = -1;
+    if (!code && access.safe)
+        code = resolve_safely(&access, path, resolved, &info, err);
+    if (code)
+        return code;
+    *descriptor =
+        access.safe ? open_resolved(resolved, O_RDONLY | O_DIRECTORY) : open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     return *descriptor < 0 ? fail_open(path, errno, err) : RETEX_OK;
 }

@@ -3,6 +3,7 @@
  * filter_kernel.c, disc_kernel.c and parallelogram_kernel.c, those of whole rows in batch.c. */
 #include "base/params.h"
 #include "picture/image_read.h"
+#include "texture/folder.h"
 #include "texture/pyramid.h"
 
 #include <limits.h>
@@ -348,6 +349,30 @@ int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
     return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
 }
 
+/* Reads the file that the image is. */
+static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
+{
+    const RetexTextureSpec *own = &texture->spec;
+    const RetexReadParams params = read_params(texture);
+    RetexDecoded decoded = {0};
+    char *file, *unused;
+    int code = retex_texture_folder_find(&file, &unused, own->image, own->access, err);
+    if (!code && unused)
+        keep_warning(texture, unused);
+    if (!code)
+        code = retex_image_read_any(&decoded, file, &params, nthreads, err);
+    free(file);
+    free(unused);
+    const RetexNarrowImage *narrow = &decoded.narrow;
+    RetexTexels texels = {narrow->width, narrow->height, 1, narrow->pixels};
+    if (!code)
+        code = narrow->pixels ? set_texels(texture, &texels, nthreads, err)
+                              : set_pixels(texture, &decoded.image, nthreads, err);
+    free(texels.texels);
+    retex_image_free(&decoded.image);
+    return code;
+}
+
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
@@ -358,19 +383,8 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nt
         return RETEX_EINVAL;
     RetexTexture *texture = new_texture(&spec, spec.constant, &why);
     int code = why.code;
-    if (texture && !spec.constant) {
-        const RetexTextureSpec *own = &texture->spec;
-        const RetexReadParams params = read_params(texture);
-        RetexDecoded decoded;
-        code = retex_image_read_any(&decoded, own->image, &params, nthreads, &why);
-        const RetexNarrowImage *narrow = &decoded.narrow;
-        RetexTexels texels = {narrow->width, narrow->height, 1, narrow->pixels};
-        if (!code)
-            code = narrow->pixels ? set_texels(texture, &texels, nthreads, &why)
-                                  : set_pixels(texture, &decoded.image, nthreads, &why);
-        free(texels.texels);
-        retex_image_free(&decoded.image);
-    }
+    if (texture && !spec.constant)
+        code = read_image(texture, nthreads, &why);
     if (code) {
         retex_texture_close(&texture);
         if (code == RETEX_EIO) { /* perhaps a misspelt colour */

@@ -65,9 +65,10 @@ def _take_text(name: str, *arguments: Any) -> str:
 class Texture:
     """A texture for a target. All but `image` is as for --texture of retex-sample(1):
 
-    image       a file's name or a colour, as in retex-edit(5): "oak.jpg", "#f80", "tomato"; a pathlib.Path, always a
-                file; a colour of three scene-linear numbers; or a numpy array, row 0 at the top: of floats,
-                scene-linear; of uint8 or uint16, sRGB from 0 to the highest number, as such files are
+    image       the name of a file, or of a folder with a base colour, or a colour, as in retex-edit(5): "oak.jpg",
+                "oak_2k/", "#f80", "tomato"; a pathlib.Path, always a file or folder; a colour of three scene-linear
+                numbers; or a numpy array, row 0 at the top: of floats, scene-linear; of uint8 or uint16, sRGB from 0 to
+                the highest number, as such files are
     scale       repeats in a unit of UV; a pair for u and v
     rotate      degrees, counter-clockwise
     offset      in repeats of the texture

@@ -54,6 +54,8 @@ RetexAccessResult retex_access_check(const RetexAccess *access, const char *fold
 
 /* Open a file for reading; the caller closes *descriptor. RETEX_EACCESS where it may not be read. */
 int retex_access_open(const RetexAccess *access, const char *path, int *descriptor, RetexError *err);
+/* The same of a folder, to list what is in it. A file that is found there is opened by the call above, by its path. */
+int retex_access_open_folder(const RetexAccess *access, const char *path, int *descriptor, RetexError *err);
 
 #ifdef __cplusplus
 }

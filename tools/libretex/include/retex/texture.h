@@ -42,7 +42,7 @@ typedef enum RetexRepeat {
 typedef struct RetexTextureSpec {
     size_t size;
     char target[128];
-    char image[1024];      /* file name, or "" when constant */
+    char image[1024];      /* name of a file, or of a folder that holds its base colour; "" when constant */
     int constant;          /* 1: a colour */
     float color[3];        /* scene-linear, any finite value >= 0; of a constant */
     double scale[2];       /* default 1, 1; not 0 */
@@ -87,8 +87,13 @@ typedef struct RetexTexture RetexTexture;
  * Texels that are not finite become black, and transparent where it is alpha; colours beyond 65504, the largest half,
  * become that, so that no result overflows; negative ones stay, for colours of wide gamuts have them. spec->warn is
  * told how many there are and where the first is, and of an albedo that is brighter than white: of an image by its
- * luminance or a channel above 3, of a constant by any channel. */
+ * luminance or a channel above 3, of a constant by any channel; and which other maps a folder has, which are not
+ * used. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
+/* The file that retex_texture_load would read now: the image itself, or where it is a folder, the file of its base
+ * colour, by the rules of retex-edit(5). For checksums and times of files, and for all that must know what is read. To
+ * be freed; NULL for a constant. RETEX_EFORMAT for a folder that has no base colour, or several. */
+int retex_texture_file(char **file, const RetexTextureSpec *spec, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
