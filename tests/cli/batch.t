@@ -20,7 +20,7 @@ $ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.
 ! retex-combine: error: ../t:11: x.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
 ! retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
 ! retex-combine: error: ../t:13: ../before: cannot read: OpenImageIO could not find a format reader for "../before". Is it a file format that OpenImageIO doesn't know about?
-! retex-combine: error: ../t:14: cannot read scenes: Is a directory
+! retex-combine: error: ../t:14: scenes: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has README.md, brick.jpg, damask.jpg and 5 more
 ! retex-combine: error: ../t:15: a quoted cell has no closing quote
 
 # Twenty of them are printed, the others counted; the report has all. Every row that names an image is told of.
