@@ -186,7 +186,7 @@ $ for f in pipe.pov /dev/zero /dev/stdin a /proc/self/environ; do retex-combine 
 ! retex-combine: error: /dev/zero is a folder, a device or a pipe: only files are read (--safe)
 ! retex-combine: error: /dev/stdin is a folder, a device or a pipe: only files are read (--safe)
 ! retex-combine: error: /dev/stdin is a folder, a device or a pipe: only files are read (--safe)
-! retex-combine: error: a is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: a: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has up.df3, up.inc, up.ini and 3 more
 ! retex-combine: error: a is a folder, a device or a pipe: only files are read (--safe)
 ! retex-combine: error: /proc/self/environ: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-combine: error: /proc/self/environ is not a set: it is empty

@@ -10,8 +10,8 @@ $ for t in up.png ../up.png link.png /etc/passwd /nowhere nowhere.png t.ppm pipe
 > oiiotool ERROR: read : "in/room.retex?Floor=/nowhere": /nowhere is outside the folder of the file that is read, the only one that may be (--safe)
 > oiiotool ERROR: read : "in/room.retex?Floor=nowhere.png": cannot read nowhere.png: No such file or directory
 > oiiotool ERROR: read : "in/room.retex?Floor=t.ppm": in/t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
-> oiiotool ERROR: read : "in/room.retex?Floor=pipe.png": pipe.png is a folder, a device or a pipe: only files are read (--safe)
-> oiiotool ERROR: read : "in/room.retex?Floor=sub": sub is a folder, a device or a pipe: only files are read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=pipe.png": in/pipe.png is a folder, a device or a pipe: only files are read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=sub": in/sub: a folder without a base colour, such as wood_diff_2k.jpg or wood_Color.png; it has t.png
 > oiiotool ERROR: read : "in/room.retex?Floor=in/t.png": cannot read in/t.png: No such file or directory
 
 # Names are taken from the pack's folder, and give what retex-combine makes of the same file.
