@@ -253,7 +253,7 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
         code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
     if (code)
         return code;
-    if (!answers(a))
+    if (!a->list && !a->list_lamps && !a->list_finishes)
         job_warn_dark(*scene, &a->sdl);
     check_targets(a, *scene);
     return !a->list || lists_pixels(a) ? job_check_size(*scene, &a->render, err) : RETEX_OK;

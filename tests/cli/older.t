@@ -9,6 +9,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_limits_safe: 60 seconds
 > retex_access_check: ok
 > retex_access_open: ok
+> retex_access_open_folder: ok
 > retex_file_sum: ok
 > retex_image_read_check: ok
 > retex_image_read: ok
@@ -24,6 +25,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_edit_options_text: ok
 > retex_edit_image_text: wood.png of scale=3,3
 > retex_texture_spec_needs_scale: 0
+> retex_texture_file: ok
 > retex_texture_load: ok
 > retex_textures_load: ok
 > retex_textures_place: ok

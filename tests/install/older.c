@@ -76,6 +76,8 @@ static void call_files(const char *image, const char *written)
     printf("retex_access_check: %s\n", retex_access_check(read->access, "", image) ? "no" : "ok");
     CALL(retex_access_open, read->access, image, &descriptor);
     close(descriptor);
+    CALL(retex_access_open_folder, read->access, ".", &descriptor);
+    close(descriptor);
     CALL(retex_file_sum, &sum, image, read->access);
     CALL(retex_image_read_check, image, read);
     CALL(retex_image_read, &picture, image, read, 1);
@@ -121,6 +123,8 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     free(text);
     spec->access = access_of_all();
     printf("retex_texture_spec_needs_scale: %d\n", retex_texture_spec_needs_scale(spec));
+    CALL(retex_texture_file, &text, spec);
+    free(text);
     CALL(retex_texture_load, &texture, spec, 1);
     retex_texture_close(&texture);
     CALL(retex_textures_load, textures, set, specs, 2, 1);
