@@ -20,6 +20,10 @@ static RetexTargetNames target_names(const Scene *scene)
 static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpec *spec, RetexTexture **texture,
                         RetexError *err)
 {
+    const Target *target = &scene->targets[t];
+    spec->nfinishes = target->nfinishes;
+    for (int k = 0; k < target->nfinishes; k++)
+        spec->roughness[k] = target->finishes[k].finish ? finish_roughness(target->finishes[k].finish) : -1;
     if (retex_texture_spec_needs_scale(spec)) {
         if (!a->measured && render_uv_scales(scene, a->cli->threads, a->uv_scales, err))
             return err->code;

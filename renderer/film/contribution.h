@@ -21,6 +21,8 @@ typedef struct Factor {
     Float4 d, i, albedo; /* it is d albedo + i */
     const Rgb *albedos;  /* by variant, or NULL: the same in all */
     const FinishFactor *finishes; /* by finish of the target, or NULL: the same in all; d and i are those shown */
+    const float (*weights)[FINISHES_MAX]; /* of finishes, by variant, where textures have maps of them; d and i are by
+                                             those of the first. NULL: all have the one shown */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* no vertex between it and the camera scattered widely */
@@ -35,7 +37,13 @@ static inline Float4 factor_whole(const Factor *f)
 /* The same, in a variant. */
 static inline Float4 factor_of_variant(const Factor *f, int variant)
 {
-    return f->d * (f->albedos ? color4(f->albedos[variant]) : f->albedo) + f->i;
+    Float4 d = f->d, i = f->i;
+    if (f->weights)
+        d = i = splat(0);
+    for (int k = 0; f->weights && k < FINISHES_MAX; k++)
+        if (f->weights[variant][k] > 0)
+            d += f->finishes[k].d * splat(f->weights[variant][k]), i += f->finishes[k].i * splat(f->weights[variant][k]);
+    return d * (f->albedos ? color4(f->albedos[variant]) : f->albedo) + i;
 }
 
 /* The part of it with the finish that its target has in a combination. */

@@ -448,8 +448,10 @@ static void add_finishes(RetexTarget *target, const Scene *scene, int t)
         return;
     target->nfinishes = own->nfinishes;
     target->finish = scene->finish_of[scene->shown][t];
-    for (int k = 0; k < own->nfinishes; k++)
+    for (int k = 0; k < own->nfinishes; k++) {
         snprintf(target->finishes[k], sizeof target->finishes[k], "%s", own->finishes[k].name);
+        target->finish_roughness[k] = own->finishes[k].finish ? finish_roughness(own->finishes[k].finish) : -1;
+    }
 }
 
 static int describe_split(const Film *film, RetexSet *set, RetexError *err)

@@ -51,13 +51,13 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
         control_start(path->control, c->nvariants);
 }
 
-int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, const FinishFactor *finishes,
-                      int reflects)
+int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Split weight, const FinishFactor *finishes,
+                      const float (*weights)[FINISHES_MAX], int reflects)
 {
     const PathContext *c = w->context;
     Rgb *betas = path->control->betas;
-    Factor factor = shading_factor(s, d, i);
-    factor.finishes = finishes, factor.reflects = reflects;
+    Factor factor = shading_factor(s, color4(weight.d), color4(weight.i));
+    factor.finishes = finishes, factor.weights = weights, factor.reflects = reflects;
     set_seen(&factor, path);
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)

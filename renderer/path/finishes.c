@@ -1,12 +1,43 @@
 /* Vertices on targets with several finishes. Directions are sampled from the mixture of their BSDFs, in which all have
  * the same share; each finish has weights of its own, so that the picture with each is unbiased. Balance-heuristic
  * weights of Veach's multiple importance sampling come to the same. */
+#include <string.h>
+
+#include <retex/host/texture_lookup.h>
+
 #include "path/internal.h"
 #include "shade/material.h"
 
 #define SAME_DIRECTION 1e-12 /* of delta lobes: squared distance */
 
-void finishes_setup(Vertex *v, const Scene *scene, Vec3 wo)
+/* The weights that the maps of textures have here. */
+static __attribute__((noinline)) void look_up_weights(Vertex *v, const RenderVariant *variants, int nvariants)
+{
+    VertexFinishes *finishes = &v->finishes;
+    memset(finishes->weights, 0, sizeof *finishes->weights * (size_t)nvariants);
+    for (int i = 0; i < nvariants; i++) {
+        const RetexTexture *texture = variants[i].constants ? NULL : variants[i].textures[v->s.surface.target];
+        if (texture && retex_texture_finishes(texture, v->s.uv.u, v->s.uv.v, finishes->shown, finishes->weights[i]))
+            finishes->has_weights = 1;
+        else
+            finishes->weights[i][finishes->shown] = 1;
+    }
+}
+
+/* What is shown, of values by finish. */
+static inline Split shown(const VertexFinishes *finishes, const Split values[FINISHES_MAX])
+{
+    Split sum = {{0, 0, 0}, {0, 0, 0}};
+    if (!finishes->has_weights)
+        return values[finishes->shown];
+    for (int k = 0; k < finishes->count; k++) {
+        sum.d = rgb_add(sum.d, rgb_scale(values[k].d, finishes->weights[0][k]));
+        sum.i = rgb_add(sum.i, rgb_scale(values[k].i, finishes->weights[0][k]));
+    }
+    return sum;
+}
+
+void finishes_setup(Vertex *v, const Scene *scene, const RenderVariant *variants, int nvariants, Vec3 wo)
 {
     const Target *target = &scene->targets[v->s.surface.target];
     VertexFinishes *finishes = &v->finishes;
@@ -15,6 +46,9 @@ void finishes_setup(Vertex *v, const Scene *scene, Vec3 wo)
     for (int k = 0; k < target->nfinishes; k++)
         shading_bsdf_finish(&v->s, target_finish(target, k, v->s.surface.texture->finish), wo, &finishes->of[k]);
     v->s.bsdf = finishes->of[finishes->shown];
+    finishes->has_weights = 0;
+    if (variants)
+        look_up_weights(v, variants, nvariants);
 }
 
 Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf)
@@ -26,7 +60,7 @@ Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINI
         sum += own;
     }
     *pdf = sum / (float)finishes->count;
-    return values[finishes->shown];
+    return shown(finishes, values);
 }
 
 static Split scaled(Split s, float by)
@@ -80,7 +114,7 @@ int finishes_sample(const Vertex *v, float u_lobe, float u1, float u2, BsdfSampl
     } else {
         weigh_deltas(finishes, sample, weights);
     }
-    sample->weight = weights[finishes->shown];
+    sample->weight = shown(finishes, weights);
     return 1;
 }
 

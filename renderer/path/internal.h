@@ -55,6 +55,8 @@ typedef struct DirectLightSample {
 typedef struct VertexFinishes {
     int count; /* 0: the surface's own is the only one */
     int shown; /* the one in the picture, whose BSDF the shading has too */
+    int has_weights; /* 1: a texture has a map of finishes; the picture's have these, by variant: */
+    float weights[VARIANTS_MAX][FINISHES_MAX];
     Bsdf of[FINISHES_MAX];
 } VertexFinishes;
 
@@ -108,9 +110,9 @@ static inline int path_scale(PathWorker *w, Path *path, Rgb by)
     return path_is_alive(w, path);
 }
 /* Multiply throughput by the factor of a surface, d times its colour plus i, or by finish where it has several (else
- * NULL): in sets this may be a hit. Returns path_is_alive. */
-int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i,
-                      const FinishFactor *finishes, int reflects);
+ * NULL; weights as of Factor): in sets this may be a hit. Returns path_is_alive. */
+int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Split weight, const FinishFactor *finishes,
+                      const float (*weights)[FINISHES_MAX], int reflects);
 /* Hand a contribution to all sinks. */
 void path_contribute(PathWorker *worker, Path *path, const Contribution *contribution);
 /* Hand the path's light over to the film, which takes paths one after the other. */
@@ -196,8 +198,8 @@ int sample_direction(const Vertex *vertex, BsdfSample *sample, Split weights[FIN
 /* ---- finishes.c: vertices on targets with finishes ---- */
 
 /* Make the BSDFs of all finishes, once the shading is known but for its own; that becomes the one shown. */
-void finishes_setup(Vertex *vertex, const Scene *scene, Vec3 wo);
-/* As bsdf_eval, with one finish: of the one shown, and by finish; the density is the mean of theirs, by which finishes_
+void finishes_setup(Vertex *vertex, const Scene *scene, const RenderVariant *variants, int nvariants, Vec3 wo);
+/* As bsdf_eval, with one finish: of what is shown, and by finish; the density is the mean of theirs, by which finishes_
  * sample samples. */
 Split finishes_eval(const Vertex *vertex, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf);
 int finishes_sample(const Vertex *vertex, float u_lobe, float u1, float u2, BsdfSample *sample,
@@ -251,11 +253,12 @@ void add_direct_light(PathWorker *worker, Path *path, Vertex *vertex);
 int scatter(PathWorker *worker, Path *path, const Vertex *vertex, BsdfSample *next, Ray *ray);
 /* Multiply throughput by the weight of a BSDF sample. Returns path_is_alive. */
 static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight,
-                                    const FinishFactor *finishes, int reflects)
+                                    const FinishFactor *finishes, const float (*weights)[FINISHES_MAX],
+                                    int reflects)
 {
     if (surface_is_unsplit(w->context, s) && !s->replaced)
         return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
-    return path_apply_factor(w, path, s, color4(weight.d), color4(weight.i), finishes, reflects);
+    return path_apply_factor(w, path, s, weight, finishes, weights, reflects);
 }
 /* Begin the next segment, whose direction was sampled with density pdf, of which the BSDF's own share is bsdf_pdf. */
 static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)

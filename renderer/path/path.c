@@ -78,7 +78,7 @@ void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *
     const PathContext *c = w->context;
     v->finishes.count = 0;
     if (shading_has_finishes(&v->s, c->scene) && !path->leaving && !(c->white && is_first_hit(path)))
-        finishes_setup(v, c->scene, vec_neg(ray->direction));
+        finishes_setup(v, c->scene, w->variants, c->nvariants, vec_neg(ray->direction));
     else
         shading_bsdf(&v->s, path->leaving ? v->s.surface.shading_normal : vec_neg(ray->direction));
     if (c->white && is_first_hit(path))
@@ -224,7 +224,9 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
         next->weight = (Split){rgb_scale(next->weight.d, guided), rgb_scale(next->weight.i, guided)};
     for (int k = 0; k < v->finishes.count; k++)
         finishes[k] = (FinishFactor){color4(weights[k].d) * splat(guided), color4(weights[k].i) * splat(guided)};
-    if (!path_apply_weight(w, path, s, next->weight, v->finishes.count ? finishes : NULL, !next->transmitted))
+    if (!path_apply_weight(w, path, s, next->weight, v->finishes.count ? finishes : NULL,
+                           v->finishes.count && v->finishes.has_weights ? v->finishes.weights : NULL,
+                           !next->transmitted))
         return 0;
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next->wi.x, next->wi.y,

@@ -1,5 +1,6 @@
 /* Finishes to choose from after rendering: TARGET=NAME,NAME of the command line is read, and the light that is kept
  * apart for them is numbered. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -31,6 +32,21 @@ enum { BUILT_INS = sizeof built_in / sizeof *built_in };
 const char *scene_built_in_finish(int k)
 {
     return k >= 0 && k < BUILT_INS ? built_in_names[k] : NULL;
+}
+
+float finish_roughness(const Finish *f)
+{
+    const int is_mirror = finish_is_mirror(f), has_highlight = f->phong > 0 || f->specular > 0;
+    const double metallic = f->retex.present ? f->retex.metallic
+                            : is_mirror      ? f->reflection_metallic
+                            : has_highlight  ? f->metallic
+                                             : 0;
+    if (metallic > 0.5)
+        return -1;
+    if (f->retex.present)
+        return (float)f->retex.roughness;
+    const double exponent = f->phong > 0 ? f->phong_size : 1 / f->roughness; /* alpha^2 = 2 / (exponent + 2) */
+    return is_mirror ? 0 : has_highlight ? (float)pow(2 / (exponent + 2), 0.25) : 1;
 }
 
 /* ---- names ---- */

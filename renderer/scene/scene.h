@@ -709,6 +709,8 @@ int scene_resolve_finishes(Scene *scene, const char *const *specs, int nspecs, c
 void scene_number_kept(Scene *scene);
 /* What can be named there besides: the k-th built-in finish, or NULL. */
 const char *scene_built_in_finish(int k);
+/* As maps of roughness have it: 0 a mirror, 1 matt; -1 of a metal. */
+float finish_roughness(const Finish *finish);
 /* The finish that a texture of a target has in a combination. */
 static inline const Finish *target_finish(const Target *target, int k, const Finish *own)
 {

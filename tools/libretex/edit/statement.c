@@ -254,6 +254,23 @@ static int write_colorspace(const RetexTextureSpec *spec, char text[STATEMENT_TE
     return text[0] != '\0';
 }
 
+static int parse_finish(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    if (!*value || strlen(value) >= sizeof spec->finish || strchr(value, ':')) /* which would end it in an option */
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "finish='%.80s': expected a picture without a colon in its name, as in "
+                                 "finish=gloss.png, or none",
+                          value);
+    strcpy(spec->finish, value);
+    return RETEX_OK;
+}
+
+static int write_finish(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    snprintf(text, STATEMENT_TEXT_MAX, "%s", spec->finish);
+    return text[0] != '\0';
+}
+
 /* ---- the table ---- */
 
 const RetexStatementKind retex_statement_kinds[STATEMENT_KINDS] = {
@@ -266,6 +283,7 @@ const RetexStatementKind retex_statement_kinds[STATEMENT_KINDS] = {
     {"repeat", parse_repeat, write_repeat},
     {"width", parse_width, write_width},
     {"colorspace", parse_colorspace, write_colorspace},
+    {"finish", parse_finish, write_finish},
 };
 
 int retex_statement_option(const char *word, size_t length)

@@ -7,7 +7,7 @@
 #include <retex/texture.h>
 
 /* Words of options that text may have. */
-enum { STATEMENT_KINDS = 9, STATEMENT_TEXT_MAX = 1100 };
+enum { STATEMENT_KINDS = 10, STATEMENT_TEXT_MAX = 1100 };
 
 /* A row of the table: KEY is TARGET.word, or TARGET alone where the word is "". */
 typedef struct RetexStatementKind {

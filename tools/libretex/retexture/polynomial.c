@@ -8,6 +8,7 @@
 #include "retexture/combine_kernel.h"
 #include "retexture/enlarge.h"
 #include "retexture/polynomial_factors.h"
+#include "retexture/polynomial_finishes.h"
 #include "retexture/polynomial_groups.h"
 #include "retexture/polynomial_reduced.h"
 #include "set/set.h"
@@ -60,7 +61,7 @@ static int has_cross_terms(const RetexSet *set)
  * when it is needed. */
 static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexError *err)
 {
-    if (factor.kind == RETEX_FACTOR_PARAMETER || retex_polynomial_is_one(p, factor))
+    if (factor.kind == POLYNOMIAL_GATE || retex_polynomial_is_one(p, factor))
         return RETEX_OK;
     const RetexImage *shape = retex_polynomial_factor_image(p, factor);
     const int own = shape ? retex_set_scale(p->set, shape) : 0;
@@ -77,10 +78,17 @@ static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexE
 
 static int open_term(RetexPolynomial *p, int number, RetexError *err)
 {
-    const RetexTerm *term = &p->set->terms[number];
-    const RetexImage *radiance = retex_polynomial_part_image(p->set, term->radiance, 3, 3);
-    const int sound = radiance && retex_set_scale(p->set, radiance) == 1 && term->nfactors >= 0 &&
-                      term->nfactors <= RETEX_MAX_FACTORS;
+    RetexPolynomialTerm *term = &p->terms[number];
+    term->radiance = -1;
+    if (p->set->terms[number].nfactors < 0 || p->set->terms[number].nfactors > RETEX_MAX_FACTORS)
+        return retex_fail(err, RETEX_EFORMAT, "term %d of the set has %d factors", number,
+                          p->set->terms[number].nfactors);
+    retex_polynomial_factor_finishes(p, &p->set->terms[number], term);
+    if (!retex_polynomial_has_term(p, &p->set->terms[number], term->weight))
+        return RETEX_OK;
+    term->radiance = p->set->terms[number].radiance;
+    const RetexImage *radiance = retex_polynomial_part_image(p->set, p->set->terms[number].radiance, 3, 3);
+    const int sound = radiance && retex_set_scale(p->set, radiance) == 1;
     int code = sound ? RETEX_OK : MISSING;
     const int scale = sound && !p->apart ? retex_polynomial_group_scale(p, term) : 1;
     for (int k = 0; k < term->nfactors && !code; k++)
@@ -97,6 +105,8 @@ void retex_polynomial_close(RetexPolynomial *p)
     for (int i = 0; p->reduced && i < retex_polynomial_slot_count(p->set); i++)
         retex_image_free(&p->reduced[i]);
     free(p->reduced);
+    free(p->terms);
+    retex_polynomial_gates_close(p);
     retex_polynomial_groups_close(p);
     *p = (RetexPolynomial){0};
 }
@@ -121,13 +131,17 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
     if (code)
         return code;
     find_edited(p, &given);
-    if (!(p->reduced = calloc((size_t)retex_polynomial_slot_count(set) + 1, sizeof *p->reduced)))
+    code = retex_polynomial_find_maps(p, err);
+    p->reduced = calloc((size_t)retex_polynomial_slot_count(set) + 1, sizeof *p->reduced);
+    p->terms = calloc((size_t)set->nterms + 1, sizeof *p->terms);
+    if (!code && (!p->reduced || !p->terms))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (retex_polynomial_has_term(p, &set->terms[i]))
-            code = open_term(p, i, err);
+        code = open_term(p, i, err);
     if (!code)
         code = retex_polynomial_reduced_make(p, nthreads, err);
+    if (!code)
+        code = retex_polynomial_gates_open(p, nthreads, err);
     if (!code)
         code = retex_polynomial_groups_open(p, nthreads, err);
     if (code)
@@ -147,7 +161,7 @@ static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
     return buffer->values;
 }
 
-static int footprint_row(void *context, int footprint, int y, const float **made, RetexError *err);
+static int footprint_row(void *context, RetexFactor footprint, int y, const float **made, RetexError *err);
 static int factor_row(RetexPolynomialRow *row, RetexFactor factor, int y, const float **made, RetexError *err);
 
 /* A copy of an image's row, with three channels; or NULL. */
@@ -164,6 +178,23 @@ static int image_row(RetexPolynomialRow *row, int part, int y, float *values, co
     return RETEX_OK;
 }
 
+/* Makes the gates of all finishes of a target. */
+static int make_gates(RetexPolynomialRow *row, int target, int y, RetexError *err)
+{
+    const RetexPolynomial *p = row->polynomial;
+    float *rows[RETEX_FINISHES_MAX];
+    RetexFactor gate = retex_factor(POLYNOMIAL_GATE, target);
+    for (int k = 0; k < p->mapped[target]; k++) {
+        gate.quantity = POLYNOMIAL_FINISHED(k);
+        const int slot = retex_polynomial_slot(p->set, gate);
+        if (!(rows[k] = buffer_values(row, slot, err)))
+            return RETEX_ENOMEM;
+        row->made[slot] = rows[k];
+        row->spans[slot] = (RetexRowSpan){0, p->set->width};
+    }
+    return retex_polynomial_gate_rows(p, row->reader, target, y, row->weights, rows, err);
+}
+
 static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
@@ -173,6 +204,8 @@ static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int 
     int code = RETEX_OK;
     if (!values)
         return RETEX_ENOMEM;
+    if (factor.kind == POLYNOMIAL_GATE)
+        return make_gates(row, factor.index, y, err);
     row->made[slot] = values;
     row->spans[slot] = (RetexRowSpan){0, width};
     if (small->pixels) {
@@ -189,11 +222,11 @@ static int make_slot(RetexPolynomialRow *row, RetexFactor factor, int slot, int 
                 retex_polynomial_further_row(p, row->reader, factor, y, colors, row->weights, &row->buffers[slot], err);
         row->spans[slot] = row->buffers[slot].filled;
     } else if (factor.kind == RETEX_FACTOR_MIXTURE) {
-        code = retex_polynomial_mixture_row(p, row->reader, factor.index, y, footprint_row, row, row->weights,
+        code = retex_polynomial_mixture_row(p, row->reader, factor, y, footprint_row, row, row->weights,
                                             &row->buffers[slot], err);
         row->spans[slot] = row->buffers[slot].filled;
     } else {
-        code = retex_polynomial_footprint_row(p, row->reader, factor.index, y, &row->buffers[slot], &row->made[slot],
+        code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->buffers[slot], &row->made[slot],
                                               &row->spans[slot], err);
     }
     if (!code && (!row->made[slot] || retex_span_is_empty(row->spans[slot])))
@@ -209,9 +242,9 @@ static int factor_row(RetexPolynomialRow *row, RetexFactor factor, int y, const 
     return code;
 }
 
-static int footprint_row(void *context, int footprint, int y, const float **made, RetexError *err)
+static int footprint_row(void *context, RetexFactor footprint, int y, const float **made, RetexError *err)
 {
-    return factor_row(context, retex_factor(RETEX_FACTOR_FOOTPRINT, footprint), y, made, err);
+    return factor_row(context, footprint, y, made, err);
 }
 
 /* Makes the rows of all factors of the picture's size; *black: one of them is 0 everywhere in the row. */
@@ -312,7 +345,7 @@ int retex_polynomial_row_open(RetexPolynomialRow *row, const RetexPolynomial *po
     row->made = calloc(slots, sizeof *row->made);
     row->spans = calloc(slots, sizeof *row->spans);
     row->buffers = calloc(slots, sizeof *row->buffers);
-    row->weights = malloc(sizeof *row->weights * 3 * (size_t)set->width);
+    row->weights = malloc(sizeof *row->weights * 8 * (size_t)set->width);
     if (!code && (!row->monomials || !row->made || !row->spans || !row->buffers || !row->weights))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (code)

@@ -9,6 +9,15 @@
 
 #include "set/rows.h"
 
+/* A term of the set as it counts here. */
+typedef struct RetexPolynomialTerm {
+    int radiance;                         /* part; -1: the term does not count */
+    int nfactors;                         /* without parameters, */
+    RetexFactor factors[RETEX_MAX_FACTORS]; /* see polynomial_finishes.h for kinds that sets do not have */
+    int weighted;                         /* 1: it has parameters, whose product is */
+    float weight[3];
+} RetexPolynomialTerm;
+
 typedef struct RetexPolynomial {
     const RetexSet *set;
     const RetexSamples *samples;   /* or NULL */
@@ -22,6 +31,10 @@ typedef struct RetexPolynomial {
     int lamp_pictures;                         /* or the lamps' pictures do */
     RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
     float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
+    int mapped[RETEX_MAX_TARGETS];             /* by target, the number of finishes that a map tells apart; 0: no map */
+    int shown[RETEX_MAX_TARGETS];              /* of these, the finish that shows where the map is transparent */
+    RetexImage *gates;                         /* see polynomial_finishes.c */
+    RetexPolynomialTerm *terms;                /* by term of the set */
     RetexImage *reduced;                       /* factors that are smaller than the picture, by slot */
     struct RetexPolynomialGroup *groups;       /* see polynomial_groups.h */
     int ngroups;
@@ -32,11 +45,6 @@ int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, cons
                           RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
                           RetexError *err);
 void retex_polynomial_close(RetexPolynomial *polynomial);
-/* Whether a term of the set counts in this polynomial. */
-int retex_polynomial_has_term(const RetexPolynomial *polynomial, const RetexTerm *term);
-/* The product of the parameters that are a term's factors. Returns 0 where the term has none. */
-int retex_polynomial_weight(const RetexPolynomial *polynomial, const RetexTerm *term, float weight[3]);
-
 /* A row of colours that is 0 outside of the span that was filled last. */
 typedef struct RetexRowBuffer {
     float *values;

@@ -4,26 +4,13 @@
 #include <string.h>
 
 #include "retexture/mixture_kernel.h"
+#include "retexture/polynomial_finishes.h"
 #include "retexture/sample_row.h"
 #include "set/samples.h"
 #include "set/set.h"
 #include "texture/pyramid.h"
 
 /* ---- what a factor is made of ---- */
-
-int retex_polynomial_weight(const RetexPolynomial *p, const RetexTerm *term, float weight[3])
-{
-    int weighted = 0;
-    for (int c = 0; c < 3; c++)
-        weight[c] = 1;
-    for (int k = 0; k < term->nfactors; k++)
-        if (term->factors[k].kind == RETEX_FACTOR_PARAMETER) {
-            for (int c = 0; c < 3; c++)
-                weight[c] *= p->parameters[term->factors[k].index][c];
-            weighted = 1;
-        }
-    return weighted;
-}
 
 /* Whether a term counts with lamps as they are: all but lamps' where none has another value than it was kept with. */
 static int is_lit(const RetexPolynomial *p, const RetexTerm *term)
@@ -33,39 +20,52 @@ static int is_lit(const RetexPolynomial *p, const RetexTerm *term)
     return !p->lamps || (retex_set_term_lamp(p->set, term) >= 0) == p->relit;
 }
 
-int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term)
+int retex_polynomial_has_term(const RetexPolynomial *p, const RetexTerm *term, const float weight[3])
 {
-    float weight[3];
     if (p->picture || term->role == RETEX_ROLE_PICTURE || (term->role == RETEX_ROLE_CROSS2 && p->cross < 2) ||
         (term->role == RETEX_ROLE_CROSS3 && p->cross < 3) || !is_lit(p, term))
         return 0;
-    retex_polynomial_weight(p, term, weight);
     return weight[0] != 0 || weight[1] != 0 || weight[2] != 0;
 }
 
+/* Slots begin with those of a set's own factors; each quantity beyond has as many again for textures. */
 int retex_polynomial_slot(const RetexSet *set, RetexFactor factor)
 {
-    const int textures = set->nfootprints + set->nmixtures;
+    const int textures = set->nfootprints + set->nmixtures, finish = retex_quantity_finish(factor.quantity);
     const int slot = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
                      : factor.kind == RETEX_FACTOR_MIXTURE ? set->nfootprints + factor.index
                                                            : textures + factor.index;
-    return factor.quantity == RETEX_QUANTITY_FURTHER ? textures + set->nparts + slot : slot;
+    if (factor.kind == POLYNOMIAL_GATE)
+        return (2 + RETEX_FINISHES_MAX) * textures + set->nparts + factor.index * RETEX_FINISHES_MAX + finish;
+    return finish >= 0                                   ? (2 + finish) * textures + set->nparts + slot
+           : factor.quantity == RETEX_QUANTITY_FURTHER ? textures + set->nparts + slot
+                                                         : slot;
 }
 
 RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
 {
-    const int textures = set->nfootprints + set->nmixtures, further = slot >= textures + set->nparts;
-    const int number = further ? slot - textures - set->nparts : slot;
-    RetexFactor factor = number < set->nfootprints ? retex_factor(RETEX_FACTOR_FOOTPRINT, number)
-                         : number < textures       ? retex_factor(RETEX_FACTOR_MIXTURE, number - set->nfootprints)
-                                                   : retex_factor(RETEX_FACTOR_IMAGE, number - textures);
-    factor.quantity = further ? RETEX_QUANTITY_FURTHER : RETEX_QUANTITY_COLOR;
+    const int textures = set->nfootprints + set->nmixtures, own = textures + set->nparts;
+    RetexFactor factor;
+    if (slot >= own + (1 + RETEX_FINISHES_MAX) * textures) {
+        const int gate = slot - own - (1 + RETEX_FINISHES_MAX) * textures;
+        factor = retex_factor(POLYNOMIAL_GATE, gate / RETEX_FINISHES_MAX);
+        factor.quantity = POLYNOMIAL_FINISHED(gate % RETEX_FINISHES_MAX);
+        return factor;
+    }
+    const int beyond = slot >= own ? (slot - own) / textures : -1, number = slot >= own ? (slot - own) % textures : slot;
+    factor = number < set->nfootprints ? retex_factor(RETEX_FACTOR_FOOTPRINT, number)
+             : number < textures       ? retex_factor(RETEX_FACTOR_MIXTURE, number - set->nfootprints)
+                                       : retex_factor(RETEX_FACTOR_IMAGE, number - textures);
+    factor.quantity = beyond < 0    ? RETEX_QUANTITY_COLOR
+                      : beyond == 0 ? RETEX_QUANTITY_FURTHER
+                                    : POLYNOMIAL_FINISHED(beyond - 1);
     return factor;
 }
 
 int retex_polynomial_slot_count(const RetexSet *set)
 {
-    return 2 * (set->nfootprints + set->nmixtures) + set->nparts;
+    return (2 + RETEX_FINISHES_MAX) * (set->nfootprints + set->nmixtures) + set->nparts +
+           RETEX_FINISHES_MAX * RETEX_MAX_TARGETS;
 }
 
 /* Whether the textures of a factor of quantity FURTHER are all original: then it is 1. */
@@ -144,15 +144,23 @@ static void refill(RetexRowBuffer *buffer, RetexRowSpan span)
     buffer->filled = span;
 }
 
-int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, int footprint, int y,
+/* The texture of a footprint with a finish, or with that which the target has. */
+static const RetexTexture *texture_of(const RetexTexture *texture, int finish)
+{
+    return texture && finish >= 0 ? texture->finishes->colors[finish] : texture;
+}
+
+int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor factor, int y,
                                    RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err)
 {
+    static const float clear[3 * RETEX_MAX_SIZE];
     const RetexSet *set = p->set;
-    const RetexFootprint *f = &set->footprints[footprint];
-    const RetexTexture *texture = p->textures ? p->textures[f->target] : NULL;
-    if (!texture && p->samples && retex_samples_have(p->samples, footprint)) {
-        *span = (RetexRowSpan){0, p->samples->images[footprint].width};
-        return retex_row_reader_sample(reader, footprint, y, row, err);
+    const RetexFootprint *f = &set->footprints[factor.index];
+    const int finish = retex_quantity_finish(factor.quantity);
+    const RetexTexture *texture = texture_of(p->textures ? p->textures[f->target] : NULL, finish);
+    if (!texture && p->samples && retex_samples_have(p->samples, factor.index)) {
+        *span = (RetexRowSpan){0, p->samples->images[factor.index].width};
+        return retex_row_reader_sample(reader, factor.index, y, row, err);
     }
     if (!texture)
         return retex_row_reader_get_span(reader, f->albedo, y, row, span, err);
@@ -164,6 +172,8 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     if (code || !from.uv || retex_span_is_empty(from.span))
         return code;
     refill(buffer, from.span);
+    if (from.albedo && finish >= 0 && finish != p->shown[f->target]) /* what is clear has another finish */
+        from.albedo = clear;
     const RetexFootprintRow within = retex_footprint_row_cut(&from, from.span);
     retex_sample_row(texture, retex_footprint_filter(set, f), &within, buffer->values + 3 * (size_t)from.span.begin);
     *row = buffer->values;
@@ -180,11 +190,12 @@ static int has_single_weights(const RetexSet *set, const RetexMixture *m)
     return single;
 }
 
-int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reader, int mixture, int y,
+int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reader, RetexFactor mixture, int y,
                                  RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
                                  RetexError *err)
 {
-    const RetexMixture *m = &p->set->mixtures[mixture];
+    const RetexMixture *m = &p->set->mixtures[mixture.index];
+    RetexFactor footprint = {RETEX_FACTOR_FOOTPRINT, mixture.quantity, 0};
     const int single = has_single_weights(p->set, m), numbers = single ? 1 : 3;
     const float *weight, *factor;
     RetexRowSpan spans[RETEX_SHARES_MAX], all = {0, 0};
@@ -203,8 +214,9 @@ int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reade
         if (retex_span_is_empty(spans[k]))
             continue;
         code = retex_row_reader_get(reader, m->shares[k].weight, y, &weight, err);
+        footprint.index = m->shares[k].footprint;
         if (!code)
-            code = factor_row(context, m->shares[k].footprint, y, &factor, err);
+            code = factor_row(context, footprint, y, &factor, err);
         if (code)
             return code;
         const int channels = p->set->parts[m->shares[k].weight].image.channels;
@@ -231,19 +243,19 @@ typedef struct Originals {
     RetexRowReader *reader;
 } Originals;
 
-static int original_row(void *context, int footprint, int y, const float **row, RetexError *err)
+static int original_row(void *context, RetexFactor footprint, int y, const float **row, RetexError *err)
 {
     const Originals *of = context;
-    const int albedo = of->set->footprints[footprint].albedo;
+    const int albedo = of->set->footprints[footprint.index].albedo;
     if (albedo < 0)
-        return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set lacks its original albedo", footprint);
+        return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set lacks its original albedo", footprint.index);
     return retex_row_reader_get(of->reader, albedo, y, row, err);
 }
 
 static int copy_original_row(Originals *of, int footprint, int y, RetexRowBuffer *values, RetexError *err)
 {
     const float *row;
-    const int code = original_row(of, footprint, y, &row, err);
+    const int code = original_row(of, retex_factor(RETEX_FACTOR_FOOTPRINT, footprint), y, &row, err);
     if (code)
         return code;
     const int width = of->set->parts[of->set->footprints[footprint].albedo].image.width;
@@ -270,7 +282,7 @@ int retex_polynomial_further_row(const RetexPolynomial *p, RetexRowReader *reade
     Originals of = {p->set, reader};
     int code = factor.kind == RETEX_FACTOR_FOOTPRINT
                    ? copy_original_row(&of, factor.index, y, values, err)
-                   : retex_polynomial_mixture_row(p, reader, factor.index, y, original_row, &of, weights, values, err);
+                   : retex_polynomial_mixture_row(p, reader, factor, y, original_row, &of, weights, values, err);
     for (int x = values->filled.begin; x < values->filled.end && !code; x++)
         for (int c = 0; c < 3; c++) {
             float *value = &values->values[3 * x + c];

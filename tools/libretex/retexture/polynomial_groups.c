@@ -10,19 +10,20 @@
 #include "retexture/enlarge.h"
 #include "base/jobs.h"
 #include "retexture/polynomial_factors.h"
+#include "retexture/polynomial_finishes.h"
 #include "set/set.h"
 
 #define ROWS_A_JOB 64 /* rows of a pack's strip */
 
-/* 1 of parameters, which have no size, and of what is 1. */
+/* 1 of gates, which are made for the picture, and of what is 1. */
 static int factor_scale(const RetexPolynomial *p, RetexFactor factor)
 {
-    const int is_number = factor.kind == RETEX_FACTOR_PARAMETER || retex_polynomial_is_one(p, factor);
+    const int is_number = factor.kind == POLYNOMIAL_GATE || retex_polynomial_is_one(p, factor);
     const RetexImage *shape = is_number ? NULL : retex_polynomial_factor_image(p, factor);
     return is_number ? 1 : shape ? retex_set_scale(p->set, shape) : 0;
 }
 
-int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexTerm *term)
+int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexPolynomialTerm *term)
 {
     int scale = 0;
     for (int k = 0; k < term->nfactors; k++) {
@@ -42,12 +43,12 @@ static int are_together(const struct RetexPolynomialGroup *a, const struct Retex
 }
 
 /* The group of a term, which is added if it is new; NULL: no memory. */
-static struct RetexPolynomialGroup *group_of(RetexPolynomial *p, const RetexTerm *term, int weighted)
+static struct RetexPolynomialGroup *group_of(RetexPolynomial *p, const RetexPolynomialTerm *term)
 {
     struct RetexPolynomialGroup wanted = {.scale = p->apart ? 0 : retex_polynomial_group_scale(p, term)};
-    wanted.weighted = weighted && !wanted.scale; /* else the product is weighted */
+    wanted.weighted = term->weighted && !wanted.scale; /* else the product is weighted */
     for (int k = 0; k < term->nfactors; k++)
-        if (term->factors[k].kind != RETEX_FACTOR_PARAMETER && !retex_polynomial_is_one(p, term->factors[k]) &&
+        if (!retex_polynomial_is_one(p, term->factors[k]) &&
             (p->apart || factor_scale(p, term->factors[k]) == 1))
             wanted.factors[wanted.nfactors++] = term->factors[k];
     for (int g = 0; g < p->ngroups && !p->apart; g++)
@@ -61,10 +62,10 @@ static struct RetexPolynomialGroup *group_of(RetexPolynomial *p, const RetexTerm
 
 static int add_term(RetexPolynomial *p, int number, RetexError *err)
 {
-    const RetexTerm *term = &p->set->terms[number];
+    const RetexPolynomialTerm *term = &p->terms[number];
     RetexWeightedRadiance radiance = {.part = term->radiance};
-    const int weighted = retex_polynomial_weight(p, term, radiance.weight);
-    struct RetexPolynomialGroup *group = group_of(p, term, weighted);
+    memcpy(radiance.weight, term->weight, sizeof radiance.weight);
+    struct RetexPolynomialGroup *group = group_of(p, term);
     if (!group)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
     if (!group->scale || !group->nradiances)
@@ -128,13 +129,12 @@ static void fill_row(float *row, const float color[3], size_t count)
 }
 
 /* Adds the product of one term's reduced factors, and of its parameters, to a row. */
-static int add_product(const ProductWork *work, ProductThread *own, const RetexTerm *term, int y, char *made,
+static int add_product(const ProductWork *work, ProductThread *own, const RetexPolynomialTerm *term, int y, char *made,
                        float *weights, float *sum, RetexError *err)
 {
     const RetexPolynomial *p = work->polynomial;
     const size_t count = 3 * (size_t)work->group->product.width;
     const float *rows[RETEX_MAX_FACTORS];
-    float weight[3];
     int used = 0, code = RETEX_OK;
     for (int k = 0; k < term->nfactors && !code; k++) {
         if (factor_scale(p, term->factors[k]) <= 1)
@@ -143,8 +143,7 @@ static int add_product(const ProductWork *work, ProductThread *own, const RetexT
         if (!code && !rows[used++])
             return RETEX_OK;
     }
-    retex_polynomial_weight(p, term, weight);
-    fill_row(weights, weight, count);
+    fill_row(weights, term->weight, count);
     if (!code)
         retex_combine_term_kernel(sum, weights, rows, used, count);
     return code;
@@ -178,7 +177,7 @@ static int product_job(void *context, int index, int thread, RetexError *err)
          * threads */
         memset(sum, 0, sizeof *sum * 3 * (size_t)product->width);
         for (int k = 0; k < work->group->nterms && !code; k++)
-            code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, weights, sum, err);
+            code = add_product(work, own, &work->polynomial->terms[work->group->terms[k]], y, made, weights, sum, err);
     }
     free(weights);
     free(made);
@@ -221,7 +220,7 @@ int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *e
     if (!(p->groups = calloc((size_t)p->set->nterms + 1, sizeof *p->groups)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
     for (int t = 0; t < p->set->nterms && !code; t++)
-        if (retex_polynomial_has_term(p, &p->set->terms[t]))
+        if (p->terms[t].radiance >= 0)
             code = add_term(p, t, err);
     for (int g = 0; g < p->ngroups; g++)
         p->groups[g].weighted = p->groups[g].weighted && !is_one_plain_part(&p->groups[g]);

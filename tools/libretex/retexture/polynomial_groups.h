@@ -30,6 +30,6 @@ int retex_polynomial_groups_open(RetexPolynomial *polynomial, int nthreads, Rete
 void retex_polynomial_groups_close(RetexPolynomial *polynomial);
 
 /* The finest scale above 1 among a term's factors; 0 where all have the picture's size. */
-int retex_polynomial_group_scale(const RetexPolynomial *polynomial, const RetexTerm *term);
+int retex_polynomial_group_scale(const RetexPolynomial *polynomial, const RetexPolynomialTerm *term);
 
 #endif

@@ -24,28 +24,29 @@ typedef struct ReducedWork {
 typedef struct ReducedThread {
     const ReducedWork *work;
     RetexRowReader *reader;
-    RetexRowBuffer *buffers; /* by footprint, allocated when needed */
-    const float **rows;      /* by footprint; NULL: black */
-    char *made;              /* by footprint: 1 if rows has it */
+    RetexRowBuffer *buffers; /* by slot, for footprints, allocated when needed */
+    const float **rows;      /* by slot; NULL: black */
+    char *made;              /* by slot: 1 if rows has it */
     float *weights;
     RetexRowBuffer colors; /* of a mixture */
 } ReducedThread;
 
-static int footprint_row(void *context, int footprint, int y, const float **row, RetexError *err)
+static int footprint_row(void *context, RetexFactor footprint, int y, const float **row, RetexError *err)
 {
     ReducedThread *own = context;
     const ReducedWork *work = own->work;
+    const int slot = retex_polynomial_slot(work->polynomial->set, footprint);
     int code = RETEX_OK;
-    if (!own->made[footprint]) {
-        RetexRowBuffer *buffer = &own->buffers[footprint];
+    if (!own->made[slot]) {
+        RetexRowBuffer *buffer = &own->buffers[slot];
         RetexRowSpan span;
         if (!buffer->values && !(buffer->values = calloc(3 * (size_t)work->width, sizeof *buffer->values)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-        code = retex_polynomial_footprint_row(work->polynomial, own->reader, footprint, y, buffer,
-                                              &own->rows[footprint], &span, err);
-        own->made[footprint] = !code;
+        code = retex_polynomial_footprint_row(work->polynomial, own->reader, footprint, y, buffer, &own->rows[slot],
+                                              &span, err);
+        own->made[slot] = !code;
     }
-    *row = own->rows[footprint];
+    *row = own->rows[slot];
     return code;
 }
 
@@ -55,9 +56,9 @@ static int factor_row(ReducedThread *own, RetexFactor factor, int y, RetexRowBuf
 {
     *row = sum->values;
     if (factor.kind == RETEX_FACTOR_MIXTURE)
-        return retex_polynomial_mixture_row(own->work->polynomial, own->reader, factor.index, y, footprint_row, own,
+        return retex_polynomial_mixture_row(own->work->polynomial, own->reader, factor, y, footprint_row, own,
                                             own->weights, sum, err);
-    return factor.kind == RETEX_FACTOR_FOOTPRINT ? footprint_row(own, factor.index, y, row, err)
+    return factor.kind == RETEX_FACTOR_FOOTPRINT ? footprint_row(own, factor, y, row, err)
                                                  : retex_row_reader_get(own->reader, factor.index, y, row, err);
 }
 
@@ -82,7 +83,7 @@ static int make_row(ReducedThread *own, int slot, int y, RetexError *err)
 static int open_thread(const ReducedWork *work, ReducedThread *own, RetexError *err)
 {
     const RetexSet *set = work->polynomial->set;
-    const size_t count = (size_t)set->nfootprints + 1;
+    const size_t count = (size_t)retex_polynomial_slot_count(set) + 1;
     if (own->work)
         return RETEX_OK;
     own->work = work;
@@ -98,7 +99,7 @@ static int open_thread(const ReducedWork *work, ReducedThread *own, RetexError *
 
 static void close_thread(const ReducedWork *work, ReducedThread *own)
 {
-    for (int i = 0; own->buffers && i < work->polynomial->set->nfootprints; i++)
+    for (int i = 0; own->buffers && i < retex_polynomial_slot_count(work->polynomial->set); i++)
         free(own->buffers[i].values);
     free(own->buffers);
     free(own->rows);
@@ -114,7 +115,7 @@ static int make_job(void *context, int index, int thread, RetexError *err)
     ReducedThread *own = &work->threads[thread];
     int code = open_thread(work, own, err);
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < work->height; y++) {
-        memset(own->made, 0, (size_t)work->polynomial->set->nfootprints);
+        memset(own->made, 0, (size_t)retex_polynomial_slot_count(work->polynomial->set));
         for (int i = 0; i < work->nslots && !code; i++)
             code = make_row(own, work->slots[i], y, err);
     }

@@ -94,6 +94,8 @@ static void describe_surface(RetexTextureSpec *spec, const RetexTarget *t)
 {
     memcpy(spec->uv_scale, t->uv_scale, sizeof spec->uv_scale);
     memcpy(spec->periodic, t->periodic, sizeof spec->periodic);
+    spec->nfinishes = t->nfinishes;
+    memcpy(spec->roughness, t->finish_roughness, sizeof spec->roughness);
     for (int axis = 0; axis < 2; axis++)
         if (!t->periodic[axis]) {
             spec->uv_min[axis] = t->uv_min[axis];

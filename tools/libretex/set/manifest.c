@@ -93,6 +93,10 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
             retex_json_add(&names, text(target->finishes[k]));
         retex_json_put(&json, "finishes", names);
         retex_json_put(&json, "finish", json_integer(target->finish));
+        json_t *roughness = json_array();
+        for (int k = 0; k < target->nfinishes; k++)
+            retex_json_add(&roughness, real(target->finish_roughness[k], finite));
+        retex_json_put(&json, "finish_roughness", roughness);
     }
     return json;
 }

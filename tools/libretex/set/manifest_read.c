@@ -133,7 +133,14 @@ static void read_finishes(Reading *reading, const json_t *json, RetexTarget *tar
             retex_reading_fail(reading, RETEX_EFORMAT, "has a finish without a proper name");
         else
             strcpy(target->finishes[k], name);
+        target->finish_roughness[k] = -1;
     }
+    if (!json_object_get(json, "finish_roughness")) /* older sets do not know it */
+        return;
+    const json_t *roughness = retex_reading_array(reading, json, "finish_roughness", (size_t)target->nfinishes);
+    for (size_t k = 0; k < json_array_size(roughness); k++)
+        target->finish_roughness[k] =
+            (float)retex_reading_real(reading, json_array_get(roughness, k), "finish_roughness");
 }
 
 static void read_target(Reading *reading, const json_t *json, RetexSet *set, RetexTarget *target)

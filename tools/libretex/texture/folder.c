@@ -195,6 +195,7 @@ typedef struct Folder {
     unsigned maps; /* all that there are */
     long entries;
     Named colors[2];               /* the best forms of the two base colours whose keys are first */
+    Named roughness[2];            /* the same of roughness, or of what says it best; the second: there are several */
     char others[SHOWN][NAME_SIZE]; /* the first names of files that are no map, sorted */
     long nothers;
 } Folder;
@@ -206,19 +207,34 @@ static int is_better(const Named *a, const Named *b)
     return a->is_lossy != b->is_lossy ? !a->is_lossy : strcmp(a->path, b->path) < 0;
 }
 
-static void add_color(Folder *folder, const Named *file)
+/* Keeps the best forms of the two maps whose keys are first. */
+static void keep_best(Named best[2], const Named *file)
 {
-    Named *colors = folder->colors;
     for (int i = 0; i < 2; i++) {
-        const int order = colors[i].maps ? strcmp(file->key, colors[i].key) : -1;
+        const int order = best[i].maps ? strcmp(file->key, best[i].key) : -1;
         if (order > 0)
             continue;
         if (order < 0 && i == 0)
-            colors[1] = colors[0];
-        if (order < 0 || is_better(file, &colors[i]))
-            colors[i] = *file;
+            best[1] = best[0];
+        if (order < 0 || is_better(file, &best[i]))
+            best[i] = *file;
         return;
     }
+}
+
+/* A map of roughness is preferred to one of gloss, and that to a channel of a packed one. */
+static int roughness_rank(const Named *file)
+{
+    return file->maps == 1 << MAP_ROUGHNESS ? 3 : file->maps == 1 << MAP_GLOSS ? 2 : file->maps == PACKED;
+}
+
+static void add_roughness(Folder *folder, const Named *file)
+{
+    const int rank = roughness_rank(file), best = roughness_rank(&folder->roughness[0]);
+    if (rank > best)
+        memset(folder->roughness, 0, sizeof folder->roughness);
+    if (rank && rank >= best)
+        keep_best(folder->roughness, file);
 }
 
 static void add_other(Folder *folder, const char *name)
@@ -244,7 +260,8 @@ static void add_file(Folder *folder, const char *below, const char *name)
     }
     folder->maps |= file.maps;
     if (file.maps & COLOR)
-        add_color(folder, &file);
+        keep_best(folder->colors, &file);
+    add_roughness(folder, &file);
 }
 
 /* The type of an entry. Safe access does not follow links here, so that nothing is told of what is outside: what they
@@ -374,7 +391,20 @@ static int name_unused(const Folder *folder, char **unused, RetexError *err)
     return no_memory(folder, err);
 }
 
-static int choose(const Folder *folder, char **file, char **unused, RetexError *err)
+/* The roughness, unless several maps might be it. */
+static int choose_roughness(Folder *folder, RetexFolderFiles *files, int is_wanted, RetexError *err)
+{
+    const Named *best = &folder->roughness[0];
+    files->has_roughness = best->maps && !folder->roughness[1].maps;
+    if (!files->has_roughness || !is_wanted)
+        return RETEX_OK;
+    files->channel = best->maps == PACKED; /* occlusion, roughness, metalness: red, green, blue */
+    files->is_gloss = best->maps == 1 << MAP_GLOSS;
+    folder->maps &= ~(1u << MAP_ROUGHNESS | 1u << MAP_GLOSS);
+    return (files->roughness = path_in(folder, best->path)) ? RETEX_OK : no_memory(folder, err);
+}
+
+static int choose(Folder *folder, RetexFolderFiles *files, int wants_roughness, RetexError *err)
 {
     const Named *colors = folder->colors;
     if (!colors[0].maps)
@@ -383,12 +413,14 @@ static int choose(const Folder *folder, char **file, char **unused, RetexError *
         return retex_fail(err, RETEX_EFORMAT,
                           "%.*s: a folder with several base colours, such as %s and %s: name one of them",
                           folder->length, folder->image, colors[0].path, colors[1].path);
-    if (!(*file = path_in(folder, colors[0].path)))
+    if (!(files->color = path_in(folder, colors[0].path)))
         return no_memory(folder, err);
-    return name_unused(folder, unused, err);
+    const int code = choose_roughness(folder, files, wants_roughness, err);
+    return code ? code : name_unused(folder, &files->unused, err);
 }
 
-static int find_in_folder(char **file, char **unused, const char *image, const RetexAccess *access, RetexError *err)
+static int find_in_folder(RetexFolderFiles *files, const char *image, const RetexAccess *access, int wants_roughness,
+                          RetexError *err)
 {
     RetexAccess own = RETEX_ACCESS_INIT;
     if (access && RETEX_PARAMS_COPY(&own, access, err))
@@ -404,37 +436,46 @@ static int find_in_folder(char **file, char **unused, const char *image, const R
     folder->is_safe = own.safe;
     int code = list(folder, "", err);
     if (!code)
-        code = choose(folder, file, unused, err);
+        code = choose(folder, files, wants_roughness, err);
     free(folder);
     return code;
 }
 
-int retex_texture_folder_find(char **file, char **unused, const char *image, const RetexAccess *access, RetexError *err)
+void retex_texture_folder_files_free(RetexFolderFiles *files)
+{
+    free(files->color);
+    free(files->roughness);
+    free(files->unused);
+    *files = (RetexFolderFiles){.color = NULL};
+}
+
+int retex_texture_folder_find(RetexFolderFiles *files, const char *image, const RetexAccess *access,
+                              int wants_roughness, RetexError *err)
 {
     struct stat info;
-    *file = *unused = NULL;
+    *files = (RetexFolderFiles){.color = NULL};
     int code = RETEX_OK;
     if (stat(image, &info) == 0 && S_ISDIR(info.st_mode))
-        code = find_in_folder(file, unused, image, access, err);
-    else if (!(*file = strdup(image)))
+        code = find_in_folder(files, image, access, wants_roughness, err);
+    else if (!(files->color = strdup(image)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to read %s", image);
-    if (code) {
-        free(*file);
-        *file = NULL;
-    }
+    if (code)
+        retex_texture_folder_files_free(files);
     return code;
 }
 
 int retex_texture_file(char **file, const RetexTextureSpec *given, RetexError *err)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    char *unused;
+    RetexFolderFiles files;
     *file = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
     if (spec.constant)
         return RETEX_OK;
-    const int code = retex_texture_folder_find(file, &unused, spec.image, spec.access, err);
-    free(unused);
+    const int code = retex_texture_folder_find(&files, spec.image, spec.access, 0, err);
+    *file = files.color;
+    files.color = NULL;
+    retex_texture_folder_files_free(&files);
     return code;
 }

@@ -4,7 +4,11 @@
 
 #include <stdint.h>
 
+#include <retex/set.h>
+
 #include "texture/texel_defects.h"
+
+struct RetexDecoded;
 
 #define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
 #define NARROW_ONE 65535.0f
@@ -30,6 +34,14 @@ typedef struct RetexTextureLevel {
     double blur[2][2];
 } RetexTextureLevel;
 
+/* Which finish of its target a texture has where. The weights of all finishes sum to 1 at every texel. What is filtered
+ * are products with the colour, for the mean of products is not the product of means. */
+typedef struct RetexFinishMap {
+    int count;                                /* finishes, 2..RETEX_FINISHES_MAX */
+    RetexTexture *weights;                    /* red: of the second finish, green: of the third, blue: of the fourth */
+    RetexTexture *colors[RETEX_FINISHES_MAX]; /* the colour times the weight of each */
+} RetexFinishMap;
+
 struct RetexTexture {
     RetexTextureSpec spec; /* with wrap = mirror for repeat = mirror */
     uint64_t charged;      /* bytes charged to the spec's budget */
@@ -48,6 +60,8 @@ struct RetexTexture {
     /* E max(z + N(0,1), 0) - max(z, 0) for z = 0 .. TEXTURE_TAIL_END: what a bilinear tent blurred by a Gaussian is
      * made of */
     float tail[TEXTURE_TAIL_STEPS * TEXTURE_TAIL_END + 2];
+    RetexFinishMap *finishes; /* or NULL: one finish all over */
+    int may_have_finishes;    /* 1: whether it has some, and which, depends on those of the target */
 };
 
 /* An image that becomes a texture: premultiplied, rows from the top; the texels are freed with free(). */
@@ -58,6 +72,14 @@ typedef struct RetexTexels {
 
 /* Report what is odd about the texture's colours to spec->warn; the texture was loaded by that spec or a copy of it. */
 void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec);
+
+/* A texture of that placement, a constant or still without texels; NULL: the specification is wrong. */
+RetexTexture *retex_texture_new(const RetexTextureSpec *spec, int constant, RetexError *err);
+/* Make premultiplied texels those of the texture. They are used up. */
+int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err);
+/* Read the file by the specification's access and budget. colorspace: NULL = what the file says. */
+int retex_texture_read_file(RetexTexture *texture, const char *file, const char *colorspace, struct RetexDecoded *decoded,
+                            int nthreads, RetexError *err);
 
 /* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */

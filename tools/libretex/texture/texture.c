@@ -3,6 +3,7 @@
  * filter_kernel.c, disc_kernel.c and parallelogram_kernel.c, those of whole rows in batch.c. */
 #include "base/params.h"
 #include "picture/image_read.h"
+#include "texture/finish_map.h"
 #include "texture/folder.h"
 #include "texture/pyramid.h"
 
@@ -18,6 +19,7 @@
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
+#define NO_FINISH_MAP "none"
 #define LEAST_ALPHA 1e-20f            /* alpha below this has no colour that a float can hold */
 /* A footprint of a thousand repeats gives the average, whatever its size; larger sizes only lose digits. */
 #define MAX_FOOTPRINT 1000.0
@@ -155,8 +157,7 @@ static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *
     return code;
 }
 
-/* Makes premultiplied texels those of the texture. */
-static int set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
+int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
 {
     int width = texels->width, height = texels->height, code = charge(texture, texels, err);
     if (!code)
@@ -203,17 +204,15 @@ static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthr
     return RETEX_OK;
 }
 
-/* Makes RGBA pixels the texels of the texture. */
-static int set_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+/* Makes RGBA pixels premultiplied texels. */
+static int take_pixels(RetexTexture *texture, RetexImage *pixels, RetexTexels *texels, int nthreads, RetexError *err)
 {
-    RetexTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
-    int code = premultiply(texture, pixels, nthreads, err);
+    const int code = premultiply(texture, pixels, nthreads, err);
     if (code)
         return code;
+    *texels = (RetexTexels){pixels->width, pixels->height, 0, pixels->pixels};
     *pixels = (RetexImage){0};
-    code = set_texels(texture, &texels, nthreads, err);
-    free(texels.texels);
-    return code;
+    return RETEX_OK;
 }
 
 /* ---- life ---- */
@@ -251,7 +250,7 @@ static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *er
     return constant ? RETEX_OK : check_width(spec, err);
 }
 
-static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, RetexError *err)
+RetexTexture *retex_texture_new(const RetexTextureSpec *given, int constant, RetexError *err)
 {
     RetexTextureSpec spec = *given;
     if (check_spec(&spec, constant, err))
@@ -285,6 +284,7 @@ void retex_texture_close(RetexTexture **texture)
             free(level->ends[k]);
         }
     }
+    retex_finish_map_close(*texture);
     retex_budget_release((*texture)->spec.budget, (*texture)->charged);
     free((*texture)->color_warning);
     free(*texture);
@@ -349,27 +349,56 @@ int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
     return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
 }
 
-/* Reads the file that the image is. */
+int retex_texture_read_file(RetexTexture *texture, const char *file, const char *colorspace, RetexDecoded *decoded,
+                            int nthreads, RetexError *err)
+{
+    RetexReadParams params = read_params(texture);
+    params.colorspace = colorspace ? colorspace : params.colorspace;
+    return retex_image_read_any(decoded, file, &params, nthreads, err);
+}
+
+/* Makes the map of finishes, where there is one. color: NULL = a constant. */
+static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, const RetexTexels *color, int nthreads,
+                         RetexError *err)
+{
+    const RetexTextureSpec *own = &texture->spec;
+    texture->may_have_finishes = own->finish[0] || (files && files->has_roughness);
+    if (files && files->roughness)
+        return retex_finish_map_make(texture, color, files->roughness,
+                                     files->is_gloss ? RETEX_FINISH_BY_GLOSS : RETEX_FINISH_BY_ROUGHNESS,
+                                     files->channel, nthreads, err);
+    if (!own->finish[0] || strcmp(own->finish, NO_FINISH_MAP) == 0)
+        return RETEX_OK;
+    if (own->nfinishes < 2)
+        return retex_fail(err, RETEX_EINVAL, "%s has no finishes to choose from: finish= cannot be used on it",
+                          own->target[0] ? own->target : "the target");
+    return retex_finish_map_make(texture, color, own->finish, RETEX_FINISH_BY_LIST, 0, nthreads, err);
+}
+
+/* Reads the files that the image is. */
 static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
 {
     const RetexTextureSpec *own = &texture->spec;
-    const RetexReadParams params = read_params(texture);
+    const int wants_roughness = !own->finish[0] && retex_finish_map_has_scale(own);
     RetexDecoded decoded = {0};
-    char *file, *unused;
-    int code = retex_texture_folder_find(&file, &unused, own->image, own->access, err);
-    if (!code && unused)
-        keep_warning(texture, unused);
+    RetexFolderFiles files;
+    RetexTexels texels = {0};
+    int code = retex_texture_folder_find(&files, own->image, own->access, wants_roughness, err);
+    if (!code && files.unused)
+        keep_warning(texture, files.unused);
     if (!code)
-        code = retex_image_read_any(&decoded, file, &params, nthreads, err);
-    free(file);
-    free(unused);
-    const RetexNarrowImage *narrow = &decoded.narrow;
-    RetexTexels texels = {narrow->width, narrow->height, 1, narrow->pixels};
+        code = retex_texture_read_file(texture, files.color, NULL, &decoded, nthreads, err);
+    if (!code && decoded.narrow.pixels)
+        texels = (RetexTexels){decoded.narrow.width, decoded.narrow.height, 1, decoded.narrow.pixels};
+    else if (!code)
+        code = take_pixels(texture, &decoded.image, &texels, nthreads, err);
     if (!code)
-        code = narrow->pixels ? set_texels(texture, &texels, nthreads, err)
-                              : set_pixels(texture, &decoded.image, nthreads, err);
+        code = make_finishes(texture, &files, &texels, nthreads, err);
+    if (!code)
+        code = retex_texture_set_texels(texture, &texels, nthreads, err);
     free(texels.texels);
     retex_image_free(&decoded.image);
+    retex_texture_folder_files_free(&files);
     return code;
 }
 
@@ -381,10 +410,12 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nt
     *out = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
-    RetexTexture *texture = new_texture(&spec, spec.constant, &why);
+    RetexTexture *texture = retex_texture_new(&spec, spec.constant, &why);
     int code = why.code;
     if (texture && !spec.constant)
         code = read_image(texture, nthreads, &why);
+    if (texture && spec.constant)
+        code = make_finishes(texture, NULL, NULL, nthreads, &why);
     if (code) {
         retex_texture_close(&texture);
         if (code == RETEX_EIO) { /* perhaps a misspelt colour */
@@ -412,7 +443,17 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     retex_texture_size(texture, &width, &height);
     if (!spec.constant)
         set_transform(texture, width, height);
-    return RETEX_OK;
+    return retex_finish_map_set_surface(texture, surface, err);
+}
+
+/* Whether both have the same map of finishes. */
+static int has_finishes_of(const RetexTexture *texture, const RetexTextureSpec *spec)
+{
+    const RetexTextureSpec *own = &texture->spec;
+    return strcmp(spec->finish, own->finish) == 0 &&
+           (!texture->may_have_finishes ||
+            (spec->nfinishes == own->nfinishes &&
+             memcmp(spec->roughness, own->roughness, sizeof own->roughness) == 0));
 }
 
 static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *spec)
@@ -420,7 +461,7 @@ static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *sp
     const RetexTextureSpec *own = &texture->spec;
     return texture->nlevels > 0 && !spec->constant && strcmp(spec->image, own->image) == 0 &&
            strcmp(spec->colorspace, own->colorspace) == 0 && spec->repeat == own->repeat &&
-           spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1];
+           spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1] && has_finishes_of(texture, spec);
 }
 
 int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
@@ -428,7 +469,7 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     RetexError why = {0};
     int width, height;
     *out = NULL;
-    RetexTexture *placed = new_texture(spec, spec->constant, &why);
+    RetexTexture *placed = retex_texture_new(spec, spec->constant, &why);
     int code = why.code;
     if (!code && !has_texels_of(texture, &placed->spec))
         code = retex_fail(&why, RETEX_EINVAL, "%s is not loaded as this placement needs it", texture->spec.image);
@@ -448,8 +489,11 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     placed->color_warning = NULL;
     retex_texture_size(texture, &width, &height);
     set_transform(placed, width, height);
+    code = retex_finish_map_place(placed, texture, err);
+    if (code)
+        retex_texture_close(&placed);
     *out = placed;
-    return RETEX_OK;
+    return code;
 }
 
 int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *given, int nthreads,
@@ -462,7 +506,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
         return RETEX_EINVAL;
     if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
-    RetexTexture *texture = new_texture(&spec, 0, &why);
+    RetexTexture *texture = retex_texture_new(&spec, 0, &why);
     RetexImage copy = {0};
     int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
     if (!code) {
@@ -473,7 +517,11 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             for (int c = 0; c < 4; c++)
                 to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
         }
-        code = set_pixels(texture, &copy, nthreads, &why);
+        RetexTexels texels = {0};
+        code = take_pixels(texture, &copy, &texels, nthreads, &why);
+        if (!code)
+            code = retex_texture_set_texels(texture, &texels, nthreads, &why);
+        free(texels.texels);
         retex_image_free(&copy);
     }
     if (code) {
@@ -516,6 +564,8 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
             code = no_memory(texture, from->width, from->height, err);
         free(texels.texels);
     }
+    if (!code)
+        code = retex_finish_map_square(square, texture, nthreads, err);
     if (code)
         retex_texture_close(&square);
     *out = square;
@@ -530,7 +580,7 @@ void retex_texture_size(const RetexTexture *texture, int *width, int *height)
 
 uint64_t retex_texture_bytes(const RetexTexture *texture)
 {
-    return texture->charged;
+    return texture->charged + retex_finish_map_bytes(texture);
 }
 
 /* ---- from surface UV to texels ---- */

@@ -69,6 +69,8 @@ typedef struct RetexTarget {
     int nfinishes;      /* 0: it has the one that it was rendered with; else 2..RETEX_FINISHES_MAX, to choose from */
     char finishes[RETEX_FINISHES_MAX][RETEX_NAME_MAX]; /* their names */
     int finish;         /* the one in the picture as rendered */
+    float finish_roughness[RETEX_FINISHES_MAX]; /* of each, 0 a mirror, 1 matt, as maps of roughness have it; -1: of a
+                                                   metal, or unknown */
 } RetexTarget;
 
 typedef enum RetexFootprintKind {

@@ -68,10 +68,16 @@ typedef struct RetexTextureSpec {
     RetexBudget *budget;   /* what the texture's memory is charged to until it is closed, and which says how many pixels
                               its image may have (otherwise 2^28); filled in by the caller. Default NULL = none */
     int periodic[2];       /* 1: the surface closes after one unit of u (or v); filled in by the caller. Default 0, 0 */
+    char finish[1024];     /* a picture that says which finish of the target is where, laid as the image is, see
+                              retex-edit(5). "", the default: the roughness of a folder, where `image` is one that has
+                              it; "none": the target has one finish all over */
+    int nfinishes;         /* of the target; filled in by the caller. Default 0: it has none to choose from */
+    float roughness[4];    /* of these; filled in by the caller. Default 0 */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0} }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0}, \
+      "", 0, {0, 0, 0, 0} }
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);

@@ -1,0 +1,35 @@
+/* Maps of finishes in a polynomial. Light is kept for each finish of a target; with a map, light whose first hit on the
+ * target is at u counts with finish k by the weight w_k(u). Where that hit is a factor of the term, its texture is
+ * multiplied by the weight before it is filtered: quantity FINISHED. Else the term has a gate: the weight, averaged over
+ * the target's footprints in the pixel. Later hits have the finish of the first. Private to libretex. */
+#ifndef RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
+#define RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
+
+#include "retexture/polynomial.h"
+
+/* A factor of a target whose index it has. */
+#define POLYNOMIAL_GATE ((RetexFactorKind)RETEX_FACTOR_KINDS)
+/* The colour times the weight of finish k; of a gate, the weight. */
+#define POLYNOMIAL_FINISHED(k) ((RetexQuantity)(RETEX_QUANTITIES + (k)))
+
+/* The finish of a quantity, or -1. */
+static inline int retex_quantity_finish(RetexQuantity quantity)
+{
+    return (int)quantity - RETEX_QUANTITIES;
+}
+
+/* Find the targets that have a map, and the finishes that show where it is transparent. Parameters must be known. */
+int retex_polynomial_find_maps(RetexPolynomial *polynomial, RetexError *err);
+/* The weight of a term by its parameters, and its factors besides them. */
+void retex_polynomial_factor_finishes(const RetexPolynomial *polynomial, const RetexTerm *term,
+                                      RetexPolynomialTerm *made);
+
+/* Compute what gates need of footprints that are smaller than the picture. */
+int retex_polynomial_gates_open(RetexPolynomial *polynomial, int nthreads, RetexError *err);
+void retex_polynomial_gates_close(RetexPolynomial *polynomial);
+
+/* Compute a target's gates for row y of the picture: of finish k into rows[k], RGB. scratch: 8 * width numbers. */
+int retex_polynomial_gate_rows(const RetexPolynomial *polynomial, RetexRowReader *reader, int target, int y,
+                               float *scratch, float *const rows[RETEX_FINISHES_MAX], RetexError *err);
+
+#endif

@@ -1,0 +1,381 @@
+/* See finish_map.h. */
+#include "texture/finish_map.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/host/texture_lookup.h>
+#include <retex/parallel.h>
+
+#include "picture/image_read.h"
+
+#define GREY_DIFFERENCE 0.0101f /* of channels: 2.5 of 255, for JPEG stores colours and not grey */
+
+/* ---- weights ---- */
+
+int retex_finish_map_has_scale(const RetexTextureSpec *spec)
+{
+    int count = 0;
+    for (int k = 0; k < spec->nfinishes && k < RETEX_FINISHES_MAX; k++)
+        count += spec->roughness[k] >= 0;
+    return count > 1;
+}
+
+static float clamped(float x)
+{
+    return x > 0 ? x < 1 ? x : 1 : 0; /* NaN becomes 0 */
+}
+
+/* Between the next smoother and the next rougher finish. */
+static void weigh_roughness(const RetexTextureSpec *spec, float roughness, float weights[RETEX_FINISHES_MAX])
+{
+    int below = -1, above = -1;
+    for (int k = 0; k < spec->nfinishes; k++) {
+        const float own = spec->roughness[k];
+        if (own >= 0 && own <= roughness && (below < 0 || own > spec->roughness[below]))
+            below = k;
+        if (own >= 0 && own > roughness && (above < 0 || own < spec->roughness[above]))
+            above = k;
+    }
+    if (below < 0 || above < 0) {
+        weights[below < 0 ? above : below] = 1;
+        return;
+    }
+    const float low = spec->roughness[below], high = spec->roughness[above];
+    weights[above] = (roughness - low) / (high - low);
+    weights[below] = 1 - weights[above];
+}
+
+static void weigh_grey(int nfinishes, float value, float weights[RETEX_FINISHES_MAX])
+{
+    const float at = clamped(value) * (float)(nfinishes - 1);
+    const int below = at < (float)(nfinishes - 2) ? (int)at : nfinishes - 2;
+    weights[below + 1] = at - (float)below;
+    weights[below] = 1 - weights[below + 1];
+}
+
+static void weigh_colors(int nfinishes, const float rgb[3], float weights[RETEX_FINISHES_MAX])
+{
+    float sum = 0;
+    for (int k = 1; k < nfinishes; k++)
+        sum += weights[k] = clamped(rgb[k - 1]);
+    for (int k = 1; k < nfinishes && sum > 1; k++)
+        weights[k] /= sum;
+    weights[0] = sum < 1 ? 1 - sum : 0;
+}
+
+void retex_finish_map_weights(const RetexTextureSpec *spec, RetexFinishScale scale, int channel, int is_grey,
+                              const float rgb[3], float weights[RETEX_FINISHES_MAX])
+{
+    memset(weights, 0, RETEX_FINISHES_MAX * sizeof *weights);
+    if (scale == RETEX_FINISH_BY_LIST && is_grey)
+        weigh_grey(spec->nfinishes, rgb[0], weights);
+    else if (scale == RETEX_FINISH_BY_LIST)
+        weigh_colors(spec->nfinishes, rgb, weights);
+    else
+        weigh_roughness(spec, scale == RETEX_FINISH_BY_GLOSS ? 1 - clamped(rgb[channel]) : clamped(rgb[channel]),
+                        weights);
+}
+
+/* ---- texels ---- */
+
+/* Texels of a map: the weights of the second finish and of later ones, of 4 floats each; the last is 1. */
+typedef struct WeightWork {
+    const RetexTextureSpec *spec;
+    RetexFinishScale scale;
+    int channel, width;
+    const RetexDecoded *decoded;
+    atomic_int colored;
+    float *weights;
+} WeightWork;
+
+static void read_map_texel(const RetexDecoded *decoded, size_t i, float rgba[4])
+{
+    if (decoded->narrow.pixels)
+        retex_texture_read_texel(decoded->narrow.pixels, i, 1, rgba); /* premultiplied: what is clear is 0 */
+    else
+        memcpy(rgba, decoded->image.pixels + 4 * i, 4 * sizeof *rgba);
+}
+
+static void find_colors_job(void *context, int y, int thread)
+{
+    WeightWork *work = context;
+    (void)thread;
+    for (int x = 0; x < work->width; x++) {
+        float p[4];
+        read_map_texel(work->decoded, (size_t)y * (size_t)work->width + (size_t)x, p);
+        if (fabsf(p[0] - p[1]) > GREY_DIFFERENCE || fabsf(p[1] - p[2]) > GREY_DIFFERENCE)
+            atomic_store(&work->colored, 1);
+    }
+}
+
+static void weigh_job(void *context, int y, int thread)
+{
+    WeightWork *work = context;
+    (void)thread;
+    for (int x = 0; x < work->width; x++) {
+        const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
+        float p[4], weights[RETEX_FINISHES_MAX];
+        read_map_texel(work->decoded, i, p);
+        retex_finish_map_weights(work->spec, work->scale, work->channel, !work->colored, p, weights);
+        memcpy(work->weights + 4 * i, weights + 1, 3 * sizeof *weights);
+        work->weights[4 * i + 3] = 1;
+    }
+}
+
+/* A position between texels: the two of an axis, and the share of the second. */
+typedef struct Between {
+    size_t first, second;
+    float share;
+} Between;
+
+static Between between(int i, int of, int texels, RetexWrap wrap)
+{
+    const double at = (i + 0.5) * texels / of - 0.5, low = floor(at);
+    int first = (int)low, second = first + 1;
+    const int repeats = wrap == RETEX_WRAP_REPEAT;
+    first = first < 0 ? (repeats ? texels - 1 : 0) : first;
+    second = second >= texels ? (repeats ? 0 : texels - 1) : second;
+    return (Between){(size_t)first, (size_t)second, (float)(at - low)};
+}
+
+static void interpolate(const RetexTexels *from, Between x, Between y, float rgba[4])
+{
+    const size_t width = (size_t)from->width, rows[2] = {y.first, y.second}, columns[2] = {x.first, x.second};
+    const float down[2] = {1 - y.share, y.share}, across[2] = {1 - x.share, x.share};
+    float texel[4];
+    memset(rgba, 0, 4 * sizeof *rgba);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            const float weight = down[j] * across[i];
+            if (weight == 0)
+                continue;
+            retex_texture_read_texel(from->texels, rows[j] * width + columns[i], from->narrow, texel);
+            for (int c = 0; c < 4; c++)
+                rgba[c] += weight * texel[c];
+        }
+}
+
+/* Colour times weight of each finish, and the weights themselves, at one size. */
+typedef struct ProductWork {
+    const RetexTextureSpec *spec;
+    const RetexTexels *color; /* NULL: a constant */
+    RetexTexels map;
+    RetexTexels products[RETEX_FINISHES_MAX + 1]; /* the last: the weights */
+    int count;
+} ProductWork;
+
+static void store(const RetexTexels *to, size_t i, const float rgba[4])
+{
+    if (!to->narrow) {
+        memcpy((float *)to->texels + 4 * i, rgba, 4 * sizeof *rgba);
+        return;
+    }
+    for (int c = 0; c < 4; c++)
+        ((uint16_t *)to->texels)[4 * i + (size_t)c] = (uint16_t)(clamped(rgba[c]) * NARROW_ONE + 0.5f);
+}
+
+static void multiply_job(void *context, int y, int thread)
+{
+    ProductWork *work = context;
+    const int width = work->products[0].width, height = work->products[0].height;
+    const RetexWrap *wrap = work->spec->wrap;
+    const Between color_y = work->color ? between(y, height, work->color->height, wrap[1]) : (Between){0, 0, 0},
+                  map_y = between(y, height, work->map.height, wrap[1]);
+    (void)thread;
+    for (int x = 0; x < width; x++) {
+        const size_t at = (size_t)y * (size_t)width + (size_t)x;
+        float color[4] = {work->spec->color[0], work->spec->color[1], work->spec->color[2], 1}, weights[4], product[4];
+        if (work->color)
+            interpolate(work->color, between(x, width, work->color->width, wrap[0]), color_y, color);
+        interpolate(&work->map, between(x, width, work->map.width, wrap[0]), map_y, weights);
+        float first = 1;
+        for (int c = 0; c < 3; c++) {
+            first -= weights[c];
+            product[c] = weights[c] * color[3];
+        }
+        product[3] = color[3];
+        store(&work->products[work->count], at, product);
+        for (int k = 0; k < work->count; k++) {
+            for (int c = 0; c < 3; c++)
+                product[c] = color[c] * (k ? weights[k - 1] : fmaxf(first, 0));
+            store(&work->products[k], at, product);
+        }
+    }
+}
+
+/* ---- making one ---- */
+
+static int no_memory(const RetexTexture *texture, RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "not enough memory for the finishes of %s", texture->spec.target);
+}
+
+static int read_weights(RetexTexture *texture, const char *file, RetexFinishScale scale, int channel,
+                        RetexTexels *weights, int nthreads, RetexError *err)
+{
+    RetexDecoded decoded = {0};
+    int code = retex_texture_read_file(texture, file, "linear", &decoded, nthreads, err);
+    const int is_narrow = decoded.narrow.pixels != NULL;
+    *weights = (RetexTexels){is_narrow ? decoded.narrow.width : decoded.image.width,
+                             is_narrow ? decoded.narrow.height : decoded.image.height, 0, NULL};
+    if (!code && retex_texels_alloc(weights))
+        code = no_memory(texture, err);
+    WeightWork work = {&texture->spec, scale, channel, weights->width, &decoded, 0, weights->texels};
+    if (!code) {
+        retex_parallel(nthreads, weights->height, find_colors_job, &work);
+        retex_parallel(nthreads, weights->height, weigh_job, &work);
+    }
+    free(decoded.narrow.pixels);
+    retex_image_free(&decoded.image);
+    return code;
+}
+
+/* The placement of a product, whose texels may have another aspect than the image. */
+static RetexTextureSpec placement_of(const RetexTextureSpec *spec, int width, int height)
+{
+    RetexTextureSpec own = *spec;
+    own.constant = 0;
+    if (!spec->constant && own.width[0] > 0 && !(own.width[1] > 0))
+        own.width[1] = own.width[0] * height / width;
+    return own;
+}
+
+static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, RetexTexels *texels, int nthreads,
+                        RetexError *err)
+{
+    *made = retex_texture_new(spec, 0, err);
+    return *made ? retex_texture_set_texels(*made, texels, nthreads, err) : err->code;
+}
+
+static int make_products(RetexTexture *texture, ProductWork *work, int nthreads, RetexError *err)
+{
+    const RetexTexels *color = work->color;
+    const int width = color && color->width > work->map.width ? color->width : work->map.width,
+              height = color && color->height > work->map.height ? color->height : work->map.height;
+    const RetexTextureSpec spec = color ? placement_of(&texture->spec, color->width, color->height)
+                                        : placement_of(&texture->spec, width, height);
+    RetexFinishMap *finishes = texture->finishes;
+    int code = RETEX_OK;
+    for (int k = 0; k <= work->count && !code; k++) {
+        work->products[k] = (RetexTexels){width, height, k == work->count || (color && color->narrow), NULL};
+        if (retex_texels_alloc(&work->products[k]))
+            code = no_memory(texture, err);
+    }
+    if (!code)
+        retex_parallel(nthreads, height, multiply_job, work);
+    for (int k = 0; k <= work->count && !code; k++)
+        code = make_texture(k < work->count ? &finishes->colors[k] : &finishes->weights, &spec, &work->products[k],
+                            nthreads, err);
+    for (int k = 0; k <= work->count; k++)
+        free(work->products[k].texels);
+    return code;
+}
+
+int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const char *file, RetexFinishScale scale,
+                          int channel, int nthreads, RetexError *err)
+{
+    ProductWork work = {.spec = &texture->spec, .color = color, .count = texture->spec.nfinishes};
+    RetexError why = {0};
+    if (!(texture->finishes = calloc(1, sizeof *texture->finishes)))
+        return no_memory(texture, err);
+    texture->finishes->count = work.count;
+    int code = read_weights(texture, file, scale, channel, &work.map, nthreads, &why);
+    if (!code)
+        code = make_products(texture, &work, nthreads, &why);
+    free(work.map.texels);
+    if (code && err)
+        *err = why;
+    return code;
+}
+
+int retex_texture_finishes(const RetexTexture *texture, double u, double v, int shown, float weights[4])
+{
+    const RetexFinishMap *finishes = texture->finishes;
+    float rgba[4];
+    if (!finishes)
+        return 0;
+    retex_texture_point(finishes->weights, u, v, rgba);
+    weights[0] = 1;
+    for (int k = 1; k < finishes->count; k++) {
+        weights[k] = rgba[3] * rgba[k - 1] + (shown == k ? 1 - rgba[3] : 0);
+        weights[0] -= weights[k];
+    }
+    weights[0] = weights[0] > 0 ? weights[0] : 0;
+    return finishes->count;
+}
+
+/* ---- all of one ---- */
+
+/* The textures of a map, by number: the weights first. */
+static RetexTexture **texture_of(RetexFinishMap *finishes, int k)
+{
+    return k ? &finishes->colors[k - 1] : &finishes->weights;
+}
+
+void retex_finish_map_close(RetexTexture *texture)
+{
+    for (int k = 0; texture->finishes && k <= RETEX_FINISHES_MAX; k++)
+        retex_texture_close(texture_of(texture->finishes, k));
+    free(texture->finishes);
+    texture->finishes = NULL;
+}
+
+uint64_t retex_finish_map_bytes(const RetexTexture *texture)
+{
+    uint64_t bytes = 0;
+    for (int k = 0; texture->finishes && k <= texture->finishes->count; k++)
+        bytes += retex_texture_bytes(*texture_of(texture->finishes, k));
+    return bytes;
+}
+
+int retex_finish_map_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; texture->finishes && k <= texture->finishes->count && !code; k++)
+        code = retex_texture_set_surface(*texture_of(texture->finishes, k), spec, err);
+    return code;
+}
+
+typedef int Derive(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err);
+
+static int derive(RetexTexture *to, const RetexTexture *from, Derive *make, const void *context, RetexError *err)
+{
+    int code = RETEX_OK;
+    to->finishes = NULL;
+    if (!from->finishes)
+        return RETEX_OK;
+    if (!(to->finishes = calloc(1, sizeof *to->finishes)))
+        return no_memory(from, err);
+    to->finishes->count = from->finishes->count;
+    for (int k = 0; k <= from->finishes->count && !code; k++)
+        code = make(texture_of(to->finishes, k), *texture_of(from->finishes, k), context, err);
+    return code;
+}
+
+static int place_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
+{
+    return retex_texture_place(to, from, context, err);
+}
+
+int retex_finish_map_place(RetexTexture *placed, const RetexTexture *texture, RetexError *err)
+{
+    int width, height;
+    retex_texture_size(texture, &width, &height);
+    const RetexTextureSpec spec = placement_of(&placed->spec, width, height);
+    return derive(placed, texture, place_one, &spec, err);
+}
+
+static int square_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
+{
+    return retex_texture_square(to, from, *(const int *)context, err);
+}
+
+int retex_finish_map_square(RetexTexture *square, const RetexTexture *texture, int nthreads, RetexError *err)
+{
+    return derive(square, texture, square_one, &nthreads, err);
+}
