@@ -79,11 +79,11 @@ static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexE
 static int open_term(RetexPolynomial *p, int number, RetexError *err)
 {
     RetexPolynomialTerm *term = &p->terms[number];
-    term->radiance = -1;
     if (p->set->terms[number].nfactors < 0 || p->set->terms[number].nfactors > RETEX_MAX_FACTORS)
         return retex_fail(err, RETEX_EFORMAT, "term %d of the set has %d factors", number,
                           p->set->terms[number].nfactors);
     retex_polynomial_factor_finishes(p, &p->set->terms[number], term);
+    term->radiance = -1;
     if (!retex_polynomial_has_term(p, &p->set->terms[number], term->weight))
         return RETEX_OK;
     term->radiance = p->set->terms[number].radiance;

@@ -159,8 +159,10 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     const int finish = retex_quantity_finish(factor.quantity);
     const RetexTexture *texture = texture_of(p->textures ? p->textures[f->target] : NULL, finish);
     if (!texture && p->samples && retex_samples_have(p->samples, factor.index)) {
+        const int sample = finish < 0 ? factor.index
+                                      : retex_samples_find(p->samples, f->target, factor.index, finish);
         *span = (RetexRowSpan){0, p->samples->images[factor.index].width};
-        return retex_row_reader_sample(reader, factor.index, y, row, err);
+        return retex_row_reader_sample(reader, sample, y, row, err);
     }
     if (!texture)
         return retex_row_reader_get_span(reader, f->albedo, y, row, span, err);

@@ -11,6 +11,7 @@
 #include "retexture/polynomial_factors.h"
 #include "retexture/sample_row.h"
 #include "set/parts.h"
+#include "set/samples.h"
 #include "set/set.h"
 #include "texture/pyramid.h"
 
@@ -24,7 +25,9 @@ int retex_polynomial_find_maps(RetexPolynomial *p, RetexError *err)
     const RetexSet *set = p->set;
     for (int t = 0; t < set->ntargets; t++) {
         const RetexTexture *texture = p->textures ? p->textures[t] : NULL;
-        p->mapped[t] = texture && texture->finishes ? texture->finishes->count : 0;
+        p->mapped[t] = texture                                                             ? retex_texture_has_finishes(texture)
+                       : p->samples && retex_samples_find(p->samples, t, -1, -1) >= 0 ? set->targets[t].nfinishes
+                                                                                            : 0;
         p->shown[t] = set->targets[t].finish;
         if (p->mapped[t] && p->mapped[t] != set->targets[t].nfinishes)
             return retex_fail(err, RETEX_EINVAL, "a map of %d finishes for %s, which has %d", p->mapped[t],
@@ -218,7 +221,7 @@ int retex_polynomial_gates_open(RetexPolynomial *p, int nthreads, RetexError *er
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (int f = 0; f < p->set->nfootprints && !code; f++) {
         const int target = p->set->footprints[f].target, scale = retex_set_footprint_scale(p->set, f);
-        if (p->mapped[target] && scale > 1 && !p->gates[target * REDUCED_SCALES + scale_index(scale)].pixels)
+        if (p->mapped[target] && p->textures && p->textures[target] && scale > 1 && !p->gates[target * REDUCED_SCALES + scale_index(scale)].pixels)
             code = make_sums(p, target, scale, nthreads, err);
     }
     return code;
@@ -232,32 +235,46 @@ void retex_polynomial_gates_close(RetexPolynomial *p)
     p->gates = NULL;
 }
 
-int retex_polynomial_gate_rows(const RetexPolynomial *p, RetexRowReader *reader, int target, int y, float *scratch,
-                               float *const rows[RETEX_FINISHES_MAX], RetexError *err)
+int retex_polynomial_gate_row(const RetexPolynomial *p, RetexRowReader *reader, int target, int y, float *scratch,
+                              float *rgb, RetexError *err)
 {
-    const int width = p->set->width;
-    float *sums = scratch, *enlarged = scratch + 4 * (size_t)width;
-    memset(sums, 0, sizeof *sums * 4 * (size_t)width);
+    const size_t width = (size_t)p->set->width;
+    float *sums = scratch, *enlarged = scratch + 4 * width;
+    memset(sums, 0, sizeof *sums * 4 * width);
     const int code = add_footprints(p, reader, target, 1, y, sums, err);
     for (int scale = 2; scale <= RETEX_SCALE_MAX && !code; scale *= 2) {
         const RetexImage *image = &p->gates[target * REDUCED_SCALES + scale_index(scale)];
         if (!image->pixels)
             continue;
-        retex_enlarge_rows(image, scale, width, y, y + 1, enlarged);
-        for (size_t i = 0; i < 4 * (size_t)width; i++)
+        retex_enlarge_rows(image, scale, p->set->width, y, y + 1, enlarged);
+        for (size_t i = 0; i < 4 * width; i++)
             sums[i] += enlarged[i];
     }
-    for (int x = 0; x < width; x++) {
-        const float *sum = sums + 4 * (size_t)x;
-        float weights[RETEX_FINISHES_MAX] = {0};
-        weights[0] = 1;
+    for (size_t x = 0; x < width; x++)
+        for (int c = 0; c < 3; c++) {
+            const float *sum = sums + 4 * x;
+            rgb[3 * x + (size_t)c] = sum[3] > 0 ? sum[c] / sum[3] : p->shown[target] == c + 1;
+        }
+    return code;
+}
+
+int retex_polynomial_gate_rows(const RetexPolynomial *p, RetexRowReader *reader, int target, int y, float *scratch,
+                               float *const rows[RETEX_FINISHES_MAX], RetexError *err)
+{
+    const int width = p->set->width, sampled = p->samples ? retex_samples_find(p->samples, target, -1, -1) : -1;
+    const float *rgb = rows[0];
+    const int is_sampled = sampled >= 0 && !(p->textures && p->textures[target]);
+    const int code = is_sampled ? retex_row_reader_sample(reader, sampled, y, &rgb, err)
+                                : retex_polynomial_gate_row(p, reader, target, y, scratch, rows[0], err);
+    for (size_t x = 0; x < (size_t)width && !code; x++) {
+        float weights[RETEX_FINISHES_MAX] = {1};
         for (int k = 1; k < p->mapped[target]; k++) {
-            weights[k] = sum[3] > 0 ? sum[k - 1] / sum[3] : p->shown[target] == k;
+            weights[k] = rgb ? rgb[3 * x + (size_t)k - 1] : 0;
             weights[0] -= weights[k];
         }
         for (int k = 0; k < p->mapped[target]; k++)
             for (int c = 0; c < 3; c++)
-                rows[k][3 * (size_t)x + (size_t)c] = weights[k] > 0 ? weights[k] : 0;
+                rows[k][3 * x + (size_t)c] = weights[k] > 0 ? weights[k] : 0;
     }
     return code;
 }

@@ -28,7 +28,11 @@ void retex_polynomial_factor_finishes(const RetexPolynomial *polynomial, const R
 int retex_polynomial_gates_open(RetexPolynomial *polynomial, int nthreads, RetexError *err);
 void retex_polynomial_gates_close(RetexPolynomial *polynomial);
 
-/* Compute a target's gates for row y of the picture: of finish k into rows[k], RGB. scratch: 8 * width numbers. */
+/* Compute a target's gates for row y of the picture: weights of the second finish and later ones, RGB. scratch: 8 *
+ * width numbers. */
+int retex_polynomial_gate_row(const RetexPolynomial *polynomial, RetexRowReader *reader, int target, int y,
+                              float *scratch, float *rgb, RetexError *err);
+/* The same as rows of the weights of each finish, the weight in all three channels. */
 int retex_polynomial_gate_rows(const RetexPolynomial *polynomial, RetexRowReader *reader, int target, int y,
                                float *scratch, float *const rows[RETEX_FINISHES_MAX], RetexError *err);
 

@@ -12,7 +12,8 @@
 
 #include "set/samples.h"
 #include "set/transfer.h"
-#include "retexture/sample_row.h"
+#include "retexture/polynomial_factors.h"
+#include "retexture/polynomial_finishes.h"
 #include "retexture/textures.h"
 #include "set/parts.h"
 #include "texture/pyramid.h"
@@ -26,22 +27,38 @@ typedef struct SampleWork {
     int borrowed;                              /* the textures are the caller's */
     RetexImageTransfer *edited;                /* footprints of edited targets */
     int nedited;
+    RetexPolynomial maps;                      /* of set and textures alone: what finishes need of it */
 } SampleWork;
+
+/* Computes rows of a target's gate. */
+static int gate_rows(const SampleWork *work, RetexRowReader *reader, int target, int y0, int y1, float *to,
+                     RetexError *err)
+{
+    const size_t width = (size_t)work->set->width;
+    float *scratch = malloc(sizeof *scratch * 8 * width);
+    int code = scratch ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    for (int y = y0; y < y1 && !code; y++, to += 3 * width)
+        code = retex_polynomial_gate_row(&work->maps, reader, target, y, scratch, to, err);
+    free(scratch);
+    return code;
+}
 
 /* Computes rows y0 <= y < y1 of a footprint's samples. */
 static int sample_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *edited, int y0, int y1,
                        float *to, RetexError *err)
 {
     const SampleWork *work = context;
-    const RetexFootprint *f = &work->set->footprints[edited->footprint];
-    const RetexTexture *texture = work->textures[f->target];
-    const RetexTextureFilter filter = retex_footprint_filter(work->set, f);
+    const RetexSampleFootprint *of = &work->samples->footprints[edited->footprint];
+    if (of->footprint < 0)
+        return gate_rows(work, reader, of->target, y0, y1, to, err);
+    RetexFactor factor = retex_factor(RETEX_FACTOR_FOOTPRINT, of->footprint);
+    factor.quantity = of->finish >= 0 ? POLYNOMIAL_FINISHED(of->finish) : RETEX_QUANTITY_COLOR;
     int code = RETEX_OK;
     for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
-        RetexFootprintRow from;
-        code = retex_footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
-        if (!code && from.uv)
-            retex_sample_row(texture, filter, &from, to);
+        RetexRowBuffer buffer = {.values = to}; /* which is 0 before */
+        RetexRowSpan span;
+        const float *row;
+        code = retex_polynomial_footprint_row(&work->maps, reader, factor, y, &buffer, &row, &span, err);
     }
     return code;
 }
@@ -65,10 +82,18 @@ static int create_samples(SampleWork *work, RetexError *err)
     return RETEX_OK;
 }
 
-static int alloc_image(const SampleWork *work, int footprint, RetexError *err)
+/* The scale of an image of samples. */
+static int image_scale(const SampleWork *work, int image)
 {
-    const RetexImage *uv = &work->set->parts[work->set->footprints[footprint].uv].image;
-    return retex_image_alloc(&work->samples->images[footprint], uv->width, uv->height, 3, err);
+    const int footprint = work->samples->footprints[image].footprint;
+    return footprint < 0 ? 1 : retex_set_footprint_scale(work->set, footprint);
+}
+
+static int alloc_image(const SampleWork *work, int image, RetexError *err)
+{
+    const int footprint = work->samples->footprints[image].footprint;
+    const RetexImage *shape = &work->set->parts[footprint < 0 ? 0 : work->set->footprints[footprint].uv].image;
+    return retex_image_alloc(&work->samples->images[image], shape->width, shape->height, 3, err);
 }
 
 static int alloc_images(const SampleWork *work, RetexError *err)
@@ -88,16 +113,16 @@ static int store_images(SampleWork *work, const char *near, RetexError *err)
     if (!code && strcmp(near, "-") == 0)
         retex_band_store_set_plain(samples->store);
     for (int i = 0; i < work->nedited && !code; i++) {
-        const int footprint = work->edited[i].footprint;
+        const int image = work->edited[i].footprint;
         char name[RETEX_NAME_MAX];
-        if (retex_set_footprint_scale(set, footprint) != 1) {
-            code = alloc_image(work, footprint, err);
+        if (image_scale(work, image) != 1) {
+            code = alloc_image(work, image, err);
             continue;
         }
-        snprintf(name, sizeof name, "sample_%d", footprint);
+        snprintf(name, sizeof name, "sample_%d", image);
         code = retex_band_store_add(samples->store, name, "RGB", RETEX_FLOAT, &work->edited[i].store_image, err);
-        samples->footprints[footprint].store_image = code ? 0 : 1 + work->edited[i].store_image;
-        samples->images[footprint] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
+        samples->footprints[image].store_image = code ? 0 : 1 + work->edited[i].store_image;
+        samples->images[image] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
     }
     return code;
 }
@@ -107,22 +132,46 @@ static int is_loaded(const RetexSet *set, const RetexFootprint *f)
     return set->parts[f->uv].image.pixels && set->parts[f->spread].image.pixels && set->parts[f->albedo].image.pixels;
 }
 
-static int list_edited(SampleWork *work, RetexError *err)
+/* Adds the images of footprints with each finish, and the gate, of targets whose textures have a map. */
+static int add_finishes(SampleWork *work, int target, RetexError *err)
 {
-    work->edited = calloc((size_t)work->set->nfootprints + 1, sizeof *work->edited);
-    if (!work->edited)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int i = 0; i < work->set->nfootprints; i++)
-        if (work->textures[work->set->footprints[i].target])
+    const RetexSet *set = work->set;
+    int code = RETEX_OK;
+    for (int i = 0; i < set->nfootprints; i++)
+        for (int k = 0; k < work->maps.mapped[target] && set->footprints[i].target == target && !code; k++)
+            code = retex_samples_add(work->samples, (RetexSampleFootprint){target, set->footprints[i].hit, i, k, 0, 0},
+                                     err);
+    return code || !work->maps.mapped[target]
+               ? code
+               : retex_samples_add(work->samples, (RetexSampleFootprint){target, 1, -1, -1, 0, 0}, err);
+}
+
+static int list_edited(SampleWork *work, int nthreads, RetexError *err)
+{
+    const RetexSet *set = work->set;
+    RetexSamples *samples = work->samples;
+    work->maps = (RetexPolynomial){.set = set, .textures = work->textures, .columns = {0, set->width}};
+    int code = retex_polynomial_find_maps(&work->maps, err);
+    for (int t = 0; t < set->ntargets && !code; t++)
+        code = add_finishes(work, t, err);
+    if (!code)
+        code = retex_polynomial_gates_open(&work->maps, nthreads, err);
+    work->edited = calloc((size_t)samples->nimages + 1, sizeof *work->edited);
+    if (!code && !work->edited)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    for (int i = 0; i < samples->nimages && !code; i++)
+        if (work->textures[samples->footprints[i].target])
             work->edited[work->nedited++] =
-                (RetexImageTransfer){.part = -1, .footprint = i, .image = &work->samples->images[i]};
-    return RETEX_OK;
+                (RetexImageTransfer){.part = -1, .footprint = i, .image = &samples->images[i]};
+    return code;
 }
 
 static int check_loaded(const SampleWork *work, RetexError *err)
 {
     for (int i = 0; i < work->nedited; i++)
-        if (!is_loaded(work->set, &work->set->footprints[work->edited[i].footprint]))
+        if (work->samples->footprints[work->edited[i].footprint].footprint >= 0 &&
+            !is_loaded(work->set,
+                       &work->set->footprints[work->samples->footprints[work->edited[i].footprint].footprint]))
             return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
     return RETEX_OK;
 }
@@ -134,7 +183,7 @@ static int open_work(SampleWork *work, const RetexTextureSpec *specs, int nthrea
         code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
     if (!code)
         code = create_samples(work, err);
-    return code ? code : list_edited(work, err);
+    return code ? code : list_edited(work, nthreads, err);
 }
 
 /* Returns the samples, or closes them if code says that something failed. */
@@ -146,6 +195,7 @@ static int close_work(SampleWork *work, RetexSamples **samples, int code)
     if (!work->borrowed)
         retex_textures_close(work->textures);
     free(work->edited);
+    retex_polynomial_gates_close(&work->maps);
     return code;
 }
 
@@ -174,14 +224,41 @@ int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexText
 
 /* ---- more of them ---- */
 
-static void move_image(RetexSamples *samples, RetexSamples *more, int footprint)
+static void move_image(RetexSamples *samples, int to, RetexSamples *more, int from)
 {
-    retex_image_free(&samples->images[footprint]);
-    samples->images[footprint] = more->images[footprint];
-    samples->footprints[footprint].store_image = more->footprints[footprint].store_image;
-    samples->footprints[footprint].source_image = more->footprints[footprint].source_image;
-    more->images[footprint] = (RetexImage){0};
-    more->footprints[footprint].store_image = more->footprints[footprint].source_image = 0;
+    retex_image_free(&samples->images[to]);
+    samples->images[to] = more->images[from];
+    samples->footprints[to].store_image = more->footprints[from].store_image;
+    samples->footprints[to].source_image = more->footprints[from].source_image;
+    more->images[from] = (RetexImage){0};
+    more->footprints[from].store_image = more->footprints[from].source_image = 0;
+}
+
+/* Makes room for the images with finishes of `more`; those of targets that get new samples go. On failure samples stay
+ * as they were. */
+static int add_more_finishes(RetexSamples *samples, const RetexSamples *more, RetexError *err)
+{
+    const int had = samples->nimages;
+    int resampled[RETEX_MAX_TARGETS] = {0}, kept = samples->nfootprints;
+    for (int i = 0; i < more->nfootprints; i++)
+        resampled[more->footprints[i].target] |= retex_samples_have(more, i);
+    for (int i = more->nfootprints; i < more->nimages; i++)
+        if (retex_samples_add(samples, more->footprints[i], err)) {
+            samples->nimages = had;
+            return RETEX_ENOMEM;
+        }
+    for (int i = samples->nfootprints; i < samples->nimages; i++) {
+        if (i >= had)
+            samples->footprints[i].store_image = samples->footprints[i].source_image = 0;
+        if (i < had && resampled[samples->footprints[i].target]) {
+            retex_image_free(&samples->images[i]);
+            continue;
+        }
+        samples->footprints[kept] = samples->footprints[i];
+        samples->images[kept++] = samples->images[i];
+    }
+    samples->nimages = kept;
+    return RETEX_OK;
 }
 
 /* Moves the band store and the source of moved images. */
@@ -199,11 +276,11 @@ static void move_stores(RetexSamples *samples, RetexSamples *more)
 
 int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads, RetexError *err)
 {
-    int same = samples->width == more->width && samples->height == more->height && samples->nimages == more->nimages &&
-               samples->ntargets == more->ntargets;
+    int same = samples->width == more->width && samples->height == more->height &&
+               samples->nfootprints == more->nfootprints && samples->ntargets == more->ntargets;
     for (int t = 0; same && t < samples->ntargets; t++)
         same = strcmp(samples->target_names[t], more->target_names[t]) == 0;
-    for (int i = 0; same && i < samples->nimages; i++)
+    for (int i = 0; same && i < samples->nfootprints; i++)
         same = samples->footprints[i].target == more->footprints[i].target;
     if (!same)
         return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
@@ -212,9 +289,14 @@ int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads,
         if (code)
             return code;
     }
-    for (int i = 0; i < more->nimages; i++)
+    int code = add_more_finishes(samples, more, err);
+    if (code)
+        return code;
+    for (int i = 0, to = samples->nimages - (more->nimages - more->nfootprints); i < more->nimages; i++) {
+        const int at = i < more->nfootprints ? i : to++;
         if (retex_samples_have(more, i))
-            move_image(samples, more, i);
+            move_image(samples, at, more, i);
+    }
     move_stores(samples, more);
     for (int t = 0; t < more->ntargets; t++)
         if (more->textures[t][0])

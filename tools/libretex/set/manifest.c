@@ -33,6 +33,11 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
         for (char *letter = target; *letter; letter++)
             if (!retex_name_is_valid((char[]){*letter, 0}))
                 *letter = '_';
+        const RetexSampleFootprint *of = &samples->footprints[i];
+        if (of->finish >= 0)
+            snprintf(target + strlen(target), sizeof target - strlen(target), "_finish%d", of->finish);
+        else if (of->footprint < 0)
+            snprintf(target + strlen(target), sizeof target - strlen(target), "_gate");
         snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprints[i].hit);
         for (int number = 2; name_is_taken(name, set, parts, i); number++)
             snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprints[i].hit, number);
@@ -288,8 +293,13 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
         json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
                                                      parts[i].crc, bands_of(sums, first + i))
                                         : json_null();
-        retex_json_add(&images, json_pack("{s:i, s:i, s:o}", "target", samples->footprints[i].target, "hit",
-                                          samples->footprints[i].hit, "part", part));
+        const RetexSampleFootprint *of = &samples->footprints[i];
+        json_t *image = json_pack("{s:i, s:i, s:o}", "target", of->target, "hit", of->hit, "part", part);
+        if (i >= samples->nfootprints)
+            retex_json_put(&image, "footprint", json_integer(of->footprint));
+        if (of->finish >= 0)
+            retex_json_put(&image, "finish", json_integer(of->finish));
+        retex_json_add(&images, image);
     }
     return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
 }

@@ -319,6 +319,22 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
                                                                  : retex_reading_terms)(reading, root, set);
 }
 
+/* What an image beyond those of footprints' colours is of. */
+static void read_sample_use(Reading *reading, const json_t *json, RetexSamples *samples, int index)
+{
+    RetexSampleFootprint *of = &samples->footprints[index];
+    if (!json_object_get(json, "footprint")) {
+        if (index > samples->nfootprints)
+            retex_reading_fail(reading, RETEX_EFORMAT, "has sample images out of order");
+        samples->nfootprints = index + 1;
+        return;
+    }
+    of->footprint = retex_reading_integer(reading, json, "footprint", -1, samples->nfootprints - 1);
+    of->finish = of->footprint >= 0 ? retex_reading_integer(reading, json, "finish", 0, RETEX_FINISHES_MAX - 1) : -1;
+    if (json_is_null(json_object_get(json, "part")))
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a sample image without pixels");
+}
+
 static void read_sample_image(Reading *reading, const json_t *json, RetexSamples *samples, int index,
                               RetexSamplePart *parts)
 {
@@ -327,6 +343,7 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
 
     samples->footprints[index].target = retex_reading_integer(reading, json, "target", 0, samples->ntargets - 1);
     samples->footprints[index].hit = retex_reading_integer(reading, json, "hit", 1, 1 << 20);
+    read_sample_use(reading, json, samples, index);
     if (json_is_null(json_part))
         read_bands(reading, json_part, 0);
     if (json_is_null(json_part) || reading->status)
@@ -349,7 +366,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
                          RetexSamplePart **parts)
 {
     const json_t *targets = retex_reading_array(reading, json, "targets", RETEX_MAX_TARGETS);
-    const json_t *images = retex_reading_array(reading, json, "images", RETEX_SET_FOOTPRINTS_MAX);
+    const json_t *images = retex_reading_array(reading, json, "images", RETEX_SAMPLE_IMAGES_MAX);
     const size_t count = json_array_size(images);
 
     *parts = calloc(count + 1, sizeof **parts);
@@ -360,6 +377,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
     RetexSamples *samples = *result;
     samples->width = width;
     samples->height = height;
+    samples->nfootprints = 0; /* counted while they are read */
     samples->set_id = get_identity(reading, json, "set_id");
     samples->ntargets = (int)json_array_size(targets);
     for (int i = 0; i < samples->ntargets; i++) {

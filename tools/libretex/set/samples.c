@@ -20,8 +20,35 @@ int retex_samples_alloc(RetexSamples **result, int nimages, RetexError *err)
         retex_samples_close(result);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     }
-    samples->nimages = nimages;
+    samples->nfootprints = samples->nimages = nimages;
+    for (int i = 0; i < nimages; i++)
+        samples->footprints[i].footprint = i, samples->footprints[i].finish = -1;
     return RETEX_OK;
+}
+
+int retex_samples_add(RetexSamples *samples, RetexSampleFootprint of, RetexError *err)
+{
+    const size_t count = (size_t)samples->nimages + 2;
+    RetexImage *images = realloc(samples->images, count * sizeof *images);
+    samples->images = images ? images : samples->images;
+    RetexSampleFootprint *footprints = realloc(samples->footprints, count * sizeof *footprints);
+    samples->footprints = footprints ? footprints : samples->footprints;
+    if (!images || !footprints)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    images[samples->nimages] = (RetexImage){0};
+    footprints[samples->nimages++] = of;
+    return RETEX_OK;
+}
+
+int retex_samples_find(const RetexSamples *samples, int target, int footprint, int finish)
+{
+    for (int i = samples->nfootprints; i < samples->nimages; i++) {
+        const RetexSampleFootprint *of = &samples->footprints[i];
+        if (of->target == target && of->footprint == footprint && of->finish == finish &&
+            retex_samples_have(samples, i))
+            return i;
+    }
+    return -1;
 }
 
 int retex_samples_create(RetexSamples **result, const RetexSet *set, RetexError *err)
@@ -48,7 +75,7 @@ void retex_samples_get_info(const RetexSamples *samples, RetexSamplesInfo *info)
 {
     const RetexSamplesInfo own = {.width = samples->width,
                                   .height = samples->height,
-                                  .nfootprints = samples->nimages,
+                                  .nfootprints = samples->nfootprints,
                                   .ntargets = samples->ntargets};
     (void)RETEX_PARAMS_RETURN(info, &own, NULL);
 }
@@ -94,7 +121,7 @@ int retex_samples_have(const RetexSamples *samples, int footprint)
 int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
 {
     if (samples->ntargets < 0 || samples->ntargets > RETEX_MAX_TARGETS || samples->nimages < 0 ||
-        samples->nimages > RETEX_SET_FOOTPRINTS_MAX)
+        samples->nfootprints > RETEX_SET_FOOTPRINTS_MAX || samples->nimages > RETEX_SAMPLE_IMAGES_MAX)
         return retex_fail(err, RETEX_EINVAL, "the samples have %d targets and %d images", samples->ntargets,
                           samples->nimages);
     for (int i = 0; i < samples->nimages; i++) {
@@ -123,10 +150,20 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
         if (strcmp(samples->target_names[i], set->targets[i].name) != 0)
             return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",
                               samples->target_names[i], set->targets[i].name);
-    if (samples->nimages != set->nfootprints)
-        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints", samples->nimages,
-                          set->nfootprints);
-    for (int i = 0; i < samples->nimages; i++) {
+    if (samples->nfootprints != set->nfootprints)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints",
+                          samples->nfootprints, set->nfootprints);
+    for (int i = samples->nfootprints; i < samples->nimages; i++) {
+        const RetexSampleFootprint *of = &samples->footprints[i];
+        const RetexImage *image = &samples->images[i], *colors = of->footprint >= 0 ? &samples->images[of->footprint] : NULL;
+        const int width = colors ? colors->width : set->width, height = colors ? colors->height : set->height;
+        if (of->finish >= set->targets[of->target].nfinishes ||
+            (colors && set->footprints[of->footprint].target != of->target) || image->width != width ||
+            image->height != height)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint or finish than the set's",
+                              i);
+    }
+    for (int i = 0; i < samples->nfootprints; i++) {
         const RetexImage *image = &samples->images[i];
         if (samples->footprints[i].target != set->footprints[i].target ||
             samples->footprints[i].hit != set->footprints[i].hit)

@@ -92,6 +92,11 @@ int retex_texture_place(RetexTexture **placed, const RetexTexture *texture, cons
 /* A texture of the same placement whose colours are the squares of the (unassociated) colours, with the same alpha:
  * E[a^2] - E[a]^2 is a texture's variance within a footprint. */
 int retex_texture_square(RetexTexture **square, const RetexTexture *texture, int nthreads, RetexError *err);
+/* The number of finishes that its map tells apart, or 0. */
+static inline int retex_texture_has_finishes(const RetexTexture *texture)
+{
+    return texture->finishes ? texture->finishes->count : 0;
+}
 /* 1: nothing shows through it anywhere. */
 int retex_texture_is_opaque(const RetexTexture *texture);
 
