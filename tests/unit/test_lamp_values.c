@@ -218,9 +218,9 @@ static void edits_name_the_lamps_of_a_set(void **state)
     const float want[] = {2, 1, 4, 0, 0, 0, 0, 0, 0}; /* the second lamp is off */
     assert_memory_equal(values, want, sizeof want);
     expect_refused(edit, retex_edit_parse(edit, "light:rest=1", &err), &err, "light:rest is given twice");
-    expect_refused(edit, retex_edit_light(edit, "rest", &err), &err, "NAME=VALUE");
-    expect_refused(edit, retex_edit_light(edit, "=1", &err), &err, "NAME=VALUE");
-    expect_refused(edit, retex_edit_light(edit, "x=", &err), &err, "NAME=VALUE");
+    expect_refused(edit, retex_edit_light(edit, "rest", &err), &err, "LAMP=VALUE");
+    expect_refused(edit, retex_edit_light(edit, "=1", &err), &err, "LAMP=VALUE");
+    expect_refused(edit, retex_edit_light(edit, "x=", &err), &err, "LAMP=VALUE");
     expect_refused(edit, retex_edit_set(edit, "light:", "1", &err), &err, "name");
     expect_refused(edit, retex_edit_parameters(edit, dark, some, &err), &err, "the set has no lamps");
     assert_int_equal(retex_edit_parameters(none, dark, some, &err), RETEX_ENOTFOUND);

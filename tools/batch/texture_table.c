@@ -231,7 +231,7 @@ const char *texture_table_finish(const TextureTable *table, int column)
 
 int texture_table_is_target(const TextureTable *table, int column)
 {
-    return !texture_table_lamp(table, column) && !texture_table_finish(table, column);
+    return !retex_edit_key_name(table->columns[column]);
 }
 
 /* Parse a cell that is not empty. */

@@ -168,8 +168,7 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
-        } else if (retex_edit_key_is_option(query) || strncmp(query, "light:", 6) == 0 ||
-                   strncmp(query, "finish:", 7) == 0) {
+        } else if (retex_edit_key_is_option(query) || retex_edit_key_name(query)) {
             if (add_option(request, edit, query, value))
                 return request->status;
         } else {

@@ -11,10 +11,16 @@
 
 #include "edit/edit.h"
 #include "edit/finishes.h"
+#include "edit/keyed.h"
 #include "edit/lights.h"
 #include "edit/statement.h"
 
 enum { STATEMENT_MAX = 4096 }; /* bytes of a statement, and of the options of a texture */
+
+const RetexKeyedKind *const retex_edit_keyed[RETEX_EDIT_KEYED] = {
+    [RETEX_EDIT_LIGHTS] = &retex_keyed_light,
+    [RETEX_EDIT_FINISHES] = &retex_keyed_finish,
+};
 
 int retex_edit_create(RetexEdit **edit, RetexError *err)
 {
@@ -30,7 +36,9 @@ void retex_edit_close(RetexEdit **edit)
 
 void retex_edit_clear(RetexEdit *edit)
 {
-    edit->count = edit->nlights = edit->nfinishes = 0;
+    edit->count = 0;
+    for (int kind = 0; kind < RETEX_EDIT_KEYED; kind++)
+        edit->keyed[kind].count = 0;
 }
 
 int retex_edit_count(const RetexEdit *edit)
@@ -67,12 +75,31 @@ static int find_texture(RetexEdit *edit, const char *target, int *index, RetexEr
     return RETEX_OK;
 }
 
+/* The list that a key with a prefix belongs to; *name: what is behind the prefix. -1: it is another key. */
+static int keyed_of(const char *key, const char **name)
+{
+    for (int kind = 0; kind < RETEX_EDIT_KEYED; kind++) {
+        const size_t length = strlen(retex_edit_keyed[kind]->word);
+        if (strncmp(key, retex_edit_keyed[kind]->word, length) == 0 && key[length] == ':') {
+            *name = key + length + 1;
+            return kind;
+        }
+    }
+    return -1;
+}
+
+const char *retex_edit_key_name(const char *key)
+{
+    const char *name = NULL;
+    keyed_of(key, &name);
+    return name;
+}
+
 /* Where the word of an option begins in a key; NULL in the key of a texture itself. */
 static const char *find_option(const char *key)
 {
     const char *dot = strrchr(key, '.');
-    const int is_other = retex_edit_key_lamp(key) || retex_edit_key_finish(key);
-    return dot && !is_other && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
+    return dot && !retex_edit_key_name(key) && retex_statement_option(dot + 1, strlen(dot + 1)) >= 0 ? dot + 1 : NULL;
 }
 
 int retex_edit_key_is_option(const char *key)
@@ -82,10 +109,13 @@ int retex_edit_key_is_option(const char *key)
 
 static int no_statement(const char *key, RetexError *err)
 {
-    return retex_fail(err, RETEX_EPARSE,
-                      "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE, light:LAMP=VALUE or "
-                      "finish:TARGET=NAME",
-                      key);
+    char forms[400] = "";
+    for (int kind = 0; kind < RETEX_EDIT_KEYED; kind++) {
+        const size_t used = strlen(forms);
+        snprintf(forms + used, sizeof forms - used, "%s%s:%s", kind + 1 < RETEX_EDIT_KEYED ? ", " : " or ",
+                 retex_edit_keyed[kind]->word, retex_edit_keyed[kind]->form);
+    }
+    return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE%s", key, forms);
 }
 
 static int state(RetexEdit *edit, const char *target, const char *option /* or NULL */, const char *value,
@@ -104,10 +134,10 @@ static int state(RetexEdit *edit, const char *target, const char *option /* or N
 /* A statement that is decoded; option: or NULL. */
 static int add_statement(RetexEdit *edit, const char *key, const char *option, const char *value, RetexError *err)
 {
-    const char *lamp = retex_edit_key_lamp(key), *finished = retex_edit_key_finish(key);
-    return lamp       ? retex_edit_add_light(edit, lamp, value, err)
-           : finished ? retex_edit_add_finish(edit, finished, value, err)
-                      : state(edit, key, option, value, err);
+    const char *name;
+    const int kind = keyed_of(key, &name);
+    return kind < 0 ? state(edit, key, option, value, err)
+                    : retex_keyed_add(&edit->keyed[kind], retex_edit_keyed[kind], name, value, err);
 }
 
 int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexError *err)
@@ -291,4 +321,36 @@ int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *
     }
     *edit = next;
     return RETEX_OK;
+}
+
+/* ---- lamps and finishes ---- */
+
+int retex_edit_lights(const RetexEdit *edit)
+{
+    int count = 0;
+    for (int kind = 0; kind < RETEX_EDIT_KEYED; kind++)
+        count += edit->keyed[kind].count;
+    return count;
+}
+
+int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int code = RETEX_OK;
+    for (int kind = 0; kind < RETEX_EDIT_KEYED && !code; kind++)
+        code = retex_keyed_complete(&next.keyed[kind], retex_edit_keyed[kind], &from->keyed[kind], err);
+    if (!code)
+        *edit = next;
+    return code;
+}
+
+int retex_edit_bind_lamps(RetexEdit *edit, const RetexSet *set, RetexError *err)
+{
+    RetexEdit next = *edit;
+    int code = RETEX_OK;
+    for (int kind = 0; kind < RETEX_EDIT_KEYED && !code; kind++)
+        code = retex_keyed_bind(&next.keyed[kind], retex_edit_keyed[kind], set, err);
+    if (!code)
+        *edit = next;
+    return code;
 }

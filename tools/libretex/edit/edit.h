@@ -2,31 +2,20 @@
 #ifndef RETEX_EDIT_EDIT_H
 #define RETEX_EDIT_EDIT_H
 
-#include <retex/lamp.h>
 #include <retex/set.h>
 #include <retex/texture.h>
 
-enum { RETEX_EDIT_LIGHTS_MAX = 32 };
+#include "edit/keyed.h"
 
-/* A lamp's new value. */
-typedef struct RetexEditLight {
-    char lamp[RETEX_NAME_MAX]; /* `*`: all lamps that the edit does not name */
-    RetexLampValue value;
-} RetexEditLight;
-
-/* A target's finish. */
-typedef struct RetexEditFinish {
-    char target[RETEX_NAME_MAX], finish[RETEX_NAME_MAX];
-} RetexEditFinish;
+/* Its lists of keyed statements, in the order of the canonical text. */
+enum { RETEX_EDIT_LIGHTS, RETEX_EDIT_FINISHES, RETEX_EDIT_KEYED };
+extern const RetexKeyedKind *const retex_edit_keyed[RETEX_EDIT_KEYED];
 
 struct RetexEdit {
     int count;
     RetexTextureSpec specs[RETEX_MAX_TARGETS]; /* sorted by target */
     unsigned said[RETEX_MAX_TARGETS]; /* bit k: a statement of kind k; of textures of options and cells only bit 0 */
-    int nlights;
-    RetexEditLight lights[RETEX_EDIT_LIGHTS_MAX]; /* sorted by lamp */
-    int nfinishes;
-    RetexEditFinish finishes[RETEX_MAX_TARGETS]; /* sorted by target */
+    RetexKeyedList keyed[RETEX_EDIT_KEYED];
 };
 
 #endif

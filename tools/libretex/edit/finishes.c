@@ -10,60 +10,22 @@
 #include "edit/edit.h"
 #include "set/set.h"
 
-#define PREFIX "finish:"
-
-const char *retex_edit_key_finish(const char *key)
+int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err)
 {
-    return strncmp(key, PREFIX, strlen(PREFIX)) == 0 ? key + strlen(PREFIX) : NULL;
+    return retex_keyed_option(&edit->keyed[RETEX_EDIT_FINISHES], &retex_keyed_finish, arg, err);
 }
 
-/* The place of a target among the finishes; *there: 1 if it has one. */
-static int place_of(const RetexEdit *edit, const char *target, int *there)
+static int parse(RetexKeyed *statement, const char *text, RetexError *err)
 {
-    int at = 0, order = 1;
-    while (at < edit->nfinishes && (order = strcmp(edit->finishes[at].target, target)) < 0)
-        at++;
-    *there = at < edit->nfinishes && order == 0;
-    return at;
-}
-
-int retex_edit_add_finish(RetexEdit *edit, const char *target, const char *finish, RetexError *err)
-{
-    int there, at = place_of(edit, target, &there);
-    if (!*target || strlen(target) >= sizeof edit->finishes->target || !*finish ||
-        strlen(finish) >= sizeof edit->finishes->finish)
-        return retex_fail(err, RETEX_EPARSE, "`finish:%.40s`: names of targets and finishes have 1 to %d bytes", target,
-                          RETEX_NAME_MAX - 1);
-    if (there)
-        return retex_fail(err, RETEX_EPARSE, "finish:%s is given twice", target);
-    if (edit->nfinishes == RETEX_MAX_TARGETS)
-        return retex_fail(err, RETEX_EPARSE, "finishes of more than %d targets", RETEX_MAX_TARGETS);
-    memmove(edit->finishes + at + 1, edit->finishes + at, (size_t)(edit->nfinishes++ - at) * sizeof *edit->finishes);
-    snprintf(edit->finishes[at].target, sizeof edit->finishes->target, "%s", target);
-    snprintf(edit->finishes[at].finish, sizeof edit->finishes->finish, "%s", finish);
+    if (!*text || strlen(text) >= sizeof statement->finish)
+        return retex_keyed_bad_name(&retex_keyed_finish, statement->name, err);
+    strcpy(statement->finish, text);
     return RETEX_OK;
 }
 
-int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err)
+static void write(const RetexKeyed *statement, char text[RETEX_KEYED_TEXT_MAX])
 {
-    char target[RETEX_NAME_MAX + 1];
-    const char *equals = arg ? strrchr(arg, '=') : NULL;
-    if (!equals || equals == arg || !equals[1])
-        return retex_fail(err, RETEX_EPARSE, "finish '%s': expected TARGET=NAME, a target and one of its finishes",
-                          arg ? arg : "");
-    snprintf(target, sizeof target, "%.*s", (int)(equals - arg), arg);
-    return retex_edit_add_finish(edit, target, equals + 1, err);
-}
-
-int retex_edit_complete_finishes(RetexEdit *edit, const RetexEdit *from, RetexError *err)
-{
-    int code = RETEX_OK, there;
-    for (int i = 0; i < from->nfinishes && !code; i++) {
-        place_of(edit, from->finishes[i].target, &there);
-        if (!there)
-            code = retex_edit_add_finish(edit, from->finishes[i].target, from->finishes[i].finish, err);
-    }
-    return code;
+    strcpy(text, statement->finish);
 }
 
 /* ---- the finishes that there are ---- */
@@ -90,32 +52,36 @@ static int find_finish(const RetexTarget *target, const char *name, int *finish,
                       retex_meant(nearest.best, meant));
 }
 
-static int find_target(const RetexSet *set, const char *name, int *target, RetexError *err)
+static int bind(RetexKeyed *statement, const RetexSet *set, RetexError *err)
 {
     RetexTargetNames names;
+    int target, finish;
     retex_set_target_names(&names, set);
-    return retex_target_find(target, &names, name, err);
-}
-
-int retex_edit_bind_finishes(RetexEdit *edit, const RetexSet *set, RetexError *err)
-{
-    RetexEdit next = *edit;
-    int code = RETEX_OK, target, finish;
-    next.nfinishes = 0;
-    for (int i = 0; i < edit->nfinishes && !code; i++) {
-        code = find_target(set, edit->finishes[i].target, &target, err);
-        if (!code)
-            code = find_finish(&set->targets[target], edit->finishes[i].finish, &finish, err);
-        if (!code)
-            code = retex_edit_add_finish(&next, set->targets[target].name, set->targets[target].finishes[finish], err);
-    }
+    int code = retex_target_find(&target, &names, statement->name, err);
     if (!code)
-        *edit = next;
+        code = find_finish(&set->targets[target], statement->finish, &finish, err);
+    if (!code) {
+        strcpy(statement->name, set->targets[target].name);
+        strcpy(statement->finish, set->targets[target].finishes[finish]);
+    }
     return code;
 }
 
 int retex_edit_finish_of(const RetexEdit *edit, const RetexTarget *target)
 {
-    int there, at = place_of(edit, target->name, &there), finish;
-    return there && !find_finish(target, edit->finishes[at].finish, &finish, NULL) ? finish : target->finish;
+    const RetexKeyed *statement = retex_keyed_find(&edit->keyed[RETEX_EDIT_FINISHES], target->name);
+    int finish;
+    return statement && !find_finish(target, statement->finish, &finish, NULL) ? finish : target->finish;
 }
+
+const RetexKeyedKind retex_keyed_finish = {
+    .word = "finish",
+    .form = "TARGET=NAME",
+    .expected = "a target and one of its finishes",
+    .names = "names of targets and finishes have",
+    .many = {"finishes of", "targets"},
+    .most = RETEX_MAX_TARGETS,
+    .parse = parse,
+    .write = write,
+    .bind = bind,
+};

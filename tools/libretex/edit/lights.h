@@ -1,12 +1,14 @@
-/* The statements of an edit about lamps. Private to libretex. */
+/* The statements of an edit about lamps. Private to this room. */
 #ifndef RETEX_EDIT_LIGHTS_H
 #define RETEX_EDIT_LIGHTS_H
 
 #include <retex/edit.h>
 
-/* The name of the lamp in a key `light:NAME`; NULL in other keys. */
-const char *retex_edit_key_lamp(const char *key);
-/* Add the value of a lamp: RETEX_EPARSE where it has one. */
-int retex_edit_add_light(RetexEdit *edit, const char *lamp, const char *value, RetexError *err);
+#include "edit/keyed.h"
+
+extern const RetexKeyedKind retex_keyed_light; /* light:LAMP=VALUE */
+
+/* The value that a lamp has in an edit that is bound; NULL: as rendered. */
+const RetexLampValue *retex_edit_light_of(const RetexEdit *edit, const char *lamp);
 
 #endif

@@ -27,6 +27,19 @@ static void write_key(FILE *file, const char *target, const char *option)
     fprintf(file, "%s%s=", *option ? "." : "", option);
 }
 
+/* divider: before it, or 0. */
+static void write_keyed(FILE *file, const RetexKeyedKind *kind, const RetexKeyed *statement, int divider)
+{
+    char value[RETEX_KEYED_TEXT_MAX];
+    kind->write(statement, value);
+    if (divider)
+        fputc(divider, file);
+    fprintf(file, "%s:", kind->word);
+    write_encoded(file, statement->name, NULL);
+    fputc('=', file);
+    write_encoded(file, value, NULL);
+}
+
 /* The caller's `file` is closed. */
 static int close_text(FILE *file, char **text, RetexError *err)
 {
@@ -54,23 +67,9 @@ int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError 
             write_key(file, edit->specs[i].target, retex_statement_kinds[k].word);
             write_encoded(file, value, NULL);
         }
-    for (int i = 0; i < edit->nlights && file; i++) {
-        char value[RETEX_LAMP_TEXT_MAX];
-        if (i || edit->count)
-            fputc(divider, file);
-        fputs("light:", file);
-        write_encoded(file, edit->lights[i].lamp, NULL);
-        retex_lamp_value_text(&edit->lights[i].value, value);
-        fprintf(file, "=%s", value);
-    }
-    for (int i = 0; i < edit->nfinishes && file; i++) {
-        if (i || edit->count || edit->nlights)
-            fputc(divider, file);
-        fputs("finish:", file);
-        write_encoded(file, edit->finishes[i].target, NULL);
-        fputc('=', file);
-        write_encoded(file, edit->finishes[i].finish, NULL);
-    }
+    for (int kind = 0, written = edit->count; kind < RETEX_EDIT_KEYED && file; kind++)
+        for (int i = 0; i < edit->keyed[kind].count; i++, written++)
+            write_keyed(file, retex_edit_keyed[kind], &edit->keyed[kind].of[i], written ? divider : 0);
     return close_text(file, text, err);
 }
 

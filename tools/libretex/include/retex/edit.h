@@ -58,6 +58,8 @@ int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err);
 int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err);
 /* Add the lamps, and finishes of targets, of another edit that this one does not name. */
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err);
+/* What a key with a prefix names: the lamp of light:LAMP, the target of finish:TARGET. NULL: it is another key. */
+const char *retex_edit_key_name(const char *key);
 /* Whether a key is TARGET.OPTION. */
 int retex_edit_key_is_option(const char *key);
 
