@@ -107,7 +107,7 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
     fprintf(out, "  share        %.2f%% of the picture\n", 100 * target->share);
     for (int k = 0; k < target->nfinishes; k++)
         fprintf(out, "%s%s%s%s", k ? ", " : "  finishes     ", plain(text, target->finishes[k]),
-                k == target->finish ? " (as rendered)" : "", k + 1 == target->nfinishes ? "\n" : "");
+                k + 1 == target->finish ? " (as rendered)" : "", k + 1 == target->nfinishes ? "\n" : "");
     fprintf(out, "  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
             (double)target->mean_albedo[2]);
     fprintf(out, "  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],

@@ -447,7 +447,7 @@ static void add_finishes(RetexTarget *target, const Scene *scene, int t)
     if (own->nfinishes < 2)
         return;
     target->nfinishes = own->nfinishes;
-    target->finish = scene->finish_of[scene->shown][t];
+    target->finish = 1 + scene->finish_of[scene->shown][t];
     for (int k = 0; k < own->nfinishes; k++) {
         snprintf(target->finishes[k], sizeof target->finishes[k], "%s", own->finishes[k].name);
         target->finish_roughness[k] = own->finishes[k].finish ? finish_roughness(own->finishes[k].finish) : -1;

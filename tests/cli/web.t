@@ -94,7 +94,7 @@ $ cp "$TESTS/finishes.pov" room.pov; retex-render -q --size 96x72 --spp 64 --den
 > retex-pack: finishes of Floor, Wall: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
 $ near() { /usr/bin/python3 near.py shine.exr shine "$@"; }; near 38; near 38 finish:Floor=Gloss; near 37 finish:Wall=satin; near 38 finish:Floor=Gloss finish:Wall=satin Floor=T/walnut-herringbone.jpg; near 38 finish:Floor=Gloss Wall=0.8,0.2,0.2
 $ python3 -c 'import json; r = json.load(open("shine/room.json")); print([(t["name"], t["finishes"], t["finish"]) for t in r["targets"]]); [print(p["name"], repr(p["lamp"]), p["finishes"], p["value"][0], p["kept"][0]) for p in r["parameters"]]'
-> [('Floor', ['original', 'Gloss'], 0), ('Wall', ['original', 'satin'], 0)]
+> [('Floor', ['original', 'Gloss'], 1), ('Wall', ['original', 'satin'], 1)]
 > finish0 '' [0, 0] 1.0 1.0
 > finish1 '' [1, 1] 1.0 0.25
 > finish2 '' [2, 1] 0.0 0.25

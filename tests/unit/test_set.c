@@ -200,6 +200,32 @@ static void expect_wrong_terms(RetexSet *set)
             fail_msg("parameter %zu is taken", i);
 }
 
+/* Finishes are numbered from 1, and 0 is none, in targets as in parameters. */
+static void finishes_are_numbered_from_1(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = {0};
+    static const int numbers[][3] = {{0, 0, 1}, {2, 1, 1}, {2, 2, 1},  {0, 1, 0},
+                                     {2, 0, 0}, {2, 3, 0}, {2, -1, 0}, {RETEX_FINISHES_MAX + 1, 1, 0}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        RetexTarget target = {.nfinishes = numbers[i][0], .finish = numbers[i][1], .original = -1};
+        snprintf(target.name, sizeof target.name, "finished%zu", i);
+        if (retex_set_add_target(set, &target, NULL, &err) != (numbers[i][2] ? RETEX_OK : RETEX_EINVAL))
+            fail_msg("finish %d of %d", numbers[i][1], numbers[i][0]);
+    }
+    const int last = set->ntargets - 1;
+    for (int finish = -1; finish <= 3; finish++) {
+        RetexParameter light = {.kind = RETEX_PARAMETER_COLOR, .target = -1};
+        snprintf(light.name, sizeof light.name, "finish%d", finish);
+        light.finishes[last] = (signed char)finish;
+        if (retex_set_add_parameter(set, &light, NULL, &err) != (finish < 0 || finish > 2 ? RETEX_EINVAL : RETEX_OK))
+            fail_msg("light of finish %d", finish);
+        assert_true(finish < 0 || finish > 2 || !retex_parameter_lamp(set, set->nparameters - 1));
+    }
+    retex_set_close(&set);
+}
+
 static void test_names_are_checked(void **state)
 {
     (void)state;
@@ -428,6 +454,7 @@ int main(void)
         cmocka_unit_test(test_stream_through_a_pipe),
         cmocka_unit_test(test_references_follow_when_parts_go),
         cmocka_unit_test(test_names_are_checked),
+        cmocka_unit_test(finishes_are_numbered_from_1),
         cmocka_unit_test(test_samples_of_another_set),
         cmocka_unit_test(test_stored_rows),
         cmocka_unit_test(test_description_there_and_back),

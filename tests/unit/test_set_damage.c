@@ -115,6 +115,7 @@ static void turn_inside_out(const char *sealed)
     "{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},{\"footprint\":0},"
 
 #define FURTHER(hits, ratio) "\"further\":{\"hits\":" #hits ",\"ratio\":[" ratio "]},"
+#define FINISHES(names, finish) "\"finishes\":[" names "],\"finish\":" finish ","
 
 static void test_manifests_that_lie(void **state)
 {
@@ -152,6 +153,11 @@ static void test_manifests_that_lie(void **state)
         {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,\"2\"],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
         {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":7,\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
         {"\"targets\"", "\"uv_scale\":[", "\"x\":[", 0, ""},
+        {"\"targets\"", "\"uv_scale\":", FINISHES("\"a\",\"b\"", "1") "\"uv_scale\":", 0, ""},
+        {"\"targets\"", "\"uv_scale\":", FINISHES("\"a\",\"b\"", "2") "\"uv_scale\":", 0, ""},
+        {"\"targets\"", "\"uv_scale\":", FINISHES("\"a\",\"b\"", "0") "\"uv_scale\":", RETEX_EFORMAT, "\"finish\""},
+        {"\"targets\"", "\"uv_scale\":", FINISHES("\"a\",\"b\"", "3") "\"uv_scale\":", RETEX_EFORMAT, "\"finish\""},
+        {"\"targets\"", "\"uv_scale\":", FINISHES("\"a\",7", "1") "\"uv_scale\":", RETEX_EFORMAT, "proper name"},
         {"\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\""},
         {"\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\""},
         {"\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\""},

@@ -320,7 +320,7 @@ class Room:
         """Values of lamps and names of finishes, by name: what parameters are, as retex-web(5) says."""
         targets, parameters = self.room["targets"], self.room["parameters"]
         for index, name in finishes.items():
-            self.finishes[index] = targets[index]["finishes"].index(name)
+            self.finishes[index] = 1 + targets[index]["finishes"].index(name)
         colors = {"": np.ones(3)}
         for p in parameters:
             if not any(p.get("finishes", [])) and p.get("lamp") != "":
@@ -328,7 +328,7 @@ class Room:
                 text = lamps.get(name, lamps.get("*"))
                 colors[name] = lamp_color(p, text) if text else np.array(p["value"])
         for p in parameters:
-            chosen = all(f in (0, 1 + self.finishes[t]) for t, f in enumerate(p.get("finishes", [])))
+            chosen = all(f in (0, self.finishes[t]) for t, f in enumerate(p.get("finishes", [])))
             self.values[p["name"]] = colors[p.get("lamp", p["name"])] if chosen else np.zeros(3)
 
     def mixture(self, index, textures):

@@ -102,19 +102,19 @@ function withFinishes() {
   for (const [lamp, value] of [["Sun", [2, 4, 6]], ["", [1, 1, 1]], ["Spot", [0, 0, 0]]])
     for (const finishes of [[1, 0, 2], [0, 0, 0], [2, 0, 2], [2, 0, 3]]) add(lamp, value, finishes);
   parameters[9].kept = [3, 3, 3]; // of Spot, which is off
-  return { targets: [{ name: "Floor", finishes: ["matt", "satin"], finish: 0 }, { name: "Rug" }, { name: "Wall", finishes: ["a", "b", "c"], finish: 1 }], parameters };
+  return { targets: [{ name: "Floor", finishes: ["matt", "satin"], finish: 1 }, { name: "Rug" }, { name: "Wall", finishes: ["a", "b", "c"], finish: 2 }], parameters };
 }
 
 test("light has its lamp's colour with the finishes that are chosen, and none with others", () => {
   const room = withFinishes(), black = [0, 0, 0], white = [1, 1, 1], sun = [2, 4, 6];
   same(lampsOf(room).map((l) => [l.name, l.index]), [["Sun", 1], ["Spot", 9]]);
-  same(parameterColors(room, [null, null], [0, 0, 1]), [sun, sun, black, black, white, white, black, black, black, black, black, black]);
-  same(parameterColors(room, [null, null], [1, 0, 1]), [black, sun, sun, black, black, white, white, black, black, black, black, black]);
-  same(parameterColors(room, [null, null], [1, 0, 2]), [black, sun, black, sun, black, white, black, white, black, black, black, black]);
-  same(parameterColors(room, [null, null], [0, 0, 0]).map((c) => c[2]), [0, 6, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0]);
-  const lit = parameterColors(room, [parseLamp("0.5"), parseLamp("2")], [1, 0, 2]);
+  same(parameterColors(room, [null, null], [1, 0, 2]), [sun, sun, black, black, white, white, black, black, black, black, black, black]);
+  same(parameterColors(room, [null, null], [2, 0, 2]), [black, sun, sun, black, black, white, white, black, black, black, black, black]);
+  same(parameterColors(room, [null, null], [2, 0, 3]), [black, sun, black, sun, black, white, black, white, black, black, black, black]);
+  same(parameterColors(room, [null, null], [1, 0, 1]).map((c) => c[2]), [0, 6, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0]);
+  const lit = parameterColors(room, [parseLamp("0.5"), parseLamp("2")], [2, 0, 3]);
   same(lit, [black, [1, 2, 3], black, [1, 2, 3], black, white, black, white, black, [6, 6, 6], black, [6, 6, 6]]);
-  same(parameterColors({ targets: room.targets, parameters: [{ name: "x", lamp: "Gone", value: black, finishes: [1, 0, 0] }] }, [], [0, 0, 0]), [white]);
+  same(parameterColors({ targets: room.targets, parameters: [{ name: "x", lamp: "Gone", value: black, finishes: [1, 0, 0] }] }, [], [1, 0, 1]), [white]);
 });
 
 test("where there are no finishes, all parameters are lamps", () => {

@@ -103,11 +103,11 @@ test("links have lamps, and a state names all others by a star", async () => {
 
 /* A floor with three finishes, a wall with two and a rug without, a lamp and light of none. */
 function withFinishes(RetexRoom, has = {}) {
-  const parameters = [], targets = [{ name: "Floor", finishes: ["matt", "Gloss", "a;b"], finish: 1 }, { name: "Rug" }, { name: "Wall", finishes: ["matt", "satin"], finish: 0 }];
+  const parameters = [], targets = [{ name: "Floor", finishes: ["matt", "Gloss", "a;b"], finish: 2 }, { name: "Rug" }, { name: "Wall", finishes: ["matt", "satin"], finish: 1 }];
   for (const lamp of ["Lamp", ""])
     for (const finishes of [[0, 0, 0], [1, 0, 1], [2, 0, 1], [3, 0, 1], [1, 0, 2], [2, 0, 2], [3, 0, 2]])
       parameters.push({ name: `${lamp}${finishes}`, lamp, finishes, value: [1, 1, 1], kept: [1, 1, 1] });
-  const { room, events } = withLamps(RetexRoom, { id: "", room: { parameters, lamps: {}, targets }, said: [null], finishes: [1, 0, 0], setTexture: async () => {}, ...has });
+  const { room, events } = withLamps(RetexRoom, { id: "", room: { parameters, lamps: {}, targets }, said: [null], finishes: [2, 0, 1], setTexture: async () => {}, ...has });
   room.recolor();
   return { room, events, lit: () => room.colors.map((c, i) => c[0] && parameters[i].finishes.join("")).filter(Boolean) };
 }
@@ -153,7 +153,7 @@ test("the panel has the finishes of the target that it is for", async () => {
   const shown = () => (room.refreshFinishes(), [room.$(".finish").hidden, made.map((l) => (l.input.checked ? `*${l.text}` : l.text)), room.$("[data-do=rendered]").disabled]);
   same(shown(), [false, ["matt", "*Gloss", "a;b"], true]);
   same(made.map((label) => label.title), ["", "As rendered", ""]);
-  await room.setControl({ dataset: { set: "finish" }, value: "2" });
+  await room.setControl({ dataset: { set: "finish" }, value: "a;b" });
   const [last] = made;
   same([shown(), made[0] === last], [[false, ["matt", "Gloss", "*a;b"], false], true]); // the one with the focus stays
   room.$(".finishes input:checked").focus = () => {};
@@ -342,7 +342,7 @@ test("the light of lamps comes when one is changed; with what is needed first, w
 });
 
 test("the light of finishes is needed for the picture as rendered, and a link chooses one", async () => {
-  const shiny = (room, crc32) => ({ ...room, targets: room.targets.map((t, i) => (i ? { ...t, finishes: ["matt", "satin"], finish: 0 } : t)),
+  const shiny = (room, crc32) => ({ ...room, targets: room.targets.map((t, i) => (i ? { ...t, finishes: ["matt", "satin"], finish: 1 } : t)),
     parameters: [[0, 0], [0, 1], [0, 2]].map((finishes, i) => ({ name: `${i}`, lamp: "", finishes, value: Array(3).fill(i < 2 ? 1 : 0), kept: Array(3).fill(i ? 0.5 : 1) })),
     lamps: { file: "lamps.jpg", bytes: 2, crc32: crc32(Uint8Array.from(FILES["lamps.jpg"])), width: 10, height: 5, finest: 2,
       tiles: [{ x: 0, y: 0, width: 10, height: 5, scale: 2, white: 1, levels: 255 }], terms: [{ group: 0, gain: 0, parameter: 2, factors: [] }] } });

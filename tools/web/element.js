@@ -122,7 +122,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   /* One of a target's finishes by name; null: as rendered. Resolves when it is drawn. */
   async setFinish(name, finish = null) {
     const index = this.indexOf(name), chosen = this.finishNumber(index, finish);
-    if (chosen < 0) throw new Error(`${name} has no finish '${finish}'.`);
+    if (finish !== null && !chosen) throw new Error(`${name} has no finish '${finish}'.`);
     this.finishes[index] = chosen;
     this.say(`${name}: ${this.finishName(index) || "finish as rendered"}`);
     await this.relight();
@@ -139,15 +139,15 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.colors = parameterColors(this.room || {}, this.said.map((text) => text && parseLamp(text)), this.finishes);
   }
 
-  /* -1: the target does not have it. */
+  /* From 1; 0: the target does not have it. */
   finishNumber(target, name) {
     const { finishes = [] } = this.room.targets[target];
-    return name === null ? finishesAsRendered(this.room)[target] : indexNamed(finishes.map((text) => ({ name: text })), String(name));
+    return name === null ? finishesAsRendered(this.room)[target] : 1 + indexNamed(finishes.map((text) => ({ name: text })), String(name));
   }
 
   /* Of the one that is chosen. */
   finishName(target) {
-    return this.room.targets[target].finishes?.[this.finishes[target]];
+    return this.room.targets[target].finishes?.[this.finishes[target] - 1];
   }
 
   getState() {
@@ -174,8 +174,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     }
     this.finishes = finishesAsRendered(this.room || {});
     for (const [name, finish] of Object.entries(state.finishes || {})) {
-      const index = indexNamed(this.room?.targets || [], name), chosen = index < 0 ? -1 : this.finishNumber(index, finish);
-      if (chosen >= 0) this.finishes[index] = chosen;
+      const index = indexNamed(this.room?.targets || [], name), chosen = index < 0 ? 0 : this.finishNumber(index, finish);
+      if (chosen) this.finishes[index] = chosen;
     }
     this.recolor();
     await this.setLamps(values).catch((error) => (failed = error));
@@ -479,14 +479,14 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       box.replaceChildren(...finishes.map((text, i) => {
         const label = document.createElement("label"), input = document.createElement("input");
         label.className = "file";
-        label.title = i === rendered ? "As rendered" : "";
-        Object.assign(input, { type: "radio", name: "finish", value: i });
+        label.title = i + 1 === rendered ? "As rendered" : "";
+        Object.assign(input, { type: "radio", name: "finish", value: text });
         input.dataset.set = "finish";
         label.append(input, text);
         return label;
       }));
     box.dataset.of = of;
-    for (const input of box.querySelectorAll("input")) input.checked = Number(input.value) === chosen, input.disabled = !this.renderer;
+    for (const input of box.querySelectorAll("input")) input.checked = input.value === finishes[chosen - 1], input.disabled = !this.renderer;
     this.$("[data-do=rendered]").disabled = !this.renderer || chosen === rendered;
   }
 
@@ -569,7 +569,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
         break;
       }
       case "color": return this.try(() => this.setTexture(name, input.value));
-      case "finish": return this.try(() => this.setFinish(name, this.room.targets[this.selected].finishes[value]));
+      case "finish": return this.try(() => this.setFinish(name, input.value));
       case "size": {
         const times = 2 ** -value, old = texture.scale;
         return this.place(name, { scale: Array.isArray(old) ? [times, old[1] / old[0] * times] : times });

@@ -37,7 +37,7 @@ function checkManifest(room) {
     if (finishes === undefined) continue;
     list(finishes, 4, named);
     check(finishes.length > 1);
-    inside(finish, finishes);
+    whole(finish, 1, finishes.length);
   }
   const color = (c) => (list(c, 3, (x) => number(x)), check(c.length === 3));
   list(room.parameters ?? [], 64, (p) => {

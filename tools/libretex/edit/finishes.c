@@ -30,19 +30,20 @@ static void write(const RetexKeyed *statement, char text[RETEX_KEYED_TEXT_MAX])
 
 /* ---- the finishes that there are ---- */
 
+/* *finish: its number, from 1. */
 static int find_finish(const RetexTarget *target, const char *name, int *finish, RetexError *err)
 {
     char all[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {name, NULL, 0};
-    *finish = -1;
+    *finish = 0;
     for (int k = 0; k < target->nfinishes; k++) {
         const size_t used = strlen(all);
         if (strcasecmp(target->finishes[k], name) == 0)
-            *finish = k;
+            *finish = 1 + k;
         snprintf(all + used, sizeof all - used, "%s%s", k ? ", " : "", target->finishes[k]);
         retex_nearest_try(&nearest, target->finishes[k]);
     }
-    if (*finish >= 0)
+    if (*finish)
         return RETEX_OK;
     if (!target->nfinishes)
         return retex_fail(err, RETEX_ENOTFOUND,
@@ -62,7 +63,7 @@ static int bind(RetexKeyed *statement, const RetexSet *set, RetexError *err)
         code = find_finish(&set->targets[target], statement->finish, &finish, err);
     if (!code) {
         strcpy(statement->name, set->targets[target].name);
-        strcpy(statement->finish, set->targets[target].finishes[finish]);
+        strcpy(statement->finish, set->targets[target].finishes[finish - 1]);
     }
     return code;
 }

@@ -9,7 +9,7 @@
 
 extern const RetexKeyedKind retex_keyed_finish; /* finish:TARGET=NAME */
 
-/* The number of the finish that a target has in an edit that is bound; as rendered where it is not named. */
+/* The number of the finish that a target has in an edit that is bound, from 1; as rendered where it is not named. */
 int retex_edit_finish_of(const RetexEdit *edit, const RetexTarget *target);
 
 #endif

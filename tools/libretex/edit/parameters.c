@@ -23,7 +23,7 @@ static int has_finishes(const RetexEdit *edit, const RetexSet *set, const RetexP
 {
     int same = 1;
     for (int t = 0; t < set->ntargets; t++)
-        same &= !light->finishes[t] || light->finishes[t] == 1 + retex_edit_finish_of(edit, &set->targets[t]);
+        same &= !light->finishes[t] || light->finishes[t] == retex_edit_finish_of(edit, &set->targets[t]);
     return same;
 }
 

@@ -28,7 +28,7 @@ int retex_polynomial_find_maps(RetexPolynomial *p, RetexError *err)
         p->mapped[t] = texture                                                             ? retex_texture_has_finishes(texture)
                        : p->samples && retex_samples_find(p->samples, t, -1, -1) >= 0 ? set->targets[t].nfinishes
                                                                                             : 0;
-        p->shown[t] = set->targets[t].finish;
+        p->shown[t] = set->targets[t].finish - 1;
         if (p->mapped[t] && p->mapped[t] != set->targets[t].nfinishes)
             return retex_fail(err, RETEX_EINVAL, "a map of %d finishes for %s, which has %d", p->mapped[t],
                               set->targets[t].name, set->targets[t].nfinishes);

@@ -126,7 +126,7 @@ static void read_finishes(Reading *reading, const json_t *json, RetexTarget *tar
     const json_t *names = retex_reading_array(reading, json, "finishes", RETEX_FINISHES_MAX);
 
     target->nfinishes = (int)json_array_size(names);
-    target->finish = retex_reading_integer(reading, json, "finish", 0, target->nfinishes - 1);
+    target->finish = retex_reading_integer(reading, json, "finish", 1, target->nfinishes);
     for (int k = 0; k < target->nfinishes && !reading->status; k++) {
         const char *name = json_string_value(json_array_get(names, (size_t)k));
         if (!name || !*name || strlen(name) >= sizeof target->finishes[k])

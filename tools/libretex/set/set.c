@@ -278,6 +278,10 @@ int retex_set_add_target(RetexSet *set, const RetexTarget *target, int *index, R
 {
     if (set->ntargets >= RETEX_MAX_TARGETS)
         return retex_fail(err, RETEX_ELIMIT, "a set has at most %d targets", RETEX_MAX_TARGETS);
+    if (target->nfinishes < 0 || target->nfinishes > RETEX_FINISHES_MAX || target->finish > target->nfinishes ||
+        target->finish < (target->nfinishes > 0))
+        return retex_fail(err, RETEX_EINVAL, "the target %s has finish %d of %d", target->name, target->finish,
+                          target->nfinishes);
     if (index)
         *index = set->ntargets;
     set->targets[set->ntargets++] = *target;

@@ -261,7 +261,7 @@ static void become_rest(RetexSet *set, int parameter)
     int shown = 1, choices = 1;
     for (int t = 0; t < set->ntargets; t++)
         if (p->finishes[t])
-            choices *= set->targets[t].nfinishes, shown &= p->finishes[t] == 1 + set->targets[t].finish;
+            choices *= set->targets[t].nfinishes, shown &= p->finishes[t] == set->targets[t].finish;
     const size_t begin = strncmp(p->name, lamp, strlen(lamp)) == 0 ? strlen(lamp) : 0;
     snprintf(name, sizeof name, REST "%s", p->name + begin);
     snprintf(p->name, sizeof p->name, "%s", name);

@@ -68,7 +68,7 @@ typedef struct RetexTarget {
     double share;       /* of the picture's pixels, whose centre sees the target directly; 0..1 */
     int nfinishes;      /* 0: it has the one that it was rendered with; else 2..RETEX_FINISHES_MAX, to choose from */
     char finishes[RETEX_FINISHES_MAX][RETEX_NAME_MAX]; /* their names */
-    int finish;         /* the one in the picture as rendered */
+    int finish;         /* the number of the one in the picture as rendered, from 1; 0: it has none to choose from */
     float finish_roughness[RETEX_FINISHES_MAX]; /* of each, 0 a mirror, 1 matt, as maps of roughness have it; -1: of a
                                                    metal, or unknown */
 } RetexTarget;
