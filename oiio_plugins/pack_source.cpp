@@ -138,14 +138,31 @@ Edit parse_edit(const Arguments &arguments)
     return edit;
 }
 
-// The file that a texture is read from: of a folder, that of its base colour.
-std::string file_of(const RetexTextureSpec &texture)
+// The files that a texture is read from: of a folder, those that are used.
+std::vector<std::string> files_of(const RetexTextureSpec &texture)
 {
-    RetexError err{};
-    char *file = nullptr;
-    must(retex_texture_file(&file, &texture, &err), err);
-    const std::unique_ptr<char, void (*)(void *)> owned(file, std::free);
-    return file ? file : "";
+    std::vector<std::string> files;
+    for (int k = 0; k < RETEX_TEXTURE_FILES; k++) {
+        RetexError err{};
+        char *file = nullptr;
+        must(retex_texture_file(&file, &texture, k, &err), err);
+        const std::unique_ptr<char, void (*)(void *)> owned(file, std::free);
+        if (file)
+            files.push_back(file);
+    }
+    return files;
+}
+
+// Gives a file that a texture names its place in the own folder.
+template <size_t N> void find_file(char (&name)[N], const OwnFolder &own, bool may_be_folder)
+{
+    char meant[RETEX_MEANT_SIZE];
+    const std::string file = own.find(name, may_be_folder);
+    if (file.size() >= N)
+        throw Failure(std::string(name) + ": the name is too long");
+    if (file_stamp(file) == "absent")
+        throw Failure("cannot read " + file + ": No such file or directory" + retex_color_meant(name, meant));
+    std::copy_n(file.c_str(), file.size() + 1, name);
 }
 
 // Finds wrong names of targets and missing files when the name is opened, not when pixels are read.
@@ -158,16 +175,12 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
     std::vector<RetexTextureSpec> textures;
     for (int i = 0; i < retex_edit_count(edit); i++) {
         RetexTextureSpec texture = *retex_edit_texture(edit, i);
-        const std::string image = texture.constant ? "" : own.find(texture.image, true); // also a folder
-        if (image.size() >= sizeof texture.image)
-            throw Failure(std::string(texture.image) + ": the name is too long");
-        std::copy_n(image.c_str(), image.size() + 1, texture.image);
-        char meant[RETEX_MEANT_SIZE];
-        if (!texture.constant && file_stamp(image) == "absent")
-            throw Failure("cannot read " + image + ": No such file or directory" +
-                          retex_color_meant(texture.image, meant));
+        if (!texture.constant)
+            find_file(texture.image, own, true);
+        if (texture.finish[0] && std::string(texture.finish) != "none")
+            find_file(texture.finish, own, false);
         texture.access = own.access();
-        file_of(texture); // refuses a folder without a base colour
+        files_of(texture); // refuses a folder without a base colour
         texture.warn = print_warning;
         textures.push_back(texture);
     }
@@ -229,7 +242,8 @@ class PackSource final : public Source
         textures_ = find_textures(edit_.get(), set_->description(), own_);
         parameters_ = find_parameters(edit_.get(), set_->description());
         for (const RetexTextureSpec &texture : textures_)
-            stamp_ += texture.constant ? "" : " " + file_stamp(file_of(texture));
+            for (const std::string &file : files_of(texture))
+                stamp_ += " " + file_stamp(file);
         shown_ = text_of(edit_.get());
         key_ = (own_.access()->safe ? "safe:" : "") + path + "?" + shown_;
     }

@@ -58,13 +58,15 @@ static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
     d = digest_bytes(d, &s->rotate, sizeof s->rotate);
     d = digest_bytes(d, s->offset, sizeof s->offset);
     d = digest_bytes(d, s->width, sizeof s->width);
-    char *file;
-    if (s->constant)
-        return d;
-    if (retex_texture_file(&file, s, NULL)) /* as above */
-        return digest_text(d, s->image);
-    d = digest_file(d, file);
-    free(file);
+    d = digest_text(d, s->finish);
+    for (int k = 0; k < RETEX_TEXTURE_FILES; k++) {
+        char *file;
+        if (retex_texture_file(&file, s, k, NULL)) /* as above */
+            d = digest_text(d, s->image);
+        else if (file)
+            d = digest_file(d, file);
+        free(file);
+    }
     return d;
 }
 

@@ -3,21 +3,6 @@
 
 #include "kept_textures.h"
 
-/* Check the textures against the set: colours replace the images, so that nothing is loaded. */
-static int check(const RetexSet *set, const RetexTextureSpec *specs, int count, int nthreads, RetexError *err)
-{
-    RetexTexture *textures[RETEX_MAX_TARGETS];
-    RetexTextureSpec colors[RETEX_MAX_TARGETS];
-    for (int i = 0; i < count && i < RETEX_MAX_TARGETS; i++) {
-        colors[i] = specs[i];
-        colors[i].constant = 1;
-        colors[i].warn = NULL;
-    }
-    int code = retex_textures_load(textures, set, colors, count, nthreads, err);
-    retex_textures_close(textures);
-    return code;
-}
-
 /* Close images, those first that were not used for longest: not the first `used` ones, and others only if there are
  * more than `most`, or they take more than most_bytes together with those that were used later. */
 static void drop_images(KeptTextures *kept, int used, int most, uint64_t most_bytes)
@@ -78,7 +63,8 @@ static int find_missing(KeptTextures *kept, const RetexSet *set, const RetexText
         if (kept->textures[target] || place(kept, set, &specs[i], target, used))
             continue;
         for (int k = 0; k < nmissing && !specs[i].constant; k++)
-            listed |= !missing[k].constant && strcmp(missing[k].image, specs[i].image) == 0;
+            listed |= !missing[k].constant && strcmp(missing[k].image, specs[i].image) == 0 &&
+                      strcmp(missing[k].finish, specs[i].finish) == 0;
         if (!listed)
             add_missing(kept, &missing[nmissing++], &specs[i]);
     }
@@ -122,7 +108,7 @@ int kept_textures_load(KeptTextures *kept, const RetexSet *set, const RetexTextu
     RetexTextureSpec missing[RETEX_MAX_TARGETS];
     int used = 0, nmissing;
     retex_textures_close(kept->textures);
-    int code = check(set, specs, count, nthreads, err);
+    int code = retex_textures_check(set, specs, count, err);
     while (!code && (nmissing = find_missing(kept, set, specs, count, missing, &used)) > 0)
         code = load(kept, set, missing, nmissing, &used, nthreads, err);
     if (code) {

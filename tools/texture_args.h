@@ -48,23 +48,23 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
         cli_fail(cli, &err);
 }
 
-/* Announce the file of a texture, if it has one: of a folder, that of its base colour. For a name with options,
+/* Announce the files of a texture: of a folder, those that are used. For a name with options,
  * `room.retex?Floor=oak.jpg`, also announce the file before the `?`. */
 static inline int texture_args_add_input(const RetexTextureSpec *spec, RetexError *err)
 {
     char before[sizeof spec->image], *file;
-    const char *query = strchr(spec->image, '?');
-    if (spec->constant)
-        return RETEX_OK;
-    int code = retex_texture_file(&file, spec, err);
-    if (code)
-        return code;
-    code = cli_add_input("the texture", file, err);
+    const char *query = spec->constant ? NULL : strchr(spec->image, '?');
+    int code = RETEX_OK;
+    for (int k = 0; k < RETEX_TEXTURE_FILES && !code; k++) {
+        code = retex_texture_file(&file, spec, k, err);
+        if (!code && file)
+            code = cli_add_input("the texture", file, err);
+        free(file);
+    }
     if (!code && query) {
         snprintf(before, sizeof before, "%.*s", (int)(query - spec->image), spec->image);
         code = cli_add_input("the texture", before, err);
     }
-    free(file);
     return code;
 }
 
@@ -80,9 +80,23 @@ static inline void texture_args_reads(const Cli *cli, const RetexTextureSpec *sp
 static inline void texture_args_check_frames(const Cli *cli, const FrameRange *range, const char *what,
                                              const RetexTextureSpec *specs, int count)
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         if (!specs[i].constant)
             frames_check_name(cli, range, what, specs[i].image, 0);
+        if (specs[i].finish[0])
+            frames_check_name(cli, range, what, specs[i].finish, 0);
+    }
+}
+
+/* The name of a file at one frame. */
+static inline void texture_args_frame_name(const Cli *cli, int frame, char *name, size_t size)
+{
+    char *made = frames_name(cli, name, frame);
+    if (strlen(made) >= size)
+        cli_die(cli, "the name of the image is too long: %s", made);
+    memset(name, 0, size); /* specs are compared byte by byte */
+    strcpy(name, made);
+    free(made);
 }
 
 /* Give the images their names at one frame. */
@@ -90,12 +104,10 @@ static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextur
 {
     for (int i = 0; i < count; i++) {
         RetexTextureSpec *spec = &specs[i];
-        char *image = spec->constant ? NULL : frames_name(cli, spec->image, frame);
-        if (image && strlen(image) >= sizeof spec->image)
-            cli_die(cli, "the name of the image is too long: %s", image);
-        memset(spec->image, 0, sizeof spec->image); /* specs are compared byte by byte */
-        strcpy(spec->image, image ? image : "");
-        free(image);
+        if (!spec->constant)
+            texture_args_frame_name(cli, frame, spec->image, sizeof spec->image);
+        if (spec->finish[0])
+            texture_args_frame_name(cli, frame, spec->finish, sizeof spec->finish);
     }
 }
 

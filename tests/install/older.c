@@ -123,7 +123,7 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     free(text);
     spec->access = access_of_all();
     printf("retex_texture_spec_needs_scale: %d\n", retex_texture_spec_needs_scale(spec));
-    CALL(retex_texture_file, &text, spec);
+    CALL(retex_texture_file, &text, spec, 0);
     free(text);
     CALL(retex_texture_load, &texture, spec, 1);
     retex_texture_close(&texture);

@@ -284,7 +284,7 @@ static void test_targets(void **state)
         {"WALL", RETEX_ENOTFOUND, "no target is called 'WALL'"},
         {"floor.scal", RETEX_EPARSE,
          "no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, "
-         "repeat, width, colorspace; is scale meant?"},
+         "repeat, width, colorspace, finish; is scale meant?"},
     };
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
         int target = 7;

@@ -144,7 +144,7 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
     test_must(retex_polynomial_open(&polynomial, set, samples, NULL, NULL, 1, 1, &err), &err);
     test_must(retex_polynomial_row_open(&row, &polynomial, &err), &err);
     test_must(retex_polynomial_row_make(&row, 0, &err), &err);
-    test_must(retex_estimate_row(&row, 0, rows, scratch, rgb, &err), &err);
+    test_must(retex_estimate_row(&row, 0, rows, rows, scratch, rgb, &err), &err);
     retex_polynomial_row_close(&row);
     retex_polynomial_close(&polynomial);
     free(scratch);

@@ -64,7 +64,7 @@ static char *find(const char *image, const RetexAccess *access, int *code)
     char *file = NULL;
     snprintf(spec.image, sizeof spec.image, "%s", image);
     spec.access = access;
-    *code = retex_texture_file(&file, &spec, &err);
+    *code = retex_texture_file(&file, &spec, RETEX_TEXTURE_FILE_IMAGE, &err);
     assert_int_equal(*code, err.code);
     assert_int_equal(!file, *code != 0);
     return file ? file : strdup(err.message);

@@ -77,7 +77,8 @@ static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthre
         return RETEX_OK;
     if (k == known->count) {
         strcpy(known->names[known->count++], spec.colorspace);
-        spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here */
+        spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here, */
+        spec.finish[0] = '\0';             /* nor what it has to choose from */
         spec.warn = NULL;                  /* warnings come when it is loaded for its picture */
         known->codes[k] = retex_texture_load(&texture, &spec, nthreads, &known->errors[k]);
         retex_texture_close(&texture);
@@ -92,7 +93,7 @@ static int check_image(const RetexTextureSpec *spec, const RetexReadParams *para
     char meant[RETEX_MEANT_SIZE], *file = NULL;
     int code = texture_args_add_input(spec, err);
     if (!code)
-        code = retex_texture_file(&file, spec, err);
+        code = retex_texture_file(&file, spec, RETEX_TEXTURE_FILE_IMAGE, err);
     if (code)
         return code;
     code = retex_image_read_check(file, params, err);
@@ -101,6 +102,31 @@ static int check_image(const RetexTextureSpec *spec, const RetexReadParams *para
     if (code == RETEX_EIO)
         snprintf(err->message + used, sizeof err->message - used, "%s", retex_color_meant(spec->image, meant));
     return code;
+}
+
+/* Maps of finishes: rows that name one that cannot be read have its mistake. */
+static void check_maps(Batch *batch, const RetexReadParams *params)
+{
+    TextureTable *table = &batch->table;
+    RetexTextureSpec spec, last = RETEX_TEXTURE_SPEC_INIT;
+    RetexError err = {0};
+    const char *name;
+    for (int row = 0; row < table->nrows; row++)
+        for (int column = 0; column < table->ncolumns; column++) {
+            char *file = NULL;
+            if (texture_table_texture(table, row, column, &spec, &name) || !spec.finish[0] ||
+                retex_texture_file(&file, &spec, RETEX_TEXTURE_FILE_FINISH, NULL) || !file)
+                continue;
+            if (strcmp(last.finish, spec.finish) != 0) {
+                err = (RetexError){0};
+                if (!texture_args_add_input(&spec, &err))
+                    retex_image_read_check(file, params, &err);
+                last = spec;
+            }
+            if (err.code)
+                note(table, row, &err);
+            free(file);
+        }
 }
 
 /* Each image is read once; all rows that name it have its mistake. */
@@ -129,6 +155,7 @@ static void check_images(Batch *batch)
         else if (!unreadable && check_colorspace(known, spec, batch->cli->threads, &err))
             note(table, images[i].row, &err);
     }
+    check_maps(batch, &read_params);
     free(known);
     free(images);
 }

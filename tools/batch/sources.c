@@ -70,25 +70,30 @@ static int close_text(FILE *file)
     return fclose(file) == 0 && !failed;
 }
 
-/* A texture as a cell of the table has it, and the checksum of its file, which of a folder is its base colour. The name
- * may have options: `room.retex?Floor=…`. */
+/* A texture as a cell of the table has it, and the checksums of its files. The name may have options:
+ * `room.retex?Floor=…`. */
 static int print_texture(FILE *out, SourceSums *sums, const RetexTextureSpec *s, RetexError *err)
 {
-    char *options = NULL, image[sizeof s->image], text[4 * sizeof s->image], *file;
-    const char *sum = "";
-    int code = retex_texture_file(&file, s, err);
-    if (file && strchr(file, '?') && access(file, F_OK) != 0)
-        *strchr(file, '?') = '\0';
-    if (file)
-        code = sum_file(&sum, sums, file, s->access, err);
-    free(file);
+    char *options = NULL, image[sizeof s->image], text[4 * sizeof s->image], all[128] = "";
+    int code = RETEX_OK;
+    for (int k = 0; k < RETEX_TEXTURE_FILES && !code; k++) {
+        const char *sum;
+        char *file;
+        code = retex_texture_file(&file, s, k, err);
+        if (file && strchr(file, '?') && access(file, F_OK) != 0)
+            *strchr(file, '?') = '\0';
+        if (file)
+            code = sum_file(&sum, sums, file, s->access, err);
+        if (file && !code)
+            snprintf(all + strlen(all), sizeof all - strlen(all), " %s", sum);
+        free(file);
+    }
     if (!code)
         code = retex_edit_options_text(s, &options, err);
     if (code)
         return code;
     retex_edit_image_text(s, image, sizeof image);
-    snprintf(text, sizeof text, "%s%s%s%s%s%s", *options ? ":" : "", options, *options ? " " : "", image,
-             s->constant ? "" : " ", sum);
+    snprintf(text, sizeof text, "%s%s%s%s%s", *options ? ":" : "", options, *options ? " " : "", image, all);
     json_text(out, text);
     free(options);
     return RETEX_OK;

@@ -73,22 +73,7 @@ void job_check_output(const Cli *cli, const Job *job)
 
 int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err)
 {
-    const RetexSet *set = job->set;
-    RetexTexture *textures[RETEX_MAX_TARGETS];
-    RetexTextureSpec colors[RETEX_MAX_TARGETS];
-    for (int i = 0; i < count; i++) {
-        const int t = retex_set_find_target(set, specs[i].target);
-        if (t >= 0 && retex_texture_spec_needs_scale(&specs[i]) && !(retex_set_target(set, t)->uv_scale[0] > 0))
-            return retex_fail(err, RETEX_EINVAL,
-                              "the size of target %s is not known: width= cannot be used on it, only scale=",
-                              retex_set_target(set, t)->name);
-        colors[i] = specs[i];
-        colors[i].constant = 1;
-        colors[i].warn = NULL; /* warnings come when it is loaded for the picture */
-    }
-    int code = retex_textures_load(textures, set, colors, count, 1, err);
-    retex_textures_close(textures);
-    return code;
+    return retex_textures_check(job->set, specs, count, err);
 }
 
 int job_light(Job *job, const RetexEdit *lights, RetexError *err)

@@ -115,7 +115,7 @@ static int find_in_folder(const Images *images, const char *name, char *path, si
     const char *folder = images->params.folder;
     spec.access = images->params.access;
     if (!folder || (size_t)snprintf(spec.image, sizeof spec.image, "%s/%s", folder, name) >= sizeof spec.image ||
-        retex_texture_file(&file, &spec, NULL))
+        retex_texture_file(&file, &spec, RETEX_TEXTURE_FILE_IMAGE, NULL))
         return -1;
     const int found = strlen(file) < size && file_id_of(id, file) == 0 &&
                       retex_access_check(images->params.access, "", file) == RETEX_ACCESS_ALLOWED;

@@ -180,21 +180,22 @@ static int take_images(const Site *site, const ServeRequest *request, double dea
     return code;
 }
 
-/* Put on the targets what a request says. With a colour for each image all are checked first. */
+/* Put on the targets what a request says. */
 static int place_textures(const ServeRequest *request, const RetexSet *set, Textures *textures, RetexError *err)
 {
     RetexTextureSpec colors[RETEX_MAX_TARGETS];
-    for (int i = 0; i < request->nspecs; i++) {
-        colors[i] = request->specs[i];
-        colors[i].constant = 1;
-    }
-    int code = retex_textures_load(textures->textures, set, colors, request->nspecs, 1, err);
+    int ncolors = 0;
+    for (int i = 0; i < request->nspecs; i++)
+        if (request->specs[i].constant)
+            colors[ncolors++] = request->specs[i];
+    int code = retex_textures_check(set, request->specs, request->nspecs, err);
+    if (!code)
+        code = retex_textures_load(textures->textures, set, colors, ncolors, 1, err);
     for (int i = 0; i < request->nspecs && !code; i++) {
         const RetexTextureSpec *spec = &request->specs[i];
         RetexTexture **texture = &textures->textures[retex_set_find_target(set, spec->target)];
         if (spec->constant)
             continue;
-        retex_texture_close(texture);
         code = images_place(textures->images[i], set, spec, texture, err);
     }
     return code;

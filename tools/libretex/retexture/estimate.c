@@ -11,8 +11,9 @@
  * s_f: the fraction of that noise which remains, because the samples of a pixel are stratified over surfaces that are
  * seen sharply; k_f: the correlation of light and texture beyond noise. s_f and k_f were measured for each kind of
  * footprint in the scenes of tests/fidelity/error.sh. F is what light with more hits than the set keeps may be off by:
- * a tenth of what the factors of quantity FURTHER change, or without them all of it, folded I. The formula is in
- * estimate_row.c; here the variance of the texture is computed, row by row. */
+ * a tenth of what the factors of quantity FURTHER change, or without them all of it, folded I. Where the texture
+ * has a map of finishes, the finish varies within footprints as the colour does, and F has what gates and later hits may
+ * be off by, too. The formula is in estimate_row.c; here the variance of the texture is computed, row by row. */
 #include <stdlib.h>
 
 #include <retex/combine.h>
@@ -34,6 +35,7 @@ typedef struct Estimate {
 typedef struct Scatter {
     float *scratch;
     const float **variances; /* by footprint: points into rows, or NULL: 0 */
+    const float **means;     /* by footprint, for maps of finishes: points behind the variances */
     float **rows;
     int *at; /* by footprint: 1 + the row, at the footprint's own size, that is loaded */
 } Scatter;
@@ -44,6 +46,7 @@ static void close_scatter(Scatter *s, const RetexSet *set)
         free(s->rows[f]);
     free(s->rows);
     free(s->variances);
+    free(s->means);
     free(s->at);
     free(s->scratch);
 }
@@ -52,8 +55,8 @@ static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
 {
     const size_t count = (size_t)set->nfootprints + 1;
     *s = (Scatter){malloc(sizeof *s->scratch * retex_estimate_scratch(set)), calloc(count, sizeof *s->variances),
-                   calloc(count, sizeof *s->rows), calloc(count, sizeof *s->at)};
-    if (s->scratch && s->variances && s->rows && s->at)
+                   calloc(count, sizeof *s->means), calloc(count, sizeof *s->rows), calloc(count, sizeof *s->at)};
+    if (s->scratch && s->variances && s->means && s->rows && s->at)
         return RETEX_OK;
     return retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
 }
@@ -72,13 +75,17 @@ static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRo
         return RETEX_OK;
     int code = retex_footprint_row_read(&from, row->reader, set, f, own, 0, err);
     float **to = &s->rows[footprint];
-    if (!code && !*to && !(*to = malloc(sizeof **to * 3 * (size_t)from.width)))
+    const size_t numbers = 3 * (size_t)from.width, rows = retex_texture_has_finishes(texture) ? 2 : 1;
+    if (!code && !*to && !(*to = malloc(sizeof **to * rows * numbers)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
     if (code)
         return code;
     if (from.uv)
         retex_variance_row(texture, estimate->squares[f->target], retex_footprint_filter(set, f), &from, *to);
+    if (from.uv && rows > 1)
+        retex_sample_row(texture, retex_footprint_filter(set, f), &from, *to + numbers);
     s->variances[footprint] = from.uv ? *to : NULL;
+    s->means[footprint] = from.uv && rows > 1 ? *to + numbers : NULL;
     s->at[footprint] = own + 1;
     return RETEX_OK;
 }
@@ -93,7 +100,7 @@ static int estimate_strip(const void *context, RetexPolynomialRow *row, int y0, 
         for (int f = 0; !code && f < set->nfootprints; f++)
             code = look_up(&scatter, context, row, f, y, err);
         if (!code)
-            code = retex_estimate_row(row, y, scatter.variances, scatter.scratch, rgb, err);
+            code = retex_estimate_row(row, y, scatter.variances, scatter.means, scatter.scratch, rgb, err);
     }
     close_scatter(&scatter, set);
     return code;

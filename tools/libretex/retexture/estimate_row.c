@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "retexture/polynomial_factors.h"
+#include "retexture/polynomial_finishes.h"
 #include "set/set.h"
 
 /* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
@@ -20,10 +21,43 @@ static size_t row_numbers(const RetexSet *set)
     return 3 * (size_t)set->width;
 }
 
+/* ---- what there are derivatives by ----
+ *
+ * Rows of derivatives: of footprints and mixtures; where targets have finishes, of these with each finish, and of gates;
+ * behind them, by target and finish, light that meets the target again. */
+
+static int texture_count(const RetexSet *set)
+{
+    return set->nfootprints + set->nmixtures;
+}
+
+static int first_gate(const RetexSet *set)
+{
+    return texture_count(set) * (1 + RETEX_FINISHES_MAX);
+}
+
+static int first_later(const RetexSet *set)
+{
+    return first_gate(set) + RETEX_MAX_TARGETS * RETEX_FINISHES_MAX;
+}
+
+static int row_count(const RetexSet *set)
+{
+    return retex_set_has_finishes(set) ? first_later(set) + RETEX_MAX_TARGETS * RETEX_FINISHES_MAX : texture_count(set);
+}
+
+/* The row of a slot, or -1: further hits and images do not vary. Slots of textures come first; further hits follow, then
+ * what has finishes, in the order of rows. */
+static int derivative_row(const RetexSet *set, int slot)
+{
+    const int textures = texture_count(set), others = textures + set->nparts + textures;
+    return slot < textures ? slot : slot >= others ? slot - others + textures : -1;
+}
+
 size_t retex_estimate_scratch(const RetexSet *set)
 {
-    /* the sum and the change by further hits first */
-    return row_numbers(set) * (2 + (size_t)set->nfootprints + (size_t)set->nmixtures);
+    /* the sum and the change by further hits first; last what gates need: weights by finish, and scratch */
+    return row_numbers(set) * (2 + (size_t)row_count(set) + RETEX_FINISHES_MAX + 3);
 }
 
 /* The product of a monomial's factors of quantity FURTHER at a number of its row. */
@@ -36,36 +70,62 @@ static float further_factor(const RetexSet *set, const RetexMonomial *m, size_t 
     return product;
 }
 
-/* Adds the derivatives of one term to those of the row, which are by slot, and the term itself to its sum, and to
- * `change` what further hits change in it. Slots of footprints and mixtures come first. */
-static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
-                     float *restrict change, float *restrict derivatives)
+/* Adds light that meets a target with a map more than once. */
+static void add_later(const RetexSet *set, const RetexMonomial *m, const int rows[], size_t n, const float *light,
+                      float *restrict derivatives)
 {
-    const int textures = set->nfootprints + set->nmixtures;
+    int hits = 0;
+    for (int k = 0; k < m->nfactors; k++)
+        hits += rows[k] >= 0 && rows[k] < first_gate(set);
+    for (int k = 0; k < m->nfactors && hits > 1; k++) {
+        const RetexFactor factor = retex_polynomial_factor(set, m->slots[k]);
+        const int finish = retex_quantity_finish(factor.quantity);
+        if (finish < 0)
+            continue;
+        const int of = factor.kind == RETEX_FACTOR_FOOTPRINT ? factor.index
+                                                             : set->mixtures[factor.index].shares[0].footprint;
+        const int target = factor.kind == POLYNOMIAL_GATE ? factor.index : set->footprints[of].target;
+        float *to = derivatives + (size_t)(first_later(set) + target * RETEX_FINISHES_MAX + finish) * n;
+        for (size_t i = 0; i < n; i++)
+            to[i] += light[i];
+    }
+}
+
+/* Adds the derivatives of one term to those of the row, and the term itself to its sum, and to `change` what further
+ * hits change in it. light: scratch of n numbers. */
+static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
+                     float *restrict change, float *restrict derivatives, float *restrict light)
+{
+    int rows[RETEX_MAX_FACTORS + 1];
+    for (int k = 0; k < m->nfactors; k++)
+        rows[k] = derivative_row(set, m->slots[k]);
     for (size_t i = 0; i < n; i++) {
         float radiance = m->radiance[i];
+        light[i] = 0;
         for (int k = 0; k < m->nfactors; k++)
-            if (m->slots[k] >= textures)
+            if (rows[k] < 0)
                 radiance *= m->factors[k][i];
         if (radiance == 0)
             continue;
         for (int k = 0; k < m->nfactors; k++) {
             float others = radiance;
-            if (m->slots[k] >= textures)
+            if (rows[k] < 0)
                 continue;
             for (int j = 0; j < m->nfactors; j++)
-                if (j != k && m->slots[j] < textures)
+                if (j != k && rows[j] >= 0)
                     others *= m->factors[j][i];
-            derivatives[(size_t)m->slots[k] * n + i] += others;
+            derivatives[(size_t)rows[k] * n + i] += others;
         }
         for (int k = 0; k < m->nfactors; k++)
-            if (m->slots[k] < textures)
+            if (rows[k] >= 0)
                 radiance *= m->factors[k][i];
-        sum[i] += radiance;
+        sum[i] += light[i] = radiance;
         const float further = further_factor(set, m, i);
         if (further > 0)
             change[i] += radiance - radiance / further;
     }
+    if (retex_set_has_finishes(set))
+        add_later(set, m, rows, n, light, derivatives);
 }
 
 /* A row of a part for row y of the picture; the part may be reduced. */
@@ -124,46 +184,109 @@ static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *
     return RETEX_OK;
 }
 
-/* Adds the error that the variance of a footprint's texture causes. */
-static int add_footprint(const RetexPolynomialRow *row, const RetexFootprint *f, int y, size_t n,
-                         const float *variances, const float *restrict derivatives, float *restrict sum,
-                         RetexError *err)
+/* ---- the error ---- */
+
+/* A map of finishes in a row: weights of each, RGB, and light that meets the target again. */
+typedef struct RowMap {
+    int count;
+    const float *weights[RETEX_FINISHES_MAX];
+} RowMap;
+
+/* The mean of n numbers, and their variance, by the weights of finishes at a number of the row. */
+static float mean_of(const RowMap *map, const float values[RETEX_FINISHES_MAX], size_t i, float *variance)
 {
+    float mean = 0, square = 0;
+    for (int k = 0; k < map->count; k++) {
+        mean += map->weights[k][i] * values[k];
+        square += map->weights[k][i] * values[k] * values[k];
+    }
+    *variance = fmaxf(square - mean * mean, 0);
+    return mean;
+}
+
+/* Adds the error that the variance of a footprint's texture causes, and that of the finish within it. means: of the
+ * texture, as `variances`. */
+static int add_footprint(const RetexPolynomialRow *row, int footprint, int y, size_t n, const RowMap *map,
+                         const float *variances, const float *means, const float *restrict derivatives,
+                         float *restrict sum, RetexError *err)
+{
+    const RetexSet *set = row->polynomial->set;
+    const RetexFootprint *f = &set->footprints[footprint];
+    const size_t textures = (size_t)texture_count(set);
     const float k = agreement[f->kind], s = chance[f->kind];
     PartRow uv;
     int code = read_part(&uv, row, f->uv, y, err);
-    const PartRow variance = {variances, uv.scale, 3};
+    const PartRow variance = {variances, uv.scale, 3}, mean = {means, uv.scale, 3};
     for (size_t i = 0; !code && i < n; i++) {
-        const float d = derivatives[i];
-        const int x = (int)(i / 3);
+        const int x = (int)(i / 3), c = (int)(i % 3);
+        float d = derivatives[(size_t)footprint * n + i], by_finish[RETEX_FINISHES_MAX], scatter = 0;
+        for (int q = 0; q < map->count; q++)
+            by_finish[q] = derivatives[((size_t)(1 + q) * textures + (size_t)footprint) * n + i];
+        d += mean_of(map, by_finish, i, &scatter);
         if (d == 0)
             continue;
-        const float paths = value_at(&uv, x, 2) * (float)row->polynomial->set->spp;
-        sum[i] += d * d * value_at(&variance, x, (int)(i % 3)) * (k * k + s / fmaxf(paths, 1));
+        const float paths = value_at(&uv, x, 2) * (float)set->spp, a = map->count ? value_at(&mean, x, c) : 0;
+        sum[i] += (d * d * value_at(&variance, x, c) + a * a * scatter) * (k * k + s / fmaxf(paths, 1));
     }
     return code;
 }
 
-int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, float *scratch, float *out,
-                       RetexError *err)
+/* Adds the error of gates, whose footprints agree with their light as broad ones do, and that of later hits, which have
+ * the finish of the first: with factors f_k, the mean of f_k f_k stands for that of f_k f_l, and differs from it by the
+ * variance of f_k. */
+static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *map, const float *restrict derivatives,
+                      float *restrict sum)
 {
-    const RetexSet *set = row->polynomial->set;
-    const size_t n = row_numbers(set);
-    float *sum = scratch, *change = scratch + n, *derivatives = scratch + 2 * n;
+    const size_t gate = (size_t)(first_gate(set) + target * RETEX_FINISHES_MAX),
+                 later = (size_t)(first_later(set) + target * RETEX_FINISHES_MAX);
+    const float k = agreement[RETEX_FOOTPRINT_BROAD];
+    for (size_t i = 0; i < n; i++) {
+        float of_gate[RETEX_FINISHES_MAX], of_later[RETEX_FINISHES_MAX], scatter, bias;
+        for (int q = 0; q < map->count; q++) {
+            of_gate[q] = derivatives[(gate + (size_t)q) * n + i];
+            const float light = derivatives[(later + (size_t)q) * n + i], weight = map->weights[q][i];
+            of_later[q] = light > 0 && weight > 0 ? sqrtf(light / weight) : 0;
+        }
+        mean_of(map, of_gate, i, &scatter);
+        mean_of(map, of_later, i, &bias);
+        sum[i] += k * k * scatter + bias * bias;
+    }
+}
+
+int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, const float *const *means,
+                       float *scratch, float *out, RetexError *err)
+{
+    const RetexPolynomial *p = row->polynomial;
+    const RetexSet *set = p->set;
+    const size_t n = row_numbers(set), textures = (size_t)texture_count(set);
+    float *sum = scratch, *change = scratch + n, *derivatives = scratch + 2 * n,
+          *weights = derivatives + (size_t)row_count(set) * n, *rest = weights + RETEX_FINISHES_MAX * n;
     int code = RETEX_OK;
     memset(scratch, 0, sizeof *scratch * retex_estimate_scratch(set));
     for (int t = 0; t < row->count; t++)
-        add_term(set, &row->monomials[t], n, sum, change, derivatives);
-    for (int m = 0; m < set->nmixtures && !code; m++)
-        code = share_derivatives(row, &set->mixtures[m], y, n, derivatives + (size_t)(set->nfootprints + m) * n,
-                                 derivatives, err);
+        add_term(set, &row->monomials[t], n, sum, change, derivatives, rest);
+    for (size_t q = 0; q < (retex_set_has_finishes(set) ? 1 + RETEX_FINISHES_MAX : 1); q++)
+        for (int m = 0; m < set->nmixtures && !code; m++)
+            code = share_derivatives(row, &set->mixtures[m], y, n,
+                                     derivatives + (q * textures + (size_t)(set->nfootprints + m)) * n,
+                                     derivatives + q * textures * n, err);
     for (size_t i = 0; i < n; i++) {
         const float doubtful = set->further_hits ? doubt * change[i] : (float)set->folded * sum[i];
         sum[i] = doubtful * doubtful;
     }
-    for (int f = 0; f < set->nfootprints && !code; f++)
-        if (variances[f])
-            code = add_footprint(row, &set->footprints[f], y, n, variances[f], derivatives + (size_t)f * n, sum, err);
+    for (int t = 0; t < set->ntargets && !code; t++) {
+        RowMap map = {.count = p->mapped[t]};
+        float *rows[RETEX_FINISHES_MAX];
+        for (int k = 0; k < map.count; k++)
+            map.weights[k] = rows[k] = weights + (size_t)k * n;
+        if (map.count)
+            code = retex_polynomial_gate_rows(p, row->reader, t, y, rest, rows, err);
+        if (map.count && !code)
+            add_gates(set, t, n, &map, derivatives, sum);
+        for (int f = 0; f < set->nfootprints && !code; f++)
+            if (variances[f] && set->footprints[f].target == t)
+                code = add_footprint(row, f, y, n, &map, variances[f], means[f], derivatives, sum, err);
+    }
     for (size_t i = 0; i < n; i++)
         out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives of large colours may overflow to
                                                                  infinity and NaN */

@@ -10,6 +10,7 @@
 #include "retexture/textures.h"
 #include "set/manifest.h"
 #include "set/parts.h"
+#include "texture/folder.h"
 #include "texture/pyramid.h"
 
 typedef struct Loading {
@@ -155,6 +156,31 @@ int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, con
     return retex_texture_place(placed, texture, &own, err);
 }
 
+static int check_needs(const RetexTarget *target, const RetexTextureSpec *spec, RetexError *err)
+{
+    if (retex_texture_spec_needs_scale(spec) && !(target->uv_scale[0] > 0))
+        return retex_fail(err, RETEX_EINVAL,
+                          "the size of target %s is not known: width= cannot be used on it, only scale=",
+                          target->name);
+    if (spec->finish[0] && strcmp(spec->finish, RETEX_NO_FINISH_MAP) != 0 && !target->nfinishes)
+        return retex_fail(err, RETEX_EINVAL,
+                          "%s has no finishes to choose from: finish= cannot be used on it; render the set with "
+                          "--finish %s=NAME,NAME",
+                          target->name, target->name);
+    return RETEX_OK;
+}
+
+int retex_textures_check(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, RetexError *err)
+{
+    Loading loading = {.set = set, .nspecs = nspecs};
+    int code = retex_texture_specs_copy(loading.specs, specs, nspecs, err);
+    if (!code)
+        code = find_targets(&loading, err);
+    for (int i = 0; i < nspecs && !code; i++)
+        code = check_needs(&set->targets[loading.target[i]], &loading.specs[i], err);
+    return code ? code : check_footprints(&loading, err);
+}
+
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
 {
     for (int i = 0; i < RETEX_MAX_TARGETS; i++)
@@ -170,6 +196,6 @@ int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSe
     if (!code)
         code = find_targets(&loading, err);
     if (!code)
-        code = check_footprints(&loading, err);
+        code = retex_textures_check(set, specs, nspecs, err);
     return code ? code : load_textures(&loading, nthreads, err);
 }

@@ -464,18 +464,23 @@ int retex_texture_folder_find(RetexFolderFiles *files, const char *image, const 
     return code;
 }
 
-int retex_texture_file(char **file, const RetexTextureSpec *given, RetexError *err)
+int retex_texture_file(char **file, const RetexTextureSpec *given, int number, RetexError *err)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexFolderFiles files;
     *file = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
+    if (number == RETEX_TEXTURE_FILE_FINISH && spec.finish[0]) {
+        *file = strcmp(spec.finish, RETEX_NO_FINISH_MAP) == 0 ? NULL : strdup(spec.finish);
+        return RETEX_OK;
+    }
     if (spec.constant)
         return RETEX_OK;
-    const int code = retex_texture_folder_find(&files, spec.image, spec.access, 0, err);
-    *file = files.color;
-    files.color = NULL;
+    const int code = retex_texture_folder_find(&files, spec.image, spec.access, 1, err);
+    char **found = number == RETEX_TEXTURE_FILE_FINISH ? &files.roughness : &files.color;
+    *file = *found;
+    *found = NULL;
     retex_texture_folder_files_free(&files);
     return code;
 }

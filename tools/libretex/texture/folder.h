@@ -14,6 +14,8 @@ typedef struct RetexFolderFiles {
     char *unused;      /* what else the folder has and nobody uses, one line; NULL where there is nothing */
 } RetexFolderFiles;
 
+#define RETEX_NO_FINISH_MAP "none" /* as RetexTextureSpec.finish */
+
 int retex_texture_folder_find(RetexFolderFiles *files, const char *image, const RetexAccess *access,
                               int wants_roughness, RetexError *err);
 void retex_texture_folder_files_free(RetexFolderFiles *files);

@@ -19,7 +19,6 @@
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
-#define NO_FINISH_MAP "none"
 #define LEAST_ALPHA 1e-20f            /* alpha below this has no colour that a float can hold */
 /* A footprint of a thousand repeats gives the average, whatever its size; larger sizes only lose digits. */
 #define MAX_FOOTPRINT 1000.0
@@ -367,7 +366,7 @@ static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, c
         return retex_finish_map_make(texture, color, files->roughness,
                                      files->is_gloss ? RETEX_FINISH_BY_GLOSS : RETEX_FINISH_BY_ROUGHNESS,
                                      files->channel, nthreads, err);
-    if (!own->finish[0] || strcmp(own->finish, NO_FINISH_MAP) == 0)
+    if (!own->finish[0] || strcmp(own->finish, RETEX_NO_FINISH_MAP) == 0)
         return RETEX_OK;
     if (own->nfinishes < 2)
         return retex_fail(err, RETEX_EINVAL, "%s has no finishes to choose from: finish= cannot be used on it",

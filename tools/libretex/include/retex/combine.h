@@ -35,6 +35,8 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
  * most once; the set must hold these targets' footprints. To be closed by the caller, also after a failure. */
 int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
                         int nspecs, int nthreads, RetexError *err);
+/* Check textures against a set before anything is read: their targets and what they need of them. */
+int retex_textures_check(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, RetexError *err);
 /* Put a texture that was loaded for a target of another set on this target, without reading it again. */
 int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, RetexError *err);
 /* Put the image of a texture on a target in another way: *placed has the placement of spec, whose target it names, and

@@ -96,10 +96,14 @@ typedef struct RetexTexture RetexTexture;
  * luminance or a channel above 3, of a constant by any channel; and which other maps a folder has, which are not
  * used. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
-/* The file that retex_texture_load would read now: the image itself, or where it is a folder, the file of its base
- * colour, by the rules of retex-edit(5). For checksums and times of files, and for all that must know what is read. To
- * be freed; NULL for a constant. RETEX_EFORMAT for a folder that has no base colour, or several. */
-int retex_texture_file(char **file, const RetexTextureSpec *spec, RetexError *err);
+/* The files of a texture, by number: the image, and the map of its target's finishes. */
+enum { RETEX_TEXTURE_FILE_IMAGE, RETEX_TEXTURE_FILE_FINISH, RETEX_TEXTURE_FILES };
+/* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the file
+ * of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which is read
+ * where the target has finishes. For checksums and times of files, and for all that must know what is read. To be freed;
+ * NULL where there is none, as the image of a constant. RETEX_EFORMAT for a folder that has no base colour, or
+ * several. */
+int retex_texture_file(char **file, const RetexTextureSpec *spec, int number, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
