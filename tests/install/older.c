@@ -127,6 +127,7 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     free(text);
     CALL(retex_texture_load, &texture, spec, 1);
     retex_texture_close(&texture);
+    CALL(retex_textures_check, set, specs, 2);
     CALL(retex_textures_load, textures, set, specs, 2, 1);
     CALL(retex_textures_place, &texture, textures[0], set, spec);
     retex_texture_close(&texture);
