@@ -13,7 +13,7 @@ $ for s in .25:g0:red .75:red:g1; do retex-combine -q full.exr --texture:finish=
 # The map of two halves of a texture: as a scene with a pattern of both finishes, and as the same paths with the map.
 $ printf '#declare Retex = 1;\n' >e.pov; sed 's/plane { y, 0 texture { Floor } }/#declare P = pigment { rgb <.3,.7,.2> }; plane { y, 0 texture { checker texture { P finish { retex { roughness 0.85 } } } texture { P finish { retex { roughness 0.08 } } } scale 0.5 } }/' room.pov >>e.pov; retex-render -q --size 48x36 --spp 2048 --seed 9 --plain e.pov -o truth.exr; printf 'exec retex-render -q --size 48x36 --finish Floor=matt,polished -t Floor room.pov "$@"' >h; sh h --spp 512 -o half.exr; for s in '' :rotate=90; do retex-combine -q half.exr --texture:finish=map.png:scale=.5$s 'Floor=rgb(.3,.7,.2)' -o c$s.exr; done; sh h --plain --spp 512 --replace:finish=map.png:scale=.5 'Floor=rgb(.3,.7,.2)' -o p.exr; for i in p c; do sh near $i.exr truth.exr 36; done; sh near c.exr p.exr 40; sh near c:rotate=90.exr truth.exr 36
 > c:rotate=90.exr truth.exr 36
-$ retex-combine -q half.exr --texture:finish=map.png:scale=.5 'Floor=rgb(.3,.7,.2)' -o c.exr --error e.exr; retex-combine -q half.exr --finish Floor=polished --texture 'Floor=rgb(.3,.7,.2)' -o d.exr --error n.exr; oiiotool e.exr n.exr --sub -o x.exr; oiiotool --stats x.exr | awk '/Min:/ { print ($3 > -1e-4 ? "no less" : $0) } /Max:/ { print ($3 > 1e-3 ? "more where the finish varies" : $0) }'
+$ retex-combine -q half.exr --texture:finish=map.png:scale=.5 'Floor=rgb(.3,.7,.2)' -o c.exr --error e.exr; retex-combine -q half.exr --finish Floor=polished --texture 'Floor=rgb(.3,.7,.2)' -o d.exr --error n.exr; oiiotool e.exr n.exr --sub -o more.exr; oiiotool --stats more.exr | awk '/Min:/ { print ($3 > -1e-4 ? "no less" : $0) } /Max:/ { print ($3 > 1e-3 ? "more where the finish varies" : $0) }'
 > no less
 > more where the finish varies
 
@@ -42,4 +42,9 @@ $ oiiotool --pattern constant:color=.4,.4,.4 8x8 3 -d float -o oak/oak_rough_1k.
 $ retex-combine four.exr --texture:finish=gone.png Floor=brick.jpg -o x.exr; retex-combine four.exr --texture:finish= Floor=brick.jpg -o x.exr; retex-combine set.exr --texture:finish=map.png Wall=brick.jpg -o x.exr; retex-combine four.exr --texture:finish=room.pov Floor=brick.jpg -o x.exr; printf 'output,Floor\nx.exr,:finish=gone.png brick.jpg\ny.exr,brick.jpg\n' >t.csv; retex-combine four.exr --batch t.csv; sh r --replace:finish=map.png Floor=brick.jpg -o x.exr; retex-combine four.exr --texture:finish=map.png Floor=brick.jpg -o map.png; test -e x.exr || test -e y.exr
 ! retex-combine: error: cannot read gone.png: No such file or directory
 ! retex-combine: error: texture option finish='': expected a picture without a colon in its name, as in finish=gloss.png, or none
+! retex-combine: error: Wall has no finishes to choose from: finish= cannot be used on it; render the set with --finish Wall=NAME,NAME
+! retex-combine: error: room.pov: cannot read: OpenImageIO could not find a format reader for "room.pov". Is it a file format that OpenImageIO doesn't know about?
+! retex-combine: error: t.csv:2: cannot read gone.png: No such file or directory
+! retex-render: error: Floor has no finishes to choose from: finish= cannot be used on it
+! retex-combine: error: map.png: the output would replace the texture
 = 1
