@@ -19,6 +19,9 @@ static const CliOption options[] = {
     {"depth", 0, "8|16", "bits of a PNG, TIFF or other file of integers; default 8, of TIFF and DPX 16", 0},
     {"cross", 0, "0|2|3", "use cross terms of paths with at most this many hits; default 3", 0},
     {"error", 0, "FILE.exr", "write the expected error against a new render, per pixel", 0},
+    {"solve", 0, "FILE", "print which colours, lamps and finishes come nearest to a picture, or to a colour", 0},
+    {"free", 0, "LIST", "with --solve: what is sought, as TARGET,light:LAMP,color:LAMP,finish:TARGET", 0},
+    {"region", 0, "X,Y,W,H", "with --solve: only this part of the picture counts", 0},
     {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0},
     {"memory", 0, "SIZE", "with --batch: keep the set and samples in memory if they take at most SIZE; default 2048 MB",
      0},
@@ -71,6 +74,12 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--cross: expected 0, 2 or 3; one hit has no cross terms");
         } else if (strcmp(option->name, "error") == 0) {
             job->error = cli->value;
+        } else if (strcmp(option->name, "solve") == 0) {
+            job->solve = cli->value;
+        } else if (strcmp(option->name, "free") == 0) {
+            job->unknowns = cli->value;
+        } else if (strcmp(option->name, "region") == 0) {
+            job_take_region(cli, job);
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_size(cli, option);
         } else if (strcmp(option->name, "batch") == 0) {
@@ -101,6 +110,12 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--error and --batch exclude each other");
     if (job->error && !job->textures.count)
         cli_die(cli, "--error needs the textures: name them with --texture");
+    if (!job->solve && (job->unknowns || job->region[2]))
+        cli_die(cli, "--free and --region belong to --solve");
+    if (job->solve && (job->table || job->frames.step || job->error))
+        cli_die(cli, "--solve excludes --batch, --frames and --error");
+    if (job->solve && cli->output && strcmp(cli->output, "-") == 0)
+        cli_die(cli, "with --solve, standard output has what is found: name a file with -o");
     if (job->write.colorspace && (job->write.display || job->write.view))
         cli_die(cli, "--colorspace excludes --display and --view");
 }
@@ -149,7 +164,7 @@ int main(int argc, char **argv)
     parse(&cli, &job);
     if (!job.frames.step && job_check_samples(&cli, &job, &err))
         cli_fail(&cli, &err);
-    job.output = job.table ? NULL : cli_output(&cli);
+    job.output = job.table ? NULL : job.solve ? cli.output : cli_output(&cli);
     warn_display(&cli, &job);
     if (job.frames.step) {
         job_check_frames(&cli, &job);
@@ -160,7 +175,9 @@ int main(int argc, char **argv)
         job_check_output(&cli, &job);
     if (job_open(&cli, &job, &err))
         cli_fail(&cli, &err);
-    int status = job.table ? job_run_table(&cli, &job) : make_single(&cli, &job, began);
+    int status = job.table   ? job_run_table(&cli, &job)
+                 : job.solve ? job_solve(&cli, &job, began)
+                             : make_single(&cli, &job, began);
     job_close(&job);
     retex_edit_close(&job.lights);
     return cli_close(&cli, status);

@@ -37,6 +37,8 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_combine: ok
 > retex_image_write: ok
 > retex_texture_create: ok
+> retex_combine: ok
+> retex_solve: ok
 > retex_is_picture: 1
 > retex_set_read_light_groups: ./older.exr has no light groups: no layer Combined_NAME
 > retex_denoise_picture: ok

@@ -148,6 +148,17 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     retex_image_free(&picture);
 }
 
+static void call_solve(const RetexSet *set)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL};
+    RetexSolution *solution = NULL;
+    RetexImage picture = {0};
+    CALL(retex_combine, &picture, set, NULL, NULL, NULL, 1);
+    CALL(retex_solve, &solution, set, NULL, textures, &picture, OLDER(RetexSolveParams, RETEX_SOLVE_INIT), 1);
+    retex_solution_close(&solution);
+    retex_image_free(&picture);
+}
+
 /* Sets and packs into FOLDER. */
 static void call_sets(RetexSet *set, const char *folder)
 {
@@ -191,6 +202,7 @@ int main(int argc, char **argv)
     call_files(strchr(argv[2], '=') + 1, path);
     snprintf(path, sizeof path, "%s/older.exr", argv[3]);
     call_textures(set, argv[2], path);
+    call_solve(set);
     call_denoise_picture(path, argv[3]);
     call_sets(set, argv[3]);
     printf("%d files were opened\n", files_opened);

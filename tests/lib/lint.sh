@@ -35,12 +35,12 @@ forbid tools "renderer/|embree|$renderer_headers" "libretex and the tools must n
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
 forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|jpeglib|zip\.h' "the renderer knows libretex only"
-forbid renderer 'libretex/|bridge|(io|exr|picture|texture|set|edit|retexture|denoise|metrics|compact|pack|files)/' \
+forbid renderer 'libretex/|bridge|(io|exr|picture|texture|set|edit|retexture|solve|denoise|metrics|compact|pack|files)/' \
     "the renderer uses libretex's public headers only"
 forbid renderer 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "the renderer must not know the plugins"
 forbid tools 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "libretex and the tools must not know the plugins"
 forbid oiio_plugins \
-    'cli\.h|texture_args|texture_table|libretex/|(io|exr|picture|set|edit|retexture|denoise|metrics|compact|pack|files)/' \
+    'cli\.h|texture_args|texture_table|libretex/|(io|exr|picture|set|edit|retexture|solve|denoise|metrics|compact|pack|files)/' \
     "the plugins use libretex's public headers only"
 for file in renderer/*/*.[ch] renderer/*/*/*.[ch]; do
     [ -e "$file" ] || continue
@@ -74,7 +74,7 @@ rooms() { # directory rank:room…
         !($1 in rank) { print "no room " $1; next }
         rank[$2] >= rank[$1] { $1 = $2 = ""; print }' | sort -u
 }
-back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7:precision 8:retexture 9:denoise 9:metrics 9:compact \
+back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7:precision 8:retexture 9:solve 9:denoise 9:metrics 9:compact \
     10:pack 11:web 11:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
@@ -130,7 +130,7 @@ done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
 $unprefixed"
 
 # Each room's files are named in its section of the README, x.h by x.c.
-for room in base io exr picture texture set edit precision retexture denoise metrics compact pack web files; do
+for room in base io exr picture texture set edit precision retexture solve denoise metrics compact pack web files; do
     section=$(awk -v head="### $room" '/^##/ { inside = $0 == head } inside' tools/libretex/README.md)
     for file in tools/libretex/$room/*.[ch]; do
         name=${file##*/}

@@ -57,6 +57,7 @@ void job_announce(const Cli *cli, const Job *job)
     cli_reads(cli, "the set", job->set_path);
     cli_reads(cli, "the samples", job->samples_path);
     cli_reads(cli, "the table", job->table);
+    cli_reads(cli, "the picture of --solve", job->solve && !job_solve_is_color(job) ? job->solve : NULL);
     texture_args_reads(cli, job->textures.specs, job->textures.count);
     cli_writes(cli, "the output", job->output);
     cli_writes(cli, "--error", job->error);

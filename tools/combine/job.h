@@ -12,6 +12,8 @@
 typedef struct Job {
     const char *set_path, *samples_path, *table, *error;
     const char *output;
+    const char *solve, *unknowns; /* --solve, --free */
+    int region[4];                /* x, y, width, height; all 0: the picture */
     FrameRange frames;
     Batch batch;
     TextureArgs textures;
@@ -65,6 +67,15 @@ int job_try_picture(const Cli *cli, Job *job, const Row *row, const char *output
 int job_make(const Cli *cli, Job *job, KeptTextures *kept, double began, RetexError *err);
 /* Print one line of JSON about a picture that was made. */
 void job_report(const Cli *cli, const char *output, double began, int done, int total);
+
+/* ---- solve.c ---- */
+
+/* 1: the picture of --solve is a colour. */
+int job_solve_is_color(const Job *job);
+/* Parse --region. */
+void job_take_region(const Cli *cli, Job *job);
+/* --solve: find what is free, print it, and write the picture if there is an output; return the exit status. */
+int job_solve(const Cli *cli, Job *job, double began);
 
 /* ---- table.c, frames.c ---- */
 

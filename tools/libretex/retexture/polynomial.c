@@ -28,7 +28,7 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
     }
     for (int t = 0; t < set->ntargets; t++)
         count += p->edited[t];
-    const int corrected = !p->apart && p->cross == ALL_CROSS_TERMS;
+    const int corrected = p->apart != 1 && p->cross == ALL_CROSS_TERMS;
     p->lamps = retex_set_has_role(set, RETEX_ROLE_LAMP);
     for (int i = 0; i < set->nparameters; i++) {
         const RetexParameter *parameter = &set->parameters[i];
@@ -293,6 +293,7 @@ static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup
     const RetexPolynomial *p = row->polynomial;
     const int slot = retex_polynomial_slot_count(p->set) + (int)(group - p->groups);
     RetexMonomial *m = &row->monomials[row->count];
+    m->term = group->terms[0];
     int code = radiance_row(row, group, slot, y, &m->radiance, err), black = !m->radiance;
     if (!code)
         code = factor_rows(row, m, group, y, &black, err);
@@ -308,12 +309,22 @@ static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup
     return code;
 }
 
+void retex_polynomial_row_begin(RetexPolynomialRow *row)
+{
+    memset(row->made, 0, sizeof *row->made * (size_t)retex_polynomial_slot_count(row->polynomial->set));
+    row->count = 0;
+}
+
+int retex_polynomial_row_factor(RetexPolynomialRow *row, int slot, int y, const float **values, RetexError *err)
+{
+    return factor_row(row, retex_polynomial_factor(row->polynomial->set, slot), y, values, err);
+}
+
 int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err)
 {
     const RetexPolynomial *p = row->polynomial;
     int code = RETEX_OK;
-    memset(row->made, 0, sizeof *row->made * (size_t)retex_polynomial_slot_count(p->set));
-    row->count = 0;
+    retex_polynomial_row_begin(row);
     for (int g = 0; g < p->ngroups && !code; g++)
         code = make_group(row, &p->groups[g], y, err);
     return code;

@@ -24,7 +24,7 @@ typedef struct RetexPolynomial {
     RetexTexture *const *textures; /* by target, or NULL; textures replace samples of the same target */
     int cross;
     int apart;                                 /* 1: one monomial for each term, with all its factors, and no
-                                                 corrections; 0: terms are grouped */
+                                                 corrections; 2: with corrections; 0: terms are grouped */
     char edited[RETEX_MAX_TARGETS];            /* 1: the target has a texture or samples */
     int picture;                               /* 1: part 0 is the result, and there are no terms */
     int lamps, relit;                          /* 1: the set has terms of lamps; they stand for all others, */
@@ -59,6 +59,7 @@ typedef struct RetexMonomial {
     const float *factors[RETEX_MAX_FACTORS + 1]; /* RGB rows: samples, the original albedo, images; reduced factors'
                                                     product */
     int slots[RETEX_MAX_FACTORS + 1];            /* of factors, see polynomial_factors.h; -1: that product */
+    int term;                                    /* its first term */
 } RetexMonomial;
 
 typedef struct RetexPolynomialRow {
@@ -77,5 +78,9 @@ int retex_polynomial_row_open(RetexPolynomialRow *row, const RetexPolynomial *po
 void retex_polynomial_row_close(RetexPolynomialRow *row);
 /* Make the monomials of row y. */
 int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err);
+/* Begin row y without monomials; then make the rows of single factors, by slot, of a polynomial whose terms are apart.
+ * *values is NULL where all is black. */
+void retex_polynomial_row_begin(RetexPolynomialRow *row);
+int retex_polynomial_row_factor(RetexPolynomialRow *row, int slot, int y, const float **values, RetexError *err);
 
 #endif

@@ -24,6 +24,12 @@ typedef struct RetexMetrics {
 int retex_metrics(RetexMetrics *metrics, const RetexImage *image, const RetexImage *reference, int nthreads,
                   RetexError *err);
 
+/* The CIE 1976 L*a*b* of a scene-linear Rec. 709 colour, of which 1, 1, 1 is white, D65: L* from 0 to 100. */
+void retex_lab(double lab[3], const double linear[3]);
+/* The difference of two colours in L*a*b* as CIEDE2000, with all factors k of viewing conditions 1; about 1 is just
+ * seen. */
+double retex_delta_e(const double a[3], const double b[3]);
+
 #ifdef __cplusplus
 }
 #endif

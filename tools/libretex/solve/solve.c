@@ -1,0 +1,364 @@
+/* Damped Gauss-Newton steps, and the finishes that are tried: see retex/solve.h. */
+#include <retex/solve.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/params.h"
+#include "set/set.h"
+#include "solve/unknowns.h"
+
+enum { NUMBERS_MAX = 3 * RETEX_UNKNOWNS_MAX, STEPS_MAX = 40 };
+
+#define BLOCK_MAX 32       /* pixels */
+#define BLOCKS 64          /* that are enough */
+#define DARK_SHARE 0.05    /* of the picture's mean, which is added to that of a block */
+#define COARSE_NUMBERS 2e4 /* pixels of the first rows, about */
+#define SAME 1e-7          /* a step that lowers the sum by no more of it is the last */
+#define NO_EFFECT 1e-10    /* mean square of the weighted derivative of what is not seen */
+#define VAGUE 0.25         /* standard error of what is not seen; of lamps times their strength if that is above 1 */
+#define NOISE_MAX 0.2      /* relative; if more is left, it is no noise, and makes nothing unseen */
+#define TINY 1e-6          /* what is less counts as 0 */
+#define SURE 20.0          /* logarithm of the odds, twice, from which a finish is seen */
+
+/* A point of the search, and the equations there. */
+typedef struct Point {
+    double values[NUMBERS_MAX];
+    RetexEquations sums;
+} Point;
+
+/* The symmetric matrix and the gradient of all numbers. */
+typedef struct Normal {
+    int n;
+    double square, count;
+    double gradient[NUMBERS_MAX];
+    double matrix[NUMBERS_MAX][NUMBERS_MAX];
+} Normal;
+
+typedef struct Search {
+    RetexSolution *solution;
+    RetexSolveModel model;
+    const RetexSolveParams *params;
+    int numbers, nthreads;
+    double first[NUMBERS_MAX], most[NUMBERS_MAX]; /* where values begin, and the largest ones; the least are 0 */
+    float parameters[3 * RETEX_PARAMETERS_MAX];
+    Normal normal;
+    double lower[NUMBERS_MAX][NUMBERS_MAX]; /* its Cholesky factor */
+    Point here, next;
+    double squares[RETEX_SOLVE_FINISHES_MAX], counted;
+} Search;
+
+/* ---- the picture ---- */
+
+/* How dark places weigh, and the size of blocks: as large as leaves enough of them. */
+static int measure(RetexSolveModel *m, const RetexImage *picture, RetexError *err)
+{
+    const RetexCombineParams *in = &m->combine;
+    double sum = 0, count = 0;
+    for (int y = in->y0; y < in->y1; y++)
+        for (int x = in->x0; x < in->x1; x++) {
+            const float *p = picture->pixels + retex_image_index(picture, x, y);
+            const double pixel = fabs((double)p[0]) + fabs((double)p[1]) + fabs((double)p[2]);
+            count += isfinite(pixel);
+            sum += isfinite(pixel) ? pixel / 3 : 0;
+        }
+    for (m->block = BLOCK_MAX; m->block > 1 && m->block * m->block * BLOCKS > count;)
+        m->block /= 2;
+    m->dark = fmax(DARK_SHARE * sum / fmax(count, 1), 1e-4);
+    m->picture = picture;
+    return count > 0 ? RETEX_OK : retex_fail(err, RETEX_EINVAL, "no pixel of the picture counts");
+}
+
+/* ---- equations of all numbers ---- */
+
+static void gather(Normal *normal, const RetexEquations *sums, const RetexSolveModel *m, int numbers)
+{
+    memset(normal, 0, sizeof *normal);
+    normal->n = numbers;
+    for (int c = 0; c < 3; c++) {
+        normal->square += sums->square[c];
+        normal->count += sums->count[c];
+        for (int i = 0; i < m->ncolumns; i++) {
+            const int a = m->columns[i].number[c];
+            normal->gradient[a] += sums->gradient[c][i];
+            for (int j = 0; j <= i; j++) {
+                const int b = m->columns[j].number[c];
+                normal->matrix[a][b] += sums->matrix[c][i][j];
+                if (a != b)
+                    normal->matrix[b][a] = normal->matrix[a][b];
+            }
+        }
+    }
+}
+
+/* Whether a number changes the picture. */
+static int has_effect(const Normal *normal, int i)
+{
+    return normal->matrix[i][i] > NO_EFFECT * normal->count;
+}
+
+/* The Cholesky factor of the matrix of the numbers that move, scaled to a diagonal of 1, to which `damping` is
+ * added. */
+static void factorize(double lower[NUMBERS_MAX][NUMBERS_MAX], const Normal *normal, const int *moves, double damping)
+{
+    for (int i = 0; i < normal->n; i++)
+        for (int j = 0; j <= i; j++) {
+            const double scale = sqrt(normal->matrix[i][i]) * sqrt(normal->matrix[j][j]);
+            double sum = !moves[i] || !moves[j] ? i == j : normal->matrix[i][j] / scale + (i == j ? damping : 0);
+            for (int k = 0; k < j; k++)
+                sum -= lower[i][k] * lower[j][k];
+            lower[i][j] = i == j ? sqrt(fmax(sum, 1e-300)) : sum / lower[j][j];
+        }
+}
+
+/* x = the solution of the scaled equations with the right side x. */
+static void substitute(double *x, double lower[NUMBERS_MAX][NUMBERS_MAX], int n)
+{
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++)
+            x[i] -= lower[i][k] * x[k];
+        x[i] /= lower[i][i];
+    }
+    for (int i = n; i-- > 0;) {
+        for (int k = i + 1; k < n; k++)
+            x[i] -= lower[k][i] * x[k];
+        x[i] /= lower[i][i];
+    }
+}
+
+/* Numbers that may move: which change the picture, and do not press against the end of their range. */
+static void find_moves(int *moves, const Search *s, const double *values)
+{
+    for (int i = 0; i < s->numbers; i++)
+        moves[i] = has_effect(&s->normal, i) && !(values[i] <= 0 && s->normal.gradient[i] > 0) &&
+                   !(values[i] >= s->most[i] && s->normal.gradient[i] < 0);
+}
+
+/* Values after a step; returns the largest change. */
+static double take_step(double *next, Search *s, const double *values, double damping)
+{
+    double step[NUMBERS_MAX], most = 0;
+    int moves[NUMBERS_MAX] = {0};
+    find_moves(moves, s, values);
+    factorize(s->lower, &s->normal, moves, damping);
+    for (int i = 0; i < s->numbers; i++)
+        step[i] = moves[i] ? -s->normal.gradient[i] / sqrt(s->normal.matrix[i][i]) : 0;
+    substitute(step, s->lower, s->numbers);
+    for (int i = 0; i < s->numbers; i++) {
+        const double change = moves[i] ? step[i] / sqrt(s->normal.matrix[i][i]) : 0;
+        next[i] = fmin(fmax(values[i] + change, 0), s->most[i]);
+        most = fmax(most, fabs(next[i] - values[i]));
+    }
+    return most;
+}
+
+static int evaluate(Search *s, Point *point, RetexSolveRows rows, RetexError *err)
+{
+    return retex_equations_make(&point->sums, &s->model, point->values, rows, s->nthreads, err);
+}
+
+/* Goes from s->here to the nearest minimum. */
+static int descend(Search *s, RetexSolveRows rows, RetexError *err)
+{
+    double damping = 1e-3;
+    int code = evaluate(s, &s->here, rows, err);
+    for (int step = 0; step < STEPS_MAX && !code && damping < 1e8; step++) {
+        gather(&s->normal, &s->here.sums, &s->model, s->numbers);
+        const double square = s->normal.square;
+        if (take_step(s->next.values, s, s->here.values, damping) < 1e-6)
+            break;
+        code = evaluate(s, &s->next, rows, err);
+        const double *squares = s->next.sums.square, reached = squares[0] + squares[1] + squares[2];
+        if (!code && reached < square) {
+            s->here = s->next;
+            damping = fmax(damping / 30, 1e-9);
+            if (square - reached <= SAME * square)
+                break;
+        } else {
+            damping *= 10;
+        }
+    }
+    if (!code)
+        gather(&s->normal, &s->here.sums, &s->model, s->numbers);
+    return code;
+}
+
+/* ---- finishes ---- */
+
+static int set_combination(Search *s, int combination, RetexError *err)
+{
+    s->model.combine.parameters = s->parameters;
+    return retex_unknowns_parameters(s->solution, s->model.set, s->params->lights, combination, s->parameters, err);
+}
+
+/* Tries all combinations of finishes on some rows; s->here is that of the best one. */
+static int choose(Search *s, RetexSolveRows rows, int *best, RetexError *err)
+{
+    double values[NUMBERS_MAX];
+    int code = RETEX_OK;
+    *best = 0;
+    memcpy(values, s->first, sizeof values);
+    for (int k = 0; k < s->solution->combinations && !code; k++) {
+        code = set_combination(s, k, err);
+        memcpy(s->here.values, s->first, sizeof s->first);
+        if (!code)
+            code = descend(s, rows, err);
+        if (!code && s->normal.count == 0 && (rows.band > 1 || rows.step > 1))
+            return choose(s, (RetexSolveRows){1, 1}, best, err); /* no pixel of these rows counts */
+        s->squares[k] = s->normal.square;
+        s->counted = s->normal.count;
+        if (!k || s->squares[k] < s->squares[*best]) {
+            *best = k;
+            memcpy(values, s->here.values, sizeof values);
+        }
+    }
+    memcpy(s->here.values, values, sizeof values);
+    return code ? code : set_combination(s, *best, err);
+}
+
+/* What is known of a finish: the nearest combination that has another one. */
+static void describe_finish(Search *s, int i, int best)
+{
+    const RetexTarget *target = &s->model.set->targets[s->solution->index[i]];
+    RetexUnknown *u = &s->solution->unknowns[i];
+    const int finish = retex_unknowns_finish(s->solution, s->model.set, i, best);
+    int next = -1;
+    for (int k = 0; k < s->solution->combinations; k++)
+        if (retex_unknowns_finish(s->solution, s->model.set, i, k) != finish &&
+            (next < 0 || s->squares[k] < s->squares[next]))
+            next = k;
+    strcpy(u->finish, target->finishes[finish]);
+    strcpy(u->next, target->finishes[retex_unknowns_finish(s->solution, s->model.set, i, next)]);
+    const double ratio = s->squares[next] / fmax(s->squares[best], 1e-30);
+    u->next_ratio = sqrt(fmax(ratio, 1));
+    u->seen = s->counted * log(fmax(ratio, 1)) > SURE;
+}
+
+/* ---- errors ---- */
+
+/* Standard errors of all numbers, of those that the ends of their ranges hold too, where what is left has a root mean
+ * square of 1; infinite where there is no effect. */
+static void find_errors(Search *s, double errors[NUMBERS_MAX])
+{
+    const Normal *normal = &s->normal;
+    int moves[NUMBERS_MAX] = {0};
+    for (int i = 0; i < normal->n; i++)
+        moves[i] = has_effect(normal, i);
+    factorize(s->lower, normal, moves, 1e-12);
+    for (int i = 0; i < normal->n; i++) {
+        double column[NUMBERS_MAX] = {0};
+        column[i] = 1;
+        substitute(column, s->lower, normal->n);
+        errors[i] = moves[i] ? sqrt(fmax(column[i], 0) / normal->matrix[i][i]) : HUGE_VAL;
+    }
+}
+
+static void describe(Search *s, int best)
+{
+    double errors[NUMBERS_MAX];
+    const double rms = sqrt(s->normal.square / fmax(s->normal.count - s->numbers, 1));
+    find_errors(s, errors);
+    for (int i = 0; i < s->solution->count; i++) {
+        RetexUnknown *u = &s->solution->unknowns[i];
+        const RetexSolveColumn *column = &s->model.columns[s->solution->column[i] < 0 ? 0 : s->solution->column[i]];
+        if (u->kind == RETEX_UNKNOWN_FINISH) {
+            describe_finish(s, i, best);
+            continue;
+        }
+        u->seen = 1;
+        for (int c = 0; c < 3; c++) {
+            const int k = column->number[c];
+            u->value[c] = s->here.values[k] < TINY ? 0 : s->here.values[k];
+            u->error[c] = errors[k] * rms;
+            u->limited |= u->value[c] <= 0 || u->value[c] >= s->most[k];
+            u->seen &= errors[k] * fmin(rms, NOISE_MAX * s->model.block) <= VAGUE * fmax(u->value[c], 1);
+        }
+    }
+}
+
+/* ---- all of it ---- */
+
+static int check_picture(Search *s, const RetexImage *picture, RetexError *err)
+{
+    const RetexSet *set = s->model.set;
+    const RetexSolveParams *p = s->params;
+    RetexCombineParams *in = &s->model.combine;
+    const int all = !p->x0 && !p->y0 && !p->x1 && !p->y1;
+    in->x0 = p->x0, in->y0 = p->y0;
+    in->x1 = all ? set->width : p->x1, in->y1 = all ? set->height : p->y1;
+    in->cross = p->cross;
+    if (picture->width != set->width || picture->height != set->height || picture->channels < 3)
+        return retex_fail(err, RETEX_EINVAL, "the picture has %d x %d pixels, the set %d x %d", picture->width,
+                          picture->height, set->width, set->height);
+    if (in->x0 < 0 || in->y0 < 0 || in->x1 > set->width || in->y1 > set->height || in->x0 >= in->x1 || in->y0 >= in->y1)
+        return retex_fail(err, RETEX_EINVAL, "the region %d,%d to %d,%d is not within the picture of %d x %d pixels",
+                          in->x0, in->y0, in->x1, in->y1, set->width, set->height);
+    return RETEX_OK;
+}
+
+/* Colours begin as the mean original, lamps as rendered. */
+static void begin(Search *s)
+{
+    for (int j = 0; j < s->model.ncolumns; j++) {
+        const RetexSolveColumn *column = &s->model.columns[j];
+        for (int c = 0; c < 3; c++) {
+            const int k = column->number[c];
+            const RetexTarget *target = column->target < 0 ? NULL : &s->model.set->targets[column->target];
+            s->first[k] = target ? fmin(fmax((double)target->mean_albedo[c], 0.05), 0.95) : 1;
+            s->most[k] = target ? 1 : RETEX_SOLVE_LAMP_MAX;
+        }
+    }
+}
+
+/* Some rows, of about COARSE_NUMBERS pixels. */
+static RetexSolveRows coarse_rows(const Search *s)
+{
+    const RetexCombineParams *in = &s->model.combine;
+    const double ratio = (double)(in->x1 - in->x0) * (in->y1 - in->y0) / COARSE_NUMBERS;
+    const int step = ratio >= 4 ? 4 : ratio > 2 ? 2 : 1, bands = (in->y1 - in->y0) / 16;
+    const int band = (int)fmin(fmax(ratio / step, 1), fmax(bands / 8, 1)); /* of at least eight bands */
+    return (RetexSolveRows){band, step};
+}
+
+static int solve(Search *s, const RetexImage *picture, RetexError *err)
+{
+    const RetexSolveRows all = {1, 1}, coarse = coarse_rows(s);
+    int best = 0, code = measure(&s->model, picture, err);
+    if (!code)
+        code = retex_unknowns_open(s->solution, &s->model, s->params, &s->numbers, err);
+    begin(s);
+    if (!code)
+        code = choose(s, coarse, &best, err);
+    if (!code)
+        code = descend(s, all, err);
+    if (!code)
+        describe(s, best);
+    return code;
+}
+
+int retex_solve(RetexSolution **solution, const RetexSet *set, const RetexSamples *samples,
+                RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexImage *picture,
+                const RetexSolveParams *params, int nthreads, RetexError *err)
+{
+    RetexSolveParams own = RETEX_SOLVE_INIT;
+    *solution = NULL;
+    if (RETEX_PARAMS_COPY(&own, params, err))
+        return RETEX_EINVAL;
+    Search *s = calloc(1, sizeof *s);
+    RetexSolution *made = calloc(1, sizeof *made);
+    int code = s && made ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to solve");
+    if (!code) {
+        *s = (Search){.solution = made, .params = &own, .nthreads = nthreads};
+        s->model = (RetexSolveModel){.set = set, .samples = samples, .textures = textures, .budget = own.budget};
+        s->model.combine = (RetexCombineParams)RETEX_COMBINE_INIT;
+        code = check_picture(s, picture, err);
+    }
+    if (!code)
+        code = solve(s, picture, err);
+    free(s);
+    if (code)
+        retex_solution_close(&made);
+    *solution = made;
+    return code;
+}
