@@ -42,7 +42,8 @@ static inline Float4 factor_of_variant(const Factor *f, int variant)
         d = i = splat(0);
     for (int k = 0; f->weights && k < FINISHES_MAX; k++)
         if (f->weights[variant][k] > 0)
-            d += f->finishes[k].d * splat(f->weights[variant][k]), i += f->finishes[k].i * splat(f->weights[variant][k]);
+            d += f->finishes[k].d * splat(f->weights[variant][k]),
+                i += f->finishes[k].i * splat(f->weights[variant][k]);
     return d * (f->albedos ? color4(f->albedos[variant]) : f->albedo) + i;
 }
 

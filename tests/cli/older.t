@@ -27,6 +27,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_texture_spec_needs_scale: 0
 > retex_texture_file: ok
 > retex_texture_load: ok
+> retex_textures_check: ok
 > retex_textures_load: ok
 > retex_textures_place: ok
 > retex_retexture: ok

@@ -12,8 +12,8 @@
  * seen sharply; k_f: the correlation of light and texture beyond noise. s_f and k_f were measured for each kind of
  * footprint in the scenes of tests/fidelity/error.sh. F is what light with more hits than the set keeps may be off by:
  * a tenth of what the factors of quantity FURTHER change, or without them all of it, folded I. Where the texture
- * has a map of finishes, the finish varies within footprints as the colour does, and F has what gates and later hits may
- * be off by, too. The formula is in estimate_row.c; here the variance of the texture is computed, row by row. */
+ * has a map of finishes, the finish varies within footprints as the colour does, and F has what gates and later hits
+ * may be off by, too. The formula is in estimate_row.c; here the variance of the texture is computed, row by row. */
 #include <stdlib.h>
 
 #include <retex/combine.h>

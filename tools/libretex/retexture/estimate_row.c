@@ -12,6 +12,9 @@
 /* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
 static const float agreement[] = {0.3f, 0.05f, 0.1f, 0.1f};
 static const float chance[] = {1, 0.3f, 1, 1};
+/* The same where a finish is chosen: its light comes from few directions, so single samples scatter more than colours
+ * do. Measured with the maps of tests/fidelity/table/finish-maps.sh. */
+static const float chance_of_finish = 4;
 /* Of what further hits change in the light of a closed room, so much is in doubt: 3 to 6 percent where one target has
  * all walls, 11 where an edited one has one of them. */
 static const float doubt = 0.1f;
@@ -23,8 +26,8 @@ static size_t row_numbers(const RetexSet *set)
 
 /* ---- what there are derivatives by ----
  *
- * Rows of derivatives: of footprints and mixtures; where targets have finishes, of these with each finish, and of gates;
- * behind them, by target and finish, light that meets the target again. */
+ * Rows of derivatives: of footprints and mixtures; where targets have finishes, of these with each finish, and of
+ * gates; behind them, by target and finish, light that meets the target again. */
 
 static int texture_count(const RetexSet *set)
 {
@@ -46,8 +49,8 @@ static int row_count(const RetexSet *set)
     return retex_set_has_finishes(set) ? first_later(set) + RETEX_MAX_TARGETS * RETEX_FINISHES_MAX : texture_count(set);
 }
 
-/* The row of a slot, or -1: further hits and images do not vary. Slots of textures come first; further hits follow, then
- * what has finishes, in the order of rows. */
+/* The row of a slot, or -1: further hits and images do not vary. Slots of textures come first; further hits follow,
+ * then what has finishes, in the order of rows. */
 static int derivative_row(const RetexSet *set, int slot)
 {
     const int textures = texture_count(set), others = textures + set->nparts + textures;
@@ -226,7 +229,8 @@ static int add_footprint(const RetexPolynomialRow *row, int footprint, int y, si
         if (d == 0)
             continue;
         const float paths = value_at(&uv, x, 2) * (float)set->spp, a = map->count ? value_at(&mean, x, c) : 0;
-        sum[i] += (d * d * value_at(&variance, x, c) + a * a * scatter) * (k * k + s / fmaxf(paths, 1));
+        sum[i] += d * d * value_at(&variance, x, c) * (k * k + s / fmaxf(paths, 1)) +
+                  a * a * scatter * (k * k + chance_of_finish / fmaxf(paths, 1));
     }
     return code;
 }
@@ -239,7 +243,7 @@ static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *m
 {
     const size_t gate = (size_t)(first_gate(set) + target * RETEX_FINISHES_MAX),
                  later = (size_t)(first_later(set) + target * RETEX_FINISHES_MAX);
-    const float k = agreement[RETEX_FOOTPRINT_BROAD];
+    const float k = agreement[RETEX_FOOTPRINT_BROAD], part = k * k + chance_of_finish / fmaxf((float)set->spp, 1);
     for (size_t i = 0; i < n; i++) {
         float of_gate[RETEX_FINISHES_MAX], of_later[RETEX_FINISHES_MAX], scatter, bias;
         for (int q = 0; q < map->count; q++) {
@@ -249,7 +253,7 @@ static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *m
         }
         mean_of(map, of_gate, i, &scatter);
         mean_of(map, of_later, i, &bias);
-        sum[i] += k * k * scatter + bias * bias;
+        sum[i] += part * scatter + bias * bias;
     }
 }
 

@@ -52,7 +52,8 @@ RetexFactor retex_polynomial_factor(const RetexSet *set, int slot)
         factor.quantity = POLYNOMIAL_FINISHED(gate % RETEX_FINISHES_MAX);
         return factor;
     }
-    const int beyond = slot >= own ? (slot - own) / textures : -1, number = slot >= own ? (slot - own) % textures : slot;
+    const int beyond = slot >= own ? (slot - own) / textures : -1,
+              number = slot >= own ? (slot - own) % textures : slot;
     factor = number < set->nfootprints ? retex_factor(RETEX_FACTOR_FOOTPRINT, number)
              : number < textures       ? retex_factor(RETEX_FACTOR_MIXTURE, number - set->nfootprints)
                                        : retex_factor(RETEX_FACTOR_IMAGE, number - textures);

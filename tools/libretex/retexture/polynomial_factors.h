@@ -25,7 +25,8 @@ const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *polynomia
 /* Make or find the row of a footprint's samples or original albedo, or of these with a finish, and the span outside of
  * which it is 0; *row is NULL where all is black. buffer is used where the row must be made. */
 int retex_polynomial_footprint_row(const RetexPolynomial *polynomial, RetexRowReader *reader, RetexFactor factor,
-                                   int y, RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err);
+                                   int y, RetexRowBuffer *buffer, const float **row, RetexRowSpan *span,
+                                   RetexError *err);
 
 /* Gives the row of one factor of a mixture; NULL where it is black. */
 typedef int RetexFactorRow(void *context, RetexFactor footprint, int y, const float **row, RetexError *err);

@@ -15,7 +15,7 @@
 #include "set/set.h"
 #include "texture/pyramid.h"
 
-#define ROWS_A_JOB 64     /* a pack's strip */
+#define ROWS_A_JOB 64    /* a pack's strip */
 #define SPAN_PIXELS 1024 /* filtered in one call */
 
 /* ---- which targets have maps ---- */
@@ -25,9 +25,9 @@ int retex_polynomial_find_maps(RetexPolynomial *p, RetexError *err)
     const RetexSet *set = p->set;
     for (int t = 0; t < set->ntargets; t++) {
         const RetexTexture *texture = p->textures ? p->textures[t] : NULL;
-        p->mapped[t] = texture                                                             ? retex_texture_has_finishes(texture)
+        p->mapped[t] = texture ? retex_texture_has_finishes(texture)
                        : p->samples && retex_samples_find(p->samples, t, -1, -1) >= 0 ? set->targets[t].nfinishes
-                                                                                            : 0;
+                                                                                      : 0;
         p->shown[t] = set->targets[t].finish - 1;
         if (p->mapped[t] && p->mapped[t] != set->targets[t].nfinishes)
             return retex_fail(err, RETEX_EINVAL, "a map of %d finishes for %s, which has %d", p->mapped[t],
@@ -126,9 +126,10 @@ void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm 
  * than what scattered light met, and that more than later hits: these only decide where there is nothing else. Sums are
  * of the weights of the second finish and later ones, and of what they are divided by. */
 
-static const float importance[RETEX_FOOTPRINT_KINDS] = {
-    [RETEX_FOOTPRINT_HIT] = 1, [RETEX_FOOTPRINT_SHARP] = 1, [RETEX_FOOTPRINT_BROAD] = 1e-3f,
-    [RETEX_FOOTPRINT_INTERREFLECTION] = 1e-6f};
+static const float importance[RETEX_FOOTPRINT_KINDS] = {[RETEX_FOOTPRINT_HIT] = 1,
+                                                        [RETEX_FOOTPRINT_SHARP] = 1,
+                                                        [RETEX_FOOTPRINT_BROAD] = 1e-3f,
+                                                        [RETEX_FOOTPRINT_INTERREFLECTION] = 1e-6f};
 
 /* Adds a row of a footprint, at its own size. */
 static int add_footprint(const RetexPolynomial *p, RetexRowReader *reader, int footprint, int y, float *sums,
@@ -221,7 +222,8 @@ int retex_polynomial_gates_open(RetexPolynomial *p, int nthreads, RetexError *er
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (int f = 0; f < p->set->nfootprints && !code; f++) {
         const int target = p->set->footprints[f].target, scale = retex_set_footprint_scale(p->set, f);
-        if (p->mapped[target] && p->textures && p->textures[target] && scale > 1 && !p->gates[target * REDUCED_SCALES + scale_index(scale)].pixels)
+        if (p->mapped[target] && p->textures && p->textures[target] && scale > 1 &&
+            !p->gates[target * REDUCED_SCALES + scale_index(scale)].pixels)
             code = make_sums(p, target, scale, nthreads, err);
     }
     return code;

@@ -1,7 +1,7 @@
 /* Maps of finishes in a polynomial. Light is kept for each finish of a target; with a map, light whose first hit on the
  * target is at u counts with finish k by the weight w_k(u). Where that hit is a factor of the term, its texture is
- * multiplied by the weight before it is filtered: quantity FINISHED. Else the term has a gate: the weight, averaged over
- * the target's footprints in the pixel. Later hits have the finish of the first. Private to libretex. */
+ * multiplied by the weight before it is filtered: quantity FINISHED. Else the term has a gate: the weight, averaged
+ * over the target's footprints in the pixel. Later hits have the finish of the first. Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
 #define RETEX_RETEXTURE_POLYNOMIAL_FINISHES_H
 

@@ -155,13 +155,14 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
                           samples->nfootprints, set->nfootprints);
     for (int i = samples->nfootprints; i < samples->nimages; i++) {
         const RetexSampleFootprint *of = &samples->footprints[i];
-        const RetexImage *image = &samples->images[i], *colors = of->footprint >= 0 ? &samples->images[of->footprint] : NULL;
+        const RetexImage *image = &samples->images[i],
+                         *colors = of->footprint >= 0 ? &samples->images[of->footprint] : NULL;
         const int width = colors ? colors->width : set->width, height = colors ? colors->height : set->height;
         if (of->finish >= set->targets[of->target].nfinishes ||
             (colors && set->footprints[of->footprint].target != of->target) || image->width != width ||
             image->height != height)
-            return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint or finish than the set's",
-                              i);
+            return retex_fail(err, RETEX_EINVAL,
+                              "sample image %d belongs to another footprint or finish than the set's", i);
     }
     for (int i = 0; i < samples->nfootprints; i++) {
         const RetexImage *image = &samples->images[i];

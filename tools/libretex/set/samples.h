@@ -16,8 +16,8 @@ typedef struct RetexSampleFootprint {
 } RetexSampleFootprint;
 
 /* Image i belongs to footprint i of the set; further ones are of textures with a map of finishes, first those of
- * footprints, then gates. They are RGB of the size of the footprint's parts, or unallocated where the footprint's target
- * keeps its original; gates have the size of the set, red, green and blue being weights of the second finish and later
+ * footprints, then gates. They are RGB of the size of the footprint's parts, or unallocated where the footprint's
+ * target keeps its original; gates have the size of the set, red, green and blue being weights of the second finish and later
  * ones. An image with a size but without pixels is in the band store or in the source. */
 struct RetexSamples {
     int width, height; /* of the set */
@@ -37,7 +37,8 @@ enum {
     RETEX_SAMPLE_IMAGES_MAX = RETEX_SET_FOOTPRINTS_MAX * (1 + RETEX_FINISHES_MAX) + RETEX_MAX_TARGETS
 };
 
-/* Create samples with nimages images, all unallocated, one for each footprint; the rest is 0. *samples is NULL after a failure. */
+/* Create samples with nimages images, all unallocated, one for each footprint; the rest is 0. *samples is NULL after a
+ * failure. */
 int retex_samples_alloc(RetexSamples **samples, int nimages, RetexError *err);
 
 /* Add an image, unallocated, beyond those of footprints' colours. */

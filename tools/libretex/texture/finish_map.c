@@ -8,10 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
-
-#include "picture/image_read.h"
 
 #define GREY_DIFFERENCE 0.0101f /* of channels: 2.5 of 255, for JPEG stores colours and not grey */
 
@@ -215,34 +212,18 @@ static int no_memory(const RetexTexture *texture, RetexError *err)
     return retex_fail(err, RETEX_ENOMEM, "not enough memory for the finishes of %s", texture->spec.target);
 }
 
-static int read_weights(RetexTexture *texture, const char *file, RetexFinishScale scale, int channel,
-                        RetexTexels *weights, int nthreads, RetexError *err)
+static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFinishScale scale, int channel,
+                 RetexTexels *weights, int nthreads, RetexError *err)
 {
-    RetexDecoded decoded = {0};
-    int code = retex_texture_read_file(texture, file, "linear", &decoded, nthreads, err);
-    const int is_narrow = decoded.narrow.pixels != NULL;
-    *weights = (RetexTexels){is_narrow ? decoded.narrow.width : decoded.image.width,
-                             is_narrow ? decoded.narrow.height : decoded.image.height, 0, NULL};
-    if (!code && retex_texels_alloc(weights))
-        code = no_memory(texture, err);
-    WeightWork work = {&texture->spec, scale, channel, weights->width, &decoded, 0, weights->texels};
-    if (!code) {
-        retex_parallel(nthreads, weights->height, find_colors_job, &work);
-        retex_parallel(nthreads, weights->height, weigh_job, &work);
-    }
-    free(decoded.narrow.pixels);
-    retex_image_free(&decoded.image);
-    return code;
-}
-
-/* The placement of a product, whose texels may have another aspect than the image. */
-static RetexTextureSpec placement_of(const RetexTextureSpec *spec, int width, int height)
-{
-    RetexTextureSpec own = *spec;
-    own.constant = 0;
-    if (!spec->constant && own.width[0] > 0 && !(own.width[1] > 0))
-        own.width[1] = own.width[0] * height / width;
-    return own;
+    const int is_narrow = map->narrow.pixels != NULL;
+    *weights = (RetexTexels){is_narrow ? map->narrow.width : map->image.width,
+                             is_narrow ? map->narrow.height : map->image.height, 0, NULL};
+    if (retex_texels_alloc(weights))
+        return no_memory(texture, err);
+    WeightWork work = {&texture->spec, scale, channel, weights->width, map, 0, weights->texels};
+    retex_parallel(nthreads, weights->height, find_colors_job, &work);
+    retex_parallel(nthreads, weights->height, weigh_job, &work);
+    return RETEX_OK;
 }
 
 static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, RetexTexels *texels, int nthreads,
@@ -257,8 +238,8 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     const RetexTexels *color = work->color;
     const int width = color && color->width > work->map.width ? color->width : work->map.width,
               height = color && color->height > work->map.height ? color->height : work->map.height;
-    const RetexTextureSpec spec = color ? placement_of(&texture->spec, color->width, color->height)
-                                        : placement_of(&texture->spec, width, height);
+    const RetexTextureSpec spec =
+        color ? retex_texture_finish_spec(&texture->spec, color->width, color->height) : retex_texture_finish_spec(&texture->spec, width, height);
     RetexFinishMap *finishes = texture->finishes;
     int code = RETEX_OK;
     for (int k = 0; k <= work->count && !code; k++) {
@@ -276,15 +257,15 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     return code;
 }
 
-int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const char *file, RetexFinishScale scale,
-                          int channel, int nthreads, RetexError *err)
+int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexDecoded *map,
+                          RetexFinishScale scale, int channel, int nthreads, RetexError *err)
 {
     ProductWork work = {.spec = &texture->spec, .color = color, .count = texture->spec.nfinishes};
     RetexError why = {0};
     if (!(texture->finishes = calloc(1, sizeof *texture->finishes)))
         return no_memory(texture, err);
     texture->finishes->count = work.count;
-    int code = read_weights(texture, file, scale, channel, &work.map, nthreads, &why);
+    int code = weigh(texture, map, scale, channel, &work.map, nthreads, &why);
     if (!code)
         code = make_products(texture, &work, nthreads, &why);
     free(work.map.texels);
@@ -293,89 +274,3 @@ int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const
     return code;
 }
 
-int retex_texture_finishes(const RetexTexture *texture, double u, double v, int shown, float weights[4])
-{
-    const RetexFinishMap *finishes = texture->finishes;
-    float rgba[4];
-    if (!finishes)
-        return 0;
-    retex_texture_point(finishes->weights, u, v, rgba);
-    weights[0] = 1;
-    for (int k = 1; k < finishes->count; k++) {
-        weights[k] = rgba[3] * rgba[k - 1] + (shown == k ? 1 - rgba[3] : 0);
-        weights[0] -= weights[k];
-    }
-    weights[0] = weights[0] > 0 ? weights[0] : 0;
-    return finishes->count;
-}
-
-/* ---- all of one ---- */
-
-/* The textures of a map, by number: the weights first. */
-static RetexTexture **texture_of(RetexFinishMap *finishes, int k)
-{
-    return k ? &finishes->colors[k - 1] : &finishes->weights;
-}
-
-void retex_finish_map_close(RetexTexture *texture)
-{
-    for (int k = 0; texture->finishes && k <= RETEX_FINISHES_MAX; k++)
-        retex_texture_close(texture_of(texture->finishes, k));
-    free(texture->finishes);
-    texture->finishes = NULL;
-}
-
-uint64_t retex_finish_map_bytes(const RetexTexture *texture)
-{
-    uint64_t bytes = 0;
-    for (int k = 0; texture->finishes && k <= texture->finishes->count; k++)
-        bytes += retex_texture_bytes(*texture_of(texture->finishes, k));
-    return bytes;
-}
-
-int retex_finish_map_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
-{
-    int code = RETEX_OK;
-    for (int k = 0; texture->finishes && k <= texture->finishes->count && !code; k++)
-        code = retex_texture_set_surface(*texture_of(texture->finishes, k), spec, err);
-    return code;
-}
-
-typedef int Derive(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err);
-
-static int derive(RetexTexture *to, const RetexTexture *from, Derive *make, const void *context, RetexError *err)
-{
-    int code = RETEX_OK;
-    to->finishes = NULL;
-    if (!from->finishes)
-        return RETEX_OK;
-    if (!(to->finishes = calloc(1, sizeof *to->finishes)))
-        return no_memory(from, err);
-    to->finishes->count = from->finishes->count;
-    for (int k = 0; k <= from->finishes->count && !code; k++)
-        code = make(texture_of(to->finishes, k), *texture_of(from->finishes, k), context, err);
-    return code;
-}
-
-static int place_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
-{
-    return retex_texture_place(to, from, context, err);
-}
-
-int retex_finish_map_place(RetexTexture *placed, const RetexTexture *texture, RetexError *err)
-{
-    int width, height;
-    retex_texture_size(texture, &width, &height);
-    const RetexTextureSpec spec = placement_of(&placed->spec, width, height);
-    return derive(placed, texture, place_one, &spec, err);
-}
-
-static int square_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
-{
-    return retex_texture_square(to, from, *(const int *)context, err);
-}
-
-int retex_finish_map_square(RetexTexture *square, const RetexTexture *texture, int nthreads, RetexError *err)
-{
-    return derive(square, texture, square_one, &nthreads, err);
-}

@@ -3,6 +3,7 @@
 #ifndef RETEX_TEXTURE_FINISH_MAP_H
 #define RETEX_TEXTURE_FINISH_MAP_H
 
+#include "picture/decoder.h"
 #include "texture/pyramid.h"
 
 /* What a picture says at a texel. */
@@ -21,17 +22,9 @@ int retex_finish_map_has_scale(const RetexTextureSpec *spec);
 void retex_finish_map_weights(const RetexTextureSpec *spec, RetexFinishScale scale, int channel, int is_grey,
                               const float rgb[3], float weights[RETEX_FINISHES_MAX]);
 
-/* Make texture->finishes from a file and the texture's texels, premultiplied and not yet arranged as repeats; NULL: a
- * constant. The larger of both sizes counts; the other is interpolated. */
-int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const char *file, RetexFinishScale scale,
-                          int channel, int nthreads, RetexError *err);
-void retex_finish_map_close(RetexTexture *texture);
-
-/* Make placed->finishes from those of another texture, with which they share texels. */
-int retex_finish_map_place(RetexTexture *placed, const RetexTexture *texture, RetexError *err);
-int retex_finish_map_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
-/* Make square->finishes those of the texture squared. */
-int retex_finish_map_square(RetexTexture *square, const RetexTexture *texture, int nthreads, RetexError *err);
-uint64_t retex_finish_map_bytes(const RetexTexture *texture);
+/* Make texture->finishes from a picture as it was read, as numbers, and the texture's texels, premultiplied and not yet
+ * arranged as repeats; NULL: a constant. The larger of both sizes counts; the other is interpolated. */
+int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexDecoded *map,
+                          RetexFinishScale scale, int channel, int nthreads, RetexError *err);
 
 #endif

@@ -8,8 +8,6 @@
 
 #include "texture/texel_defects.h"
 
-struct RetexDecoded;
-
 #define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
 #define NARROW_ONE 65535.0f
 #define TEXTURE_TAIL_STEPS 64 /* steps of the table below, per unit */
@@ -77,9 +75,13 @@ void retex_texture_report_colors(const RetexTexture *texture, const RetexTexture
 RetexTexture *retex_texture_new(const RetexTextureSpec *spec, int constant, RetexError *err);
 /* Make premultiplied texels those of the texture. They are used up. */
 int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err);
-/* Read the file by the specification's access and budget. colorspace: NULL = what the file says. */
-int retex_texture_read_file(RetexTexture *texture, const char *file, const char *colorspace, struct RetexDecoded *decoded,
-                            int nthreads, RetexError *err);
+/* The placement of the textures of a map, whose texels may have another aspect than the image of that size. */
+RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height);
+/* 1: two repeats are one image. */
+static inline int retex_texture_has_two_repeats(const RetexTextureSpec *spec)
+{
+    return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
+}
 
 /* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */

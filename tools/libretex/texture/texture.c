@@ -2,9 +2,6 @@
  * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
  * filter_kernel.c, disc_kernel.c and parallelogram_kernel.c, those of whole rows in batch.c. */
 #include "base/params.h"
-#include "picture/image_read.h"
-#include "texture/finish_map.h"
-#include "texture/folder.h"
 #include "texture/pyramid.h"
 
 #include <limits.h>
@@ -18,7 +15,6 @@
 #include <retex/color_text.h>
 #include <retex/parallel.h>
 
-#define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
 #define LEAST_ALPHA 1e-20f            /* alpha below this has no colour that a float can hold */
 /* A footprint of a thousand repeats gives the average, whatever its size; larger sizes only lose digits. */
 #define MAX_FOOTPRINT 1000.0
@@ -139,17 +135,12 @@ int retex_texture_is_opaque(const RetexTexture *texture)
     return texture->nlevels == 0 || texture->opaque;
 }
 
-static int has_two_repeats(const RetexTextureSpec *spec)
-{
-    return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
-}
-
 /* Charges the texels and their pyramid to the budget. */
 static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *err)
 {
     uint64_t bytes = retex_texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
     bytes += bytes / 3;
-    bytes *= has_two_repeats(&texture->spec) ? 2 : 1;
+    bytes *= retex_texture_has_two_repeats(&texture->spec) ? 2 : 1;
     int code = retex_budget_charge(texture->spec.budget, bytes, texture->spec.image, err);
     if (!code)
         texture->charged = bytes;
@@ -170,51 +161,10 @@ int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nth
     return RETEX_OK;
 }
 
-typedef struct RepairWork {
-    const RetexImage *image;
-    RetexTexelDefects *defects; /* by row */
-} RepairWork;
-
-/* Repairs and premultiplies a row: one texel that is not finite would make all coarser levels so. */
-static void premultiply_job(void *context, int index, int thread)
-{
-    const RepairWork *work = context;
-    const int width = work->image->width;
-    (void)thread;
-    float *p = work->image->pixels + (size_t)index * (size_t)width * 4;
-    retex_texel_defects_repair(p, width, index, &work->defects[index]);
-    for (int x = 0; x < width; x++, p += 4) {
-        float alpha = p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3];
-        for (int c = 0; c < 3; c++)
-            p[c] *= alpha;
-        p[3] = alpha;
-    }
-}
-
-static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthreads, RetexError *err)
-{
-    RepairWork work = {pixels, calloc((size_t)pixels->height, sizeof *work.defects)};
-    if (!work.defects)
-        return no_memory(texture, pixels->width, pixels->height, err);
-    retex_parallel(nthreads, pixels->height, premultiply_job, &work);
-    for (int y = 0; y < pixels->height; y++)
-        retex_texel_defects_merge(&texture->defects, &work.defects[y]);
-    free(work.defects);
-    return RETEX_OK;
-}
-
-/* Makes RGBA pixels premultiplied texels. */
-static int take_pixels(RetexTexture *texture, RetexImage *pixels, RetexTexels *texels, int nthreads, RetexError *err)
-{
-    const int code = premultiply(texture, pixels, nthreads, err);
-    if (code)
-        return code;
-    *texels = (RetexTexels){pixels->width, pixels->height, 0, pixels->pixels};
-    *pixels = (RetexImage){0};
-    return RETEX_OK;
-}
-
 /* ---- life ---- */
+
+static void close_finishes(RetexTexture *texture);
+static uint64_t finishes_bytes(const RetexTexture *texture);
 
 static int check_width(const RetexTextureSpec *spec, RetexError *err)
 {
@@ -283,63 +233,11 @@ void retex_texture_close(RetexTexture **texture)
             free(level->ends[k]);
         }
     }
-    retex_finish_map_close(*texture);
+    close_finishes(*texture);
     retex_budget_release((*texture)->spec.budget, (*texture)->charged);
     free((*texture)->color_warning);
     free(*texture);
     *texture = NULL;
-}
-
-void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec)
-{
-    int width, height;
-    char *lines = texture->color_warning && spec->warn ? strdup(texture->color_warning) : NULL;
-    retex_texture_size(texture, &width, &height);
-    for (char *rest = lines, *line; (line = strsep(&rest, "\n"));)
-        spec->warn(spec->warn_context, line);
-    free(lines);
-    retex_texel_defects_report(&texture->defects, spec, (long)width * height);
-}
-
-/* Returns the texture without pointers to the caller's data, which may not live as long. */
-static void return_texture(RetexTexture **out, RetexTexture *texture, const float color[3])
-{
-    RetexTextureSpec described = texture->spec;
-    memcpy(described.color, color, sizeof described.color); /* the colour as it was given */
-    retex_texture_report_colors(texture, &described);
-    texture->spec.access = NULL;
-    texture->spec.warn = NULL;
-    *out = texture;
-}
-
-/* Keeps a warning of the file for the report. */
-static void keep_warning(void *context, const char *text)
-{
-    RetexTexture *texture = context;
-
-    char *both = NULL;
-
-    if (texture->color_warning && asprintf(&both, "%s\n%s", texture->color_warning, text) < 0)
-        return;
-    free(texture->color_warning);
-    texture->color_warning = both ? both : strdup(text);
-}
-
-/* Parameters of reading. While an image is decoded, an image of 16-bit integers, or for other files the floats of the
- * file, exists beside the texture's own texels. */
-static RetexReadParams read_params(RetexTexture *texture)
-{
-    const RetexTextureSpec *spec = &texture->spec;
-    enum { PEAK_BYTES = 24 };
-    RetexReadParams params = RETEX_READ_INIT;
-    params.colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
-    params.max_pixels = retex_budget_pixels(spec->budget) ? 0 : MAX_TEXTURE_PIXELS;
-    params.access = spec->access;
-    params.budget = spec->budget;
-    params.warn = keep_warning;
-    params.warn_context = texture;
-    params.pixel_bytes = has_two_repeats(spec) ? 2 * PEAK_BYTES : PEAK_BYTES;
-    return params;
 }
 
 int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
@@ -348,86 +246,9 @@ int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
     return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
 }
 
-int retex_texture_read_file(RetexTexture *texture, const char *file, const char *colorspace, RetexDecoded *decoded,
-                            int nthreads, RetexError *err)
-{
-    RetexReadParams params = read_params(texture);
-    params.colorspace = colorspace ? colorspace : params.colorspace;
-    return retex_image_read_any(decoded, file, &params, nthreads, err);
-}
-
-/* Makes the map of finishes, where there is one. color: NULL = a constant. */
-static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, const RetexTexels *color, int nthreads,
-                         RetexError *err)
-{
-    const RetexTextureSpec *own = &texture->spec;
-    texture->may_have_finishes = own->finish[0] || (files && files->has_roughness);
-    if (files && files->roughness)
-        return retex_finish_map_make(texture, color, files->roughness,
-                                     files->is_gloss ? RETEX_FINISH_BY_GLOSS : RETEX_FINISH_BY_ROUGHNESS,
-                                     files->channel, nthreads, err);
-    if (!own->finish[0] || strcmp(own->finish, RETEX_NO_FINISH_MAP) == 0)
-        return RETEX_OK;
-    if (own->nfinishes < 2)
-        return retex_fail(err, RETEX_EINVAL, "%s has no finishes to choose from: finish= cannot be used on it",
-                          own->target[0] ? own->target : "the target");
-    return retex_finish_map_make(texture, color, own->finish, RETEX_FINISH_BY_LIST, 0, nthreads, err);
-}
-
-/* Reads the files that the image is. */
-static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
-{
-    const RetexTextureSpec *own = &texture->spec;
-    const int wants_roughness = !own->finish[0] && retex_finish_map_has_scale(own);
-    RetexDecoded decoded = {0};
-    RetexFolderFiles files;
-    RetexTexels texels = {0};
-    int code = retex_texture_folder_find(&files, own->image, own->access, wants_roughness, err);
-    if (!code && files.unused)
-        keep_warning(texture, files.unused);
-    if (!code)
-        code = retex_texture_read_file(texture, files.color, NULL, &decoded, nthreads, err);
-    if (!code && decoded.narrow.pixels)
-        texels = (RetexTexels){decoded.narrow.width, decoded.narrow.height, 1, decoded.narrow.pixels};
-    else if (!code)
-        code = take_pixels(texture, &decoded.image, &texels, nthreads, err);
-    if (!code)
-        code = make_finishes(texture, &files, &texels, nthreads, err);
-    if (!code)
-        code = retex_texture_set_texels(texture, &texels, nthreads, err);
-    free(texels.texels);
-    retex_image_free(&decoded.image);
-    retex_texture_folder_files_free(&files);
-    return code;
-}
-
-int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
-{
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    char meant[RETEX_MEANT_SIZE];
-    RetexError why = {0};
-    *out = NULL;
-    if (RETEX_PARAMS_COPY(&spec, given, err))
-        return RETEX_EINVAL;
-    RetexTexture *texture = retex_texture_new(&spec, spec.constant, &why);
-    int code = why.code;
-    if (texture && !spec.constant)
-        code = read_image(texture, nthreads, &why);
-    if (texture && spec.constant)
-        code = make_finishes(texture, NULL, NULL, nthreads, &why);
-    if (code) {
-        retex_texture_close(&texture);
-        if (code == RETEX_EIO) { /* perhaps a misspelt colour */
-            const size_t used = strlen(why.message);
-            snprintf(why.message + used, sizeof why.message - used, "%s", retex_color_meant(spec.image, meant));
-        }
-        if (err)
-            *err = why;
-        return code;
-    }
-    return_texture(out, texture, spec.color);
-    return RETEX_OK;
-}
+static int set_surface_finishes(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
+static int place_finishes(RetexTexture *placed, const RetexTexture *texture, RetexError *err);
+static int square_finishes(RetexTexture *square, const RetexTexture *texture, int nthreads, RetexError *err);
 
 int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *surface, RetexError *err)
 {
@@ -442,7 +263,7 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     retex_texture_size(texture, &width, &height);
     if (!spec.constant)
         set_transform(texture, width, height);
-    return retex_finish_map_set_surface(texture, surface, err);
+    return set_surface_finishes(texture, surface, err);
 }
 
 /* Whether both have the same map of finishes. */
@@ -488,49 +309,11 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     placed->color_warning = NULL;
     retex_texture_size(texture, &width, &height);
     set_transform(placed, width, height);
-    code = retex_finish_map_place(placed, texture, err);
+    code = place_finishes(placed, texture, err);
     if (code)
         retex_texture_close(&placed);
     *out = placed;
     return code;
-}
-
-int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *given, int nthreads,
-                         RetexError *err)
-{
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    RetexError why = {0};
-    *out = NULL;
-    if (RETEX_PARAMS_COPY(&spec, given, err))
-        return RETEX_EINVAL;
-    if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
-        return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
-    RetexTexture *texture = retex_texture_new(&spec, 0, &why);
-    RetexImage copy = {0};
-    int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
-    if (!code) {
-        size_t pixels = (size_t)image->width * (size_t)image->height;
-        for (size_t i = 0; i < pixels; i++) {
-            const float *from = image->pixels + i * (size_t)image->channels;
-            float *to = copy.pixels + i * 4;
-            for (int c = 0; c < 4; c++)
-                to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
-        }
-        RetexTexels texels = {0};
-        code = take_pixels(texture, &copy, &texels, nthreads, &why);
-        if (!code)
-            code = retex_texture_set_texels(texture, &texels, nthreads, &why);
-        free(texels.texels);
-        retex_image_free(&copy);
-    }
-    if (code) {
-        retex_texture_close(&texture);
-        if (err)
-            *err = why;
-        return code;
-    }
-    return_texture(out, texture, texture->spec.color);
-    return RETEX_OK;
 }
 
 int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nthreads, RetexError *err)
@@ -564,7 +347,7 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
         free(texels.texels);
     }
     if (!code)
-        code = retex_finish_map_square(square, texture, nthreads, err);
+        code = square_finishes(square, texture, nthreads, err);
     if (code)
         retex_texture_close(&square);
     *out = square;
@@ -579,7 +362,87 @@ void retex_texture_size(const RetexTexture *texture, int *width, int *height)
 
 uint64_t retex_texture_bytes(const RetexTexture *texture)
 {
-    return texture->charged + retex_finish_map_bytes(texture);
+    return texture->charged + finishes_bytes(texture);
+}
+
+/* ---- maps of finishes ---- */
+
+/* The textures of a map, by number: the weights first. */
+static RetexTexture **texture_of(RetexFinishMap *finishes, int k)
+{
+    return k ? &finishes->colors[k - 1] : &finishes->weights;
+}
+
+static void close_finishes(RetexTexture *texture)
+{
+    for (int k = 0; texture->finishes && k <= RETEX_FINISHES_MAX; k++)
+        retex_texture_close(texture_of(texture->finishes, k));
+    free(texture->finishes);
+    texture->finishes = NULL;
+}
+
+static uint64_t finishes_bytes(const RetexTexture *texture)
+{
+    uint64_t bytes = 0;
+    for (int k = 0; texture->finishes && k <= texture->finishes->count; k++)
+        bytes += retex_texture_bytes(*texture_of(texture->finishes, k));
+    return bytes;
+}
+
+static int set_surface_finishes(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; texture->finishes && k <= texture->finishes->count && !code; k++)
+        code = retex_texture_set_surface(*texture_of(texture->finishes, k), spec, err);
+    return code;
+}
+
+typedef int Derive(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err);
+
+static int derive(RetexTexture *to, const RetexTexture *from, Derive *make, const void *context, RetexError *err)
+{
+    int code = RETEX_OK;
+    to->finishes = NULL;
+    if (!from->finishes)
+        return RETEX_OK;
+    if (!(to->finishes = calloc(1, sizeof *to->finishes)))
+        return no_memory(from, 1, 1, err);
+    to->finishes->count = from->finishes->count;
+    for (int k = 0; k <= from->finishes->count && !code; k++)
+        code = make(texture_of(to->finishes, k), *texture_of(from->finishes, k), context, err);
+    return code;
+}
+
+static int place_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
+{
+    return retex_texture_place(to, from, context, err);
+}
+
+static int place_finishes(RetexTexture *placed, const RetexTexture *texture, RetexError *err)
+{
+    int width, height;
+    retex_texture_size(texture, &width, &height);
+    const RetexTextureSpec spec = retex_texture_finish_spec(&placed->spec, width, height);
+    return derive(placed, texture, place_one, &spec, err);
+}
+
+static int square_one(RetexTexture **to, const RetexTexture *from, const void *context, RetexError *err)
+{
+    return retex_texture_square(to, from, *(const int *)context, err);
+}
+
+static int square_finishes(RetexTexture *square, const RetexTexture *texture, int nthreads, RetexError *err)
+{
+    return derive(square, texture, square_one, &nthreads, err);
+}
+
+RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height)
+{
+    RetexTextureSpec own = *spec;
+    own.constant = 0;
+    if (!spec->constant && own.width[0] > 0 && !(own.width[1] > 0))
+        own.width[1] = own.width[0] * height / width;
+    return own;
 }
 
 /* ---- from surface UV to texels ---- */
@@ -787,4 +650,20 @@ void retex_texture_parallelogram(const RetexTexture *texture, double u, double v
     limit_sides(&footprint, sides);
     retex_texture_parallelogram_kernel(texture, &footprint, sides, rgba);
     unassociate(rgba);
+}
+
+int retex_texture_finishes(const RetexTexture *texture, double u, double v, int shown, float weights[4])
+{
+    const RetexFinishMap *finishes = texture->finishes;
+    float rgba[4];
+    if (!finishes)
+        return 0;
+    retex_texture_point(finishes->weights, u, v, rgba);
+    weights[0] = 1;
+    for (int k = 1; k < finishes->count; k++) {
+        weights[k] = rgba[3] * rgba[k - 1] + (shown == k ? 1 - rgba[3] : 0);
+        weights[0] -= weights[k];
+    }
+    weights[0] = weights[0] > 0 ? weights[0] : 0;
+    return finishes->count;
 }

@@ -100,8 +100,8 @@ int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int
 enum { RETEX_TEXTURE_FILE_IMAGE, RETEX_TEXTURE_FILE_FINISH, RETEX_TEXTURE_FILES };
 /* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the file
  * of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which is read
- * where the target has finishes. For checksums and times of files, and for all that must know what is read. To be freed;
- * NULL where there is none, as the image of a constant. RETEX_EFORMAT for a folder that has no base colour, or
+ * where the target has finishes. For checksums and times of files, and for all that must know what is read. To be
+ * freed; NULL where there is none, as the image of a constant. RETEX_EFORMAT for a folder that has no base colour, or
  * several. */
 int retex_texture_file(char **file, const RetexTextureSpec *spec, int number, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
