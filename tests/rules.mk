@@ -173,7 +173,7 @@ bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-rooms
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-rooms
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
@@ -184,6 +184,8 @@ fidelity-lamps: all
 	@BUILD=$(BUILD) tests/fidelity/table/lamps.sh
 fidelity-finishes: all
 	@BUILD=$(BUILD) tests/fidelity/table/finishes.sh
+fidelity-maps: all
+	@BUILD=$(BUILD) tests/fidelity/table/finish-maps.sh
 fidelity-rooms: all
 	@BUILD=$(BUILD) tests/fidelity/table/imported-rooms.sh
 

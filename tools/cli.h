@@ -69,7 +69,7 @@ _Noreturn void cli_complete(Cli *cli);
 /* The modifiers of --texture and --replace, for --help and completion. */
 #define CLI_TEXTURE_OPTS                                                                                               \
     "scale=S[,T], rotate=DEGREES, offset=U,V, flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, "              \
-    "repeat=straight|brick|half-drop|mirror, colorspace=NAME"
+    "repeat=straight|brick|half-drop|mirror, colorspace=NAME, finish=MAP"
 
 /* Parse cli->value. If it is wrong, print one line with the option and the expected value, and exit with CLI_FAIL. */
 long cli_integer(const Cli *cli, const CliOption *option, long low, long high);

@@ -97,6 +97,7 @@ static const char *plain(char text[512], const char *name)
 
 static void print_target(FILE *out, const RetexSet *set, const RetexTarget *target)
 {
+    int any = 0;
     const RetexPart *original = retex_set_part(set, target->original);
     char text[512];
     fprintf(out, "target %s\n", plain(text, target->name));
@@ -108,6 +109,12 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
     for (int k = 0; k < target->nfinishes; k++)
         fprintf(out, "%s%s%s%s", k ? ", " : "  finishes     ", plain(text, target->finishes[k]),
                 k + 1 == target->finish ? " (as rendered)" : "", k + 1 == target->nfinishes ? "\n" : "");
+    for (int k = 0; k < target->nfinishes; k++)
+        if (target->finish_roughness[k] >= 0)
+            fprintf(out, "%s%.3g of %s", any++ ? ", " : "  roughness    ", (double)target->finish_roughness[k],
+                    plain(text, target->finishes[k]));
+    if (any)
+        fprintf(out, "\n");
     fprintf(out, "  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
             (double)target->mean_albedo[2]);
     fprintf(out, "  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],

@@ -169,8 +169,7 @@ processor seconds. `combine` is with another floor and, where there are any, ano
 
 ## Limits
 
-- One finish lies on the whole of a target: a gloss map is not followed. A floor of matt and polished tiles is two
-  targets.
+- A [map of finishes](finish-maps.md) says which is where; its weights count at a path's first hit on the target.
 - A finish that emits light, lets it through or below the surface is refused, and so is a target that does.
 - Bumps stay as they are, and so does what the pigment's alpha cuts out.
 - A target's finish and the textures of other targets that keep their originals: their mean albedos are multiplied, as

@@ -17,8 +17,8 @@ typedef struct RetexSampleFootprint {
 
 /* Image i belongs to footprint i of the set; further ones are of textures with a map of finishes, first those of
  * footprints, then gates. They are RGB of the size of the footprint's parts, or unallocated where the footprint's
- * target keeps its original; gates have the size of the set, red, green and blue being weights of the second finish and later
- * ones. An image with a size but without pixels is in the band store or in the source. */
+ * target keeps its original; gates have the size of the set, red, green and blue being weights of the second finish and
+ * later ones. An image with a size but without pixels is in the band store or in the source. */
 struct RetexSamples {
     int width, height; /* of the set */
     int nfootprints, nimages;

@@ -239,7 +239,7 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     const int width = color && color->width > work->map.width ? color->width : work->map.width,
               height = color && color->height > work->map.height ? color->height : work->map.height;
     const RetexTextureSpec spec =
-        color ? retex_texture_finish_spec(&texture->spec, color->width, color->height) : retex_texture_finish_spec(&texture->spec, width, height);
+        retex_texture_finish_spec(&texture->spec, color ? color->width : width, color ? color->height : height);
     RetexFinishMap *finishes = texture->finishes;
     int code = RETEX_OK;
     for (int k = 0; k <= work->count && !code; k++) {

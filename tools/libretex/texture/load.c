@@ -1,5 +1,5 @@
-/* Loads textures: files are read, texels that cannot be colours are repaired, and maps of finishes are made. A texture's
- * pixels become premultiplied RGBA: 16-bit integers where the file has integers, else floats. */
+/* Loads textures: files are read, texels that cannot be colours are repaired, and maps of finishes are made. A
+ * texture's pixels become premultiplied RGBA: 16-bit integers where the file has integers, else floats. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
