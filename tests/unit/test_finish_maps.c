@@ -13,6 +13,7 @@
 
 #include <retex/host/texture_lookup.h>
 
+#include "set/samples.h"
 #include "texture/filter.h"
 #include "texture/finish_map.h"
 
@@ -363,6 +364,12 @@ static void check_pictures(int clear, int shown)
         test_must(retex_sample(&samples, set, &spec, 1, 2, &err), &err);
         test_must(retex_combine(&picture, set, samples, &params, NULL, 2, &err), &err);
         compare(set, &picture, shown, "from samples");
+        const int sample = retex_samples_find(samples, 0, SHARP, 1);
+        assert_true(sample >= set->nfootprints);
+        samples->footprints[sample].finish = 0; /* as a damaged file may say */
+        assert_int_equal(retex_combine(&picture, set, samples, &params, NULL, 2, &err), RETEX_EFORMAT);
+        retex_image_free(&samples->images[sample]);
+        assert_int_equal(retex_combine(&picture, set, samples, &params, NULL, 2, &err), RETEX_EINVAL);
         retex_samples_close(&samples);
     }
     retex_image_free(&picture);

@@ -162,6 +162,9 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     if (!texture && p->samples && retex_samples_have(p->samples, factor.index)) {
         const int sample = finish < 0 ? factor.index
                                       : retex_samples_find(p->samples, f->target, factor.index, finish);
+        if (sample < 0)
+            return retex_fail(err, RETEX_EFORMAT, "the samples lack footprint %d with finish %d", factor.index,
+                              finish);
         *span = (RetexRowSpan){0, p->samples->images[factor.index].width};
         return retex_row_reader_sample(reader, sample, y, row, err);
     }
