@@ -23,6 +23,10 @@ $ V='--texture:finish=map.png:scale=2 Floor=brick.jpg'; retex-combine -q set.exr
 $ V='--texture:finish=map.png:scale=2 Floor=brick.jpg'; printf 'output,Floor\nfour.exr,:finish=map.png:scale=2 brick.jpg\nfive.exr,:scale=2 brick.jpg\n' >t.csv; retex-combine -q set.exr --batch t.csv; cmp one.exr four.exr; retex-combine -q set.exr --texture:scale=2 Floor=brick.jpg -o c.exr; cmp c.exr five.exr; retex-pack -q set.exr --lossless -o set.retex; retex-combine -q set.retex $V -o two.exr; cmp one.exr two.exr; cp map.png map.0007.png; retex-combine -q set.exr --frames 7 --texture:finish=map.%04d.png:scale=2 Floor=brick.jpg -o f.%04d.exr; cmp one.exr f.0007.exr
 $ V='--texture:finish=map.png:scale=2 Floor=brick.jpg'; retex-pack -q full.exr --quality 95 -o full.retex; for p in g0:matt g1:polished; do retex-combine -q full.retex --texture:finish=${p%:*}.png Floor=brick.jpg -o a.exr; retex-combine -q full.retex --texture Floor=brick.jpg --finish Floor=${p#*:} -o c.exr; sh near a.exr c.exr 100; done; retex-combine -q full.exr $V -o a.exr; retex-combine -q full.retex $V -o c.exr; sh near a.exr c.exr 36
 
+# Pictures of one traversal have each their own map.
+$ printf 'output,Floor\nv1.exr,:finish=map.png:scale=2 brick.jpg\nv2.exr,:scale=2 brick.jpg\n' >t.csv; R='sh h --spp 8 --plain'; $R --variants t.csv; $R --replace:finish=map.png:scale=2 Floor=brick.jpg -o w1.exr; $R --replace:scale=2 Floor=brick.jpg -o w2.exr; cmp v1.exr w1.exr; cmp v2.exr w2.exr; sh near v1.exr v2.exr 40
+> v1.exr v2.exr 40
+
 # Where the texture is transparent, the finish shows that is chosen without a map.
 $ oiiotool --pattern constant:color=0,0,0,0 8x8 4 -d uint8 -o clear.png; for f in matt polished; do retex-combine -q full.exr --texture:finish=map.png Floor=clear.png --finish Floor=$f -o a.exr; retex-combine -q full.exr --texture Floor=clear.png --finish Floor=$f -o c.exr; sh near a.exr c.exr 100; done
 
