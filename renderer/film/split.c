@@ -3,22 +3,20 @@
 #include <string.h>
 #include "film/split.h"
 
-/* What the hit before a node does, by finish. */
-typedef struct NodeFinishes {
-    FinishFactor of[FINISHES_MAX];
-} NodeFinishes;
-
 int split_open(SplitSink *s, FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err)
 {
     const size_t nodes = paths * TARGET_NODES_MAX, lights = paths * (TARGET_NODES_MAX + 1) * (size_t)scene->nkept;
-    const int combines = scene->ncombinations > 0;
+    const int has_finishes = scene->ncombinations > 0;
     s->pixel = pixel, s->scene = scene, s->count = s->nlamp_light = 0;
+    s->ncombinations = has_finishes ? scene->ncombinations : 1;
     film_hit_limits(pixel, &s->orders, &s->most_hits);
     s->nodes = aligned_alloc(sizeof *s->nodes, nodes * sizeof *s->nodes);
+    s->throughput = aligned_alloc(sizeof(Float4), paths * (size_t)s->ncombinations * sizeof *s->throughput);
     s->lamp_light = lights ? aligned_alloc(sizeof(Float4), lights * sizeof *s->lamp_light) : NULL;
-    s->finishes = combines ? aligned_alloc(sizeof(Float4), nodes * sizeof *s->finishes) : NULL;
-    s->combined = combines ? aligned_alloc(sizeof(Float4), paths * sizeof *s->combined) : NULL;
-    return s->nodes && (s->lamp_light || !lights) && ((s->finishes && s->combined) || !combines)
+    s->finishes = has_finishes ? aligned_alloc(sizeof(Float4), nodes * sizeof *s->finishes) : NULL;
+    s->last_finishes = has_finishes ? aligned_alloc(sizeof(Float4), paths * sizeof *s->last_finishes) : NULL;
+    return s->nodes && s->throughput && (s->lamp_light || !lights) &&
+                   ((s->finishes && s->last_finishes) || !has_finishes)
                ? RETEX_OK
                : retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
 }
@@ -26,10 +24,11 @@ int split_open(SplitSink *s, FilmPixel *pixel, size_t paths, const Scene *scene,
 void split_close(SplitSink *s)
 {
     free(s->nodes);
+    free(s->throughput);
     free(s->lamp_light);
     free(s->finishes);
-    free(s->combined);
-    s->nodes = NULL, s->lamp_light = NULL, s->finishes = NULL, s->combined = NULL;
+    free(s->last_finishes);
+    s->nodes = NULL, s->throughput = NULL, s->lamp_light = NULL, s->finishes = s->last_finishes = NULL;
 }
 
 /* ---- hits ---- */
@@ -47,15 +46,20 @@ static inline FactorParts factor_parts(const SplitSink *s, const Factor *f)
     return parts;
 }
 
+/* The factor by finish, or NULL: it is the same in all combinations. */
+static inline const FinishFactor *by_finish(const SplitSink *s, const Factor *f)
+{
+    return s->ncombinations > 1 ? f->finishes : NULL;
+}
+
 /* Whether a hit keeps the factor apart: then it is counted. Else it is to be multiplied in as a whole, with the
  * original albedo; *folded: with a texture that changes it. counts: of the path's hits and those added since.
  *
  * A reflection is a hit even where the texture does not change it, so that what is seen reflected in a polished floor
  * stays apart from the floor's own texture. Light that only passes through a target unchanged makes no hit. */
 static inline int keep_as_hit(const SplitSink *s, const SplitPath *p, TargetCounts *counts, int *folded,
-                              const Factor *f)
+                              const Factor *f, FactorParts parts)
 {
-    const FactorParts parts = factor_parts(s, f);
     const int added = counts->nhits - p->counts.nhits, is_textured = f->target >= 0 && parts.d;
     if ((is_textured || (f->target >= 0 && f->reflects)) && p->tree.count + added < TARGET_NODES_MAX &&
         target_counts_allow(counts, f->target, s->orders, s->most_hits)) {
@@ -77,16 +81,11 @@ static inline TargetNode *add_hit(SplitSink *s, SplitPath *p, const Factor *f, T
                              .direct = (unsigned char)f->direct};
     TargetNode *hit = target_tree_add(&p->tree, &s->nodes[s->count], &at, before, before_d, before_i);
     if (before && finishes) {
-        memcpy(s->finishes[s->count].of, finishes, sizeof s->finishes->of);
-        hit->before_finishes = s->finishes[s->count].of;
+        memcpy(s->finishes[s->count], finishes, sizeof *s->finishes);
+        hit->before_finishes = s->finishes[s->count];
     }
     s->count++;
     return hit;
-}
-
-static inline const FinishFactor *last_finishes(const SplitPath *p)
-{
-    return p->combined && p->combined->last_differs ? p->combined->last : NULL;
 }
 
 /* The hit of the current vertex: direct light and the continued path share it. */
@@ -95,56 +94,32 @@ static inline TargetNode *find_current_hit(SplitSink *s, SplitPath *p, const Fac
     const TargetNode *hit = p->current_hit;
     if (!hit || hit->at.target != f->target || hit->at.uv.u != f->uv.u || hit->at.uv.v != f->uv.v ||
         hit->at.sharp != f->sharp)
-        p->current_hit = add_hit(s, p, f, p->last, p->last_d, p->last_i, last_finishes(p));
+        p->current_hit = add_hit(s, p, f, p->last, p->last_d, p->last_i, p->last_finishes);
     return p->current_hit;
 }
 
-/* As split_multiply, in each combination. */
-static __attribute__((noinline)) void multiply_combined(SplitSink *s, SplitPath *p, const Factor *f)
-{
-    SplitCombined *combined = p->combined;
-    const FactorParts parts = factor_parts(s, f);
-    const int is_hit = keep_as_hit(s, p, &p->counts, &p->folded, f);
-    combined->met |= f->finishes != NULL;
-    p->rest = splat(0);
-    for (int c = 0; c < s->scene->ncombinations; c++) {
-        const FinishFactor by = factor_of_combination(f, s->scene, c);
-        const Float4 whole = by.d * f->albedo + by.i;
-        combined->beta[c] *= whole;
-        combined->rest[c] *= !is_hit ? whole : !parts.i ? by.d : !parts.d ? by.i : splat(1);
-        p->rest += combined->rest[c] * splat(1 / (float)s->scene->ncombinations);
-    }
-    if (is_hit) {
-        p->last = find_current_hit(s, p, f);
-        combined->last_differs = f->finishes && parts.d && parts.i;
-        if (combined->last_differs)
-            memcpy(combined->last, f->finishes, (size_t)s->scene->targets[f->target].nfinishes * sizeof *f->finishes);
-        p->last_d = !parts.i ? splat(1) : f->d;
-        p->last_i = !parts.d ? splat(1) : f->i;
-    }
-    p->current_hit = NULL;
-}
-
-/* Where one of d and i is black, the other is multiplied into `rest` and 1 stays in its place: so `rest` is black
- * wherever no texture can make the contribution other than black. */
+/* Where one of d and i is black in all finishes, the other is multiplied into `rest` and 1 stays in its place: so
+ * `rest` is black wherever no texture can make the contribution other than black. */
 void split_multiply(SplitSink *s, SplitPath *p, const Factor *f)
 {
-    if (p->combined) {
-        multiply_combined(s, p, f);
-        return;
+    const FactorParts parts = factor_parts(s, f);
+    const int is_hit = keep_as_hit(s, p, &p->counts, &p->folded, f, parts);
+    p->met |= by_finish(s, f) != NULL;
+    for (int c = 0; c < s->ncombinations; c++) {
+        const FinishFactor by = factor_of_combination(f, s->scene, c);
+        const Float4 whole = by.d * f->albedo + by.i;
+        p->throughput[c].all *= whole;
+        if (!is_hit || !parts.d || !parts.i)
+            p->throughput[c].rest *= !is_hit ? whole : !parts.i ? by.d : by.i;
     }
-    if (keep_as_hit(s, p, &p->counts, &p->folded, f)) {
+    if (is_hit) {
+        const int differs = by_finish(s, f) && parts.d && parts.i;
         p->last = find_current_hit(s, p, f);
-        p->last_d = f->d, p->last_i = f->i;
-        if (is_black4(f->i)) {
-            p->rest *= f->d;
-            p->last_d = splat(1);
-        } else if (is_black4(f->d)) {
-            p->rest *= f->i;
-            p->last_i = splat(1);
-        }
-    } else {
-        p->rest *= factor_whole(f);
+        p->last_finishes = differs ? p->own_finishes : NULL;
+        if (differs)
+            memcpy(p->own_finishes, f->finishes, (size_t)s->scene->targets[f->target].nfinishes * sizeof *f->finishes);
+        p->last_d = !parts.i ? splat(1) : f->d;
+        p->last_i = !parts.d ? splat(1) : f->i;
     }
     p->current_hit = NULL;
 }
@@ -176,22 +151,48 @@ static void add_lamp_light(SplitSink *s, SplitPath *p, int kept, const TargetNod
     p->tree.lamp_light = added;
 }
 
-/* Factors of a contribution that are hits, and what becomes of throughput by the others. */
+/* Factors of a contribution that are hits. */
 typedef struct ContributionHits {
     const Factor *of[TARGET_NODES_MAX];
-    int count, folded;
+    int count, folded, met;
     TargetNode *last;
-    Float4 d, i; /* the factor of the last hit */
+    FinishFactor by;                     /* the factor of the last hit; where there is none, light is independent */
+    const FinishFactor *by_finish; /* or NULL: the same in all */
 } ContributionHits;
+
+/* Sort a contribution's factors; light: its throughput, to which they are added. */
+static void find_hits(const SplitSink *s, const SplitPath *p, const Contribution *c, ContributionHits *hits,
+                      SplitThroughput *light)
+{
+    TargetCounts counts = p->counts;
+    hits->count = 0, hits->folded = p->folded, hits->met = p->met;
+    for (int k = 0; k < s->ncombinations; k++)
+        light[k] = (SplitThroughput){p->throughput[k].rest * color4(c->light), p->throughput[k].all * color4(c->light)};
+    for (int n = 0; n < c->nfactors; n++) {
+        const Factor *f = &c->factors[n];
+        const int is_hit = keep_as_hit(s, p, &counts, &hits->folded, f, factor_parts(s, f));
+        hits->met |= by_finish(s, f) != NULL;
+        for (int k = 0; k < s->ncombinations; k++) {
+            const FinishFactor by = factor_of_combination(f, s->scene, k);
+            const Float4 whole = by.d * f->albedo + by.i;
+            light[k].all *= whole;
+            if (!is_hit)
+                light[k].rest *= whole;
+        }
+        if (is_hit)
+            hits->of[hits->count++] = f;
+    }
+}
 
 static void add_hits(SplitSink *s, SplitPath *p, ContributionHits *hits)
 {
-    const FinishFactor *finishes = last_finishes(p);
-    hits->last = p->last, hits->d = p->last_d, hits->i = p->last_i;
+    hits->last = p->last, hits->by_finish = p->last_finishes;
+    hits->by = p->last ? (FinishFactor){p->last_d, p->last_i} : (FinishFactor){splat(0), splat(1)};
     for (int k = 0; k < hits->count; k++) {
         const Factor *f = hits->of[k];
-        hits->last = k == 0 ? find_current_hit(s, p, f) : add_hit(s, p, f, hits->last, hits->d, hits->i, finishes);
-        hits->d = f->d, hits->i = f->i, finishes = f->finishes;
+        hits->last = k == 0 ? find_current_hit(s, p, f)
+                            : add_hit(s, p, f, hits->last, hits->by.d, hits->by.i, hits->by_finish);
+        hits->by = (FinishFactor){f->d, f->i}, hits->by_finish = by_finish(s, f);
     }
 }
 
@@ -201,83 +202,37 @@ static void add_folded(const SplitSink *s, const ContributionHits *hits, Float4 
         film_add_folded(s->pixel, rgb_of4(light), rgb_of4(hits->last ? with_white_targets(hits->last, d, i) : i));
 }
 
-/* As split_add, in each combination. */
-static __attribute__((noinline)) int add_combined(SplitSink *s, SplitPath *p, const Contribution *c)
+int split_add(SplitSink *s, SplitPath *p, const Contribution *c)
 {
     const Scene *scene = s->scene;
-    const SplitCombined *combined = p->combined;
-    ContributionHits hits = {.count = 0, .folded = p->folded};
-    Float4 rest[COMBINATIONS_MAX], light[COMBINATIONS_MAX], sum_d = splat(0), sum_i = splat(0), sum = splat(0);
-    TargetCounts counts = p->counts;
-    int met = combined->met, is_black = 1;
-    for (int k = 0; k < scene->ncombinations; k++)
-        rest[k] = combined->rest[k] * color4(c->light), light[k] = combined->beta[k] * color4(c->light);
-    for (int f = 0; f < c->nfactors; f++) {
-        const int is_hit = keep_as_hit(s, p, &counts, &hits.folded, &c->factors[f]);
-        met |= c->factors[f].finishes != NULL;
-        for (int k = 0; k < scene->ncombinations; k++) {
-            const FinishFactor by = factor_of_combination(&c->factors[f], scene, k);
-            const Float4 whole = by.d * c->factors[f].albedo + by.i;
-            light[k] *= whole, rest[k] *= is_hit ? splat(1) : whole;
-        }
-        if (is_hit)
-            hits.of[hits.count++] = &c->factors[f];
-    }
-    for (int k = 0; k < scene->ncombinations; k++) {
-        if (!rgb_is_finite(rgb_of4(light[k] + rest[k])))
+    const Float4 share = splat(1 / (float)s->ncombinations);
+    SplitThroughput light[COMBINATIONS_MAX];
+    ContributionHits hits;
+    Float4 d = splat(0), i = splat(0), all = splat(0);
+    int is_black = 1;
+    find_hits(s, p, c, &hits, light);
+    for (int k = 0; k < s->ncombinations; k++) {
+        if (!rgb_is_finite(rgb_of4(light[k].all + light[k].rest)))
             return 0;
-        is_black &= is_black4(rest[k]);
+        is_black &= is_black4(light[k].rest);
     }
     if (is_black)
         return 1;
     add_hits(s, p, &hits);
-    const Factor *own = hits.count ? hits.of[hits.count - 1] : NULL;
-    const FinishFactor *last = own ? own->finishes : last_finishes(p);
-    for (int k = 0; k < scene->ncombinations; k++) {
-        const Float4 share = splat(1 / (float)scene->ncombinations);
-        const FinishFactor by =
-            hits.last && last ? last[scene->finish_of[k][hits.last->at.target]] : (FinishFactor){hits.d, hits.i};
-        const Float4 scaled = rest[k] * share, d = hits.last ? by.d * scaled : splat(0),
-                     i = hits.last ? by.i * scaled : scaled;
-        sum_d += d, sum_i += i, sum += light[k] * share;
-        if (met)
-            add_lamp_light(s, p, scene_kept(scene, c->lamp, k), hits.last, d, i, light[k] * share);
+    for (int k = 0; k < s->ncombinations; k++) {
+        const FinishFactor by = hits.by_finish ? hits.by_finish[scene->finish_of[k][hits.last->at.target]] : hits.by;
+        const Float4 scaled = light[k].rest * share, own_d = by.d * scaled, own_i = by.i * scaled;
+        d += own_d, i += own_i, all += light[k].all * share;
+        if (hits.met)
+            add_lamp_light(s, p, scene_kept(scene, c->lamp, k), hits.last, own_d, own_i, light[k].all * share);
     }
-    if (!met)
-        add_lamp_light(s, p, scene_kept(scene, c->lamp, -1), hits.last, sum_d, sum_i, sum);
-    p->tree.met |= met;
+    if (!hits.met && s->lamp_light)
+        add_lamp_light(s, p, scene_kept(scene, c->lamp, -1), hits.last, d, i, all);
+    p->tree.met |= hits.met;
     if (hits.last)
-        target_node_add_light(hits.last, splat(1), splat(0), sum_d), hits.last->independent += sum_i;
+        target_node_add_light(hits.last, d, i);
     else
-        p->tree.without_hit += sum_i, p->tree.nwithout_hit++;
-    add_folded(s, &hits, sum, sum_d, sum_i);
-    return 1;
-}
-
-int split_add(SplitSink *s, SplitPath *p, const Contribution *c, Float4 light)
-{
-    ContributionHits hits = {.count = 0, .folded = p->folded};
-    Float4 rest = p->rest * color4(c->light);
-    TargetCounts counts = p->counts;
-    if (p->combined)
-        return add_combined(s, p, c);
-    for (int k = 0; k < c->nfactors; k++)
-        if (keep_as_hit(s, p, &counts, &hits.folded, &c->factors[k]))
-            hits.of[hits.count++] = &c->factors[k];
-        else
-            rest *= factor_whole(&c->factors[k]);
-    if (!rgb_is_finite(rgb_of4(light + rest)))
-        return 0;
-    if (is_black4(rest))
-        return 1;
-    add_hits(s, p, &hits);
-    const Float4 d = hits.last ? hits.d * rest : splat(0), i = hits.last ? hits.i * rest : rest;
-    if (s->lamp_light)
-        add_lamp_light(s, p, c->lamp, hits.last, d, i, light);
-    if (hits.last)
-        target_node_add_light(hits.last, hits.d, hits.i, rest);
-    else
-        p->tree.without_hit += rest, p->tree.nwithout_hit++;
-    add_folded(s, &hits, light, d, i);
+        p->tree.without_hit += i, p->tree.nwithout_hit++;
+    add_folded(s, &hits, all, d, i);
     return 1;
 }

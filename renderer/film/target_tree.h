@@ -110,11 +110,11 @@ static inline FinishFactor target_node_before(const TargetNode *hit, const Scene
                                 : (FinishFactor){hit->before_d, hit->before_i};
 }
 
-/* Add light that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */
-static inline void target_node_add_light(TargetNode *hit, Float4 d, Float4 i, Float4 light)
+/* Add light that meets no other hit before this one, from the emitter on; d, i: what it is to D and I. */
+static inline void target_node_add_light(TargetNode *hit, Float4 d, Float4 i)
 {
-    hit->dependent += d * light;
-    hit->independent += i * light;
+    hit->dependent += d;
+    hit->independent += i;
     hit->connections++;
 }
 

@@ -95,7 +95,7 @@ void path_contribute(PathWorker *w, Path *path, const Contribution *c)
                 scene->nlamps ? " of lamp " : "", scene->nlamps ? scene->lamps[c->lamp].name : "");
     if (w->control)
         add_to_control(w, path, c, shown);
-    if (context->split ? split_add(&w->split, &path->split, c, light) : rgb_is_finite(rgb_of4(light)))
+    if (context->split ? split_add(&w->split, &path->split, c) : rgb_is_finite(rgb_of4(light)))
         for (int k = 0; k < 3; k++)
             path->light[k] += (double)shown[k];
     else

@@ -94,7 +94,7 @@ static inline int path_is_alive(const PathWorker *w, const Path *path)
 {
     const PathContext *c = w->context;
     if (c->split)
-        return !is_black4(path->split.rest);
+        return split_is_alive(&w->split, &path->split);
     int alive = !is_black4(path->beta);
     for (int v = 1; v < c->nvariants && !alive; v++)
         alive = !rgb_is_black(path->control->betas[v]);

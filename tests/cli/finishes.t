@@ -39,6 +39,11 @@ $ retex-info lit.exr | grep -A1 ^param
 # --show only chooses the picture; the set has all finishes.
 $ sh f --show Floor=Gloss --full-precision -o shown.exr; retex-combine -q shown.exr --finish Floor=original -o c.exr; retex-combine -q full.exr -o b.exr; retex-diff -q b.exr c.exr --fail-psnr 80; retex-combine -q full.exr --finish Floor=Gloss -o c.exr; retex-combine -q shown.exr -o b.exr; retex-diff -q b.exr c.exr --fail-psnr 80
 
+# One finish alone: it is that of the set, which has none to choose from.
+$ sh r --finish Floor=Gloss --full-precision -o one.exr; sh r --finish Floor=Gloss --plain -o p.exr; retex-combine -q one.exr -o c.exr; retex-diff -q c.exr p.exr --fail-psnr 80; retex-info one.exr | grep -c 'finishes\|parameter'
+> 0
+= 1
+
 # In one pass, from samples, from a stream, in tables, in packs and after denoising.
 $ V="--finish Floor=Coated --texture Wall=brick.jpg"; retex-combine -q set.exr $V -o one.exr; retex-sample -q set.exr --texture Wall=brick.jpg | retex-combine -q - --finish Floor=Coated -o two.exr; cmp one.exr two.exr; printf 'output,Wall,finish:Floor\nthree.exr,brick.jpg,coated\nfour.exr,brick.jpg,\n' >t.csv; retex-combine -q set.exr --batch t.csv; cmp one.exr three.exr; retex-combine -q set.exr --batch t.csv --finish Floor=Coated; cmp one.exr four.exr
 $ retex-combine set.exr --finish wall=satin --finish Floor=Gloss -o one.exr 2>&1 | sed 's/, [0-9.]* s$//'

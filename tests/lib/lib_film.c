@@ -56,7 +56,7 @@ void connect_light(Fixture *f, Rgb light)
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
     film_add_light(f->pixel, sum);
     if (f->hits.last)
-        target_node_add_light(f->hits.last, color4(f->split.d), color4(f->split.i), color4(light));
+        target_node_add_light(f->hits.last, color4(f->split.d) * color4(light), color4(f->split.i) * color4(light));
     else
         f->hits.without_hit += color4(light), f->hits.nwithout_hit++;
     f->light = rgb_add(f->light, beauty);

@@ -309,10 +309,10 @@ static void hits_are_a_tree(void **state)
     TargetNode *floor = f.hits.last;
     f.split = both; /* of the light picked there, through the wall */
     hit(&f, 1, 0.5, 0.5, rgb_grey(0.5f), BROAD);
-    target_node_add_light(f.hits.last, splat(1), splat(0), splat(16));
+    target_node_add_light(f.hits.last, splat(16), splat(0));
     const TargetVertex wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0, 0}; /* to which the path goes on elsewhere */
     TargetNode *last = target_tree_add(&f.hits, &f.room[2], &wall, floor, splat(1), splat(0));
-    target_node_add_light(last, splat(1), splat(0), splat(4));
+    target_node_add_light(last, splat(4), splat(0));
     const double beauty = 16 * 0.5 * (0.5 * 0.5 + 0.25) + 4 * 0.5 * 0.5;
     film_add_light(f.pixel, (double[3]){beauty, beauty, beauty});
     end_path(&f);
