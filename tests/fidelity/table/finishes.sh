@@ -11,9 +11,7 @@
 # FINISHES_SPP, FINISHES_TRUTH_SPP, FINISHES_HEIGHT, FINISHES_PICTURE_HEIGHT, FINISHES_SIZE and FINISHES_SIZE_SPP choose
 # less, or more.
 set -eu
-. tests/figures/head.sh
-build=${BUILD:-build} here=tests/fidelity
-PATH=$build/bin:$PATH
+. tests/fidelity/table/lib.sh
 work=$build/fidelity-finishes
 spp=${FINISHES_SPP:-128} truth_spp=${FINISHES_TRUTH_SPP:-2048} height=${FINISHES_HEIGHT:-96}
 picture_height=${FINISHES_PICTURE_HEIGHT:-270} size=${FINISHES_SIZE:-960x540} size_spp=${FINISHES_SIZE_SPP:-64}
@@ -22,22 +20,6 @@ figures_python fidelity-finishes
 mkdir -p "$work"
 settings="$spp $truth_spp $height $picture_height $size $size_spp"
 figures_settings fidelity-finishes "$work" "$settings"
-
-# Makes FILE by a command that takes -o, unless it is there: made FILE COMMAND...
-made() {
-    file=$1
-    shift
-    [ -e "$file" ] || "$@" -o "$file"
-}
-wide() { # SCENE HEIGHT
-    case $1 in living-room) echo $(($2 * 16 / 9))x"$2" ;; *) echo $(($2 * 4 / 3))x"$2" ;; esac
-}
-# Processor seconds of a command, into FILE: timed FILE COMMAND...
-timed() {
-    file=$1
-    shift
-    /usr/bin/time -o "$file" -f '%U %S %M' "$@"
-}
 
 # ---- one set against renders of their own ----
 

@@ -12,9 +12,7 @@
 # LAMPS_SPP, LAMPS_TRUTH_SPP, LAMPS_HEIGHT, LAMPS_PICTURE_HEIGHT, LAMPS_PICTURE_SPP, LAMPS_SIZE, LAMPS_SIZE_SPP and
 # LAMPS_COUNTS choose less, or more.
 set -eu
-. tests/figures/head.sh
-build=${BUILD:-build} here=tests/fidelity
-PATH=$build/bin:$PATH
+. tests/fidelity/table/lib.sh
 work=$build/fidelity-lamps
 spp=${LAMPS_SPP:-128} truth_spp=${LAMPS_TRUTH_SPP:-2048} height=${LAMPS_HEIGHT:-96}
 picture_height=${LAMPS_PICTURE_HEIGHT:-270} picture_spp=${LAMPS_PICTURE_SPP:-512}
@@ -25,15 +23,6 @@ mkdir -p "$work"
 settings="$spp $truth_spp $height $picture_height $picture_spp $size $size_spp"
 figures_settings fidelity-lamps "$work" "$settings"
 
-# Makes FILE by a command that takes -o, unless it is there: made FILE COMMAND...
-made() {
-    file=$1
-    shift
-    [ -e "$file" ] || "$@" -o "$file"
-}
-wide() { # SCENE HEIGHT
-    case $1 in living-room) echo $(($2 * 16 / 9))x"$2" ;; *) echo $(($2 * 4 / 3))x"$2" ;; esac
-}
 targets() {
     case $1 in glass-caustics) echo '-t Floor' ;; *) echo '-t Floor -t Wall' ;; esac
 }
@@ -97,12 +86,6 @@ done
 
 # ---- bytes, times and memory ----
 
-# Processor seconds and peak kilobytes of a command, into FILE: timed FILE COMMAND...
-timed() {
-    file=$1
-    shift
-    /usr/bin/time -o "$file" -f '%U %S %M' "$@"
-}
 costs() { # NAME LAMPS OPTION...
     name=$work/$1 more=$(($2 - 3))
     shift 2

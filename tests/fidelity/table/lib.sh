@@ -9,6 +9,23 @@ textures='checker wood grout text saturated constant dark photo'
 images=$build/fidelity/textures
 PATH=$build/bin:$PATH
 
+# Makes FILE by a command that takes -o, unless it is there: made FILE COMMAND...
+made() {
+    file=$1
+    shift
+    [ -e "$file" ] || "$@" -o "$file"
+}
+# Processor seconds and peak kilobytes of a command, into FILE: timed FILE COMMAND...
+timed() {
+    file=$1
+    shift
+    /usr/bin/time -o "$file" -f '%U %S %M' "$@"
+}
+# The size of a scene's picture: that of its camera.
+wide() { # SCENE HEIGHT
+    case $1 in living-room) echo $(($2 * 16 / 9))x"$2" ;; *) echo $(($2 * 4 / 3))x"$2" ;; esac
+}
+
 scene_file() {
     case $1 in
     globe | glossy-pair | horizon) echo "$here/scenes/$1.pov" ;;
