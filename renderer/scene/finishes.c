@@ -14,15 +14,7 @@
 
 #define BUILT_IN(r, m)                                                                                                 \
     {                                                                                                                  \
-        .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05, .reflection_falloff = 1,                 \
-        .reflection_exponent = 1, .retex = {                                                                           \
-            .present = 1,                                                                                              \
-            .roughness = r,                                                                                            \
-            .metallic = m,                                                                                             \
-            .ior = 1.5,                                                                                                \
-            .specular_tint = 1,                                                                                        \
-            .sheen_roughness = 0.3                                                                                     \
-        }                                                                                                              \
+        FINISH_DEFAULTS, .retex.present = 1, .retex.roughness = r, .retex.metallic = m                                 \
     }
 
 static const Finish built_in[] = {BUILT_IN(0.85, 0), BUILT_IN(0.4, 0), BUILT_IN(0.08, 0), BUILT_IN(0.25, 1)};

@@ -234,6 +234,11 @@ typedef struct Finish {
     int lambert, matte;      /* finish_is_lambert, finish_is_matte; set at the end of reading; 0 is only slower */
 } Finish;
 
+/* What a finish has where nothing else is said, as designators; a scene's have an ambient besides. */
+#define FINISH_DEFAULTS                                                                                                \
+    .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05, .reflection_falloff = 1,                     \
+    .reflection_exponent = 1, .retex.ior = 1.5, .retex.specular_tint = 1, .retex.sheen_roughness = 0.3
+
 static inline int finish_is_mirror(const Finish *f)
 {
     return !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);

@@ -10,16 +10,7 @@ ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from)
     if (from)
         *finish = *from;
     else
-        finish->finish = (Finish){
-            .ambient = {0.1f, 0.1f, 0.1f},
-            .diffuse = 0.6,
-            .brilliance = 1,
-            .phong_size = 40,
-            .roughness = 0.05,
-            .reflection_falloff = 1,
-            .reflection_exponent = 1,
-            .retex = {.ior = 1.5, .specular_tint = 1, .sheen_roughness = 0.3},
-        };
+        finish->finish = (Finish){FINISH_DEFAULTS, .ambient = {0.1f, 0.1f, 0.1f}};
     finish->name = NULL;
     finish->next = builder->finishes;
     builder->finishes = finish;
