@@ -27,6 +27,14 @@ $ cp oak/textures/oak_diff_1k.jpg oak/textures/oak_diff_4k.jpg; retex-combine s.
 ! retex-combine: warning: oak: roughness and normal maps are not used
 ! retex-combine: warning: Wood: the opacity map is not used
 
+# However many slashes are behind its name, it is one image.
+$ printf '%s\n' output,floor,Wall sa.png,oak/,Wood b.png,:scale=2\ ./oak//,./oak c.png,oak, >t2.csv; retex-combine -q s.exr --batch t2.csv --manifest m2; cmp sa.png aw.png; cmp b.png bw.png; cmp c.png cw.png; grep -c '/ ' m2
+> 0
+! retex-combine: warning: oak: roughness and normal maps are not used
+! retex-combine: warning: Wood: the opacity map is not used
+! retex-combine: warning: ./oak: roughness and normal maps are not used
+= 1
+
 # Rendering again, and its table.
 $ room="--size 32x24 --spp 2 $SCENES/cornell-box/cornell-box.pov"; retex-render -q $room --replace floor=Wood -o ra.exr; retex-render -q $room --replace floor=Wood/Wood_2K-JPG_Color.jpg -o rb.exr; cmp ra.exr rb.exr; printf 'output,floor\nrc.exr,Wood\n' >v.csv; retex-render -q $room --variants v.csv; cmp rc.exr rb.exr
 ! retex-render: warning: Wood: the opacity map is not used

@@ -247,6 +247,14 @@ static int parse_cell(const TextureTable *table, RetexTextureSpec *spec, int col
     return code;
 }
 
+/* A folder is the same image with slashes behind its name and without. */
+static void cut_slashes(char *cell)
+{
+    size_t length = strlen(cell);
+    while (length > 1 && cell[length - 1] == '/' && cell[length - 2] != ' ')
+        cell[--length] = '\0';
+}
+
 /* Add all mistakes of a row that was read. */
 static void check_row(TextureTable *table, int number)
 {
@@ -261,6 +269,8 @@ static void check_row(TextureTable *table, int number)
         texture_table_mistake(table, number, "a table cannot write to standard output");
     for (int i = 1; i < row->ncells && i <= table->ncolumns; i++) {
         RetexTextureSpec spec;
+        if (texture_table_is_target(table, i - 1))
+            cut_slashes(cells[i]);
         if (*cells[i] && parse_cell(table, &spec, i - 1, cells[i], &err))
             texture_table_mistake(table, number, "%s", err.message);
     }
