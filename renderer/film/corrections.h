@@ -20,10 +20,11 @@ static inline int correction_power(int hits)
     return hits < CORRECTION_POWERS ? hits : CORRECTION_POWERS;
 }
 
-/* The number of targets that have corrections: all, where there is another one that may keep its original. */
+/* The number of targets that have corrections: all, where there is another one that may keep its original. None with
+ * combinations of finishes: corrections are of the mean over all of them, which no picture is. */
 static inline int corrected_targets(const Scene *scene)
 {
-    return scene->ntargets > 1 ? scene->ntargets : 0;
+    return scene->ntargets > 1 && !scene->ncombinations ? scene->ntargets : 0;
 }
 
 /* The stored colour of a pixel. */

@@ -16,6 +16,8 @@ $ cp "$TESTS/finishes.pov" room.pov; cp "$SCENES/textures/brick.jpg" .; retex-re
 $ printf 'exec retex-render -q --size 48x36 --spp 32 room.pov "$@"' >r; printf 'exec sh r --finish Floor=original,Gloss,Coated,polished --finish Wall=original,satin "$@"' >f; sh f --full-precision -o full.exr; sh f --threads 1 -o set.exr; sh f --threads 7 -o seven.exr; cmp set.exr seven.exr; retex-info set.exr | grep -E 'finishes|parameter'
 >   finishes     original (as rendered), Gloss, Coated, polished
 >   finishes     original (as rendered), satin
+$ retex-info --json set.exr | grep -c correction; sh r -t Floor -t Wall -o none.exr; retex-info --json none.exr | grep -q correction
+> 0
 $ for f in original Gloss Coated polished; do for w in original satin; do sh f --plain --show floor=$f --show Wall=$w -o p.exr; retex-combine -q full.exr --finish Floor=$f --finish Wall=$w -o c.exr; retex-diff -q c.exr p.exr --fail-psnr 80 || echo $f $w; done; done
 $ T="--texture Floor=rgb(.3,.7,.2) --texture Wall=rgb(.8,.2,.5)"; P="--replace Floor=rgb(.3,.7,.2) --replace Wall=rgb(.8,.2,.5)"; for f in Gloss Coated polished; do sh f $P --show Floor=$f --show Wall=satin -o p.exr; for s in full set; do retex-combine -q $s.exr $T --finish Floor=$f --finish Wall=satin -o $s-c.exr; done; retex-diff -q full-c.exr p.exr --fail-psnr 60 || echo $f full; retex-diff -q set-c.exr p.exr --fail-psnr 55 || echo $f; done
 $ retex-combine -q full.exr --finish Floor=Gloss -o a.exr; retex-combine -q full.exr -o b.exr; retex-diff -q a.exr b.exr --fail-psnr 40

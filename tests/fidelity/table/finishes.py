@@ -173,7 +173,7 @@ processor seconds. `combine` is with another floor and, where there are any, ano
 - A finish that emits light, lets it through or below the surface is refused, and so is a target that does.
 - Bumps stay as they are, and so does what the pigment's alpha cuts out.
 - A target's finish and the textures of other targets that keep their originals: their mean albedos are multiplied, as
-  for lamps; corrections are kept for the mean of all finishes only, and not used. With constant textures on all targets
+  for lamps; there are no corrections, which would be of the mean of all finishes. With constant textures on all targets
   a picture is exact.""")
 
 
