@@ -21,15 +21,6 @@ mkdir -p "$work"
 settings="$spp $truth_spp $height $picture_height"
 figures_settings fidelity-maps "$work" "$settings"
 
-# Makes FILE by a command that takes -o, unless it is there: made FILE COMMAND...
-made() {
-    file=$1
-    shift
-    [ -e "$file" ] || "$@" -o "$file"
-}
-wide() { # SCENE HEIGHT
-    case $1 in living-room) echo $(($2 * 16 / 9))x"$2" ;; *) echo $(($2 * 4 / 3))x"$2" ;; esac
-}
 finishes() { case $1 in planks) echo matt,polished ;; *) echo polished,metal ;; esac } # FLOOR
 
 [ -e "$work/inlay-map.png" ] || "$python" "$here/table/finish-maps.py" --textures "$work"
