@@ -80,14 +80,14 @@ void retex_finish_map_weights(const RetexTextureSpec *spec, RetexFinishScale sca
 
 /* ---- texels ---- */
 
-/* Texels of a map: the weights of the second finish and of later ones, of 4 floats each; the last is 1. */
+/* Texels of a map: the weights of the second finish and of later ones; the last number is 1. */
 typedef struct WeightWork {
     const RetexTextureSpec *spec;
     RetexFinishScale scale;
     int channel, width;
     const RetexDecoded *decoded;
     atomic_int colored;
-    float *weights;
+    const RetexTexels *weights;
 } WeightWork;
 
 static void read_map_texel(const RetexDecoded *decoded, size_t i, float rgba[4])
@@ -110,6 +110,16 @@ static void find_colors_job(void *context, int y, int thread)
     }
 }
 
+static void store(const RetexTexels *to, size_t i, const float rgba[4])
+{
+    if (!to->narrow) {
+        memcpy((float *)to->texels + 4 * i, rgba, 4 * sizeof *rgba);
+        return;
+    }
+    for (int c = 0; c < 4; c++)
+        ((uint16_t *)to->texels)[4 * i + (size_t)c] = (uint16_t)(clamped(rgba[c]) * NARROW_ONE + 0.5f);
+}
+
 static void weigh_job(void *context, int y, int thread)
 {
     WeightWork *work = context;
@@ -119,8 +129,7 @@ static void weigh_job(void *context, int y, int thread)
         float p[4], weights[RETEX_FINISHES_MAX];
         read_map_texel(work->decoded, i, p);
         retex_finish_map_weights(work->spec, work->scale, work->channel, !work->colored, p, weights);
-        memcpy(work->weights + 4 * i, weights + 1, 3 * sizeof *weights);
-        work->weights[4 * i + 3] = 1;
+        store(work->weights, i, (const float[4]){weights[1], weights[2], weights[3], 1});
     }
 }
 
@@ -162,19 +171,10 @@ typedef struct ProductWork {
     const RetexTextureSpec *spec;
     const RetexTexels *color; /* NULL: a constant */
     RetexTexels map;
+    Between *color_x, *map_x;                     /* by column */
     RetexTexels products[RETEX_FINISHES_MAX + 1]; /* the last: the weights */
     int count;
 } ProductWork;
-
-static void store(const RetexTexels *to, size_t i, const float rgba[4])
-{
-    if (!to->narrow) {
-        memcpy((float *)to->texels + 4 * i, rgba, 4 * sizeof *rgba);
-        return;
-    }
-    for (int c = 0; c < 4; c++)
-        ((uint16_t *)to->texels)[4 * i + (size_t)c] = (uint16_t)(clamped(rgba[c]) * NARROW_ONE + 0.5f);
-}
 
 static void multiply_job(void *context, int y, int thread)
 {
@@ -188,8 +188,8 @@ static void multiply_job(void *context, int y, int thread)
         const size_t at = (size_t)y * (size_t)width + (size_t)x;
         float color[4] = {work->spec->color[0], work->spec->color[1], work->spec->color[2], 1}, weights[4], product[4];
         if (work->color)
-            interpolate(work->color, between(x, width, work->color->width, wrap[0]), color_y, color);
-        interpolate(&work->map, between(x, width, work->map.width, wrap[0]), map_y, weights);
+            interpolate(work->color, work->color_x[x], color_y, color);
+        interpolate(&work->map, work->map_x[x], map_y, weights);
         float first = 1;
         for (int c = 0; c < 3; c++) {
             first -= weights[c];
@@ -217,10 +217,10 @@ static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFini
 {
     const int is_narrow = map->narrow.pixels != NULL;
     *weights = (RetexTexels){is_narrow ? map->narrow.width : map->image.width,
-                             is_narrow ? map->narrow.height : map->image.height, 0, NULL};
+                             is_narrow ? map->narrow.height : map->image.height, 1, NULL};
     if (retex_texels_alloc(weights))
         return no_memory(texture, err);
-    WeightWork work = {&texture->spec, scale, channel, weights->width, map, 0, weights->texels};
+    WeightWork work = {&texture->spec, scale, channel, weights->width, map, 0, weights};
     retex_parallel(nthreads, weights->height, find_colors_job, &work);
     retex_parallel(nthreads, weights->height, weigh_job, &work);
     return RETEX_OK;
@@ -247,8 +247,18 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
         if (retex_texels_alloc(&work->products[k]))
             code = no_memory(texture, err);
     }
+    work->color_x = calloc((size_t)width, sizeof *work->color_x);
+    work->map_x = calloc((size_t)width, sizeof *work->map_x);
+    if (!code && (!work->color_x || !work->map_x))
+        code = no_memory(texture, err);
+    for (int x = 0; x < width && !code; x++) {
+        work->color_x[x] = between(x, width, color ? color->width : width, spec.wrap[0]);
+        work->map_x[x] = between(x, width, work->map.width, spec.wrap[0]);
+    }
     if (!code)
         retex_parallel(nthreads, height, multiply_job, work);
+    free(work->color_x);
+    free(work->map_x);
     for (int k = 0; k <= work->count && !code; k++)
         code = make_texture(k < work->count ? &finishes->colors[k] : &finishes->weights, &spec, &work->products[k],
                             nthreads, err);
@@ -273,4 +283,3 @@ int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const
         *err = why;
     return code;
 }
-
