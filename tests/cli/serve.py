@@ -1,4 +1,4 @@
-# What serve.t asks of retex-serve: starts it at a port that the system chooses, runs the checks of one function of this
+# What serve.t and serve_finishes.t ask of retex-serve: starts it at a port that the system chooses, runs the checks of one function of this
 # file, and ends it. Prints what differs, and at last the name of the function.
 import hashlib, http.client, json, os, re, select, shutil, signal, socket, struct, subprocess, sys, threading, time
 
@@ -61,8 +61,8 @@ def metric(server, name):
     return float(found[1]) if found else 0
 
 
-def combine(output, *options):
-    subprocess.run(['retex-combine', '-q', *options, '-o', output], check=True)
+def combine(output, *options, told=None):
+    subprocess.run(['retex-combine', '-q', *options, '-o', output], check=True, stderr=told)
     return open(output, 'rb').read()
 
 
@@ -583,6 +583,86 @@ def off(server):
     """Nobody can upload where that was not allowed."""
     expect('off', send(server, open('outside.jpg', 'rb').read()).status, 403)
     expect('body', send(server, b'x' * 10, '/v1/small/full.jpg', 'GET').status, 413)
+
+
+def finishes(server):
+    """Maps of finishes: pictures are retex-combine's, of two sets whose finishes differ, which share images."""
+    def check(room, edits, *textures):
+        answer = ask(server, f'/v1/{room}/{edits}/full.png')
+        expect(edits, answer.status, 200)
+        if answer.body != combine('a.png', f'rooms/{room}.retex', *textures, told=subprocess.DEVNULL):
+            print(f'{room} {edits}: not the bytes of retex-combine')
+        return answer
+
+    plain, folder, wall = '--texture', ['--texture', 'Floor=textures/wood'], ['--texture', 'Wall=textures/oak.jpg']
+    gloss, none = '--texture:finish=textures/gloss.bmp', '--texture:finish=none'
+    for round in 1, 2:
+        for room in 'three', 'two', 'three':
+            with_map = check(room, 'Floor=oak;Floor.finish=gloss', gloss, 'Floor=textures/oak.jpg')
+            check(room, 'Floor=oak;Floor.finish=gloss.bmp;Floor.scale=2;Wall=oak', gloss + ':scale=2',
+                  'Floor=textures/oak.jpg', *wall)
+            check(room, 'Floor=rgb(.1,.5,.3);Floor.finish=gloss', gloss, 'Floor=rgb(.1,.5,.3)')
+            without = check(room, 'Floor=oak;Wall=oak', plain, 'Floor=textures/oak.jpg', *wall)
+            check(room, 'Floor=oak;Floor.finish=none', none, 'Floor=textures/oak.jpg')
+            rough = check(room, 'Floor=wood', *folder)
+            smooth = check(room, 'Floor=wood;Floor.finish=none', none, 'Floor=textures/wood')
+            check(room, 'Wall=wood', plain, 'Wall=textures/wood')
+            expect('maps matter', (rough.body != smooth.body, with_map.body != without.body), (True, True))
+    query = ask(server, '/v1/three/Floor=oak/full.png?Floor.finish=gloss')
+    expect('in a query', (query.status, query.body), (200, combine('a.png', 'rooms/three.retex', gloss,
+                                                                   'Floor=textures/oak.jpg')))
+    expect('in IIIF', ask(server, '/iiif/3/three;Floor=oak;Floor.finish=gloss/full/max/0/default.png').body, query.body)
+    # oak with the map for each room, without it for each room's wall and finish=none; the folder likewise
+    expect('images', metric(server, 'images_read_total') < 14, True)
+    for edits, status, reason in (
+            ('Floor=oak;Floor.finish=none.png', 404, "Floor.finish: there is no texture 'none.png'; /v1 lists them"),
+            ('Floor=oak;Floor.finish=wood', 404, "Floor.finish: there is no texture 'wood'; /v1 lists them"),
+            ('Floor=rgb(1,0,0);Floor.finish=wood', 404, "Floor.finish: there is no texture 'wood'; /v1 lists them"),
+            ('Floor=no;Floor.finish=gloss', 404, "Floor: there is no texture 'no'; /v1 lists them"),
+            ('Floor=oak;Floor.finish=..gloss.bmp', 400, '`..gloss.bmp` cannot be the name of a texture'),
+            ('Floor=oak;Floor.finish=..%2Fgloss.bmp', 400, 'the path is not well formed; expected UTF-8, '
+             'percent-encoded, without ..'),
+            ('Wall=oak;Wall.finish=gloss', 400, 'Wall has no finishes to choose from: finish= cannot be used on it; '
+             'render the set with --finish Wall=NAME,NAME'),
+            ('Wall=tan;Wall.finish=gloss', 400, 'Wall has no finishes to choose from: finish= cannot be used on it; '
+             'render the set with --finish Wall=NAME,NAME'),
+            ('Nil=oak;Nil.finish=gloss', 404, None)):
+        answer = ask(server, f'/v1/three/{edits}/full.png')
+        expect(edits, (answer.status, reason and answer.body.decode()), (status, reason and reason + '\n'))
+    expect('none on a wall', ask(server, '/v1/three/Wall=oak;Wall.finish=none/full.png').status, 200)
+
+
+def new_maps(server):
+    """A map that is replaced changes tags and pictures where it is read, and nowhere else."""
+    cases = {'Floor=oak;Floor.finish=gloss': 'gloss.bmp', 'Floor=tan;Floor.finish=gloss': 'gloss.bmp',
+             'Floor=wood': 'wood/wood_rough.bmp'}
+    urls = [f'/v1/three/{edits}/full.png' for edits in (*cases, 'Wall=wood', 'Wall=wood;Wall.finish=none')]
+    before = {url: ask(server, url) for url in urls}
+    expect('before', {answer.status for answer in before.values()}, {200})
+    for url in urls:
+        hits = metric(server, 'cache_total{cache="hit"}')
+        expect('the tag of ' + url, ask(server, url).getheader('ETag'), before[url].getheader('ETag'))
+        expect('kept ' + url, metric(server, 'cache_total{cache="hit"}'), hits + 1)
+    for file in set(cases.values()):  # in another place of the same size and time
+        shutil.copy('other.bmp', 'textures/new'), os.utime('textures/new', (1, 1))
+        os.rename('textures/new', 'textures/' + file)
+    for url, was in before.items():
+        answer = ask(server, url, If_None_Match=was.getheader('ETag'))
+        is_read = 'Wall' not in url
+        expect(url, answer.status, 200 if is_read else 304)
+        if is_read:
+            expect('another tag and picture', (answer.getheader('ETag') != was.getheader('ETag'),
+                                               answer.body != was.body), (True, True))
+            expect('known', ask(server, url, If_None_Match=answer.getheader('ETag')).status, 304)
+    os.remove('textures/gloss.bmp')
+    expect('gone', ask(server, urls[0]).status, 404)
+    image = ask(server, urls[2]).body
+    shutil.copy('textures/oak.jpg', 'textures/gloss.jpg')
+    time.sleep(.2)
+    answers = receive_all(send_all(server, [f'/v1/{room}/{edits};Floor.scale={n}/full.png' for n in range(1, 9)
+                                            for room in ('three', 'two') for edits in cases]))
+    expect('at once', {answer.status for answer in answers}, {200})
+    expect('the same', ask(server, urls[2]).body, image)
 
 
 # ---- load, and the end ----

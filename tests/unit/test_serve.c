@@ -491,14 +491,14 @@ static void write_text(const char *path, const char *text)
 /* Reads a file's content; `meanwhile` is what it holds after that, or NULL. */
 static int read_content(Contents *contents, const char *path, const char *meanwhile, Content *content)
 {
-    ContentReading reading = {.contents = contents, .file = -1};
+    ContentReading reading = {.contents = contents, .most = 1};
     RetexError err = {0};
     const int file = open(path, O_RDONLY);
     test_must(content_read(&reading, file, &err), &err);
     if (meanwhile)
         write_text(path, meanwhile);
     const int code = content_end(&reading, &err);
-    *content = reading.content;
+    *content = reading.read[0];
     close(file);
     return code;
 }
@@ -541,6 +541,12 @@ static void test_contents(void **state)
     assert_int_equal(remove("abc"), 0);
 }
 
+static int find_image(const Images *images, const char *name, RetexTextureSpec *spec, FileId ids[])
+{
+    strcpy(spec->image, name);
+    return images_find(images, spec, ids);
+}
+
 static void test_images(void **state)
 {
     RetexAccess access = RETEX_ACCESS_INIT;
@@ -551,7 +557,7 @@ static void test_images(void **state)
     OpenImage *image, *other;
     RetexTexture *texture, *moved;
     Images *images;
-    FileId id;
+    FileId ids[RETEX_TEXTURE_FILES];
     (void)state;
     roots[0] = realpath(".", NULL);
     access.safe = 1;
@@ -565,17 +571,23 @@ static void test_images(void **state)
     test_must(images_open(&images, &params, &err), &err);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
-    assert_int_equal(images_find(images, "one", spec.image, sizeof spec.image, &id), 0);
-    assert_int_equal(images_find(images, "one.png", spec.image, sizeof spec.image, &id), 0);
-    assert_int_not_equal(images_find(images, "three", spec.image, sizeof spec.image, &id), 0);
-    assert_int_not_equal(images_find(images, "../one.png", spec.image, sizeof spec.image, &id), 0);
-    assert_int_equal(images_find(images, "one", spec.image, sizeof spec.image, &id), 0);
+    assert_int_equal(find_image(images, "three", &spec, ids), 1 + RETEX_TEXTURE_FILE_IMAGE);
+    assert_int_equal(find_image(images, "../one.png", &spec, ids), 1 + RETEX_TEXTURE_FILE_IMAGE);
+    strcpy(spec.finish, "three");
+    assert_int_equal(find_image(images, "one", &spec, ids), 1 + RETEX_TEXTURE_FILE_FINISH);
+    strcpy(spec.finish, "two");
+    assert_int_equal(find_image(images, "one", &spec, ids), 0);
+    assert_true(ids[0].inode && ids[1].inode && strstr(spec.finish, "/two.png"));
+    spec.finish[0] = '\0';
+    assert_int_equal(find_image(images, "one.png", &spec, ids), 0);
+    assert_int_equal(find_image(images, "one", &spec, ids), 0);
+    assert_true(ids[0].inode && !ids[1].inode);
     test_must(images_take(images, &spec, LATER, &image, &err), &err);
-    test_must(images_place(image, set, &spec, &texture, &err), &err);
+    test_must(images_place(images, image, set, &spec, &texture, &err), &err);
     spec.scale[0] = 3;
     strcpy(spec.target, "Wall");
     test_must(images_take(images, &spec, LATER, &other, &err), &err);
-    test_must(images_place(other, set, &spec, &moved, &err), &err);
+    test_must(images_place(images, other, set, &spec, &moved, &err), &err);
     assert_ptr_equal(image, other); /* is read once, and placed in two ways */
     assert_int_equal(images_count(images).read, 1);
     float a[4], b[4];
@@ -584,9 +596,9 @@ static void test_images(void **state)
     assert_float_equal(a[0], b[0], 1e-5);
     retex_texture_close(&moved);
     images_return(images, other);
-    assert_int_equal(images_find(images, "two", spec.image, sizeof spec.image, &id), 0);
+    assert_int_equal(find_image(images, "two", &spec, ids), 0);
     test_must(images_take(images, &spec, LATER, &other, &err), &err);
-    test_must(images_place(other, set, &spec, &moved, &err), &err);
+    test_must(images_place(images, other, set, &spec, &moved, &err), &err);
     assert_int_equal(images_count(images).open, 2); /* both are in use */
     retex_texture_close(&moved);
     images_return(images, other);

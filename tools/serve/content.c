@@ -110,36 +110,50 @@ int content_read(void *context, int descriptor, RetexError *err)
     Content content = {.is_settled = 0};
     if (file_id_of_descriptor(&content.id, descriptor))
         return retex_fail(err, RETEX_EIO, "this is no file");
-    if (reading->file >= 0) /* it is opened once more: the same it must be */
-        return file_id_is_same(&content.id, &reading->content.id) ? RETEX_OK : fail_changed(err);
+    for (int i = 0; i < reading->count; i++)
+        if (file_id_is_same(&content.id, &reading->read[i].id)) /* it is opened once more */
+            return RETEX_OK;
+    if (reading->count == reading->most)
+        return fail_changed(err);
     if (!contents_find(reading->contents, &content.id, &content)) {
         const int code = digest_file(descriptor, content.digest, err);
         if (code)
             return code;
         content.is_settled = is_settled(&content.id);
     }
-    reading->content = content;
-    reading->file = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
-    return reading->file < 0 ? retex_fail(err, RETEX_EIO, "cannot keep a file open: %s", strerror(errno)) : RETEX_OK;
+    const int file = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    if (file < 0)
+        return retex_fail(err, RETEX_EIO, "cannot keep a file open: %s", strerror(errno));
+    reading->read[reading->count] = content;
+    reading->files[reading->count++] = file;
+    return RETEX_OK;
 }
 
-int content_end(ContentReading *reading, RetexError *err)
+/* Whether a file holds what it did; remembers its content, and closes it. */
+static int end_file(Contents *contents, Content *content, int file, RetexError *err)
 {
-    Content *content = &reading->content;
     unsigned char digest[CONTENT_DIGEST];
     FileId id;
-    int code = reading->file < 0 || file_id_of_descriptor(&id, reading->file) ? fail_changed(err) : RETEX_OK;
+    int code = file_id_of_descriptor(&id, file) ? fail_changed(err) : RETEX_OK;
     if (!code && !file_id_is_same(&id, &content->id))
         content->is_settled = 0; /* it was renamed, for example */
     if (!code && !content->is_settled) {
-        code = digest_file(reading->file, digest, err);
+        code = digest_file(file, digest, err);
         if (!code && memcmp(digest, content->digest, CONTENT_DIGEST) != 0)
             code = fail_changed(err);
     }
     if (!code && content->is_settled)
-        remember(reading->contents, content);
-    if (reading->file >= 0)
-        close(reading->file);
-    reading->file = -1;
+        remember(contents, content);
+    close(file);
+    return code;
+}
+
+int content_end(ContentReading *reading, RetexError *err)
+{
+    int code = reading->count ? RETEX_OK : fail_changed(err);
+    for (int i = 0; i < reading->count; i++) {
+        const int failed = end_file(reading->contents, &reading->read[i], reading->files[i], code ? NULL : err);
+        code = code ? code : failed;
+    }
     return code;
 }

@@ -25,12 +25,17 @@ int contents_find(Contents *contents, const FileId *id, Content *content);
 /* The digest as text. */
 const char *content_text(const Content *content, char text[2 * CONTENT_DIGEST + 1]);
 
-/* A file that is being decoded. Begin with {.contents = contents, .file = -1}; its access tells content_read which file
- * is opened. content_end says whether it still holds what it did, RETEX_EIO if not, and must be called once. */
+enum { CONTENT_FILES = 2 }; /* that are decoded for one thing, at most: an image and what lies on it */
+
+/* Files that are being decoded, one after the other. Begin with {.contents = contents, .most = number of files}; their
+ * access tells content_read which file is opened. content_end says whether they still hold what they did, RETEX_EIO if
+ * not, and must be called once. `read` are the contents of `count` files, which are less than most where one file is
+ * read twice. */
 typedef struct ContentReading {
     Contents *contents;
-    Content content;
-    int file;
+    int most, count;
+    Content read[CONTENT_FILES];
+    int files[CONTENT_FILES];
 } ContentReading;
 int content_read(void *reading, int descriptor, RetexError *err);
 int content_end(ContentReading *reading, RetexError *err);

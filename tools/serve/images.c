@@ -14,11 +14,17 @@ enum { MOST_OPEN = 4096 }; /* images that nobody uses are closed from this numbe
 
 static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "tga", "bmp", "gif", NULL};
 
+/* What decides on the texels. */
+typedef struct ImageKey {
+    RetexTextureSpec spec; /* in its simplest placement */
+    FileId map;            /* all 0: there is none */
+} ImageKey;
+
 struct OpenImage {
     Kept kept;
-    RetexTextureSpec spec; /* as the image was read, in its simplest placement */
-    RetexTexture *texture;
-    Content content;     /* of its file */
+    ImageKey key;
+    RetexTexture *texture; /* NULL for a colour with a map, which each picture reads: it is not in the list */
+    Content contents[RETEX_TEXTURE_FILES];
     RetexBudget *shared; /* of all images: the memory of this one is charged to it */
     RetexBudget *budget; /* while it is decoded; the texture keeps it */
     uint64_t charged;
@@ -30,29 +36,52 @@ struct Images {
     KeptList list;
 };
 
-/* What of a spec decides on the texels. */
+static const FileId no_file;
+
+int images_has_map(const RetexTextureSpec *spec)
+{
+    return spec->finish[0] && strcmp(spec->finish, "none") != 0;
+}
+
+int images_has_files(const RetexTextureSpec *spec)
+{
+    return !spec->constant || images_has_map(spec);
+}
+
+static void make_key(ImageKey *key, const RetexTextureSpec *spec, const FileId *map)
+{
+    key->spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+    strcpy(key->spec.image, spec->image);
+    strcpy(key->spec.colorspace, spec->colorspace);
+    strcpy(key->spec.finish, spec->finish);
+    memcpy(key->spec.wrap, spec->wrap, sizeof spec->wrap);
+    key->spec.repeat = spec->repeat;
+    key->map = *map;
+    if (spec->finish[0] || !file_id_is_same(map, &no_file)) { /* finishes matter */
+        key->spec.nfinishes = spec->nfinishes;
+        memcpy(key->spec.roughness, spec->roughness, sizeof spec->roughness);
+    }
+}
+
 static Kept *create(const void *key, const void *params_of_images)
 {
-    const RetexTextureSpec *spec = key;
     const ImagesParams *params = params_of_images;
     OpenImage *image = calloc(1, sizeof *image);
     if (!image)
         return NULL;
-    image->spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    strcpy(image->spec.image, spec->image);
-    strcpy(image->spec.colorspace, spec->colorspace);
-    memcpy(image->spec.wrap, spec->wrap, sizeof spec->wrap);
-    image->spec.repeat = spec->repeat;
-    image->spec.access = params->access;
+    image->key = *(const ImageKey *)key;
     image->shared = params->budget;
     return &image->kept;
 }
 
 static int is_of(const Kept *kept, const void *key)
 {
-    const RetexTextureSpec *a = &((const OpenImage *)(const void *)kept)->spec, *b = key;
+    const ImageKey *own = &((const OpenImage *)(const void *)kept)->key, *other = key;
+    const RetexTextureSpec *a = &own->spec, *b = &other->spec;
     return strcmp(a->image, b->image) == 0 && strcmp(a->colorspace, b->colorspace) == 0 && a->wrap[0] == b->wrap[0] &&
-           a->wrap[1] == b->wrap[1] && a->repeat == b->repeat;
+           a->wrap[1] == b->wrap[1] && a->repeat == b->repeat && strcmp(a->finish, b->finish) == 0 &&
+           file_id_is_same(&own->map, &other->map) && a->nfinishes == b->nfinishes &&
+           memcmp(a->roughness, b->roughness, sizeof a->roughness) == 0;
 }
 
 static void close_image(Kept *kept)
@@ -97,42 +126,71 @@ void images_close(Images *images)
     free(images);
 }
 
-static int find_in(const Images *images, const char *folder, const char *name, char *path, size_t size, FileId *id)
+/* ---- files ---- */
+
+/* The file of a name, which has no folder in it, and leads nowhere else. */
+static int find_in(const Images *images, const char *folder, const char *name, char *path, size_t size)
 {
+    FileId id;
     for (int i = -1; folder && (i < 0 || endings[i]); i++) {
         const int length = snprintf(path, size, "%s/%s%s%s", folder, name, i < 0 ? "" : ".", i < 0 ? "" : endings[i]);
-        if (length > 0 && (size_t)length < size && file_id_of(id, path) == 0)
+        if (length > 0 && (size_t)length < size && file_id_of(&id, path) == 0)
             return retex_access_check(images->params.access, "", path) == RETEX_ACCESS_ALLOWED ? 0 : -1;
     }
     return -1;
 }
 
-/* The base colour of a folder in that of the textures. */
-static int find_in_folder(const Images *images, const char *name, char *path, size_t size, FileId *id)
+static int find_file(const Images *images, const char *name, char *path, size_t size)
 {
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    char *file;
-    const char *folder = images->params.folder;
-    spec.access = images->params.access;
-    if (!folder || (size_t)snprintf(spec.image, sizeof spec.image, "%s/%s", folder, name) >= sizeof spec.image ||
-        retex_texture_file(&file, &spec, RETEX_TEXTURE_FILE_IMAGE, NULL))
+    if (!serve_name_is_valid(name))
         return -1;
-    const int found = strlen(file) < size && file_id_of(id, file) == 0 &&
-                      retex_access_check(images->params.access, "", file) == RETEX_ACCESS_ALLOWED;
-    if (found)
-        strcpy(path, file);
-    free(file);
-    return found ? 0 : -1;
+    return find_in(images, images->params.folder, name, path, size) == 0
+               ? 0
+               : find_in(images, images->params.uploads, name, path, size);
 }
 
-int images_find(const Images *images, const char *name, char *path, size_t size, FileId *id)
+/* A folder in that of the textures. Whether it is one that is a texture is seen by its files. */
+static int find_folder(const Images *images, const char *name, char *path, size_t size)
 {
-    if (!serve_name_is_valid(name)) /* which has no folder in it, and leads nowhere else */
-        return -1;
-    if (find_in(images, images->params.folder, name, path, size, id) == 0 ||
-        find_in(images, images->params.uploads, name, path, size, id) == 0)
-        return 0;
-    return find_in_folder(images, name, path, size, id);
+    const char *folder = images->params.folder;
+    return folder && serve_name_is_valid(name) && (size_t)snprintf(path, size, "%s/%s", folder, name) < size ? 0 : -1;
+}
+
+/* The identities of the files that are there now: 0, or 1 + the number of one that is not. */
+static int identify(const Images *images, const RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES])
+{
+    RetexTextureSpec own = *spec;
+    own.access = images->params.access;
+    for (int number = 0; number < RETEX_TEXTURE_FILES; number++) {
+        char *file;
+        ids[number] = no_file;
+        if (retex_texture_file(&file, &own, number, NULL))
+            return 1 + number;
+        const int is_there = !file || (file_id_of(&ids[number], file) == 0 &&
+                                       retex_access_check(own.access, "", file) == RETEX_ACCESS_ALLOWED);
+        free(file);
+        if (!is_there)
+            return 1 + number;
+    }
+    return 0;
+}
+
+int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES])
+{
+    char image[sizeof spec->image] = "", finish[sizeof spec->finish];
+    if (!spec->constant && find_file(images, spec->image, image, sizeof image) &&
+        find_folder(images, spec->image, image, sizeof image))
+        return 1 + RETEX_TEXTURE_FILE_IMAGE;
+    if (images_has_map(spec) && find_file(images, spec->finish, finish, sizeof finish))
+        return 1 + RETEX_TEXTURE_FILE_FINISH;
+    RetexTextureSpec found = *spec;
+    strcpy(found.image, image);
+    if (images_has_map(spec))
+        strcpy(found.finish, finish);
+    const int missing = identify(images, &found, ids);
+    if (!missing)
+        *spec = found;
+    return missing;
 }
 
 typedef struct FolderList {
@@ -144,9 +202,10 @@ typedef struct FolderList {
 static void tell_folder(void *context, const char *name)
 {
     const FolderList *list = context;
-    char path[PATH_MAX];
-    FileId id;
-    if (find_in_folder(list->images, name, path, sizeof path, &id) == 0)
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    FileId ids[RETEX_TEXTURE_FILES];
+    if (find_folder(list->images, name, spec.image, sizeof spec.image) == 0 &&
+        identify(list->images, &spec, ids) == 0)
         list->tell(list->context, name);
 }
 
@@ -166,91 +225,184 @@ static int is_upload(const Images *images, const char *path)
     return length && strncmp(path, folder, length) == 0 && path[length] == '/';
 }
 
+static int is_of_stranger(const Images *images, const RetexTextureSpec *spec)
+{
+    return (!spec->constant && is_upload(images, spec->image)) || (images_has_map(spec) && is_upload(images, spec->finish));
+}
+
 int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
 {
-    FileId id;
-    if (spec->constant || !is_upload(images, spec->image) || file_id_of(&id, spec->image) != 0)
+    FileId ids[RETEX_TEXTURE_FILES];
+    ImageKey key;
+    if (!is_of_stranger(images, spec) || identify(images, spec, ids))
         return 0;
-    Kept *kept = kept_peek(&images->list, spec, &id);
+    if (images_has_map(spec)) /* which is read for each set of finishes, and for each picture of a colour */
+        return 1;
+    make_key(&key, spec, &ids[RETEX_TEXTURE_FILE_FINISH]);
+    Kept *kept = kept_peek(&images->list, &key, &ids[RETEX_TEXTURE_FILE_IMAGE]);
     kept_return(&images->list, kept);
     return !kept;
 }
 
-/* Decode the file that is read for the digest: the name may be another file's by then. */
-static int load(const Images *images, OpenImage *image, int threads, RetexError *err)
+/* Whether a file that is there is read: the roughness of a folder only if it can choose a finish. */
+static int is_read(const RetexTextureSpec *spec, int number, const FileId *id)
 {
-    ContentReading reading = {.contents = images->contents, .file = -1};
-    RetexAccess access = *image->spec.access;
-    RetexTextureSpec spec = image->spec;
+    int count = 0;
+    for (int k = 0; k < spec->nfinishes; k++)
+        count += spec->roughness[k] >= 0;
+    return !file_id_is_same(id, &no_file) && (number == RETEX_TEXTURE_FILE_IMAGE || images_has_map(spec) || count > 1);
+}
+
+/* A file that is not read: no change of it matters. */
+static Content content_unread(const FileId *id)
+{
+    return (Content){.id = *id, .is_settled = 1};
+}
+
+/* A call that loads a texture with an access that tells which files it reads: the names may be those of others by then.
+ * set: of a colour, which needs it. */
+static int load(const Images *images, OpenImage *image, const RetexSet *set, RetexTextureSpec *spec, int threads,
+                RetexTexture **texture, RetexError *err)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    RetexAccess access = *images->params.access;
+    ContentReading reading = {.contents = images->contents};
+    for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+        reading.most += is_read(spec, number, &image->contents[number].id);
     access.opened = content_read;
     access.context = &reading;
-    spec.access = &access;
-    int code = retex_texture_load(&image->texture, &spec, threads, err);
+    spec->access = &access;
+    spec->budget = image->budget;
+    int code = set ? retex_textures_load(textures, set, spec, 1, threads, err)
+                   : retex_texture_load(texture, spec, threads, err);
+    if (code && set)
+        retex_textures_close(textures);
+    else if (set)
+        *texture = textures[retex_set_find_target(set, spec->target)];
     if (!code)
         code = content_end(&reading, err);
     else
         content_end(&reading, NULL);
-    image->content = reading.content;
+    for (int number = 0, next = 0; number < RETEX_TEXTURE_FILES && !code; number++)
+        if (is_read(spec, number, &image->contents[number].id))
+            image->contents[number] = reading.read[next < reading.count ? next++ : reading.count - 1];
     return code;
 }
 
 /* Those of strangers get one thread, and less time. */
+static int open_texture(const Images *images, OpenImage *image, const RetexSet *set, RetexTextureSpec *spec,
+                        RetexTexture **texture, RetexError *err)
+{
+    int code = load(images, image, set, spec, is_of_stranger(images, spec) ? 1 : images->params.threads, texture, err);
+    if (code)
+        return code;
+    retex_budget_set_seconds(image->budget, 0);
+    code = retex_budget_charge(image->shared, retex_texture_bytes(*texture), "an image", err);
+    image->charged = code ? 0 : retex_texture_bytes(*texture);
+    return code;
+}
+
+static int give_budget(const Images *images, OpenImage *image, const RetexTextureSpec *spec, double deadline,
+                       RetexError *err)
+{
+    return decoding_budget(&image->budget, image->shared, deadline,
+                           is_of_stranger(images, spec) ? images->params.decoding : INFINITY, err);
+}
+
 static int open_image(const Images *images, OpenImage *image, double deadline, RetexError *err)
 {
-    const int of_stranger = is_upload(images, image->spec.image);
-    int code =
-        decoding_budget(&image->budget, image->shared, deadline, of_stranger ? images->params.decoding : INFINITY, err);
-    image->spec.budget = image->budget;
+    RetexTextureSpec spec = image->key.spec;
+    const int code = give_budget(images, image, &spec, deadline, err);
+    return code ? code : open_texture(images, image, NULL, &spec, &image->texture, err);
+}
+
+/* What images_place reads. */
+static int take_color(const Images *images, const ImageKey *key, const RetexTextureSpec *spec, double deadline,
+                      OpenImage **result, RetexError *err)
+{
+    OpenImage *image = (OpenImage *)(void *)create(key, &images->params);
+    if (!image)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    image->contents[RETEX_TEXTURE_FILE_IMAGE] = content_unread(&no_file);
+    image->contents[RETEX_TEXTURE_FILE_FINISH] = content_unread(&key->map);
+    const int code = give_budget(images, image, spec, deadline, err);
     if (!code)
-        code = load(images, image, of_stranger ? 1 : images->params.threads, err);
-    if (!code) {
-        retex_budget_set_seconds(image->budget, 0);
-        code = retex_budget_charge(image->shared, retex_texture_bytes(image->texture), "an image", err);
-    }
-    image->charged = code ? 0 : retex_texture_bytes(image->texture);
+        *result = image;
+    else
+        free(image);
     return code;
+}
+
+/* What nobody else may get is not of the key: a map that was replaced, or one that changes just now. */
+static Content content_of(const OpenImage *image)
+{
+    const Content *map = &image->contents[RETEX_TEXTURE_FILE_FINISH];
+    Content content = image->contents[RETEX_TEXTURE_FILE_IMAGE];
+    content.is_settled = content.is_settled && map->is_settled && file_id_is_same(&map->id, &image->key.map);
+    return content;
 }
 
 int images_take(Images *images, const RetexTextureSpec *spec, double deadline, OpenImage **result, RetexError *err)
 {
-    FileId id;
+    FileId ids[RETEX_TEXTURE_FILES];
+    ImageKey key;
     int is_new;
     *result = NULL;
-    if (file_id_of(&id, spec->image) != 0)
+    if (identify(images, spec, ids))
         return retex_fail(err, RETEX_ENOTFOUND, "the texture of target %s is gone", spec->target);
-    OpenImage *image = (OpenImage *)(void *)kept_take(&images->list, spec, &id, &is_new);
+    make_key(&key, spec, &ids[RETEX_TEXTURE_FILE_FINISH]);
+    if (spec->constant)
+        return take_color(images, &key, spec, deadline, result, err);
+    OpenImage *image = (OpenImage *)(void *)kept_take(&images->list, &key, &ids[RETEX_TEXTURE_FILE_IMAGE], &is_new);
     if (!image)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    for (int number = 0; number < RETEX_TEXTURE_FILES && is_new; number++)
+        image->contents[number] = content_unread(&ids[number]);
     int code = is_new ? open_image(images, image, deadline, err) : RETEX_OK;
-    if (is_new)
-        kept_opened(&images->list, &image->kept, code, &image->content, code ? 0 : retex_texture_bytes(image->texture));
+    if (is_new) {
+        const Content content = content_of(image);
+        kept_opened(&images->list, &image->kept, code, &content, code ? 0 : retex_texture_bytes(image->texture));
+    }
     if (!code)
         *result = image;
     return code;
 }
 
-const Content *images_content(const OpenImage *image)
+const Content *images_contents(const OpenImage *image)
 {
-    return &image->content;
+    return image->contents;
 }
 
-int images_find_content(const Images *images, const RetexTextureSpec *spec, Content *content)
+int images_find_contents(const Images *images, const RetexTextureSpec *spec, Content contents[RETEX_TEXTURE_FILES])
 {
-    FileId id;
-    return file_id_of(&id, spec->image) == 0 && contents_find(images->contents, &id, content);
+    FileId ids[RETEX_TEXTURE_FILES];
+    if (identify(images, spec, ids))
+        return 0;
+    for (int number = 0; number < RETEX_TEXTURE_FILES; number++) {
+        contents[number] = content_unread(&ids[number]);
+        if (is_read(spec, number, &ids[number]) && !contents_find(images->contents, &ids[number], &contents[number]))
+            return 0;
+    }
+    return 1;
 }
 
-int images_place(const OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec, RetexTexture **texture,
-                 RetexError *err)
+int images_place(const Images *images, OpenImage *image, const RetexSet *set, const RetexTextureSpec *spec,
+                 RetexTexture **texture, RetexError *err)
 {
+    RetexTextureSpec own = *spec;
     *texture = NULL;
-    return retex_textures_place(texture, image->texture, set, spec, err);
+    return spec->constant ? open_texture(images, image, set, &own, texture, err)
+                          : retex_textures_place(texture, image->texture, set, spec, err);
 }
 
 void images_return(Images *images, OpenImage *image)
 {
-    if (image)
+    if (image && image->texture) {
         kept_return(&images->list, &image->kept);
+    } else if (image) {
+        close_image(&image->kept);
+        free(image);
+    }
 }
 
 ImagesCount images_count(Images *images)

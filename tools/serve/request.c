@@ -108,6 +108,8 @@ static int take_edit(ServeRequest *request, RetexEdit *edit)
         request->specs[request->nspecs++] = *spec;
         if (!spec->constant && !serve_name_is_valid(spec->image))
             return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->image);
+        if (spec->finish[0] && !serve_name_is_valid(spec->finish))
+            return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->finish);
     }
     if (retex_edit_text(edit, ';', &text, &err))
         return serve_refuse(request, 503, "%s", err.message);

@@ -123,7 +123,7 @@ static int open_set(Rooms *rooms, OpenRoom *room, int file, RetexError *err)
 
 static int open_file(Rooms *rooms, OpenRoom *room, const char *path, RetexError *err)
 {
-    ContentReading reading = {.contents = rooms->contents, .file = -1};
+    ContentReading reading = {.contents = rooms->contents, .most = 1};
     const int file = open(path, O_RDONLY | O_CLOEXEC);
     int code = file < 0 ? retex_fail(err, RETEX_EIO, "cannot read it: %s", strerror(errno))
                         : content_read(&reading, file, err);
@@ -135,7 +135,7 @@ static int open_file(Rooms *rooms, OpenRoom *room, const char *path, RetexError 
         content_end(&reading, NULL);
     if (file >= 0)
         close(file);
-    room->room.content = reading.content;
+    room->room.content = reading.read[0];
     if (code && err)
         snprintf(err->file, sizeof err->file, "%.*s", (int)sizeof err->file - 1, path);
     return code;

@@ -52,7 +52,7 @@ static int quality_of(const Site *site, const ServeRequest *request)
 
 /* What an answer is made of. */
 typedef struct SiteFiles {
-    FileId room, images[RETEX_MAX_TARGETS]; /* the latter by spec */
+    FileId room, images[RETEX_MAX_TARGETS][RETEX_TEXTURE_FILES]; /* the latter by spec */
 } SiteFiles;
 
 /* The files that names stand for now; the specs of textures get the paths. */
@@ -63,13 +63,13 @@ static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *fi
         return answer_error(404, "there is no room '%s'; /v1 lists them", request->room);
     for (int i = 0; i < request->nspecs; i++) {
         RetexTextureSpec *spec = &request->specs[i];
-        char image[sizeof spec->image];
-        if (spec->constant)
-            continue;
-        if (images_find(site->images, spec->image, image, sizeof image, &files->images[i]))
+        const int missing = images_find(site->images, spec, files->images[i]);
+        if (missing == 1 + RETEX_TEXTURE_FILE_FINISH && images_has_map(spec))
+            return answer_error(404, "%s.finish: there is no texture '%s'; /v1 lists them", spec->target,
+                                spec->finish);
+        if (missing)
             return answer_error(404, "%s: there is no texture '%s'; /v1 lists them%s", spec->target, spec->image,
                                 retex_color_meant(spec->image, meant));
-        strcpy(spec->image, image);
     }
     return NULL;
 }
@@ -82,8 +82,8 @@ static void write_key(const Site *site, const ServeRequest *request, const char 
     append(&key, "%d\n%s\n%s\n%s", is_picture(request->route) ? SERVE_PICTURE : request->route, request->room,
            file_id_text(&files->room, id_text), request->edits);
     for (int i = 0; i < request->nspecs; i++)
-        if (!request->specs[i].constant)
-            append(&key, "\n%s", file_id_text(&files->images[i], id_text));
+        for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+            append(&key, "\n%s", file_id_text(&files->images[i][number], id_text));
     if (is_picture(request->route)) {
         const ServeRegion *r = &request->region;
         const ServeSize *s = &request->size;
@@ -109,21 +109,25 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
     return error;
 }
 
+/* What the files of textures hold, by spec. Of those that are not read it is nothing. */
+typedef struct SiteContents {
+    Content images[RETEX_MAX_TARGETS][RETEX_TEXTURE_FILES];
+} SiteContents;
+
 /* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and
- * of the images, the edits, and the pixels. It is the same on all machines that have the same files. contents: of
- * images, by spec. */
+ * of the files of textures, the edits, and the pixels. It is the same on all machines that have the same files. */
 static void make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
-                      const Content contents[RETEX_MAX_TARGETS], char etag[ETAG_SIZE])
+                      const SiteContents *contents, char etag[ETAG_SIZE])
 {
     static const Hash128 begin = HASH128_BEGIN;
     const char *config = getenv("OCIO");
-    char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * 64 + 1024], digest[2 * CONTENT_DIGEST + 1];
+    char text[SERVE_URL_MAX + RETEX_MAX_TARGETS * RETEX_TEXTURE_FILES * 64 + 1024], digest[2 * CONTENT_DIGEST + 1];
     Text all = {text, 0, sizeof text};
     append(&all, RETEX_VERSION "\n%.256s\n%s\n%s", config ? config : "", content_text(&room->content, digest),
            request->edits);
     for (int i = 0; i < request->nspecs; i++)
-        if (!request->specs[i].constant)
-            append(&all, "\n%s", content_text(&contents[i], digest));
+        for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+            append(&all, "\n%s", content_text(&contents->images[i][number], digest));
     append(&all, "\n%d %d %d %d %d %d %d %d %d %d %d", place->x, place->y, place->width, place->height,
            place->scaled_width, place->scaled_height, request->quarter_turns, request->mirror, request->gray,
            request->format, quality_of(site, request));
@@ -137,22 +141,46 @@ static int find_place(ServeRequest *request, const Room *room, ServePlace *place
     return iiif_place(request, info.width, info.height, place);
 }
 
+/* A texture of a request on its target of the set. A target that is not there, or has no finishes, has no map:
+ * place_textures tells. */
+static RetexTextureSpec spec_on(const RetexSet *set, const RetexTextureSpec *of)
+{
+    RetexTextureSpec spec = *of;
+    const int target = retex_set_find_target(set, spec.target);
+    if (target >= 0) {
+        spec.nfinishes = retex_set_target(set, target)->nfinishes;
+        memcpy(spec.roughness, retex_set_target(set, target)->finish_roughness, sizeof spec.roughness);
+    }
+    if (!spec.nfinishes && images_has_map(&spec))
+        spec.finish[0] = '\0';
+    return spec;
+}
+
+/* Whether the contents of a picture's textures are known. */
+static int find_contents(const Site *site, const ServeRequest *request, const RetexSet *set, SiteContents *contents)
+{
+    for (int i = 0; i < request->nspecs; i++) {
+        const RetexTextureSpec spec = spec_on(set, &request->specs[i]);
+        if (!images_find_contents(site->images, &spec, contents->images[i]))
+            return 0;
+    }
+    return 1;
+}
+
 int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETAG_SIZE])
 {
     char path[PATH_MAX];
     FileId id;
     ServePlace place;
-    Content contents[RETEX_MAX_TARGETS] = {0};
+    SiteContents contents = {0};
     if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
         return 0;
-    for (int i = 0; i < request->nspecs; i++)
-        if (!request->specs[i].constant && !images_find_content(site->images, &request->specs[i], &contents[i]))
-            return 0;
     const Room *room = rooms_peek(site->rooms, request->room, &id);
     ServeRequest copy = *request; /* iiif_place may put an error into it */
-    const int is_known = room && !find_place(&copy, room, &place);
+    const int is_known =
+        room && find_contents(site, request, room->set, &contents) && !find_place(&copy, room, &place);
     if (is_known)
-        make_etag(site, request, &place, room, contents, etag);
+        make_etag(site, request, &place, room, &contents, etag);
     rooms_return(site->rooms, room);
     return is_known;
 }
@@ -161,7 +189,7 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
 
 typedef struct Textures {
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
-    OpenImage *images[RETEX_MAX_TARGETS];      /* by spec */
+    OpenImage *images[RETEX_MAX_TARGETS];      /* by spec; NULL for a colour all over */
 } Textures;
 
 static void return_images(const Site *site, Textures *textures)
@@ -170,33 +198,35 @@ static void return_images(const Site *site, Textures *textures)
         images_return(site->images, textures->images[i]);
 }
 
-static int take_images(const Site *site, const ServeRequest *request, double deadline, Textures *textures,
-                       RetexError *err)
+static int take_images(const Site *site, const ServeRequest *request, const RetexSet *set, double deadline,
+                       Textures *textures, RetexError *err)
 {
     int code = RETEX_OK;
-    for (int i = 0; i < request->nspecs && !code; i++)
-        if (!request->specs[i].constant)
-            code = images_take(site->images, &request->specs[i], deadline, &textures->images[i], err);
+    for (int i = 0; i < request->nspecs && !code; i++) {
+        const RetexTextureSpec spec = spec_on(set, &request->specs[i]);
+        if (images_has_files(&spec))
+            code = images_take(site->images, &spec, deadline, &textures->images[i], err);
+    }
     return code;
 }
 
 /* Put on the targets what a request says. */
-static int place_textures(const ServeRequest *request, const RetexSet *set, Textures *textures, RetexError *err)
+static int place_textures(const Site *site, const ServeRequest *request, const RetexSet *set, Textures *textures,
+                          RetexError *err)
 {
     RetexTextureSpec colors[RETEX_MAX_TARGETS];
     int ncolors = 0;
     for (int i = 0; i < request->nspecs; i++)
-        if (request->specs[i].constant)
+        if (!textures->images[i])
             colors[ncolors++] = request->specs[i];
     int code = retex_textures_check(set, request->specs, request->nspecs, err);
     if (!code)
         code = retex_textures_load(textures->textures, set, colors, ncolors, 1, err);
     for (int i = 0; i < request->nspecs && !code; i++) {
-        const RetexTextureSpec *spec = &request->specs[i];
-        RetexTexture **texture = &textures->textures[retex_set_find_target(set, spec->target)];
-        if (spec->constant)
-            continue;
-        code = images_place(textures->images[i], set, spec, texture, err);
+        const RetexTextureSpec spec = spec_on(set, &request->specs[i]);
+        RetexTexture **texture = &textures->textures[retex_set_find_target(set, spec.target)];
+        if (textures->images[i])
+            code = images_place(site->images, textures->images[i], set, &spec, texture, err);
     }
     return code;
 }
@@ -242,7 +272,7 @@ static int make_file(const Site *site, const ServeRequest *request, PicturePlan 
     const int is_begun = !code;
     plan->textures = textures->textures;
     if (!code)
-        code = place_textures(request, room->set, textures, err);
+        code = place_textures(site, request, room->set, textures, err);
     if (!code)
         code = light_lamps(request, room->set, values, &plan->parameters, err);
     if (!code)
@@ -255,15 +285,16 @@ static int make_file(const Site *site, const ServeRequest *request, PicturePlan 
 
 /* Whether the files that were read are those of the key, and no change of them could be missed. */
 static int is_of_key(const Site *site, const WorkItem *item, const Room *room,
-                     const Content contents[RETEX_MAX_TARGETS])
+                     const SiteContents *contents)
 {
     SiteFiles files = {.room = room->content.id};
     char key[SITE_KEY_MAX];
     int are_settled = room->content.is_settled;
-    for (int i = 0; i < item->request.nspecs; i++) {
-        files.images[i] = contents[i].id;
-        are_settled &= item->request.specs[i].constant || contents[i].is_settled;
-    }
+    for (int i = 0; i < item->request.nspecs; i++)
+        for (int number = 0; number < RETEX_TEXTURE_FILES; number++) {
+            files.images[i][number] = contents->images[i][number].id;
+            are_settled &= contents->images[i][number].is_settled;
+        }
     write_key(site, &item->request, item->base, &files, key);
     return are_settled && strcmp(key, item->key) == 0;
 }
@@ -272,23 +303,24 @@ static Answer *make_picture_of(const Site *site, const WorkItem *item, const Roo
                                Textures *textures, int nthreads)
 {
     const ServeRequest *request = &item->request;
-    Content contents[RETEX_MAX_TARGETS] = {0};
+    SiteContents contents = {0};
     RetexError err = {0};
     void *data = NULL;
     size_t bytes = 0;
-    for (int i = 0; i < request->nspecs; i++)
-        if (textures->images[i])
-            contents[i] = *images_content(textures->images[i]);
     if (make_file(site, request, plan, room, textures, nthreads, &data, &bytes, &err))
         return answer_of_error(&err);
     Answer *answer = answer_new(200, serve_format_type(request->format), data, bytes);
     if (!answer)
         return NULL;
-    make_etag(site, request, &plan->place, room, contents, answer->etag);
+    for (int i = 0; i < request->nspecs; i++)
+        for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+            contents.images[i][number] = textures->images[i] ? images_contents(textures->images[i])[number]
+                                                             : (Content){.is_settled = 1};
+    make_etag(site, request, &plan->place, room, &contents, answer->etag);
     const RetexSetInfo info = retex_set_info(room->set);
     answer->width = info.width;
     answer->height = info.height;
-    if (is_of_key(site, item, room, contents))
+    if (is_of_key(site, item, room, &contents))
         cache_add(site->pictures, item->key, answer);
     return answer;
 }
@@ -307,7 +339,7 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
     RetexError err = {0};
     if (find_place(&request, room, &plan.place))
         return answer_error(request.status, "%s", request.reason);
-    Answer *answer = take_images(site, &request, item->deadline, &textures, &err)
+    Answer *answer = take_images(site, &request, room->set, item->deadline, &textures, &err)
                          ? answer_of_error(&err)
                          : make_picture_of(site, item, room, &plan, &textures, nthreads);
     return_images(site, &textures);

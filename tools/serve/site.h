@@ -16,7 +16,7 @@ typedef struct Site {
     int quality; /* of pictures that ask for none */
 } Site;
 
-enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * FILE_ID_TEXT + 1024 };
+enum { SITE_KEY_MAX = 2 * SERVE_URL_MAX + RETEX_MAX_TARGETS * RETEX_TEXTURE_FILES * FILE_ID_TEXT + 1024 };
 
 /* Which queue a request is for. */
 typedef enum SiteWork {
@@ -26,8 +26,8 @@ typedef enum SiteWork {
 } SiteWork;
 SiteWork site_work_of(const Site *site, const ServeRequest *request);
 
-/* What a request is of, by the files as they are now: two requests with the same key have the same answer. The images
- * of request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */
+/* What a request is of, by the files as they are now: two requests with the same key have the same answer. The names
+ * of files in request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */
 Answer *site_key(const Site *site, ServeRequest *request, const char *base, char key[SITE_KEY_MAX]);
 
 /* The entity tag of a picture, if its room is open, so that it is known without waiting: 1, or 0. */

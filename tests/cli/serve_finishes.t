@@ -1,0 +1,6 @@
+# retex-serve: maps of finishes, beside retex-combine's pictures; serve.py has the checks.
+$ mkdir -p rooms textures/wood; cp "$TESTS/finishes.pov" room.pov; cp "$SCENES/textures/brick.jpg" .; r() { retex-render -q --size 48x36 --spp 4 room.pov -t Floor -t Wall "$@"; }; r --finish Floor=matt,satin,polished -o three.exr; r --finish Floor=polished,matt -o two.exr; for s in three two; do retex-pack -q $s.exr -o rooms/$s.retex; done
+$ cp "$SCENES/living-room/textures/oak-planks.jpg" textures/oak.jpg; cp textures/oak.jpg textures/wood/wood_diff.jpg; printf '%s\n' 'import struct, sys' 'for name, dark in ("gloss", 16), ("other", 4):' '    pixels = b"".join(bytes([0 if (x // dark + y // 8) % 2 else 200 - x] * 3) for y in range(32) for x in range(32))' '    open(name + ".bmp", "wb").write(b"BM" + struct.pack("<IHHIIiiHHIIiiII", 54 + len(pixels), 0, 0, 54, 40, 32, 32, 1, 24, 0, len(pixels), 0, 0, 0, 0) + pixels)' >maps.py; /usr/bin/python3 maps.py; cp gloss.bmp textures; cp gloss.bmp textures/wood/wood_rough.bmp
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve finishes new_maps
+> finishes
+> new_maps
