@@ -227,6 +227,22 @@ def test_finishes():
                                                 for p in room.manifest["parameters"] if p["kind"] == "color"})
         parts = [room.combine(colors, finishes={"Floor": name}) for name in ("original", "Gloss")]
         np.testing.assert_allclose((parts[0] + parts[1]) / 2, mean, rtol=5e-3, atol=1e-4)
+        lib.run("make_picture", "gloss.png", "size=16x16", "noise=0.3")
+        brick = combined("finishes.exr", "--texture:finish=gloss.png:scale=2", "Floor=" + TERRAZZO)
+        for finish in "gloss.png", pathlib.Path("gloss.png"):
+            check(room.combine({"Floor": retex.Texture(TERRAZZO, finish=finish, scale=2)}), brick)
+        check(room.combine(f"Floor={TERRAZZO};Floor.finish=gloss.png;Floor.scale=2"), brick)
+        check(room.combine({"Floor": retex.Texture("tan", finish="gloss.png")}),
+              combined("finishes.exr", "--texture:finish=gloss.png", "Floor=tan"))
+        assert not np.array_equal(brick, combined("finishes.exr", "--texture:scale=2", "Floor=" + TERRAZZO))
+        assert retex.edit_text({"Floor": retex.Texture("tan", finish="none")}) == "Floor=rgb(" + \
+            retex.edit_text({"Floor": "tan"}).split("(")[1] + ";Floor.finish=none"
+        assert "Wall has no finishes" in str(lib.fails(retex.Error, room.combine,
+                                                       {"Wall": retex.Texture("tan", finish="gloss.png")}))
+        array = np.full((2, 2, 3), 0.5, np.float32)
+        assert np.array_equal(room.combine({"Floor": retex.Texture(array, finish="none")}), room.combine({"Floor": array}))
+        for texture, finish in (array, "gloss.png"), ("tan", "a:b.png"), ("tan", ""):
+            lib.fails(ValueError, retex.Texture, texture, finish=finish)
         assert "is Gloss meant?" in str(lib.fails(retex.Error, room.combine, finishes={"Floor": "Glos"}))
         assert "has no lamps" in str(lib.fails(retex.Error, room.combine, lights={"Lamp": 1}))
     with retex.open("room.exr") as room:

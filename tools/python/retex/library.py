@@ -74,7 +74,8 @@ class RetexTextureSpec(ctypes.Structure):
                 ("wrap", c_int * 2), ("colorspace", c_char * 64), ("flip", c_int * 2), ("repeat", c_int),
                 ("width", c_double * 2), ("uv_scale", c_double * 2), ("uv_min", c_double * 2), ("uv_max", c_double * 2),
                 ("access", c_void_p), ("warn", WARN), ("warn_context", c_void_p), ("is_light", c_int),
-                ("budget", c_void_p), ("periodic", c_int * 2)]
+                ("budget", c_void_p), ("periodic", c_int * 2), ("finish", c_char * 1024), ("nfinishes", c_int),
+                ("roughness", c_float * 4)]
 
 
 class RetexReadParams(ctypes.Structure):

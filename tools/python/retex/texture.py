@@ -33,6 +33,14 @@ def _linear(array: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
     return texels
 
 
+def _map(finish: Union[str, "os.PathLike[str]"]) -> str:
+    """The name of a map of finishes; a path that is called none is a file."""
+    name = os.fsdecode(path_bytes(finish))
+    if not name or ":" in name:
+        raise ValueError(f"finish: expected a picture without a colon in its name, not {name!r}")
+    return "./" + name if isinstance(finish, os.PathLike) and name == "none" else name
+
+
 def _is_color(text: str) -> bool:
     try:
         call("retex_color_parse", (c_float * 3)(), os.fsencode(text))
@@ -77,17 +85,21 @@ class Texture:
     repeat      "straight", "brick", "half-drop" or "mirror"
     width       of one repeat in scene units; a pair for width and height
     colorspace  of the image, if its file does not say it; arrays have theirs by their type
+    finish      the name of a picture that says which finish of the target is where; "none": the roughness of a folder
+                says nothing. Not of arrays
 
     An array of floats is not copied until a set uses it: do not change it before."""
 
     def __init__(self, image: Source, *, scale: Optional[Pair] = None, rotate: Optional[float] = None,
                  offset: Optional[Tuple[float, float]] = None, flip: Optional[str] = None,
                  wrap: Union[str, Tuple[str, str], None] = None, repeat: Optional[str] = None,
-                 width: Optional[Pair] = None, colorspace: Optional[str] = None):
+                 width: Optional[Pair] = None, colorspace: Optional[str] = None,
+                 finish: Union[str, "os.PathLike[str]", None] = None):
         options = {"scale": scale if scale is None else _pair(scale), "rotate": rotate,
                    "offset": offset if offset is None else _pair(offset), "flip": flip,
                    "wrap": ",".join(wrap) if isinstance(wrap, (tuple, list)) else wrap, "repeat": repeat,
-                   "width": width if width is None else _pair(width), "colorspace": colorspace}
+                   "width": width if width is None else _pair(width), "colorspace": colorspace,
+                   "finish": finish if finish is None else _map(finish)}
         self.options = ":".join(f"{name}={value}" for name, value in options.items() if value is not None)
         self.array: Optional[npt.NDArray[np.generic]] = None
         if isinstance(image, (str, os.PathLike)):
@@ -99,6 +111,8 @@ class Texture:
         elif np.ndim(image) == 1 and len(image) == 3:
             self.image = "rgb({!r},{!r},{!r})".format(*(float(channel) for channel in image))
         elif isinstance(image, np.ndarray):
+            if finish is not None and finish != "none":
+                raise ValueError("an array has no map of finishes: write it to a file")
             self.image, self.array = "an array", _linear(image)
             image_of(self.array)
         else:
