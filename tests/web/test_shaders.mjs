@@ -41,13 +41,13 @@ function open(name, { classes = () => true, lit = true } = {}) {
   if (room.lamps && lit) renderer.putLamps(images([`${name}/${room.lamps.file}`])[0]);
   lights.forEach((light, i) => renderer.putLight(i, light));
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
-  const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value) } = {}) => {
+  const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
     const all = room.targets.map((t, i) => {
-      const { image = null, ...options } = textures[t.name] || {};
-      renderer.putTexture(i, image);
-      return { ...plainTexture(), ...placing(plainTexture(), options), image, put: { shifted: "" } };
+      const { image = null, map = null, ...options } = textures[t.name] || {}, texture = { ...plainTexture(), ...placing(plainTexture(), options), image, map, put: { shifted: "" } };
+      renderer.putTexture(i, image, map && { image: map, wrap: RetexRoom.prototype.wrapOf(texture) });
+      return texture;
     });
-    const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room }).settings();
+    const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room, finishes }).settings();
     renderer.render(settings, split, lamp, colors);
     return canvas.picture;
   };
@@ -133,6 +133,41 @@ test("lamps have their own light: the picture is that of the set with the lamp i
   const partial = open("lamps", { classes: (c) => c.target === 0 || c.kind === "interreflection" });
   const before = psnr(partial.draw(floor), green);
   least(psnr(partial.draw(floor, { colors }), green), before + 2, "nearer, while not all is loaded");
+});
+
+/* Maps: in pictures of two targets of which one has a map, or both; where the texture is clear; left of the split. */
+test("maps of finishes: drawn as retex-combine draws them", () => {
+  tool("retex-render", "-q", "--size", "48x36", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss,matt", "--finish", "Wall=original,satin",
+    new URL("../cli/finishes.pov", import.meta.url).pathname, "-o", "shiny.exr");
+  tool("retex-pack", "-q", "shiny.exr", "--web", "shiny");
+  const { room, draw, renderer } = open("shiny"), { parameterColors } = player(), white = room.parameters.map(() => null);
+  run("/usr/bin/python3", "-c", `import OpenImageIO as o, numpy as n
+def put(name, rows):
+  out = o.ImageOutput.create(name); out.open(name, o.ImageSpec(rows.shape[1], rows.shape[0], rows.shape[2], "uint8")); out.write_image(rows); out.close()
+y, x = n.mgrid[0:32, 0:48]
+put("grey.png", n.repeat((((x // 12 + y // 8) % 2) * 200 + x)[:, :, None], 3, axis=2).astype("uint8"))
+put("colors.png", n.stack([x * 5, y * 7, 0 * x], axis=2).astype("uint8"))
+put("clear.png", n.stack([200 + 0 * x, x * 4, y * 6, ((x // 6 + y // 6) % 2) * 255], axis=2).astype("uint8"))`);
+  for (const [what, edits, decibels, chosen = {}] of [
+    ["a grey map", { Floor: ["brick.jpg", "grey.png"] }, 37], ["colours, on a colour", { Floor: [[0.7, 0.4, 0.2], "colors.png"] }, 37],
+    ["two maps", { Floor: ["fans.jpg", "colors.png", "scale=2:rotate=20:offset=0.1,0.3", { scale: [2, 2], rotate: 20, offset: [0.1, 0.3] }], Wall: [[0.3, 0.5, 0.8], "grey.png"] }, 36],
+    ["a wall, with another floor", { Wall: ["brick.jpg", "grey.png", "wrap=mirror", { wrap: "mirror" }] }, 37, { Floor: "Gloss" }],
+    ["a clear floor", { Floor: ["clear.png", "grey.png"] }, 36, { Floor: "matt" }]]) {
+    const textures = {}, args = Object.entries(chosen).flatMap(([t, f]) => ["--finish", `${t}=${f}`]);
+    for (const [target, [image, map, text = "scale=1", placed = {}]] of Object.entries(edits)) {
+      const file = image === "clear.png" ? image : `${TEXTURES}/${image}`, isColor = Array.isArray(image);
+      textures[target] = { image: isColor ? image : images([file])[0], map: images([map])[0], scale: [1, 1], ...placed };
+      args.push(`--texture:finish=${map}:${text}`, `${target}=${isColor ? `rgb(${image})` : file}`);
+    }
+    tool("retex-combine", "-q", "shiny.exr", ...args, "-o", "expected.png");
+    const numbers = room.targets.map((t) => (chosen[t.name] ? 1 + t.finishes.indexOf(chosen[t.name]) : t.finish)), mapped = room.targets.map((t) => !!edits[t.name]);
+    const colors = parameterColors(room, white, numbers.map((f, t) => (mapped[t] ? null : f)));
+    least(psnr(draw(textures, { colors, finishes: numbers }), images(["expected.png"])[0]), decibels, what);
+    tool("retex-combine", "-q", "shiny.exr", "-o", "before.png");
+    const half = draw(textures, { colors, finishes: numbers, split: 20 });
+    least(psnr(half, images(["before.png"])[0], [0, 20]), 36, `${what}: left of the split`);
+    least(psnr(half, images(["expected.png"])[0], [20, 48]), decibels - 1, `${what}: right of it`);
+  }
 });
 
 /* A room with a bright lamp and a dim one, each with its edge of a shadow, and a third that is off. */

@@ -55,6 +55,7 @@ const OPTIONS = {
   repeat: [(text) => wordOf(text, REPEATS), "straight"],
   width: [(text) => (text.includes(",") ? pairOf(text, (x) => x > 0) : [numberOf(text)].find((x) => x > 0)), ""],
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
+  finish: [(text) => (text === "none" ? "" : text), ""],
   tint: [(text) => (parseColor(text) ? text : undefined), "#ffffff"],
 };
 const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
@@ -94,7 +95,7 @@ function parseEdit(text) {
   for (const [target, said] of Object.entries(textures)) {
     if (!said.source) throw new Error(`${target} has options, but no texture.`);
     if (isShifted(said.repeat) && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: repeat ${said.repeat} needs wrap repeat.`);
-    if (!parseColor(said.source)) said.scale ||= [1, 1];
+    if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }
   if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
   return { textures, light, lamps, finishes };

@@ -54,7 +54,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   }
 
   /* Put a texture on a target: a File or Blob, the URL of a picture, a colour as in retex-edit(5), or null for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
-   * degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine. Resolves when it is drawn. */
+   * degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine; finish: a File, Blob or URL of a
+   * picture that says which finish is where. Resolves when it is drawn. */
   async setTexture(name, source, options = {}) {
     const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
     let image = null, label = "Original", kept = null;
@@ -67,18 +68,30 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       label = kept;
       if (!image) {
         label = nameOf(kept);
-        const bytes = await fetchBytes(new URL(kept, document.baseURI), this.abort.signal);
-        image = await decodePicture(new Blob([bytes], { type: /\.svg$/i.test(label) ? DRAWING : "" }), label);
+        image = await this.fetchPicture(kept);
       }
     }
+    const map = image && options.finish && options.finish !== "none" ? await this.getMap(index, options.finish) : null;
     if (order !== this.textures[index].order) return; // another one has been chosen since
     placing(plainTexture(), options);
-    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order });
+    const finish = map && !(options.finish instanceof Blob) ? String(options.finish) : "";
+    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, finish, map });
     this.place(name, options);
     this.say(`${name}: ${this.textures[index].label}`);
   }
 
-  /* Change how a target's texture lies: the options of setTexture. */
+  async fetchPicture(address) {
+    const bytes = await fetchBytes(new URL(address, document.baseURI), this.abort.signal), name = nameOf(address);
+    return decodePicture(new Blob([bytes], { type: /\.svg$/i.test(name) ? DRAWING : "" }), name);
+  }
+
+  /* A picture that says which finish of a target is where. */
+  async getMap(index, map) {
+    if (!this.room.targets[index].finishes) throw new Error(`${this.targets[index]} has no finishes to choose from.`);
+    return map instanceof Blob ? decodePicture(map, map.name || "Picture") : this.fetchPicture(String(map));
+  }
+
+  /* Change how a target's texture lies: the options of setTexture, but finish. */
   place(name, options) {
     const index = this.indexOf(name), texture = this.textures[index];
     Object.assign(texture, placing(texture, options));
@@ -88,14 +101,14 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* Give the renderer a target's texture, if it has another one. */
   put(index) {
-    const { renderer } = this, texture = this.textures[index], { image, repeat, put } = texture;
-    const shifted = image && !Array.isArray(image) && isShifted(repeat) ? repeat : "";
-    if (!renderer || (put.image === image && put.shifted === shifted)) return;
-    texture.put = { image, shifted };
+    const { renderer } = this, texture = this.textures[index], { image, repeat, put, map } = texture;
+    const shifted = image && (map || !Array.isArray(image)) && isShifted(repeat) ? repeat : "", wrap = map ? this.wrapOf(texture) : [];
+    if (!renderer || (put.image === image && put.shifted === shifted && put.map === map && String(put.wrap) === String(wrap))) return;
+    texture.put = { image, shifted, map, wrap };
     const most = Math.min(renderer.most, 4096) / (shifted ? 2 : 1);
-    let shown = image;
-    if (image?.naturalWidth && Math.max(image.naturalWidth, image.naturalHeight) > most) shown = smaller(image, most);
-    renderer.putTexture(index, shifted ? shiftedRepeats(shown, repeat) : shown);
+    const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > most ? smaller(x, most) : x);
+    const arranged = (x) => (shifted && !Array.isArray(x) ? shiftedRepeats(fit(x), repeat) : fit(x));
+    renderer.putTexture(index, arranged(image), map && { image: arranged(map), wrap });
   }
 
   /* Brightness in stops, warmth from -1 to 1. Or, by name, the value of a lamp, as "1.5*3000K", "#ffd0a0", 0; null: as
@@ -136,7 +149,16 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   }
 
   recolor() {
-    this.colors = parameterColors(this.room || {}, this.said.map((text) => text && parseLamp(text)), this.finishes);
+    this.colors = this.colorsWith(this.finishes);
+  }
+
+  colorsWith(finishes) {
+    return parameterColors(this.room || {}, this.said.map((text) => text && parseLamp(text)), finishes);
+  }
+
+  /* Where maps say which finish is where, light of all finishes is needed. */
+  mapColors() {
+    return this.textures.some((t) => t.map) ? this.colorsWith(this.finishes.map((f, t) => (this.textures[t].map ? null : f))) : this.colors;
   }
 
   /* From 1; 0: the target does not have it. */
@@ -153,8 +175,8 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
   getState() {
     const textures = {};
     this.textures.forEach((t, i) => {
-      const { source, scale, rotate, offset, tint, flip, wrap, repeat } = t;
-      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat };
+      const { source, scale, rotate, offset, tint, flip, wrap, repeat, finish } = t;
+      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat, ...(finish ? { finish } : {}) };
     });
     const lamps = Object.fromEntries(this.lamps.filter((l) => l.value).map((l) => [l.name, l.value]));
     const finishes = {}, rendered = finishesAsRendered(this.room || {});
@@ -197,7 +219,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     const state = this.getState();
     this.targets.forEach((name, i) => {
       const said = state.textures[name];
-      if (said) said.scale = Array.isArray(this.textures[i].image) ? undefined : this.scaleOf(i); // a colour has none
+      if (said) said.scale = Array.isArray(this.textures[i].image) && !this.textures[i].map ? undefined : this.scaleOf(i); // a colour has none
     });
     const text = encodeURIComponent(editText(state)).replace(/%(3B|3D|2C|2F|3A)/g, decodeURIComponent);
     url.hash = [...others, this.key + text].join("&");
@@ -247,7 +269,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     }
     if (signal.aborted) return;
     this.room = room;
-    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "" } }));
+    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "", map: null, wrap: [] } }));
     if (!kept) this.said = lampsOf(room).map(() => null), this.finishes = finishesAsRendered(room);
     this.recolor();
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
@@ -348,19 +370,22 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* A target's scale as a pair, by which the tools go. */
   scaleOf(index) {
-    const { uv_scale: unit } = this.room.targets[index], { image, scale } = this.textures[index];
+    const { uv_scale: unit } = this.room.targets[index], { image: own, map, scale } = this.textures[index];
     if (Array.isArray(scale)) return scale;
-    const wide = image && !Array.isArray(image) ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
+    const image = Array.isArray(own) ? map : own, wide = image ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
     return [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
+  }
+
+  wrapOf({ image, map, wrap, repeat }) {
+    const modes = (Array.isArray(image) && !map ? "repeat" : wrap).split(",");
+    return [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && repeat === "mirror" ? "mirror" : m));
   }
 
   settings() {
     return this.textures.map((t, i) => {
-      const scale = this.scaleOf(i), image = t.image;
-      const modes = (Array.isArray(image) ? "repeat" : t.wrap).split(",");
-      const wrap = [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && t.repeat === "mirror" ? m = "mirror" : m));
+      const scale = this.scaleOf(i), wrap = this.wrapOf(t);
       const share = [t.put.shifted === "half-drop" ? 0.5 : 1, t.put.shifted === "brick" ? 0.5 : 1];
-      return { ...t, scale, wrap, share, tint: parseColor(t.tint) };
+      return { ...t, scale, wrap, share, tint: parseColor(t.tint), finish: this.finishes?.[i] ?? 0 };
     });
   }
 
@@ -375,7 +400,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     this.frame = 0;
     const begin = performance.now(), { exposure, warmth } = this.light, most = 2 ** exposure;
     const split = this.comparing ? (this.$(".split").value / 100) * this.room.width : 0;
-    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)], this.colors);
+    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)], this.mapColors());
     this.emit("retex-draw", { milliseconds: performance.now() - begin });
   }
 

@@ -56,11 +56,12 @@ const lampsOf = ({ parameters = [] }) => parameters.map((p, index) => ({ ...p, i
   .filter((p) => p.lamp !== "" && !p.finishes?.some(Boolean));
 
 /* What colours parameters have: their lamp's, or white; black where light met a target with another finish than it has.
- * said: of the lamps what parseLamp makes of it, or null: as rendered; chosen: the number of each target's finish, from 1. */
+ * said: of the lamps what parseLamp makes of it, or null: as rendered; chosen: the number of each target's finish, from 1;
+ * null: all. */
 function parameterColors(room, said, chosen) {
   const lamps = lampsOf(room), own = lamps.map((lamp, i) => (said[i] ? lampColor(said[i], lamp) : lamp.value));
   return (room.parameters ?? []).map(({ name, lamp = name, finishes = [] }) =>
-    finishes.some((f, t) => f && f !== chosen[t]) ? [0, 0, 0] : own[lamps.findIndex((l) => l.name === lamp)] ?? [1, 1, 1]);
+    finishes.some((f, t) => f && chosen[t] !== null && f !== chosen[t]) ? [0, 0, 0] : own[lamps.findIndex((l) => l.name === lamp)] ?? [1, 1, 1]);
 }
 
 const finishesAsRendered = ({ targets = [] }) => targets.map((t) => t.finish ?? 0);

@@ -1,5 +1,7 @@
 // ---- the room on the graphics card ----
 
+const FACTORS_MOST = 16; // of a term
+
 /* Numbers go into shaders and sizes into memory, so all are what retex-pack can have written. */
 function checkManifest(room) {
   const check = (good) => { if (!good) throw new Error("room.json is damaged."); };
@@ -93,7 +95,7 @@ function checkManifest(room) {
     inside(t.group, room.groups);
     inside(t.gain, among, -1);
     check(t.gain < 0 || among[t.gain].scale >= finest);
-    list(t.factors, 12, (m) => (inside(m, room.mixtures), check(scaleOf(m) >= finest && scaleOf(m) > 1)));
+    list(t.factors, FACTORS_MOST, (m) => (inside(m, room.mixtures), check(scaleOf(m) >= finest && scaleOf(m) > 1)));
   };
   list(room.terms, 1024, (t) => term(t, tiles, room.finest));
   if (room.lamps === undefined) return;
@@ -221,16 +223,16 @@ class Renderer {
     const { gl, room } = this, { lamps } = room, { terms } = lamps;
     if (image.naturalWidth !== lamps.width || image.naturalHeight !== lamps.height) throw new Error(`${lamps.file} is damaged.`);
     if (Math.max(image.naturalWidth, terms.length) > this.most) throw new Error("The room's lamps are too many for this device.");
-    const data = new Float32Array(64 * terms.length), scale = (m) => room.classes[room.mixtures[m][0][0]];
+    const columns = 3 + FACTORS_MOST, data = new Float32Array(4 * columns * terms.length), scale = (m) => room.classes[room.mixtures[m][0][0]];
     terms.sort((a, b) => a.group - b.group).forEach(({ parameter, gain, factors }, i) => {
-      const t = lamps.tiles[gain], put = (column, values) => data.set(values, 64 * i + 4 * column);
+      const t = lamps.tiles[gain], put = (column, values) => data.set(values, 4 * (columns * i + column));
       put(0, t ? [t.x, t.y, t.width, t.height] : [0, 0, 0, 0]);
       put(1, [t ? t.scale / lamps.finest : 1, t?.white ?? 1, t?.levels ?? 255, parameter]);
       put(2, [factors.length, 0, 0, 0]);
       factors.forEach((m, k) => put(3 + k, [room.mixtureLayers[m], scale(m).width, scale(m).height, scale(m).scale / lamps.finest]));
     });
-    this.lampTerms = this.texture(gl.TEXTURE_2D, gl.RGBA32F, 16, terms.length, 0, gl.NEAREST);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 16, terms.length, gl.RGBA, gl.FLOAT, data);
+    this.lampTerms = this.texture(gl.TEXTURE_2D, gl.RGBA32F, columns, terms.length, 0, gl.NEAREST);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, columns, terms.length, gl.RGBA, gl.FLOAT, data);
     this.lampProgram = this.program(lampShader(room));
     const tiles = this.texture(gl.TEXTURE_2D, gl.RGBA8, image.naturalWidth, image.naturalHeight, 0, gl.NEAREST);
     this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
@@ -250,13 +252,19 @@ class Renderer {
     return { texture: this[key], size, grid: [...size, finest] };
   }
 
-  /* A new texture: an image, or a linear colour; null: the original. */
-  putTexture(index, source) {
+  /* A new texture: an image, or a linear colour; null: the original. map: an image of its finishes, and how both are
+   * wrapped; or null. */
+  putTexture(index, source, map = null) {
     const { gl } = this, target = this.room.targets[index];
-    if (target.image !== this.none) gl.deleteTexture(target.image);
-    target.image = this.none;
-    target.hasImage = !!source;
+    for (const texture of [target.image, target.weights, ...(target.products ?? [])]) if (texture && texture !== this.none) gl.deleteTexture(texture);
+    Object.assign(target, { image: this.none, weights: null, products: null, hasImage: !!source });
     if (!source) return;
+    this.putImage(target, source);
+    if (map) this.putMap(target, source, map);
+  }
+
+  putImage(target, source) {
+    const { gl } = this;
     const width = source.naturalWidth || source.width || 1, height = source.naturalHeight || source.height || 1;
     if (Array.isArray(source)) {
       target.image = this.texture(gl.TEXTURE_2D, gl.RGBA16F, 1, 1, 0, gl.NEAREST);
@@ -272,13 +280,48 @@ class Renderer {
     this.checkMemory();
   }
 
+  /* Draw a texture with one program, and its levels. */
+  drawTexture(format, [width, height], program, values, levels = 1 + Math.floor(Math.log2(Math.max(width, height)))) {
+    const { gl } = this, texture = this.texture(gl.TEXTURE_2D, format, width, height, 0, gl.LINEAR, levels);
+    this.intoImage(texture, width, height);
+    this.draw(program, values);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    if (levels > 1) {
+      gl.generateMipmap(gl.TEXTURE_2D);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    }
+    return texture;
+  }
+
+  wrap(texture, modes) {
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    modes.forEach((mode, k) => gl.texParameteri(gl.TEXTURE_2D, k ? gl.TEXTURE_WRAP_T : gl.TEXTURE_WRAP_S,
+      { repeat: gl.REPEAT, mirror: gl.MIRRORED_REPEAT }[mode] || gl.CLAMP_TO_EDGE));
+  }
+
+  /* The texture where it has each finish, and the weights of these: the larger size of both counts. */
+  putMap(target, source, { image, wrap }) {
+    const { gl } = this, sizeOf = (x) => [x.naturalWidth || x.width || 1, x.naturalHeight || x.height || 1], own = sizeOf(image), count = target.finishes.length;
+    this.mapPrograms ||= [WEIGH, PRODUCT, smallGateShader(this.room), gateShader(this.room), pictureShader(this.room, true)].map((text) => this.program(text));
+    const codes = this.texture(gl.TEXTURE_2D, gl.RGBA8, ...own, 0, gl.NEAREST);
+    this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
+    const weights = this.drawTexture(gl.RGBA16F, own, this.mapPrograms[0], { codes, grey: isGrey(image) ? 1 : 0, count }, 1);
+    for (const texture of [weights, target.image]) this.wrap(texture, wrap);
+    const size = sizeOf(source).map((x, k) => Math.max(x, own[k])), format = Array.isArray(source) ? gl.RGBA16F : gl.SRGB8_ALPHA8;
+    const product = (finish) => this.drawTexture(finish ? format : gl.RGBA8, size, this.mapPrograms[1], { image: target.image, weights, size, finish });
+    target.products = target.finishes.map((_, k) => product(k + 1));
+    target.weights = product(0);
+    for (const texture of [codes, weights]) gl.deleteTexture(texture);
+    this.checkMemory();
+  }
+
   /* Colours are averaged by how much they cover. */
   premultiply(target, width, height, levels) {
     const { gl } = this, straight = target.image;
     target.image = this.texture(gl.TEXTURE_2D, gl.SRGB8_ALPHA8, width, height, 0, gl.LINEAR, levels);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.imageFrame ||= gl.createFramebuffer());
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target.image, 0);
-    gl.viewport(0, 0, width, height);
+    this.intoImage(target.image, width, height);
     this.draw(this.programs[3], { straight });
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
     gl.deleteTexture(straight);
@@ -318,7 +361,15 @@ class Renderer {
     gl.viewport(0, 0, width, height);
   }
 
-  /* What is smaller than the picture: mixtures, then factors of groups. */
+  intoImage(texture, width, height) {
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.imageFrame ||= gl.createFramebuffer());
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+    gl.viewport(0, 0, width, height);
+  }
+
+  /* What is smaller than the picture: mixtures, then factors of groups. values.first: what else holds where the mixture is a
+   * path's first hit. */
   drawFactors(original, values) {
     const { room } = this, colors = original ? this.rendered : values.colors, relit = !!this.lampTiles && isRelit(room, colors);
     const to = this.layers(original, relit);
@@ -326,7 +377,7 @@ class Renderer {
       const c = room.classes[m[0][0]];
       if (c.scale === 1) return;
       this.into(this.mixtures, room.mixtureLayers[mixture], c.width, c.height);
-      this.draw(this.programs[0], { ...values, heads: this.smallHeads, mixture, original: original ? 1 : 0 });
+      this.draw(this.programs[0], { ...values, ...(firstHit(room, mixture) >= 0 ? values.first : {}), heads: this.smallHeads, mixture, original: original ? 1 : 0 });
     });
     room.groups.forEach(({ parameters }, group) => {
       this.into(to.texture, group, ...to.size);
@@ -372,37 +423,79 @@ class Renderer {
   }
 
   /* settings: by target how its texture lies, scale and tint as numbers; wrap: modes in u and v; share: of the image that
-   * one repeat takes; split: pixels from the left that stay as they were; colors: of the parameters. */
+   * one repeat takes; finish: the number of the one that is chosen; split: pixels from the left that stay as they were; colors: of the parameters, of a
+   * target with a map with all its finishes. */
   render(settings, split, lamp, colors) {
     const { gl, room } = this, count = room.targets.length;
-    const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [] };
+    const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [], keeps: [] };
     for (let t = 0; t < count; t++) {
       const s = settings[t], angle = s.rotate * Math.PI / 180, [c, d] = [Math.cos(angle), Math.sin(angle)];
       const [u, v] = s.share.map((share, k) => (s.flip.includes("uv"[k]) ? -share : share));
       values.turn.push(c * s.scale[0] * u, d * s.scale[0] * v, -d * s.scale[1] * u, c * s.scale[1] * v);
       values.offset.push(...[u, v].map((share, k) => (share < 0 ? share * (s.offset[k] - 1) : share * s.offset[k])));
       values.edge.push(...s.wrap.map((mode) => ({ black: 1, clamp: -1 })[mode] || 0));
-      if (room.targets[t].hasImage) {
-        gl.bindTexture(gl.TEXTURE_2D, room.targets[t].image);
-        s.wrap.forEach((mode, k) => gl.texParameteri(gl.TEXTURE_2D, k ? gl.TEXTURE_WRAP_T : gl.TEXTURE_WRAP_S,
-          { repeat: gl.REPEAT, mirror: gl.MIRRORED_REPEAT }[mode] || gl.CLAMP_TO_EDGE));
-      }
+      const { image, hasImage, weights, products } = room.targets[t];
+      for (const texture of hasImage ? [image, ...(products ? [weights, ...products] : [])] : []) this.wrap(texture, s.wrap);
+      values.keeps.push(1);
       values.tint.push(...s.tint);
       values.edited.push(room.targets[t].hasImage ? 1 : 0);
       values[`image${t}`] = room.targets[t].image;
     }
+    const shown = settings.map((s) => s.finish), mapped = room.targets.map((t) => !!t.products);
+    const isMapped = mapped.includes(true) && !!this.lampTiles, passes = isMapped ? passesOf(room, mapped) : [shown];
+    if (isMapped) this.drawGates(values, shown, mapped);
+    else if (mapped.includes(true)) values.colors = chosenColors(room, shown, colors);
     const partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
     let originals = this.layers(true, false), factors = this.layers(false, false);
     if (ready.includes(1)) {
       if (partial || split > 0) originals = this.drawFactors(true, values);
-      factors = this.drawFactors(false, values);
     }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.viewport(0, 0, room.width, room.height);
-    this.draw(this.programs[2], {
-      ...values, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
-      originalGrid: originals.grid, still: this.still,
-      loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)), ready, partial: partial ? 1 : 0, split, lamp,
+    passes.forEach((pass, i) => {
+      const last = i === passes.length - 1, first = isMapped ? this.inPass(mapped, pass, shown) : {};
+      if (ready.includes(1)) factors = this.drawFactors(false, { ...values, colors: isMapped ? passColors(room, mapped, pass, colors) : values.colors, first });
+      if (last) {
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        gl.viewport(0, 0, room.width, room.height);
+      } else {
+        this.intoImage(this.sums[i % 2], room.width, room.height);
+      }
+      this.draw(isMapped ? this.mapPrograms[4] : this.programs[2], {
+        ...values, ...first, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
+        originalGrid: originals.grid, still: this.still, loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)),
+        ready, partial: partial && !i ? 1 : 0, split, lamp, gates: this.gates, finish: pass, more: i ? 1 : 0, last: last ? 1 : 0,
+        before: this.sums?.[(i + 1) % 2],
+      });
+    });
+  }
+
+  /* What differs in a pass: the textures of first hits, and which original they keep where they are clear. */
+  inPass(mapped, pass, shown) {
+    const values = { keeps: pass.map((f, t) => (mapped[t] && f && f !== shown[t] ? 0 : 1)) };
+    this.room.targets.forEach((t, i) => { if (mapped[i] && pass[i]) values[`image${i}`] = t.products[pass[i] - 1]; });
+    return values;
+  }
+
+  /* The gates of mapped targets. */
+  drawGates(values, shown, mapped) {
+    const { gl, room } = this, { targets } = room, layers = targets.map((_, t) => t).filter((t) => targets[t].finishes), size = [room.width, room.height];
+    if (!this.gates) {
+      const most = (key) => Math.max(1, ...this.small.map((c) => c[key]));
+      this.gates = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, ...size, layers.length, gl.NEAREST);
+      this.smallGates = this.texture(gl.TEXTURE_2D_ARRAY, gl.RGBA16F, most("width"), most("height"), Math.max(this.small.length, 1), gl.LINEAR);
+      this.sums = [0, 1].map(() => this.texture(gl.TEXTURE_2D, gl.RGBA16F, ...size, 0, gl.NEAREST));
+      this.checkMemory();
+    }
+    const own = { ...values, original: 0, tint: targets.flatMap(() => [1, 1, 1]), shown: shown.flatMap((f) => [2, 3, 4].map((k) => (f === k ? 1 : 0))) };
+    targets.forEach((t, i) => (mapped[i] ? (own[`image${i}`] = t.weights) : 0));
+    this.small.forEach((c, layer) => {
+      if (!mapped[c.target]) return;
+      this.into(this.smallGates, layer, c.width, c.height);
+      this.draw(this.mapPrograms[2], { ...own, heads: this.smallHeads, which: layer });
+    });
+    layers.forEach((t, layer) => {
+      if (!mapped[t]) return;
+      this.into(this.gates, layer, ...size);
+      this.draw(this.mapPrograms[3], { ...own, heads: this.heads, sums: this.smallGates, which: t });
     });
   }
 }

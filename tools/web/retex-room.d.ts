@@ -14,6 +14,12 @@ export interface RetexPlacing {
   label?: string;
 }
 
+export interface RetexTextureOptions extends RetexPlacing {
+  /** A picture that says which of the target's finishes is where: grey through the list of finishes, or red, green and
+   * blue for the second, third and fourth. */
+  finish?: Blob | string;
+}
+
 export interface RetexLight {
   /** Stops. */
   exposure: number;
@@ -31,7 +37,7 @@ export interface RetexLamp {
 }
 
 export interface RetexState {
-  textures: Record<string, RetexPlacing & { source: string }>;
+  textures: Record<string, RetexPlacing & { source: string; finish?: string }>;
   light: RetexLight;
   /** Values of lamps by name; "*" is all that are not named. */
   lamps?: Record<string, string>;
@@ -56,7 +62,7 @@ export class RetexRoom extends HTMLElement {
   readonly lamps: RetexLamp[];
   readonly complete: Promise<void>;
   readonly link: string;
-  setTexture(target: string, source: Blob | string | null, options?: RetexPlacing): Promise<void>;
+  setTexture(target: string, source: Blob | string | null, options?: RetexTextureOptions): Promise<void>;
   place(target: string, options: RetexPlacing): void;
   setLight(light: Partial<RetexLight>): Promise<void>;
   /** A lamp's new value: 0, 2.5, "#ffd0a0", "3000K", "1.5*3000K"; null: as rendered. */

@@ -26,7 +26,7 @@ void main() {
   result.rgb *= result.a;
 }`;
 
-/* Colours of textures are multiplied by what they cover. ends: in u and v 1 if nothing lies beyond the image, -1 if its
+/* Colours of textures are multiplied by what they cover; keeps: what they do not cover shows the original. ends: in u and v 1 if nothing lies beyond the image, -1 if its
  * border continues, so that the finest level has it.
  *
  * The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
@@ -42,6 +42,7 @@ uniform vec2 offset[TARGETS];
 uniform vec3 tint[TARGETS];
 uniform vec2 edge[TARGETS];
 uniform bool edited[TARGETS];
+uniform bool keeps[TARGETS];
 vec4 look(sampler2D image, vec2 size, vec2 place, float lod, vec2 ends) {
   vec2 beyond = clamp((abs(place - 0.5) - 0.5) * max(size * exp2(-lod), 1.0) + 0.5, 0.0, 1.0);
   vec2 inside = 1.0 - beyond * max(ends, 0.0);
@@ -133,7 +134,7 @@ function classCode(room, c, albedo, add) {
       vec3 color = own;
       if (edited[${t}] && !original) {
         vec4 found = ${axes ? `evenly(${where}, r, axesAt(first + i + 1))` : `filtered(${where}, ${bounds}, r, ${disc})`};
-        color = own * (1.0 - found.a) + found.rgb * tint[${t}];
+        color = (keeps[${t}] ? own * (1.0 - found.a) : vec3(0.0)) + found.rgb * tint[${t}];
       }
       ${add}
     }
@@ -268,21 +269,38 @@ void main() {
   result = vec4(min(sum, 65504.0), 1.0);
 }`;
 
+/* The weight of a finish, of the first or by those of the others. */
+const SHARE = `
+float share(vec3 w, int finish) {
+  return finish == 1 ? max(1.0 - w.r - w.g - w.b, 0.0) : finish == 2 ? w.r : finish == 3 ? w.g : w.b;
+}
+`;
+
+const MAPPED = `
+uniform sampler2DArray gates;
+uniform sampler2D before;
+uniform bool more, last;
+uniform int finish[TARGETS];
+${SHARE}`;
+
 /* Last step: the picture, with the original textures left of `split`. While not everything is loaded it is the still plus
- * what new textures change. */
-function pictureShader(room) {
+ * what new textures change. hasMaps: the picture is a sum of several: `more`, that of those before is in `before`; of the
+ * last it is encoded. Light of a finish is multiplied by its gate, but for that whose first hit is on the target. */
+function pictureShader(room, hasMaps) {
   const full = room.mixtures.map((m, i) => [m, i]).filter(([m]) => room.classes[m[0][0]].scale === 1);
   const byClass = new Map();
   for (const [m, i] of full) for (const [c, slot] of m) byClass.set(c, [...(byClass.get(c) || []), [i, slot]]);
   const mixtures = [...byClass].map(([c, list]) => `
   if (loaded[${c}]) ${classCode(room, c, lightCode(room, room.classes[c].albedo),
     list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}]; own${i} += w[${slot}] * own;`).join(" "))}`);
+  const mappable = hasMaps ? room.targets.map((_, t) => t).filter((t) => room.targets[t].finishes) : [];
+  const gatesOf = (own) => mappable.filter((t) => t !== own).map((t) => ` * gate${t}`).join("");
   const groups = room.groups.map((g, i) => {
     const factor = g.mixture < 0 ? "" : ` * mean(sum${g.mixture}, total${g.mixture})`;
     const before = g.mixture < 0 ? "" : ` * mean(own${g.mixture}, total${g.mixture})`;
     return `
   if (ready[${i}]) {
-    vec3 d = ${lightCode(room, g.light)};
+    vec3 d = ${lightCode(room, g.light)}${hasMaps ? gatesOf(firstHitOf(room, i)) : ""};
     if (original) color += d * factor(originals, originalGrid, ${i})${factor};
     else color += d * factor(factors, grid, ${i})${factor};
     if (partial) color -= d * factor(originals, originalGrid, ${i})${before};
@@ -296,6 +314,7 @@ uniform bool loaded[${room.classes.length}];
 uniform bool ready[${room.groups.length}];
 uniform bool partial;
 uniform float split;
+${hasMaps ? withTargets(room, MAPPED) : ""}
 uniform vec3 lamp, grid, originalGrid;
 out vec4 result;
 vec3 factor(sampler2DArray from, vec3 grid, int layer) {
@@ -307,13 +326,16 @@ void main() {
   ivec2 p = ivec2(int(gl_FragCoord.x), ${room.height - 1} - int(gl_FragCoord.y));
   bool original = gl_FragCoord.x < split;
   vec3 color = partial ? linear(texelFetch(still, p, 0).rgb) : vec3(0.0);
-  if (!partial || !original) {
+  ${hasMaps ? "if (more) color = texelFetch(before, ivec2(gl_FragCoord.xy), 0).rgb;" : ""}
+  if (${hasMaps ? "more ? !original : " : ""}!partial || !original) {
+    ${mappable.map((t, layer) => `float gate${t} = finish[${t}] > 0 ? share(texelFetch(gates, ivec3(p, ${layer}), 0).rgb, finish[${t}]) : 1.0;`).join("\n")}
     ${full.map(([, i]) => `vec3 sum${i} = vec3(0.0), own${i} = vec3(0.0); float total${i} = 0.0;`).join("\n")}
     ${mixtures.join("")}
     ${groups.join("")}
   }
   vec3 y = clamp(color * lamp, 0.0, 1.0);
   result = vec4(mix(12.92 * y, 1.055 * pow(max(y, 0.0031308), vec3(1.0 / 2.4)) - 0.055, greaterThan(y, vec3(0.0031308))), 1.0);
+  ${hasMaps ? "if (!last) result = vec4(min(color, 65504.0), 1.0);" : ""}
 }`;
 }
 

@@ -1,0 +1,111 @@
+// ---- maps: pictures that say which finish of a target is where ----
+
+/* Whether a map is grey: its value then goes through the list of finishes. Else red is the second, green the third, blue
+ * the fourth, and the rest the first. JPEG stores colours and not grey. */
+function isGrey(image) {
+  const [width, height] = [image.naturalWidth || image.width, image.naturalHeight || image.height].map((x) => Math.min(x, 1024));
+  const context = drawingContext(width, height);
+  context.drawImage(image, 0, 0, width, height);
+  const { data } = context.getImageData(0, 0, width, height), far = (a, b) => Math.abs(data[a] - data[b]) > 2.6;
+  return !data.some((_, i) => i % 4 === 0 && (far(i, i + 1) || far(i + 1, i + 2)));
+}
+
+/* Weights of the second finish and of later ones by texels of a map. */
+const WEIGH = `${HEAD}
+uniform sampler2D codes;
+uniform bool grey;
+uniform int count;
+out vec4 result;
+void main() {
+  vec4 code = texelFetch(codes, ivec2(gl_FragCoord.xy), 0);
+  vec3 w = code.rgb * code.a;
+  if (grey) w = max(1.0 - abs(vec3(w.r * float(count - 1)) - vec3(1.0, 2.0, 3.0)), 0.0);
+  else w *= vec3(1.0, count > 2 ? 1.0 : 0.0, count > 3 ? 1.0 : 0.0);
+  result = vec4(w / max(w.r + w.g + w.b, 1.0), 1.0);
+}`;
+
+/* Texels of the texture where it has one finish, multiplied before they are filtered; of finish 0 the weights. */
+const PRODUCT = `${HEAD}${SHARE}
+uniform sampler2D image, weights;
+uniform vec2 size;
+uniform int finish;
+out vec4 result;
+void main() {
+  vec2 place = gl_FragCoord.xy / size;
+  vec4 color = textureLod(image, place, 0.0);
+  vec3 w = textureLod(weights, place, 0.0).rgb;
+  result = finish == 0 ? vec4(w * color.a, color.a) : vec4(color.rgb * share(w, finish), color.a);
+}`;
+
+/* Gates: the mean weights of finishes over a target's footprints in a pixel. What is seen sharply counts far more than what
+ * scattered light met, and that more than later hits, which only decide where there is nothing else. */
+const IMPORTANCE = { sharp: "1.0", broad: "1e-3", interreflection: "1e-6" };
+const gateCode = (room, c) => classCode(room, c, `shown[${room.classes[c].target}]`, "sum += max(w.x, w.y) * color; total += max(w.x, w.y);");
+const GATES = `
+uniform usampler2DArray heads;
+uniform int which;
+uniform bool original;
+uniform vec3 shown[TARGETS];
+out vec4 result;
+`;
+
+/* The sums of one class that is smaller than the picture. */
+const smallGateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec3 sum = vec3(0.0);
+  float total = 0.0;
+  ${room.classes.map((info, c) => (info.scale > 1 && room.targets[info.target].finishes ? `if (which == ${info.layer}) ${gateCode(room, c)}` : "")).join("\n")}
+  result = vec4(sum, total);
+}`;
+
+/* The gate of one target. */
+const gateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
+uniform sampler2DArray sums;
+vec4 smaller(int layer, vec2 size, float times) {
+  vec2 at = clamp(gl_FragCoord.xy / times, vec2(0.5), size - 0.5);
+  return texture(sums, vec3(at / vec2(textureSize(sums, 0).xy), layer));
+}
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec3 sum = vec3(0.0), all = vec3(0.0), before = vec3(0.0);
+  float total = 0.0, weight = 0.0;
+  vec4 found = vec4(0.0);
+  ${room.targets.map(({ finishes }, t) => (finishes ? `if (which == ${t}) {
+    before = shown[${t}];
+    ${room.classes.map((info, c) => {
+      if (info.target !== t) return "";
+      if (info.scale === 1) return `sum = vec3(0.0); total = 0.0; ${gateCode(room, c)} all += ${IMPORTANCE[info.kind]} * sum; weight += ${IMPORTANCE[info.kind]} * total;`;
+      return `found = smaller(${info.layer}, vec2(${info.width}, ${info.height}), ${number(info.scale)}); all += ${IMPORTANCE[info.kind]} * found.rgb; weight += ${IMPORTANCE[info.kind]} * found.a;`;
+    }).join("\n")}
+  }` : "")).join("\n")}
+  result = vec4(weight > 0.0 ? all / weight : before, 1.0);
+}`;
+
+/* The target on which a mixture is a path's first hit; -1: none, or several. */
+function firstHit(room, mixture) {
+  const classes = mixture < 0 || room.further?.mixtures.includes(mixture) ? [] : room.mixtures[mixture].map(([c]) => room.classes[c]);
+  return classes.length && classes.every((c) => c.target === classes[0].target && c.kind !== "interreflection") ? classes[0].target : -1;
+}
+
+/* The target of the first hit of a group's light. */
+function firstHitOf(room, group) {
+  const { mixture } = room.groups[group], terms = room.lamps.terms.filter((t) => t.group === group);
+  const hits = new Set(mixture >= 0 ? [firstHit(room, mixture)] : terms.map((t) => firstHit(room, t.factors[0] ?? -1)));
+  return hits.size === 1 ? [...hits][0] : -1;
+}
+
+/* The choices of finishes of mapped targets for which a room keeps light apart: 0 = of light that met none. The picture is
+ * the sum over them. */
+function passesOf(room, mapped) {
+  const choices = [room.targets.map(() => 0), ...room.parameters.map((p) => p.finishes.map((f, t) => (mapped[t] ? f : 0)))];
+  return [...new Map(choices.map((pass) => [String(pass), pass])).values()];
+}
+
+/* The colours of parameters in a pass. */
+const passColors = (room, mapped, pass, colors) =>
+  room.parameters.map((p, i) => (p.finishes.every((f, t) => !mapped[t] || f === pass[t]) ? colors[i] : [0, 0, 0]));
+
+/* The same while there are no passes: of the finishes that are chosen. */
+const chosenColors = (room, chosen, colors) =>
+  room.parameters.map((p, i) => (p.finishes.every((f, t) => !f || f === chosen[t]) ? colors[i] : [0, 0, 0]));
