@@ -14,7 +14,7 @@ $ (cd out/room; ls | sed 's/-[0-9a-f]*[.]/-N./' | grep -v '_'; ls | grep -c '_')
 > retex-room.js
 > room.json
 > 14
-$ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 77824 && echo small
+$ test $(cat out/room/retex-room.js out/room/index.html | wc -c) -le 86016 && echo small
 > small
 
 # What a room of this size takes until the first target can be changed, and in all: a little more than it did.
@@ -93,6 +93,9 @@ $ cp "$TESTS/finishes.pov" room.pov; retex-render -q --size 96x72 --spp 64 --den
 > retex-pack: folder shine: N bytes, N until the picture, N until the first target
 > retex-pack: finishes of Floor, Wall: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
 $ near() { /usr/bin/python3 near.py shine.exr shine "$@"; }; near 38; near 38 finish:Floor=Gloss; near 37 finish:Wall=satin; near 38 finish:Floor=Gloss finish:Wall=satin Floor=T/walnut-herringbone.jpg; near 38 finish:Floor=Gloss Wall=0.8,0.2,0.2
+
+# Maps of finishes: of one target, and of two, one a colour.
+$ near() { /usr/bin/python3 near.py shine.exr shine "$@"; }; near 42 Floor=T/brick.jpg:finish=T/fans.jpg; near 42 Floor=T/brick.jpg:scale=2:finish=T/fans.jpg Wall=0.8,0.2,0.2:finish=T/terrazzo.jpg finish:Wall=satin
 $ python3 -c 'import json; r = json.load(open("shine/room.json")); print([(t["name"], t["finishes"], t["finish"]) for t in r["targets"]]); [print(p["name"], repr(p["lamp"]), p["finishes"], p["value"][0], p["kept"][0]) for p in r["parameters"]]'
 > [('Floor', ['original', 'Gloss'], 1), ('Wall', ['original', 'satin'], 1)]
 > finish0 '' [0, 0] 1.0 1.0
@@ -100,7 +103,7 @@ $ python3 -c 'import json; r = json.load(open("shine/room.json")); print([(t["na
 > finish2 '' [2, 1] 0.0 0.25
 > finish3 '' [1, 2] 0.0 0.25
 > finish4 '' [2, 2] 0.0 0.25
-$ retex-render -q --size 96x72 --spp 64 --denoise --finish Floor=original,Gloss -l Lamp -l Panel room.pov -o lit.exr; retex-pack -q lit.exr --web lit; near() { /usr/bin/python3 near.py lit.exr lit "$@"; }; near 40; near 39 finish:Floor=Gloss light:Lamp=0.2; near 33 finish:Floor=Gloss light:Panel=0
+$ retex-render -q --size 96x72 --spp 64 --denoise --finish Floor=original,Gloss -l Lamp -l Panel room.pov -o lit.exr; retex-pack -q lit.exr --web lit; near() { /usr/bin/python3 near.py lit.exr lit "$@"; }; near 40; near 39 finish:Floor=Gloss light:Lamp=0.2; near 33 finish:Floor=Gloss light:Panel=0; near 41 Floor=0.6,0.3,0.2:finish=T/fans.jpg light:Lamp=0.2
 $ retex-pack lit.exr --web lit --web-lamps 1 2>&1 | sed '1,2d; s/[0-9]\{3,\}/N/g'; python3 -c 'import json; [print(p["name"], p["lamp"], p["finishes"], round(p["value"][0], 4), round(p["kept"][0], 4)) for p in json.load(open("lit/room.json"))["parameters"]]'
 > retex-pack: lamps Lamp, rest; finishes of Floor: N bytes, loaded at once; shares of light 2 to 8 times smaller than the picture
 > retex-pack: Panel joins rest, being dimmest: a page has 1 lamps, or as many as --web-lamps says

@@ -258,6 +258,17 @@ def check_finishes(page):
     result(page.state()["finishes"] == {"Floor": "Gloss"}, "a finish by a click")
     near(38, "--finish", "Floor=Gloss")
     page.shot("finishes-desktop")
+    page.room(f"setTexture('Floor', '{url}textures/brick.jpg', {{scale: [1, 1], finish: '{url}textures/fans.jpg'}})")
+    near(38, "--finish", "Floor=Gloss", f"--texture:finish={work}/textures/fans.jpg", f"Floor={work}/textures/brick.jpg")
+    page.room(f"setTexture('Floor', 'rgb(0.6,0.3,0.2)', {{scale: [2, 3], finish: '{url}textures/fans.jpg'}})")
+    colored, link = page.state(), page.room("link")
+    mapped = ["--finish", "Floor=Gloss", f"--texture:finish={work}/textures/fans.jpg:scale=2,3", "Floor=rgb(0.6,0.3,0.2)"]
+    near(38, *mapped)
+    page.open(link)
+    page.room("complete")
+    result(page.state() == colored and colored["textures"]["Floor"]["finish"].endswith("fans.jpg"), f"a link restores a map: {link}")
+    near(38, *mapped)
+    page.room("setTexture('Floor', null)")
     page.run(f"{PART}('.finishes input:checked').focus()")
     page.key("ArrowLeft", 37)
     page.settle()
@@ -277,6 +288,8 @@ def check_finishes(page):
     result(page.state() == state and "finish:Floor=Gloss" in link, f"a link restores finishes: {link}")
     near(38, "--finish", "Floor=Gloss", "--light", "Lamp=0.2")
     page.open(url + "page.html")
+    said = page.room("setTexture('Floor', 'tan', {finish: 'textures/fans.jpg'}).catch((error) => error.message)")
+    result(said == "Floor has no finishes to choose from.", f"a map needs finishes: {said}")
 
 
 def set_slider(page, name, touch, end=0.75):

@@ -1,8 +1,9 @@
 """Makes the picture of a folder that retex-pack --web wrote, as the player's shaders do, but on the CPU with numpy.
 
-    reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V]]... [PARAMETER=r,g,b]...
+    reference.py FOLDER PICTURE.exr [TARGET=IMAGE|r,g,b[:scale=U,V][:rotate=DEGREES][:offset=U,V][:finish=MAP]]... [PARAMETER=r,g,b]...
         [light:LAMP=GAIN[*rgb(r,g,b)]]... [finish:TARGET=NAME]...  as of retex-edit(5); LAMP may be *
 """
+import copy
 import json
 import sys
 import zlib
@@ -162,10 +163,14 @@ class Texture:
         self.scale, self.offset = pair("scale", "1"), pair("offset", "0")
         turn = np.radians(float(options.get("rotate", "0")))
         self.turn = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        self.map = options.get("finish")
         if "," in name:
             base = np.array([[[float(x) for x in name.split(",")]]])
         else:
             base = srgb_decode(pixels(name, oiio.UINT8)[:, :, :3].astype(np.float64) / 255)
+        self.fill(base)
+
+    def fill(self, base):
         self.levels = [base]
         while max(self.levels[-1].shape[:2]) > 1:
             last = self.levels[-1]
@@ -175,6 +180,25 @@ class Texture:
                     last = (last[0:last.shape[0] // 2 * 2:2] + last[1::2][:last.shape[0] // 2]) / 2
                     last = np.moveaxis(last, 0, axis)
             self.levels.append(last)
+
+    def products(self, count):
+        """The weights of the second to the fourth finish of so many, and the texture times the weight of each."""
+        codes = pixels(self.map, oiio.UINT8)[:, :, :3].astype(np.float64) / 255
+        if np.abs(codes - codes[:, :, :1]).max() < 0.0101:
+            weights = np.maximum(1 - np.abs(codes * (count - 1) - np.array([1, 2, 3])), 0)
+        else:
+            weights = codes * np.array([1, count > 2, count > 3])
+            weights = weights / np.maximum(weights.sum(axis=2, keepdims=True), 1)
+        size = [max(self.levels[0].shape[k], weights.shape[k]) for k in range(2)]
+        v, u = ((np.indices(size).reshape(2, -1).T + 0.5) / size).T
+        color, map_ = self, copy.copy(self)
+        map_.fill(weights)
+        color, weights = (x.bilinear(0, u, 1 - v).reshape(size + [3]) for x in (color, map_))
+        shares = [np.maximum(1 - weights.sum(axis=2), 0)] + [weights[:, :, k] for k in range(count - 1)]
+        made = [copy.copy(self) for _ in range(count + 1)]
+        for texture, base in zip(made, [weights] + [color * share[:, :, None] for share in shares]):
+            texture.fill(base)
+        return made
 
     def bilinear(self, level, u, v):
         image = self.levels[level]
@@ -316,8 +340,9 @@ class Room:
         image = self.image(entry)
         return [decode_light(image[t["y"]:t["y"] + t["height"], t["x"]:t["x"] + t["width"]], t) for t in entry["tiles"]]
 
-    def set_edit(self, lamps, finishes):
-        """Values of lamps and names of finishes, by name: what parameters are, as retex-web(5) says."""
+    def set_edit(self, lamps, finishes, mapped):
+        """Values of lamps and names of finishes, by name: what parameters are, as retex-web(5) says; of mapped targets
+        with all finishes."""
         targets, parameters = self.room["targets"], self.room["parameters"]
         for index, name in finishes.items():
             self.finishes[index] = 1 + targets[index]["finishes"].index(name)
@@ -328,8 +353,62 @@ class Room:
                 text = lamps.get(name, lamps.get("*"))
                 colors[name] = lamp_color(p, text) if text else np.array(p["value"])
         for p in parameters:
-            chosen = all(f in (0, self.finishes[t]) for t, f in enumerate(p.get("finishes", [])))
+            chosen = all(f in (0, self.finishes[t]) or t in mapped for t, f in enumerate(p.get("finishes", [])))
             self.values[p["name"]] = colors[p.get("lamp", p["name"])] if chosen else np.zeros(3)
+
+    def filtered(self, c, footprint, texture):
+        """A texture at a footprint of a class, where it is present."""
+        info, (present, uv, sigma, rho, _) = self.room["classes"][c], footprint
+        uv = np.array([x[present] for x in uv])
+        if rho is None:
+            return texture.evenly(uv, [[x[present] for x in s] for s in sigma])
+        return texture.filtered(uv, [x[present] for x in sigma], rho[present],
+                                info["kind"] == "sharp" and self.room["filter"] == "box", self.room["targets"][info["target"]])
+
+    def gate(self, target, weights):
+        """The mean weights of the second to the fourth finish over the target's footprints in a pixel."""
+        (width, height), sums = self.size, 0
+        for c, info in enumerate(self.room["classes"]):
+            if info["target"] != target:
+                continue
+            own = np.zeros(self.classes[c][0][0].shape + (4,))
+            for footprint in self.classes[c]:
+                present, weight = footprint[0], np.max(footprint[4], axis=0)[footprint[0]][:, None]
+                own[present] += weight * np.concatenate([self.filtered(c, footprint, weights), np.ones_like(weight)], axis=1)
+            importance = {"sharp": 1, "broad": 1e-3, "interreflection": 1e-6}[info["kind"]]
+            sums = sums + importance * enlarge(own, info["scale"], width, height)
+        shown = [self.finishes[target] == k for k in (2, 3, 4)]
+        return np.where(sums[:, :, 3:] > 0, sums[:, :, :3] / np.maximum(sums[:, :, 3:], 1e-30), shown)
+
+    def first_hit(self, mixture):
+        """The target on which a mixture is a path's first hit; -1: none, or several."""
+        if mixture < 0 or mixture in self.room.get("further", {}).get("mixtures", []):
+            return -1
+        classes = [self.room["classes"][c] for c, _ in self.room["mixtures"][mixture]]
+        found = {-1 if c["kind"] == "interreflection" else c["target"] for c in classes}
+        return found.pop() if len(found) == 1 else -1
+
+    def first_hit_of(self, group):
+        mixture = self.room["groups"][group]["mixture"]
+        terms = [t["factors"] for t in self.room["lamps"]["terms"] if t["group"] == group]
+        found = {self.first_hit(mixture)} if mixture >= 0 else {self.first_hit(f[0] if f else -1) for f in terms}
+        return found.pop() if len(found) == 1 else -1
+
+    def combine_mapped(self, textures):
+        """The sum over choices of finishes of the targets with maps."""
+        parameters, values = self.room["parameters"], self.values
+        mapped = {t: x.products(len(self.room["targets"][t]["finishes"])) for t, x in textures.items() if x.map}
+        gates = {t: self.gate(t, products[0]) for t, products in mapped.items()}
+        choice = lambda p: tuple(p["finishes"][t] for t in mapped)
+        out = 0
+        for chosen in sorted({choice(p) for p in parameters}):
+            self.values = {p["name"]: values[p["name"]] * (choice(p) == chosen) for p in parameters}
+            finishes = {t: k for t, k in zip(mapped, chosen) if k}
+            first = {**textures, **{t: mapped[t][k] for t, k in finishes.items()}}
+            shares = {t: 1 - gates[t].sum(axis=2) if k == 1 else gates[t][:, :, k - 2] for t, k in finishes.items()}
+            out = out + self.combine(textures, first, shares)
+        self.values = values
+        return out
 
     def mixture(self, index, textures):
         total = above = None
@@ -337,23 +416,21 @@ class Room:
             info = self.room["classes"][c]
             albedo = self.lights[info["albedo"]] if info["scale"] == 1 else self.tiles[info["albedo"]]
             texture = textures.get(info["target"])
-            disc = info["kind"] == "sharp" and self.room["filter"] == "box"
-            for present, uv, sigma, rho, weights in self.classes[c]:
+            for footprint in self.classes[c]:
+                present, weights = footprint[0], footprint[4]
                 if total is None:
                     total, above = np.zeros(present.shape), np.zeros(present.shape + (3,))
                 w = weights[slot]
                 if texture is None:
                     color = albedo[present]
-                elif rho is None:
-                    color = texture.evenly(np.array([x[present] for x in uv]), [[x[present] for x in s] for s in sigma])
                 else:
-                    color = texture.filtered(np.array([x[present] for x in uv]), [x[present] for x in sigma],
-                                             rho[present], disc, self.room["targets"][info["target"]])
+                    color = self.filtered(c, footprint, texture)
                 above[present] += w[present][:, None] * color
                 total[present] += w[present]
         return above / np.where(total > 0, total, 1)[:, :, None]
 
-    def combine(self, textures):
+    def combine(self, textures, first=None, gates=None):
+        """first: textures where a target is a path's first hit; gates: of targets, for light of other first hits."""
         room, (width, height) = self.room, self.size
         parameters = room.get("parameters", [])
         lamps = room.get("lamps")
@@ -362,7 +439,7 @@ class Room:
         terms, tiles, source = (lamps["terms"], self.lamp_tiles, lamps) if lamps else (room["terms"], self.tiles, room["reduced"])
         finest = lamps["finest"] if lamps else room["finest"]
         small = -(-width // finest), -(-height // finest)
-        mixtures = [self.mixture(i, textures) for i in range(len(room["mixtures"]))]
+        mixtures = [self.mixture(i, first if first and self.first_hit(i) >= 0 else textures) for i in range(len(room["mixtures"]))]
         scale = [room["classes"][m[0][0]]["scale"] for m in room["mixtures"]]
         out = np.zeros((height, width, 3))
         for g, group in enumerate(room["groups"]):
@@ -381,6 +458,9 @@ class Room:
             for p in group.get("parameters", []):
                 factor = factor * self.values[parameters[p]["name"]]
             light = self.lights[group["light"]] * enlarge(factor, finest, width, height)
+            for t, gate in (gates or {}).items():
+                if self.first_hit_of(g) != t:
+                    light = light * gate[:, :, None]
             out += light if group["mixture"] < 0 else light * mixtures[group["mixture"]]
         return out
 
@@ -399,9 +479,10 @@ def main():
             room.values[name] = np.array([float(x) for x in text.split(",")])
         else:
             textures[names.index(name)] = Texture(text)
-    if lamps or finishes:
-        room.set_edit(lamps, finishes)
-    picture = room.combine(textures).astype(np.float32)
+    mapped = [t for t, texture in textures.items() if texture.map]
+    if lamps or finishes or mapped:
+        room.set_edit(lamps, finishes, mapped)
+    picture = (room.combine_mapped(textures) if mapped else room.combine(textures)).astype(np.float32)
     out = oiio.ImageOutput.create(sys.argv[2])
     out.open(sys.argv[2], oiio.ImageSpec(picture.shape[1], picture.shape[0], 3, "float"))
     out.write_image(picture)

@@ -227,7 +227,8 @@ static int is_upload(const Images *images, const char *path)
 
 static int is_of_stranger(const Images *images, const RetexTextureSpec *spec)
 {
-    return (!spec->constant && is_upload(images, spec->image)) || (images_has_map(spec) && is_upload(images, spec->finish));
+    return (!spec->constant && is_upload(images, spec->image)) ||
+           (images_has_map(spec) && is_upload(images, spec->finish));
 }
 
 int images_is_new_upload(Images *images, const RetexTextureSpec *spec)

@@ -1,5 +1,5 @@
-/* Images of textures: the files of a folder, by name, and maps of finishes that lie on them. An image is read once, with
- * its map, and stays in memory as long as all together keep within a limit, see kept.h; pictures place it on their
+/* Images of textures: the files of a folder, by name, and maps of finishes that lie on them. An image is read once,
+ * with its map, and stays in memory as long as all together keep within a limit, see kept.h; pictures place it on their
  * targets without copying it. The map of a colour is read for each picture. Any thread may call. */
 #ifndef RETEX_SERVE_IMAGES_H
 #define RETEX_SERVE_IMAGES_H

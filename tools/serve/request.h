@@ -76,8 +76,9 @@ typedef struct ServeRequest {
     char reason[200]; /* of the error, one line of plain text: UTF-8 without control characters */
     char room[SERVE_NAME_MAX + 1];
 
-    /* Textures by target, each target at most once, sorted by name. `image` and `finish` are names of files without folder. The names
-     * of targets are as in the URL: whether the room has them, and as what, is for retex_set_find_target. */
+    /* Textures by target, each target at most once, sorted by name. `image` and `finish` are names of files without
+     * folder. The names of targets are as in the URL: whether the room has them, and as what, is for
+     * retex_set_find_target. */
     int nspecs;
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     char edits[SERVE_URL_MAX]; /* the same as the canonical text of an edit */
