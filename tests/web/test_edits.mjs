@@ -96,6 +96,12 @@ test("what a value makes of a lamp: numbers multiply, colours keep its luminance
   same(of("3", { value: [1, 0.5, 2] }), [3, 1.5, 6]); // a set without terms of single lamps
 });
 
+test("a map of finishes is an option, of colours too, which then have a scale", () => {
+  const text = "Floor=oak.jpg;Floor.finish=maps/a.png;Wall=tan;Wall.finish=b.png", state = parseEdit(text);
+  same([state.textures.Floor.finish, state.textures.Wall.scale], ["maps/a.png", [1, 1]]);
+  same([editText(state), editText(parseEdit("Floor=oak.jpg;Floor.finish=none"))], [text, "Floor=oak.jpg"]);
+});
+
 /* Two targets of two and three finishes and one without, two lamps and light of none. */
 function withFinishes() {
   const parameters = [], add = (lamp, value, finishes, name = `${lamp} ${finishes}`) => parameters.push({ name, lamp, value, kept: value, finishes });
