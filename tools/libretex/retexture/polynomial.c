@@ -76,12 +76,16 @@ static int open_factor(RetexPolynomial *p, RetexFactor factor, int scale, RetexE
                              factor.kind == RETEX_FACTOR_IMAGE ? shape->channels : 3, err);
 }
 
+static int lacks_parts(int number, RetexError *err)
+{
+    return retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
+}
+
 static int open_term(RetexPolynomial *p, int number, RetexError *err)
 {
     RetexPolynomialTerm *term = &p->terms[number];
     if (p->set->terms[number].nfactors < 0 || p->set->terms[number].nfactors > RETEX_MAX_FACTORS)
-        return retex_fail(err, RETEX_EFORMAT, "term %d of the set has %d factors", number,
-                          p->set->terms[number].nfactors);
+        return lacks_parts(number, err);
     retex_polynomial_factor_finishes(p, &p->set->terms[number], term);
     term->radiance = -1;
     if (!retex_polynomial_has_term(p, &p->set->terms[number], term->weight))
@@ -94,7 +98,7 @@ static int open_term(RetexPolynomial *p, int number, RetexError *err)
     for (int k = 0; k < term->nfactors && !code; k++)
         code = open_factor(p, term->factors[k], scale, err);
     if (code == MISSING)
-        code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
+        code = lacks_parts(number, err);
     return code;
 }
 
