@@ -127,6 +127,12 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >                               hits; default 3
 >       --error FILE.exr        write the expected error against a new render,
 >                               per pixel
+>       --solve FILE            print which colours, lamps and finishes come
+>                               nearest to a picture, or to a colour
+>       --free LIST             with --solve: what is sought, as
+>                               TARGET,light:LAMP,color:LAMP,finish:TARGET
+>       --region X,Y,W,H        with --solve: only this part of the picture
+>                               counts
 >       --batch FILE.csv        make one picture per row of a table: its file,
 >                               then one texture per target
 >       --memory SIZE           with --batch: keep the set and samples in memory

@@ -60,7 +60,7 @@ test("the light of single lamps: an atlas of its own, whose terms are of groups 
   const term = (changes) => ({ terms: [{ ...lamps.terms[1], ...changes }] }), tile = (changes) => ({ tiles: [lamps.tiles[0], { ...lamps.tiles[1], ...changes }] });
   for (const wrong of [{ file: "../x" }, { crc32: -1 }, { tiles: [] }, { tiles: 7 }, { terms: 7 }, { terms: Array(1025).fill(lamps.terms[0]) }, { finest: 3 }, { finest: 4 },
     { width: 20 }, { width: 0.5 }, { width: 4097 }, { height: 4 }, { height: undefined }, term({ group: 2 }), term({ gain: 2 }), term({ gain: -2 }), term({ parameter: 2 }), term({ parameter: -1 }),
-    term({ parameter: undefined }), term({ factors: [0] }), term({ factors: [2] }), term({ factors: Array(13).fill(1) }), tile({ x: 20 }), tile({ y: -1 }), tile({ scale: 2 }), tile({ white: 0 })])
+    term({ parameter: undefined }), term({ factors: [0] }), term({ factors: [2] }), term({ factors: Array(17).fill(1) }), tile({ x: 20 }), tile({ y: -1 }), tile({ scale: 2 }), tile({ white: 0 })])
     await fails(() => checkManifest({ ...manifest(), parameters, lamps: { ...lamps, ...wrong } }), /damaged|undefined/, JSON.stringify(wrong));
   for (const wrong of [{ parameters: undefined }, { parameters: [parameters[0], { name: "Sky", value: [1, 1, 1] }] }, { parameters: [parameters[0], { ...parameters[1], kept: [1, -1, 1] }] }, { lamps: null }, { lamps: 5 }])
     await fails(() => checkManifest({ ...manifest(), parameters, lamps, ...wrong }), /damaged|undefined|null/, JSON.stringify(wrong));
@@ -141,7 +141,7 @@ test("names of files that lead elsewhere", async () => {
 test("lists that are too long, or none", async () => {
   const room = manifest();
   const longest = { targets: 8, lights: 256, "reduced.tiles": 2048, classes: 24, "classes.0.footprints": 16, "classes.0.footprints.0.weights": 2,
-    mixtures: 96, groups: 128, terms: 1024, "terms.0.factors": 12 };
+    mixtures: 96, groups: 128, terms: 1024, "terms.0.factors": 16 };
   for (const path in longest) {
     const one = path.split(".").reduce((at, key) => at[key], room)[0] ?? 1;
     await refused(path, Array(longest[path] + 1).fill(one));

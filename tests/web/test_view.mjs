@@ -319,7 +319,8 @@ test("a room is loaded: its picture, then the target that shows most, then the o
   same([room.targets, room.selected, room.renderer.complete], [["Wall", "Floor"], 1, true]);
   // each class has its rows of the records after those of the classes before it
   same(room.room.classes.map((c) => [c.base, c.layer]), [[0, 0], [2048, 1], [4096, 0]]);
-  same(puts, [["records", 2], ["records", 1], ["records", 0]]);
+  // the first two are unpacked at the same time
+  same([puts.slice(0, 2).sort(), puts.slice(2)], [[["records", 1], ["records", 2]], [["records", 0]]]);
   same(room.textures.map((t) => t.label), ["Original", "Original"]);
 });
 
