@@ -170,15 +170,21 @@ static int check_needs(const RetexTarget *target, const RetexTextureSpec *spec, 
     return RETEX_OK;
 }
 
+/* Takes specifications over, after checking them against the set. */
+static int open_loading(Loading *loading, const RetexTextureSpec *specs, RetexError *err)
+{
+    int code = retex_texture_specs_copy(loading->specs, specs, loading->nspecs, err);
+    if (!code)
+        code = find_targets(loading, err);
+    for (int i = 0; i < loading->nspecs && !code; i++)
+        code = check_needs(&loading->set->targets[loading->target[i]], &loading->specs[i], err);
+    return code ? code : check_footprints(loading, err);
+}
+
 int retex_textures_check(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, RetexError *err)
 {
     Loading loading = {.set = set, .nspecs = nspecs};
-    int code = retex_texture_specs_copy(loading.specs, specs, nspecs, err);
-    if (!code)
-        code = find_targets(&loading, err);
-    for (int i = 0; i < nspecs && !code; i++)
-        code = check_needs(&set->targets[loading.target[i]], &loading.specs[i], err);
-    return code ? code : check_footprints(&loading, err);
+    return open_loading(&loading, specs, err);
 }
 
 void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
@@ -192,10 +198,6 @@ int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSe
 {
     Loading loading = {textures, set, .nspecs = nspecs};
     memset(textures, 0, RETEX_MAX_TARGETS * sizeof *textures);
-    int code = retex_texture_specs_copy(loading.specs, specs, nspecs, err);
-    if (!code)
-        code = find_targets(&loading, err);
-    if (!code)
-        code = retex_textures_check(set, specs, nspecs, err);
+    const int code = open_loading(&loading, specs, err);
     return code ? code : load_textures(&loading, nthreads, err);
 }
