@@ -179,6 +179,8 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
             find_file(texture.image, own, true);
         if (texture.finish[0] && std::string(texture.finish) != "none")
             find_file(texture.finish, own, false);
+        for (int k = 0; k < RETEX_TILES_MAX && texture.tiles[k][0]; k++)
+            find_file(texture.tiles[k], own, true);
         texture.access = own.access();
         files_of(texture); // refuses a folder without a base colour
         texture.warn = print_warning;

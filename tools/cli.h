@@ -69,7 +69,10 @@ _Noreturn void cli_complete(Cli *cli);
 /* The modifiers of --texture and --replace, for --help and completion. */
 #define CLI_TEXTURE_OPTS                                                                                               \
     "scale=S[,T], rotate=DEGREES, offset=U,V, flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, "              \
-    "repeat=straight|brick|half-drop|mirror, colorspace=NAME, finish=MAP"
+    "repeat=straight|brick|half-drop|mirror|herringbone|basket|hexagon, colorspace=NAME, finish=MAP, "                 \
+    "grout=WIDTH, groutcolor=COLOUR, vary=turn|flip|shift, tiles=IMAGE[,IMAGE], at=X,Y, "                              \
+    "hue=DEGREES, saturation=S, gain=R[,G,B], "                                                                        \
+    "gamma=G, contrast=C, blur=PART, invert=yes|no, tint=COLOUR, colorize=COLOUR"
 
 /* Parse cli->value. If it is wrong, print one line with the option and the expected value, and exit with CLI_FAIL. */
 long cli_integer(const Cli *cli, const CliOption *option, long low, long high);

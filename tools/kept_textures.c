@@ -62,9 +62,8 @@ static int find_missing(KeptTextures *kept, const RetexSet *set, const RetexText
         int listed = 0;
         if (kept->textures[target] || place(kept, set, &specs[i], target, used))
             continue;
-        for (int k = 0; k < nmissing && !specs[i].constant; k++)
-            listed |= !missing[k].constant && strcmp(missing[k].image, specs[i].image) == 0 &&
-                      strcmp(missing[k].finish, specs[i].finish) == 0;
+        for (int k = 0; k < nmissing; k++)
+            listed |= retex_texture_specs_alike(&missing[k], &specs[i]);
         if (!listed)
             add_missing(kept, &missing[nmissing++], &specs[i]);
     }

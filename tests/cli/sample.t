@@ -31,7 +31,7 @@ $ retex-sample -q s.exr --texture floor -o x.exr
 ! retex-sample: error: texture 'floor': expected NAME=IMAGE, a target and what to put on it
 = 2
 $ retex-sample -q s.exr --texture:size=3 floor=brick.jpg -o x.exr
-! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish
+! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 = 2
 $ retex-sample -q s.exr --texture:scale=0 floor=brick.jpg -o x.exr
 ! retex-sample: error: texture option scale='0': a scale cannot be 0
@@ -43,7 +43,7 @@ $ retex-sample -q s.exr --texture:flip=w floor=brick.jpg -o x.exr
 ! retex-sample: error: texture option flip='w': expected u, v or uv
 = 2
 $ retex-sample -q s.exr --texture:repeat=tiles floor=brick.jpg -o x.exr
-! retex-sample: error: texture option repeat='tiles': expected straight, brick, half-drop or mirror
+! retex-sample: error: texture option repeat='tiles': expected straight, brick, half-drop, mirror, herringbone, basket or hexagon
 = 2
 $ retex-sample -q s.exr --texture:repeat=brick:wrap=repeat,clamp floor=brick.jpg -o x.exr
 ! retex-sample: error: texture options: repeat=brick needs wrap=repeat, the default, on both axes

@@ -284,7 +284,8 @@ static void test_targets(void **state)
         {"WALL", RETEX_ENOTFOUND, "no target is called 'WALL'"},
         {"floor.scal", RETEX_EPARSE,
          "no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, "
-         "repeat, width, colorspace, finish; is scale meant?"},
+         "repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, "
+         "gamma, contrast, blur, invert, tint, colorize; is scale meant?"},
     };
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
         int target = 7;
@@ -325,7 +326,7 @@ static void test_advice(void **state)
 /* What --help and completion say of --texture are the options that there are. */
 static void test_options_of_tools(void **state)
 {
-    char known[200] = "";
+    char known[400] = "";
     int options = 0;
     RetexEdit *edit = create();
     RetexError err = {0};

@@ -30,10 +30,12 @@ test("colours by codes, names and numbers", async () => {
 
 /* ---- edits ---- */
 
+const isColored = ["source", "groutcolor", "tint", "colorize"];
+
 /* What a text says, with colours as numbers. */
 function saidBy(text) {
   const { textures, light, lamps } = parseEdit(text);
-  const colored = Object.entries(textures).map(([name, t]) => [name, { ...t, source: parseColor(t.source)?.map(Math.fround).join() ?? t.source }]);
+  const colored = Object.entries(textures).map(([name, t]) => [name, Object.fromEntries(Object.entries(t).map(([key, value]) => [key, isColored.includes(key) ? parseColor(value)?.map(Math.fround).join() ?? value : value]))]);
   return editText({ textures: Object.fromEntries(colored), light, lamps });
 }
 

@@ -65,22 +65,25 @@ typedef struct Colorspaces {
 } Colorspaces;
 
 /* Check the image's colour space by loading the image, unless an earlier image had the same. */
-static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthreads, RetexError *err)
+static int check_colorspace(Colorspaces *known, const RetexTextureSpec *spec, int nthreads, RetexError *err)
 {
     RetexTexture *texture = NULL;
     int k = 0;
-    if (!spec.colorspace[0])
+    if (!spec->colorspace[0])
         return RETEX_OK;
-    while (k < known->count && strcmp(known->names[k], spec.colorspace) != 0)
+    while (k < known->count && strcmp(known->names[k], spec->colorspace) != 0)
         k++;
     if (k == COLORSPACES_MAX)
         return RETEX_OK;
     if (k == known->count) {
-        strcpy(known->names[known->count++], spec.colorspace);
-        spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here, */
-        spec.finish[0] = '\0';             /* nor what it has to choose from */
-        spec.warn = NULL;                  /* warnings come when it is loaded for its picture */
-        known->codes[k] = retex_texture_load(&texture, &spec, nthreads, &known->errors[k]);
+        strcpy(known->names[known->count++], spec->colorspace);
+        RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT; /* what the target is, and has, is not known here */
+        strcpy(plain.image, spec->image);
+        strcpy(plain.colorspace, spec->colorspace);
+        plain.constant = spec->constant;
+        plain.access = spec->access;
+        plain.budget = spec->budget;
+        known->codes[k] = retex_texture_load(&texture, &plain, nthreads, &known->errors[k]);
         retex_texture_close(&texture);
     }
     *err = known->errors[k];
@@ -104,8 +107,22 @@ static int check_image(const RetexTextureSpec *spec, const RetexReadParams *para
     return code;
 }
 
-/* Maps of finishes: rows that name one that cannot be read have its mistake. */
-static void check_maps(Batch *batch, const RetexReadParams *params)
+/* The files of a texture but its image. */
+static int check_others(const RetexTextureSpec *spec, const RetexReadParams *params, RetexError *err)
+{
+    int code = texture_args_add_input(spec, err);
+    for (int number = RETEX_TEXTURE_FILE_IMAGE + 1; number < RETEX_TEXTURE_FILES && !code; number++) {
+        char *file = NULL;
+        code = retex_texture_file(&file, spec, number, err);
+        if (!code && file)
+            code = retex_image_read_check(file, params, err);
+        free(file);
+    }
+    return code;
+}
+
+/* Maps of finishes, and tiles: rows that name one that cannot be read have its mistake. */
+static void check_maps_and_tiles(Batch *batch, const RetexReadParams *params)
 {
     TextureTable *table = &batch->table;
     RetexTextureSpec spec, last = RETEX_TEXTURE_SPEC_INIT;
@@ -113,19 +130,15 @@ static void check_maps(Batch *batch, const RetexReadParams *params)
     const char *name;
     for (int row = 0; row < table->nrows; row++)
         for (int column = 0; column < table->ncolumns; column++) {
-            char *file = NULL;
-            if (texture_table_texture(table, row, column, &spec, &name) || !spec.finish[0] ||
-                retex_texture_file(&file, &spec, RETEX_TEXTURE_FILE_FINISH, NULL) || !file)
+            if (texture_table_texture(table, row, column, &spec, &name) || (!spec.finish[0] && !spec.tiles[0][0]))
                 continue;
-            if (strcmp(last.finish, spec.finish) != 0) {
+            if (strcmp(last.finish, spec.finish) != 0 || memcmp(last.tiles, spec.tiles, sizeof last.tiles) != 0) {
                 err = (RetexError){0};
-                if (!texture_args_add_input(&spec, &err))
-                    retex_image_read_check(file, params, &err);
+                check_others(&spec, params, &err);
                 last = spec;
             }
             if (err.code)
                 note(table, row, &err);
-            free(file);
         }
 }
 
@@ -152,10 +165,10 @@ static void check_images(Batch *batch)
             unreadable = check_image(&spec, &read_params, &unread);
         if (unreadable && !(same && images[i - 1].row == images[i].row))
             note(table, images[i].row, &unread);
-        else if (!unreadable && check_colorspace(known, spec, batch->cli->threads, &err))
+        else if (!unreadable && check_colorspace(known, &spec, batch->cli->threads, &err))
             note(table, images[i].row, &err);
     }
-    check_maps(batch, &read_params);
+    check_maps_and_tiles(batch, &read_params);
     free(known);
     free(images);
 }

@@ -17,7 +17,7 @@ static const char *const endings[] = {"jpg", "jpeg", "png", "exr", "tif", "tiff"
 /* What decides on the texels. */
 typedef struct ImageKey {
     RetexTextureSpec spec; /* in its simplest placement */
-    FileId map;            /* all 0: there is none */
+    FileId others[RETEX_TEXTURE_FILES]; /* files but the image, by number; all 0: there is none */
 } ImageKey;
 
 struct OpenImage {
@@ -48,18 +48,15 @@ int images_has_files(const RetexTextureSpec *spec)
     return !spec->constant || images_has_map(spec);
 }
 
-static void make_key(ImageKey *key, const RetexTextureSpec *spec, const FileId *map)
+static void make_key(ImageKey *key, const RetexTextureSpec *spec, const FileId ids[RETEX_TEXTURE_FILES])
 {
-    key->spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
-    strcpy(key->spec.image, spec->image);
-    strcpy(key->spec.colorspace, spec->colorspace);
-    strcpy(key->spec.finish, spec->finish);
-    memcpy(key->spec.wrap, spec->wrap, sizeof spec->wrap);
-    key->spec.repeat = spec->repeat;
-    key->map = *map;
-    if (spec->finish[0] || !file_id_is_same(map, &no_file)) { /* finishes matter */
-        key->spec.nfinishes = spec->nfinishes;
-        memcpy(key->spec.roughness, spec->roughness, sizeof spec->roughness);
+    key->spec = *spec;
+    retex_texture_spec_unplace(&key->spec);
+    memcpy(key->others, ids, sizeof key->others);
+    key->others[RETEX_TEXTURE_FILE_IMAGE] = no_file;
+    if (!spec->finish[0] && file_id_is_same(&ids[RETEX_TEXTURE_FILE_FINISH], &no_file)) { /* finishes do not matter */
+        key->spec.nfinishes = 0;
+        memset(key->spec.roughness, 0, sizeof key->spec.roughness);
     }
 }
 
@@ -78,9 +75,10 @@ static int is_of(const Kept *kept, const void *key)
 {
     const ImageKey *own = &((const OpenImage *)(const void *)kept)->key, *other = key;
     const RetexTextureSpec *a = &own->spec, *b = &other->spec;
-    return strcmp(a->image, b->image) == 0 && strcmp(a->colorspace, b->colorspace) == 0 && a->wrap[0] == b->wrap[0] &&
-           a->wrap[1] == b->wrap[1] && a->repeat == b->repeat && strcmp(a->finish, b->finish) == 0 &&
-           file_id_is_same(&own->map, &other->map) && a->nfinishes == b->nfinishes &&
+    int are_same = 1;
+    for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+        are_same &= file_id_is_same(&own->others[number], &other->others[number]);
+    return are_same && retex_texture_specs_alike(a, b) && a->nfinishes == b->nfinishes &&
            memcmp(a->roughness, b->roughness, sizeof a->roughness) == 0;
 }
 
@@ -184,6 +182,10 @@ int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_T
     if (images_has_map(spec) && find_file(images, spec->finish, finish, sizeof finish))
         return 1 + RETEX_TEXTURE_FILE_FINISH;
     RetexTextureSpec found = *spec;
+    for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
+        if (find_file(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]) &&
+            find_folder(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]))
+            return 1 + RETEX_TEXTURE_FILE_TILES + k;
     strcpy(found.image, image);
     if (images_has_map(spec))
         strcpy(found.finish, finish);
@@ -227,7 +229,10 @@ static int is_upload(const Images *images, const char *path)
 
 static int is_of_stranger(const Images *images, const RetexTextureSpec *spec)
 {
-    return (!spec->constant && is_upload(images, spec->image)) ||
+    int is_tile = 0;
+    for (int k = 0; k < RETEX_TILES_MAX; k++)
+        is_tile |= is_upload(images, spec->tiles[k]);
+    return is_tile || (!spec->constant && is_upload(images, spec->image)) ||
            (images_has_map(spec) && is_upload(images, spec->finish));
 }
 
@@ -239,25 +244,36 @@ int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
         return 0;
     if (images_has_map(spec)) /* which is read for each set of finishes, and for each picture of a colour */
         return 1;
-    make_key(&key, spec, &ids[RETEX_TEXTURE_FILE_FINISH]);
+    make_key(&key, spec, ids);
     Kept *kept = kept_peek(&images->list, &key, &ids[RETEX_TEXTURE_FILE_IMAGE]);
     kept_return(&images->list, kept);
     return !kept;
 }
 
-/* Whether a file that is there is read: the roughness of a folder only if it can choose a finish. */
+/* Whether a file that is there is read: the roughness of a folder only if it can choose a finish, and there are no
+ * tiles, which have none. */
 static int is_read(const RetexTextureSpec *spec, int number, const FileId *id)
 {
     int count = 0;
     for (int k = 0; k < spec->nfinishes; k++)
         count += spec->roughness[k] >= 0;
-    return !file_id_is_same(id, &no_file) && (number == RETEX_TEXTURE_FILE_IMAGE || images_has_map(spec) || count > 1);
+    return !file_id_is_same(id, &no_file) &&
+           (number != RETEX_TEXTURE_FILE_FINISH || images_has_map(spec) || (count > 1 && !spec->tiles[0][0]));
 }
 
 /* A file that is not read: no change of it matters. */
 static Content content_unread(const FileId *id)
 {
     return (Content){.id = *id, .is_settled = 1};
+}
+
+/* Which of the files that were read a file is. One that was replaced before it was read is the next one. */
+static int find_read(const ContentReading *reading, const FileId *id, int *next)
+{
+    for (int i = 0; i < reading->count; i++)
+        if (file_id_is_same(&reading->read[i].id, id))
+            return i;
+    return *next < reading->count ? (*next)++ : reading->count - 1;
 }
 
 /* A call that loads a texture with an access that tells which files it reads: the names may be those of others by then.
@@ -286,7 +302,7 @@ static int load(const Images *images, OpenImage *image, const RetexSet *set, Ret
         content_end(&reading, NULL);
     for (int number = 0, next = 0; number < RETEX_TEXTURE_FILES && !code; number++)
         if (is_read(spec, number, &image->contents[number].id))
-            image->contents[number] = reading.read[next < reading.count ? next++ : reading.count - 1];
+            image->contents[number] = reading.read[find_read(&reading, &image->contents[number].id, &next)];
     return code;
 }
 
@@ -324,8 +340,8 @@ static int take_color(const Images *images, const ImageKey *key, const RetexText
     OpenImage *image = (OpenImage *)(void *)create(key, &images->params);
     if (!image)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
-    image->contents[RETEX_TEXTURE_FILE_IMAGE] = content_unread(&no_file);
-    image->contents[RETEX_TEXTURE_FILE_FINISH] = content_unread(&key->map);
+    for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
+        image->contents[number] = content_unread(&key->others[number]);
     const int code = give_budget(images, image, spec, deadline, err);
     if (!code)
         *result = image;
@@ -334,12 +350,13 @@ static int take_color(const Images *images, const ImageKey *key, const RetexText
     return code;
 }
 
-/* What nobody else may get is not of the key: a map that was replaced, or one that changes just now. */
+/* What nobody else may get is not of the key: a file that was replaced, or one that changes just now. */
 static Content content_of(const OpenImage *image)
 {
-    const Content *map = &image->contents[RETEX_TEXTURE_FILE_FINISH];
     Content content = image->contents[RETEX_TEXTURE_FILE_IMAGE];
-    content.is_settled = content.is_settled && map->is_settled && file_id_is_same(&map->id, &image->key.map);
+    for (int number = RETEX_TEXTURE_FILE_IMAGE + 1; number < RETEX_TEXTURE_FILES; number++)
+        content.is_settled &= image->contents[number].is_settled &&
+                              file_id_is_same(&image->contents[number].id, &image->key.others[number]);
     return content;
 }
 
@@ -351,7 +368,7 @@ int images_take(Images *images, const RetexTextureSpec *spec, double deadline, O
     *result = NULL;
     if (identify(images, spec, ids))
         return retex_fail(err, RETEX_ENOTFOUND, "the texture of target %s is gone", spec->target);
-    make_key(&key, spec, &ids[RETEX_TEXTURE_FILE_FINISH]);
+    make_key(&key, spec, ids);
     if (spec->constant)
         return take_color(images, &key, spec, deadline, result, err);
     OpenImage *image = (OpenImage *)(void *)kept_take(&images->list, &key, &ids[RETEX_TEXTURE_FILE_IMAGE], &is_new);

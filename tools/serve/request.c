@@ -110,6 +110,9 @@ static int take_edit(ServeRequest *request, RetexEdit *edit)
             return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->image);
         if (spec->finish[0] && !serve_name_is_valid(spec->finish))
             return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->finish);
+        for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
+            if (!serve_name_is_valid(spec->tiles[k]))
+                return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->tiles[k]);
     }
     if (retex_edit_text(edit, ';', &text, &err))
         return serve_refuse(request, 503, "%s", err.message);

@@ -31,6 +31,8 @@ function parseColor(text) {
 }
 
 const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
+/* What the tools lay besides; this page does not. */
+const BONDS = ["herringbone", "basket", "hexagon"], VARY = ["turn", "flip", "shift"];
 const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
 
 /* One or two numbers that are allowed, and what stands for the second. */
@@ -44,6 +46,36 @@ function wrapsOf(text) {
   return modes.length > 2 || modes.includes(undefined) ? undefined : modes[0] === modes[1] ? modes[0] : modes.join();
 }
 
+/* `count` numbers from `least` to `most`, or one for all. */
+function numbersOf(text, count, least, most) {
+  const numbers = text.split(",").map(numberOf), all = numbers.length === 1 ? Array(count).fill(numbers[0]) : numbers;
+  return all.length === count && all.every((x) => x >= least && x <= most) ? all : undefined;
+}
+const numberIn = (least, most) => (text) => numbersOf(text, 1, least, most)?.[0];
+const colorOf = (text) => (parseColor(text) ? text : undefined);
+function varyOf(text) {
+  const parts = text.toLowerCase().split(","), seed = parts.find((part) => /^\d{1,9}$/.test(part));
+  if (!parts.every((part) => VARY.includes(part) || /^\d{1,9}$/.test(part))) return undefined;
+  return [...VARY.filter((word) => parts.includes(word)), ...(Number(seed) ? [String(Number(seed))] : [])].join();
+}
+function tilesOf(text) {
+  const tiles = text.split(",");
+  return text.includes(":") || tiles.length > 8 || tiles.some((tile) => !tile || tile.length > 255) ? undefined : text;
+}
+
+/* Adjustments of colours, which follow the others in the order in which they are made: a value, and what changes nothing. */
+const ADJUSTMENTS = {
+  hue: [numberIn(-1e6, 1e6), "0"],
+  saturation: [numberIn(0, 1e3), "1"],
+  gain: [(text) => numbersOf(text, 3, 0, 1e6), "1,1,1"],
+  gamma: [numberIn(1e-3, 1e3), "1"],
+  contrast: [numberIn(1e-3, 1e3), "1"],
+  blur: [numberIn(0, 0.25), "0"],
+  invert: [(text) => wordOf(text, ["yes", "no"])?.replace("no", ""), ""],
+  tint: [colorOf, "#ffffff"],
+  colorize: [colorOf, ""],
+};
+
 /* The statements about a texture, in the order of the canonical text: what reads a value, undefined if there is none; and
  * the text that needs no statement. */
 const OPTIONS = {
@@ -52,11 +84,16 @@ const OPTIONS = {
   offset: [(text) => pairOf(text, () => true), "0,0"],
   flip: [(text) => wordOf(text, ["u", "v", "uv", "vu"])?.replace("vu", "uv"), ""],
   wrap: [wrapsOf, "repeat"],
-  repeat: [(text) => wordOf(text, REPEATS), "straight"],
+  repeat: [(text) => wordOf(text, [...REPEATS, ...BONDS]), "straight"],
   width: [(text) => (text.includes(",") ? pairOf(text, (x) => x > 0) : [numberOf(text)].find((x) => x > 0)), ""],
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
   finish: [(text) => (text === "none" ? "" : text), ""],
-  tint: [(text) => (parseColor(text) ? text : undefined), "#ffffff"],
+  grout: [numberIn(0, 1e300), "0"],
+  groutcolor: [colorOf, ""],
+  vary: [varyOf, ""],
+  tiles: [tilesOf, ""],
+  at: [(text) => (text.includes(",") ? pairOf(text, () => true) : undefined), ""],
+  ...ADJUSTMENTS,
 };
 const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
 
@@ -94,7 +131,11 @@ function parseEdit(text) {
   }
   for (const [target, said] of Object.entries(textures)) {
     if (!said.source) throw new Error(`${target} has options, but no texture.`);
-    if (isShifted(said.repeat) && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: repeat ${said.repeat} needs wrap repeat.`);
+    const bond = BONDS.includes(said.repeat), laid = said.grout > 0 ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
+    const what = bond || isShifted(said.repeat) ? `repeat ${said.repeat}` : laid;
+    if (what && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: ${what} needs wrap repeat.`);
+    if (what && said.repeat === "mirror") throw new Error(`${target}: ${what} cannot be used with repeat mirror.`);
+    if ((bond || said.grout > 0) && !said.width) throw new Error(`${target}: ${what} needs width.`);
     if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }
   if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
@@ -117,8 +158,9 @@ function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   for (const target of Object.keys(textures).sort()) {
     const name = encode(target), option = optionOf(name);
     statements.push(`${option ? name.slice(0, -option.length - 1) + "%2E" + option : name}=${encode(textures[target].source)}`);
-    for (const [word, [, unsaid]] of Object.entries(OPTIONS)) {
-      const text = textOf(textures[target][word] ?? unsaid);
+    const adjusted = Object.keys(textures[target]).filter((word) => word in ADJUSTMENTS);
+    for (const word of [...Object.keys(OPTIONS).filter((w) => !(w in ADJUSTMENTS)), ...adjusted]) {
+      const unsaid = OPTIONS[word][1], text = textOf(textures[target][word] ?? unsaid);
       if (text !== unsaid) statements.push(`${name}.${word}=${encode(text)}`);
     }
   }

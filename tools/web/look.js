@@ -32,6 +32,8 @@ function placing(texture, options) {
     throw new Error(`A texture's repeat ${placed.repeat} needs wrap repeat.`);
   if (options.width || (options.colorspace && options.colorspace !== "sRGB"))
     throw new Error("A texture's width and colorspace are for the tools, not for this page.");
+  const other = ["grout", "vary", "tiles", "at", ...Object.keys(ADJUSTMENTS).filter((key) => key !== "tint")].find((key) => options[key]);
+  if (other) throw new Error(`A texture's ${other} is for the tools, not for this page.`);
   return placed;
 }
 

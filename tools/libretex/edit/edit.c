@@ -128,7 +128,7 @@ static int state(RetexEdit *edit, const char *target, const char *option /* or N
     if (edit->said[at] & 1u << kind)
         return retex_fail(err, RETEX_EPARSE, "%s%s%s is given twice", target, option ? "." : "", option ? option : "");
     edit->said[at] |= 1u << kind;
-    return retex_statement_kinds[kind].parse(&edit->specs[at], value, err);
+    return retex_statement_parse(&edit->specs[at], kind, value, err);
 }
 
 /* A statement that is decoded; option: or NULL. */
@@ -249,7 +249,7 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
                               at);
         *value++ = '\0';
         const int kind = retex_statement_option(at, strlen(at));
-        code = kind < 0 ? retex_statement_unknown(at, err) : retex_statement_kinds[kind].parse(spec, value, err);
+        code = kind < 0 ? retex_statement_unknown(at, err) : retex_statement_parse(spec, kind, value, err);
     }
     return code;
 }

@@ -13,6 +13,7 @@
 #include <retex/color_text.h>
 #include <retex/nearest.h>
 
+#include "edit/number.h"
 #include "set/set.h"
 
 static const double GAIN_MAX = 1e30;
@@ -160,26 +161,14 @@ int retex_lamp_value_parse(RetexLampValue *value, const char *text, RetexError *
     return RETEX_OK;
 }
 
-/* The fewest digits that mean the same. */
-static const char *number_text(double value, int single, char text[32])
-{
-    for (int digits = single ? 6 : 15; digits <= 17; digits++) {
-        snprintf(text, 32, "%.*g", digits, value);
-        const double read = strtod(text, NULL);
-        if (single ? (float)read == (float)value : read == value)
-            break;
-    }
-    return text;
-}
-
 void retex_lamp_value_text(const RetexLampValue *value, char text[RETEX_LAMP_TEXT_MAX])
 {
-    char gain[32], r[32], g[32], b[32];
-    number_text(value->gain, 0, gain);
+    char gain[RETEX_NUMBER_MAX], r[RETEX_NUMBER_MAX], g[RETEX_NUMBER_MAX], b[RETEX_NUMBER_MAX];
+    retex_number_text(value->gain, gain);
     if (value->colored)
         snprintf(text, RETEX_LAMP_TEXT_MAX, "%s%srgb(%s,%s,%s)", value->gain == 1 ? "" : gain,
-                 value->gain == 1 ? "" : "*", number_text((double)value->color[0], 1, r),
-                 number_text((double)value->color[1], 1, g), number_text((double)value->color[2], 1, b));
+                 value->gain == 1 ? "" : "*", retex_float_text(value->color[0], r),
+                 retex_float_text(value->color[1], g), retex_float_text(value->color[2], b));
     else
         snprintf(text, RETEX_LAMP_TEXT_MAX, "%s", gain);
 }

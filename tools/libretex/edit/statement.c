@@ -2,8 +2,6 @@
  * message that names the option and says what would be right. */
 #include "edit/statement.h"
 
-#include <ctype.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -11,72 +9,15 @@
 #include <retex/color_text.h>
 #include <retex/nearest.h>
 
+#include "edit/adjustment.h"
+#include "edit/number.h"
+
 #define OPTION "texture option "
-
-/* ---- numbers ---- */
-
-/* Parses a finite number; *end is behind it. 0 where there is none. There is no -0, which would be written and say
- * nothing. */
-static int parse_number(const char *text, const char **end, double *value)
-{
-    char *stop;
-    *value = strtod(text, &stop) + 0.0;
-    if (stop == text || !isfinite(*value))
-        return 0;
-    *end = stop;
-    return 1;
-}
-
-static const char *skip_spaces(const char *text)
-{
-    while (isspace((unsigned char)*text))
-        text++;
-    return text;
-}
-
-/* Parses one or two numbers; one number stands for both. */
-static int parse_pair(double pair[2], const char *text)
-{
-    const char *at = text;
-    if (!parse_number(at, &at, &pair[0]))
-        return 0;
-    pair[1] = pair[0];
-    at = skip_spaces(at);
-    if (*at == ',') {
-        if (!parse_number(at + 1, &at, &pair[1]))
-            return 0;
-        at = skip_spaces(at);
-    }
-    return *at == '\0';
-}
-
-enum { NUMBER_MAX = 32 };
-
-/* The fewest digits that mean the same. */
-static const char *number_text(double value, char text[NUMBER_MAX])
-{
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, NUMBER_MAX, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
-    return text;
-}
-
-static const char *float_text(float value, char text[NUMBER_MAX])
-{
-    for (int digits = 6; digits <= 9; digits++) {
-        snprintf(text, NUMBER_MAX, "%.*g", digits, (double)value);
-        if ((float)strtod(text, NULL) == value)
-            break;
-    }
-    return text;
-}
 
 static int write_pair(const double pair[2], double unsaid, char text[STATEMENT_TEXT_MAX])
 {
-    char first[NUMBER_MAX], second[NUMBER_MAX];
-    snprintf(text, STATEMENT_TEXT_MAX, "%s,%s", number_text(pair[0], first), number_text(pair[1], second));
+    char first[RETEX_NUMBER_MAX], second[RETEX_NUMBER_MAX];
+    snprintf(text, STATEMENT_TEXT_MAX, "%s,%s", retex_number_text(pair[0], first), retex_number_text(pair[1], second));
     return pair[0] != unsaid || pair[1] != unsaid;
 }
 
@@ -91,9 +32,17 @@ static int find_word(const char *const *words, int count, const char *word, size
 }
 
 static const char *const wrap_words[] = {"repeat", "mirror", "clamp", "black"};
-static const char *const repeat_words[] = {"straight", "brick", "half-drop", "mirror"};
+static const char *const repeat_words[RETEX_REPEATS] = {"straight", "brick",  "half-drop", "mirror",
+                                                        "herringbone", "basket", "hexagon"};
 
 /* ---- the image ---- */
+
+static void write_color(const float color[3], char text[STATEMENT_TEXT_MAX])
+{
+    char r[RETEX_NUMBER_MAX], g[RETEX_NUMBER_MAX], b[RETEX_NUMBER_MAX];
+    snprintf(text, STATEMENT_TEXT_MAX, "rgb(%s,%s,%s)", retex_float_text(color[0], r), retex_float_text(color[1], g),
+             retex_float_text(color[2], b));
+}
 
 static int parse_image(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
@@ -113,10 +62,8 @@ static int parse_image(RetexTextureSpec *spec, const char *value, RetexError *er
 
 static int write_image(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    char r[NUMBER_MAX], g[NUMBER_MAX], b[NUMBER_MAX];
     if (spec->constant)
-        snprintf(text, STATEMENT_TEXT_MAX, "rgb(%s,%s,%s)", float_text(spec->color[0], r),
-                 float_text(spec->color[1], g), float_text(spec->color[2], b));
+        write_color(spec->color, text);
     else
         snprintf(text, STATEMENT_TEXT_MAX, "%s", spec->image);
     return 1;
@@ -126,7 +73,7 @@ static int write_image(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MA
 
 static int parse_scale(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    if (!parse_pair(spec->scale, value))
+    if (!retex_numbers_parse(spec->scale, 2, value))
         return retex_fail(err, RETEX_EPARSE,
                           OPTION "scale='%s': expected one or two numbers, as in scale=2 or scale=2,1", value);
     if (spec->scale[0] == 0 || spec->scale[1] == 0)
@@ -142,20 +89,20 @@ static int write_scale(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MA
 static int parse_rotate(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
     const char *end;
-    if (!parse_number(value, &end, &spec->rotate) || *skip_spaces(end))
+    if (!retex_number_parse(value, &end, &spec->rotate) || *retex_skip_spaces(end))
         return retex_fail(err, RETEX_EPARSE, OPTION "rotate='%s': expected degrees, as in rotate=30", value);
     return RETEX_OK;
 }
 
 static int write_rotate(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    number_text(spec->rotate, text);
+    retex_number_text(spec->rotate, text);
     return spec->rotate != 0;
 }
 
 static int parse_offset(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    if (!parse_pair(spec->offset, value))
+    if (!retex_numbers_parse(spec->offset, 2, value))
         return retex_fail(err, RETEX_EPARSE, OPTION "offset='%s': expected one or two numbers, as in offset=0,0.5",
                           value);
     return RETEX_OK;
@@ -204,9 +151,11 @@ static int write_wrap(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX
 
 static int parse_repeat(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    const int found = find_word(repeat_words, 4, value, strlen(value));
+    const int found = find_word(repeat_words, RETEX_REPEATS, value, strlen(value));
     if (found < 0)
-        return retex_fail(err, RETEX_EPARSE, OPTION "repeat='%s': expected straight, brick, half-drop or mirror",
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "repeat='%s': expected straight, brick, half-drop, mirror, herringbone, basket or "
+                                 "hexagon",
                           value);
     spec->repeat = (RetexRepeat)found;
     return RETEX_OK;
@@ -221,7 +170,7 @@ static int write_repeat(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_M
 /* One or two lengths; the image determines the second where it is missing. */
 static int parse_width(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    if (!parse_pair(spec->width, value) || !(spec->width[0] > 0) || !(spec->width[1] > 0))
+    if (!retex_numbers_parse(spec->width, 2, value) || !(spec->width[0] > 0) || !(spec->width[1] > 0))
         return retex_fail(err, RETEX_EPARSE,
                           OPTION "width='%s': expected one or two lengths above 0, as in width=1.2 or width=1.2,0.2",
                           value);
@@ -234,7 +183,7 @@ static int write_width(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MA
 {
     if (spec->width[1] > 0)
         return write_pair(spec->width, 0, text);
-    number_text(spec->width[0], text);
+    retex_number_text(spec->width[0], text);
     return spec->width[0] > 0;
 }
 
@@ -271,9 +220,134 @@ static int write_finish(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_M
     return text[0] != '\0';
 }
 
+/* ---- laying ---- */
+
+static int parse_grout(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    const char *end;
+    if (!retex_number_parse(value, &end, &spec->grout) || *retex_skip_spaces(end) || spec->grout < 0)
+        return retex_fail(err, RETEX_EPARSE, OPTION "grout='%.80s': expected a length of 0 or more, as in grout=0.004",
+                          value);
+    return RETEX_OK;
+}
+
+static int write_grout(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    retex_number_text(spec->grout, text);
+    return spec->grout > 0;
+}
+
+static int parse_grout_color(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    RetexError why = {0};
+    return !retex_color_parse(spec->grout_color, value, &why)
+               ? RETEX_OK
+               : retex_fail(err, RETEX_EPARSE, OPTION "groutcolor='%.80s': expected a colour, as in groutcolor=#888",
+                            value);
+}
+
+static int write_grout_color(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    write_color(spec->grout_color, text);
+    return memcmp(spec->grout_color, plain.grout_color, sizeof plain.grout_color) != 0;
+}
+
+static const char *const vary_words[] = {"turn", "flip", "shift"};
+
+/* Words, and a number that picks which repeat has what. */
+static int parse_vary(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    int vary = 0, is_right = 1;
+    unsigned seed = 0;
+    for (const char *at = value; is_right; at += strcspn(at, ",") + 1) {
+        const size_t length = strcspn(at, ",");
+        const int word = find_word(vary_words, 3, at, length);
+        if (word >= 0)
+            vary |= 1 << word;
+        else if (length >= 1 && length <= 9 && strspn(at, "0123456789") == length)
+            seed = (unsigned)strtoul(at, NULL, 10);
+        else
+            is_right = 0;
+        if (!at[length])
+            break;
+    }
+    if (!is_right)
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "vary='%.80s': expected turn, flip, shift and a number of at most 9 digits, or some "
+                                 "of them, as in vary=turn,flip,7",
+                          value);
+    spec->vary = vary;
+    spec->vary_seed = seed;
+    return RETEX_OK;
+}
+
+static int write_vary(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < 3; k++)
+        if (spec->vary & 1 << k)
+            used += (size_t)snprintf(text + used, STATEMENT_TEXT_MAX - used, "%s%s", used ? "," : "", vary_words[k]);
+    if (spec->vary_seed)
+        snprintf(text + used, STATEMENT_TEXT_MAX - used, "%s%u", used ? "," : "", spec->vary_seed);
+    return text[0] != '\0';
+}
+
+/* A list of names: a colon would end it in an option. */
+static int parse_tiles(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    enum { BYTES = sizeof spec->tiles[0] };
+    char tiles[RETEX_TILES_MAX][BYTES] = {""};
+    int count = 0, is_right = !strchr(value, ':');
+    for (const char *at = value; is_right; at += strcspn(at, ",") + 1) {
+        const size_t length = strcspn(at, ",");
+        if (length < 1 || length >= BYTES || count == RETEX_TILES_MAX)
+            is_right = 0;
+        else
+            memcpy(tiles[count++], at, length);
+        if (!at[length])
+            break;
+    }
+    if (!is_right)
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "tiles='%.80s': expected 1 to %d pictures without a colon or comma in their names, of "
+                                 "at most %d bytes each, as in tiles=b.jpg,c.jpg",
+                          value, RETEX_TILES_MAX, BYTES - 1);
+    memcpy(spec->tiles, tiles, sizeof tiles);
+    return RETEX_OK;
+}
+
+static int write_tiles(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
+        used += (size_t)snprintf(text + used, STATEMENT_TEXT_MAX - used, "%s%s", k ? "," : "", spec->tiles[k]);
+    return text[0] != '\0';
+}
+
+static int parse_at(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    if (!strchr(value, ',') || !retex_numbers_parse(spec->at, 2, value))
+        return retex_fail(err, RETEX_EPARSE, OPTION "at='%.80s': expected two numbers, as in at=1.2,0.4", value);
+    spec->has_at = 1;
+    return RETEX_OK;
+}
+
+static int write_at(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    write_pair(spec->at, 0, text);
+    return spec->has_at;
+}
+
 /* ---- the table ---- */
 
-const RetexStatementKind retex_statement_kinds[STATEMENT_KINDS] = {
+static const struct {
+    const char *word;
+    int (*parse)(RetexTextureSpec *spec, const char *value, RetexError *err);
+    int (*write)(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX]);
+} kinds[RETEX_STATEMENT_ADJUSTMENTS] = {
     {"", parse_image, write_image},
     {"scale", parse_scale, write_scale},
     {"rotate", parse_rotate, write_rotate},
@@ -284,24 +358,60 @@ const RetexStatementKind retex_statement_kinds[STATEMENT_KINDS] = {
     {"width", parse_width, write_width},
     {"colorspace", parse_colorspace, write_colorspace},
     {"finish", parse_finish, write_finish},
+    {"grout", parse_grout, write_grout},
+    {"groutcolor", parse_grout_color, write_grout_color},
+    {"vary", parse_vary, write_vary},
+    {"tiles", parse_tiles, write_tiles},
+    {"at", parse_at, write_at},
 };
+
+static RetexAdjust adjustment_of(int kind)
+{
+    return (RetexAdjust)(kind - RETEX_STATEMENT_ADJUSTMENTS);
+}
+
+const char *retex_statement_word(int kind)
+{
+    return kind < RETEX_STATEMENT_ADJUSTMENTS ? kinds[kind].word : retex_adjustment_word(adjustment_of(kind));
+}
+
+int retex_statement_parse(RetexTextureSpec *spec, int kind, const char *value, RetexError *err)
+{
+    return kind < RETEX_STATEMENT_ADJUSTMENTS ? kinds[kind].parse(spec, value, err)
+                                              : retex_adjustment_parse(spec, adjustment_of(kind), value, err);
+}
+
+int retex_statement_write(const RetexTextureSpec *spec, int kind, char text[STATEMENT_TEXT_MAX])
+{
+    return kind < RETEX_STATEMENT_ADJUSTMENTS
+               ? kinds[kind].write(spec, text)
+               : retex_adjustment_write(spec, adjustment_of(kind), text, STATEMENT_TEXT_MAX);
+}
+
+int retex_statement_ordered(const RetexTextureSpec *spec, int index)
+{
+    const int adjustment = index - RETEX_STATEMENT_ADJUSTMENTS;
+    return adjustment < 0                     ? index
+           : adjustment < spec->nadjustments ? RETEX_STATEMENT_ADJUSTMENTS + (int)spec->adjustments[adjustment].kind
+                                             : -1;
+}
 
 int retex_statement_option(const char *word, size_t length)
 {
-    for (int k = 1; k < STATEMENT_KINDS; k++)
-        if (strlen(retex_statement_kinds[k].word) == length && memcmp(word, retex_statement_kinds[k].word, length) == 0)
+    for (int k = 1; k < RETEX_STATEMENTS; k++)
+        if (strlen(retex_statement_word(k)) == length && memcmp(word, retex_statement_word(k), length) == 0)
             return k;
     return -1;
 }
 
 int retex_statement_unknown(const char *word, RetexError *err)
 {
-    char words[160] = "", meant[RETEX_MEANT_SIZE];
+    char words[320] = "", meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {word, NULL, 0};
-    for (int k = 1; k < STATEMENT_KINDS; k++) {
+    for (int k = 1; k < RETEX_STATEMENTS; k++) {
         const size_t used = strlen(words);
-        snprintf(words + used, sizeof words - used, "%s%s", k > 1 ? ", " : "", retex_statement_kinds[k].word);
-        retex_nearest_try(&nearest, retex_statement_kinds[k].word);
+        snprintf(words + used, sizeof words - used, "%s%s", k > 1 ? ", " : "", retex_statement_word(k));
+        retex_nearest_try(&nearest, retex_statement_word(k));
     }
     return retex_fail(err, RETEX_EPARSE, "no texture option is called '%s'; there are %s%s", word, words,
                       retex_meant(nearest.best, meant));
@@ -309,9 +419,19 @@ int retex_statement_unknown(const char *word, RetexError *err)
 
 int retex_statement_check(const RetexTextureSpec *spec, RetexError *err)
 {
-    const int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
-    if (shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
-        return retex_fail(err, RETEX_EPARSE, "texture options: repeat=%s needs wrap=repeat, the default, on both axes",
-                          repeat_words[spec->repeat]);
+    const int is_laid = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP ||
+                        spec->repeat >= RETEX_REPEAT_HERRINGBONE,
+              needs_width = spec->grout > 0 || spec->repeat >= RETEX_REPEAT_HERRINGBONE;
+    const char *option = spec->grout > 0 ? "grout" : spec->vary ? "vary" : spec->tiles[0][0] ? "tiles" : NULL;
+    char repeat[40];
+    snprintf(repeat, sizeof repeat, "repeat=%s", repeat_words[spec->repeat]);
+    option = is_laid ? repeat : option;
+    if (option && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
+        return retex_fail(err, RETEX_EPARSE, "texture options: %s needs wrap=repeat, the default, on both axes",
+                          option);
+    if (option && spec->repeat == RETEX_REPEAT_MIRROR)
+        return retex_fail(err, RETEX_EPARSE, "texture options: %s cannot be used with repeat=mirror", option);
+    if (needs_width && !(spec->width[0] > 0))
+        return retex_fail(err, RETEX_EPARSE, "texture options: %s needs width=, the size of a repeat", option);
     return RETEX_OK;
 }

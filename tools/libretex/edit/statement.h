@@ -6,20 +6,23 @@
 
 #include <retex/texture.h>
 
-/* Words of options that text may have. */
-enum { STATEMENT_KINDS = 10, STATEMENT_TEXT_MAX = 1100 };
+/* The first kind is the image, the others are options. The last ones are adjustments of colours, in the order of
+ * RetexAdjust. */
+enum {
+    RETEX_STATEMENT_ADJUSTMENTS = 15,
+    RETEX_STATEMENTS = RETEX_STATEMENT_ADJUSTMENTS + RETEX_ADJUSTS,
+    STATEMENT_TEXT_MAX = 2100
+};
 
-/* A row of the table: KEY is TARGET.word, or TARGET alone where the word is "". */
-typedef struct RetexStatementKind {
-    const char *word;
-    /* RETEX_EPARSE where the value is none. */
-    int (*parse)(RetexTextureSpec *spec, const char *value, RetexError *err);
-    /* The value as text; 0 where it is the default. */
-    int (*write)(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX]);
-} RetexStatementKind;
-
-/* The first is the image; the others, options, follow in the order of the canonical text. */
-extern const RetexStatementKind retex_statement_kinds[STATEMENT_KINDS];
+/* KEY is TARGET.word, or TARGET alone where the word is "". */
+const char *retex_statement_word(int kind);
+/* RETEX_EPARSE where the value is none. */
+int retex_statement_parse(RetexTextureSpec *spec, int kind, const char *value, RetexError *err);
+/* The value as text; 0 where it is the default. */
+int retex_statement_write(const RetexTextureSpec *spec, int kind, char text[STATEMENT_TEXT_MAX]);
+/* The kind of statement number `index`, below RETEX_STATEMENTS, in the canonical text of a texture: adjustments stand
+ * in the order in which they are made. -1: it has no statement of that number. */
+int retex_statement_ordered(const RetexTextureSpec *spec, int index);
 
 /* Of an option's word of `length` bytes; -1 = none. */
 int retex_statement_option(const char *word, size_t length);

@@ -52,21 +52,27 @@ static int close_text(FILE *file, char **text, RetexError *err)
     return RETEX_OK;
 }
 
+/* A statement of a texture, where it says something: divider, key, value. */
+static void write_statement(FILE *file, const RetexTextureSpec *spec, int index, const char *divider)
+{
+    char value[STATEMENT_TEXT_MAX];
+    const int kind = retex_statement_ordered(spec, index);
+    if (kind < 0 || !retex_statement_write(spec, kind, value))
+        return;
+    fputs(divider, file);
+    write_key(file, spec->target, retex_statement_word(kind));
+    write_encoded(file, value, NULL);
+}
+
 int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError *err)
 {
+    const char between[2] = {(char)divider, '\0'};
     size_t size;
     *text = NULL;
     FILE *file = open_memstream(text, &size);
     for (int i = 0; i < edit->count && file; i++)
-        for (int k = 0; k < STATEMENT_KINDS; k++) {
-            char value[STATEMENT_TEXT_MAX];
-            if (!retex_statement_kinds[k].write(&edit->specs[i], value))
-                continue;
-            if (i || k)
-                fputc(divider, file);
-            write_key(file, edit->specs[i].target, retex_statement_kinds[k].word);
-            write_encoded(file, value, NULL);
-        }
+        for (int k = 0; k < RETEX_STATEMENTS; k++)
+            write_statement(file, &edit->specs[i], k, i || k ? between : "");
     for (int kind = 0, written = edit->count; kind < RETEX_EDIT_KEYED && file; kind++)
         for (int i = 0; i < edit->keyed[kind].count; i++, written++)
             write_keyed(file, retex_edit_keyed[kind], &edit->keyed[kind].of[i], written ? divider : 0);
@@ -82,9 +88,11 @@ int retex_edit_options_text(const RetexTextureSpec *given, char **text, RetexErr
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
     FILE *file = open_memstream(text, &size);
-    for (int k = 1, written = 0; k < STATEMENT_KINDS && file; k++)
-        if (retex_statement_kinds[k].write(&spec, value))
-            fprintf(file, "%s%s=%s", written++ ? ":" : "", retex_statement_kinds[k].word, value);
+    for (int k = 1, written = 0; k < RETEX_STATEMENTS && file; k++) {
+        const int kind = retex_statement_ordered(&spec, k);
+        if (kind >= 0 && retex_statement_write(&spec, kind, value))
+            fprintf(file, "%s%s=%s", written++ ? ":" : "", retex_statement_word(kind), value);
+    }
     return close_text(file, text, err);
 }
 
@@ -93,6 +101,6 @@ void retex_edit_image_text(const RetexTextureSpec *given, char *text, size_t siz
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     char value[STATEMENT_TEXT_MAX];
     (void)RETEX_PARAMS_COPY(&spec, given, NULL);
-    retex_statement_kinds[0].write(&spec, value);
+    retex_statement_write(&spec, 0, value);
     snprintf(text, size, "%s", value);
 }

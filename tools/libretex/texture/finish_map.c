@@ -10,6 +10,8 @@
 
 #include <retex/parallel.h>
 
+#include "texture/interpolate.h"
+
 #define GREY_DIFFERENCE 0.0101f /* of channels: 2.5 of 255, for JPEG stores colours and not grey */
 
 /* ---- weights ---- */
@@ -110,16 +112,6 @@ static void find_colors_job(void *context, int y, int thread)
     }
 }
 
-static void store(const RetexTexels *to, size_t i, const float rgba[4])
-{
-    if (!to->narrow) {
-        memcpy((float *)to->texels + 4 * i, rgba, 4 * sizeof *rgba);
-        return;
-    }
-    for (int c = 0; c < 4; c++)
-        ((uint16_t *)to->texels)[4 * i + (size_t)c] = (uint16_t)(clamped(rgba[c]) * NARROW_ONE + 0.5f);
-}
-
 static void weigh_job(void *context, int y, int thread)
 {
     WeightWork *work = context;
@@ -129,41 +121,14 @@ static void weigh_job(void *context, int y, int thread)
         float p[4], weights[RETEX_FINISHES_MAX];
         read_map_texel(work->decoded, i, p);
         retex_finish_map_weights(work->spec, work->scale, work->channel, !work->colored, p, weights);
-        store(work->weights, i, (const float[4]){weights[1], weights[2], weights[3], 1});
+        retex_texture_store_texel(work->weights, i, (const float[4]){weights[1], weights[2], weights[3], 1});
     }
 }
 
-/* A position between texels: the two of an axis, and the share of the second. */
-typedef struct Between {
-    size_t first, second;
-    float share;
-} Between;
-
-static Between between(int i, int of, int texels, RetexWrap wrap)
+/* Where texel i of an axis of so many lies in an image of other size. */
+static RetexBetween texel_between(int i, int of, int texels, RetexWrap wrap)
 {
-    const double at = (i + 0.5) * texels / of - 0.5, low = floor(at);
-    int first = (int)low, second = first + 1;
-    const int repeats = wrap == RETEX_WRAP_REPEAT;
-    first = first < 0 ? (repeats ? texels - 1 : 0) : first;
-    second = second >= texels ? (repeats ? 0 : texels - 1) : second;
-    return (Between){(size_t)first, (size_t)second, (float)(at - low)};
-}
-
-static void interpolate(const RetexTexels *from, Between x, Between y, float rgba[4])
-{
-    const size_t width = (size_t)from->width, rows[2] = {y.first, y.second}, columns[2] = {x.first, x.second};
-    const float down[2] = {1 - y.share, y.share}, across[2] = {1 - x.share, x.share};
-    float texel[4];
-    memset(rgba, 0, 4 * sizeof *rgba);
-    for (int j = 0; j < 2; j++)
-        for (int i = 0; i < 2; i++) {
-            const float weight = down[j] * across[i];
-            if (weight == 0)
-                continue;
-            retex_texture_read_texel(from->texels, rows[j] * width + columns[i], from->narrow, texel);
-            for (int c = 0; c < 4; c++)
-                rgba[c] += weight * texel[c];
-        }
+    return retex_between((i + 0.5) * texels / of, texels, wrap);
 }
 
 /* Colour times weight of each finish, and the weights themselves, at one size. */
@@ -171,7 +136,7 @@ typedef struct ProductWork {
     const RetexTextureSpec *spec;
     const RetexTexels *color; /* NULL: a constant */
     RetexTexels map;
-    Between *color_x, *map_x;                     /* by column */
+    RetexBetween *color_x, *map_x;                /* by column */
     RetexTexels products[RETEX_FINISHES_MAX + 1]; /* the last: the weights */
     int count;
 } ProductWork;
@@ -181,26 +146,27 @@ static void multiply_job(void *context, int y, int thread)
     ProductWork *work = context;
     const int width = work->products[0].width, height = work->products[0].height;
     const RetexWrap *wrap = work->spec->wrap;
-    const Between color_y = work->color ? between(y, height, work->color->height, wrap[1]) : (Between){0, 0, 0},
-                  map_y = between(y, height, work->map.height, wrap[1]);
+    const RetexBetween color_y = work->color ? texel_between(y, height, work->color->height, wrap[1])
+                                             : (RetexBetween){0, 0, 0},
+                       map_y = texel_between(y, height, work->map.height, wrap[1]);
     (void)thread;
     for (int x = 0; x < width; x++) {
         const size_t at = (size_t)y * (size_t)width + (size_t)x;
         float color[4] = {work->spec->color[0], work->spec->color[1], work->spec->color[2], 1}, weights[4], product[4];
         if (work->color)
-            interpolate(work->color, work->color_x[x], color_y, color);
-        interpolate(&work->map, work->map_x[x], map_y, weights);
+            retex_interpolate(work->color, work->color_x[x], color_y, color);
+        retex_interpolate(&work->map, work->map_x[x], map_y, weights);
         float first = 1;
         for (int c = 0; c < 3; c++) {
             first -= weights[c];
             product[c] = weights[c] * color[3];
         }
         product[3] = color[3];
-        store(&work->products[work->count], at, product);
+        retex_texture_store_texel(&work->products[work->count], at, product);
         for (int k = 0; k < work->count; k++) {
             for (int c = 0; c < 3; c++)
                 product[c] = color[c] * (k ? weights[k - 1] : fmaxf(first, 0));
-            store(&work->products[k], at, product);
+            retex_texture_store_texel(&work->products[k], at, product);
         }
     }
 }
@@ -226,11 +192,18 @@ static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFini
     return RETEX_OK;
 }
 
-static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, RetexTexels *texels, int nthreads,
-                        RetexError *err)
+/* has_joints: the product is of the first finish, which joints between repeats have. */
+static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, RetexTexels *texels, int has_joints,
+                        int nthreads, RetexError *err)
 {
-    *made = retex_texture_new(spec, 0, err);
-    return *made ? retex_texture_set_texels(*made, texels, nthreads, err) : err->code;
+    RetexTextureSpec own = *spec;
+    if (!has_joints)
+        memset(own.grout_color, 0, sizeof own.grout_color);
+    *made = retex_texture_new(&own, err);
+    const int code = *made ? retex_texture_set_texels(*made, texels, NULL, 0, nthreads, err) : err->code;
+    if (!code) /* it is found by the specification of the whole */
+        memcpy((*made)->spec.grout_color, spec->grout_color, sizeof spec->grout_color);
+    return code;
 }
 
 static int make_products(RetexTexture *texture, ProductWork *work, int nthreads, RetexError *err)
@@ -252,8 +225,8 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     if (!code && (!work->color_x || !work->map_x))
         code = no_memory(texture, err);
     for (int x = 0; x < width && !code; x++) {
-        work->color_x[x] = between(x, width, color ? color->width : width, spec.wrap[0]);
-        work->map_x[x] = between(x, width, work->map.width, spec.wrap[0]);
+        work->color_x[x] = texel_between(x, width, color ? color->width : width, spec.wrap[0]);
+        work->map_x[x] = texel_between(x, width, work->map.width, spec.wrap[0]);
     }
     if (!code)
         retex_parallel(nthreads, height, multiply_job, work);
@@ -261,7 +234,7 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     free(work->map_x);
     for (int k = 0; k <= work->count && !code; k++)
         code = make_texture(k < work->count ? &finishes->colors[k] : &finishes->weights, &spec, &work->products[k],
-                            nthreads, err);
+                            k == 0, nthreads, err);
     for (int k = 0; k <= work->count; k++)
         free(work->products[k].texels);
     return code;

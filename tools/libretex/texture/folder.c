@@ -18,6 +18,7 @@
 #include <retex/texture.h>
 
 #include "base/params.h"
+#include "texture/lay.h"
 
 enum { MOST_ENTRIES = 100000, NAME_SIZE = 256, PATH_SIZE = 2 * NAME_SIZE, SHOWN = 3 };
 
@@ -471,6 +472,13 @@ int retex_texture_file(char **file, const RetexTextureSpec *given, int number, R
     *file = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
+    if (number >= RETEX_TEXTURE_FILE_TILES) {
+        const int tile = number - RETEX_TEXTURE_FILE_TILES;
+        if (tile >= retex_lay_tiles(&spec))
+            return RETEX_OK;
+        strcpy(spec.image, spec.tiles[tile]);
+        spec.constant = 0;
+    }
     if (number == RETEX_TEXTURE_FILE_FINISH && spec.finish[0]) {
         *file = strcmp(spec.finish, RETEX_NO_FINISH_MAP) == 0 ? NULL : strdup(spec.finish);
         return RETEX_OK;

@@ -9,9 +9,12 @@
 
 #include "base/params.h"
 #include "picture/image_read.h"
+#include "texture/adjust.h"
 #include "texture/finish_map.h"
 #include "texture/folder.h"
+#include "texture/lay.h"
 
+#define TOLD_DELTA_E 0.5 /* less is not seen */
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
 
 typedef struct RepairWork {
@@ -107,12 +110,26 @@ static RetexReadParams read_params(RetexTexture *texture)
     params.budget = spec->budget;
     params.warn = keep_warning;
     params.warn_context = texture;
-    params.pixel_bytes = retex_texture_has_two_repeats(spec) ? 2 * PEAK_BYTES : PEAK_BYTES;
+    params.pixel_bytes = PEAK_BYTES;
     return params;
 }
 
+/* Adjusts colours, and keeps for the report how far they are from one that was asked for. */
+static int adjust(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
+{
+    char text[160];
+    double delta_e;
+    const int code = retex_adjust_texels(&texture->spec, texels, &delta_e, nthreads, err);
+    if (!code && delta_e > TOLD_DELTA_E) {
+        snprintf(text, sizeof text, "the mean colour differs from that of colorize= by a delta E of %.1f (CIEDE2000)",
+                 delta_e);
+        keep_warning(texture, text);
+    }
+    return code;
+}
+
 static int read_file(RetexTexture *texture, const char *file, const char *colorspace, RetexDecoded *decoded,
-                            int nthreads, RetexError *err)
+                     int nthreads, RetexError *err)
 {
     RetexReadParams params = read_params(texture);
     params.colorspace = colorspace ? colorspace : params.colorspace;
@@ -138,7 +155,10 @@ static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, c
 {
     const RetexTextureSpec *own = &texture->spec;
     texture->may_have_finishes = own->finish[0] || (files && files->has_roughness);
-    if (files && files->roughness)
+    if (own->tiles[0][0] && own->finish[0] && strcmp(own->finish, RETEX_NO_FINISH_MAP) != 0)
+        return retex_fail(err, RETEX_EINVAL, "%s: finish= cannot be used with tiles=, which have no map of their own",
+                          own->target);
+    if (files && files->roughness && !own->tiles[0][0])
         return make_map(texture, color, files->roughness,
                         files->is_gloss ? RETEX_FINISH_BY_GLOSS : RETEX_FINISH_BY_ROUGHNESS, files->channel, nthreads,
                         err);
@@ -150,31 +170,80 @@ static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, c
     return make_map(texture, color, own->finish, RETEX_FINISH_BY_LIST, 0, nthreads, err);
 }
 
+/* Reads the file of an image's colours, and adjusts them. */
+static int read_colors(RetexTexture *texture, const char *file, RetexTexels *texels, int nthreads, RetexError *err)
+{
+    RetexDecoded decoded = {0};
+    int code = read_file(texture, file, NULL, &decoded, nthreads, err);
+    if (!code && decoded.narrow.pixels)
+        *texels = (RetexTexels){decoded.narrow.width, decoded.narrow.height, 1, decoded.narrow.pixels};
+    else if (!code)
+        code = take_pixels(texture, &decoded.image, texels, nthreads, err);
+    if (!code)
+        code = adjust(texture, texels, nthreads, err);
+    retex_image_free(&decoded.image);
+    return code;
+}
+
+/* Reads the images of tiles. Returns how many there are, or an error. */
+static int read_tiles(RetexTexture *texture, RetexTexels tiles[RETEX_TILES_MAX], int nthreads, RetexError *err)
+{
+    const RetexTextureSpec *own = &texture->spec;
+    int count = 0, code = RETEX_OK;
+    for (; !code && count < retex_lay_tiles(own); count++) {
+        RetexFolderFiles files;
+        code = retex_texture_folder_find(&files, own->tiles[count], own->access, 0, err);
+        if (!code)
+            code = read_colors(texture, files.color, &tiles[count], nthreads, err);
+        retex_texture_folder_files_free(&files);
+    }
+    return code ? code : count;
+}
+
+/* Makes texels the texture's, with those of tiles and the map of finishes. They are used up. files: NULL = none. */
+static int make_texture(RetexTexture *texture, const RetexFolderFiles *files, RetexTexels *texels, int nthreads,
+                        RetexError *err)
+{
+    RetexTexels tiles[RETEX_TILES_MAX] = {{0}};
+    const int ntiles = read_tiles(texture, tiles, nthreads, err);
+    int code = ntiles < 0 ? ntiles : RETEX_OK;
+    if (!code)
+        code = make_finishes(texture, files, texels, nthreads, err);
+    if (!code)
+        code = retex_texture_set_texels(texture, texels, tiles, ntiles, nthreads, err);
+    for (int k = 0; k < RETEX_TILES_MAX; k++)
+        free(tiles[k].texels);
+    free(texels->texels);
+    return code;
+}
+
 /* Reads the files that the image is. */
 static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
 {
     const RetexTextureSpec *own = &texture->spec;
     const int wants_roughness = !own->finish[0] && retex_finish_map_has_scale(own);
-    RetexDecoded decoded = {0};
     RetexFolderFiles files;
     RetexTexels texels = {0};
     int code = retex_texture_folder_find(&files, own->image, own->access, wants_roughness, err);
     if (!code && files.unused)
         keep_warning(texture, files.unused);
     if (!code)
-        code = read_file(texture, files.color, NULL, &decoded, nthreads, err);
-    if (!code && decoded.narrow.pixels)
-        texels = (RetexTexels){decoded.narrow.width, decoded.narrow.height, 1, decoded.narrow.pixels};
-    else if (!code)
-        code = take_pixels(texture, &decoded.image, &texels, nthreads, err);
+        code = read_colors(texture, files.color, &texels, nthreads, err);
     if (!code)
-        code = make_finishes(texture, &files, &texels, nthreads, err);
-    if (!code)
-        code = retex_texture_set_texels(texture, &texels, nthreads, err);
-    free(texels.texels);
-    retex_image_free(&decoded.image);
+        code = make_texture(texture, &files, &texels, nthreads, err);
     retex_texture_folder_files_free(&files);
     return code;
+}
+
+/* A colour with joints is an image of one texel. */
+static int lay_color(RetexTexture *texture, int nthreads, RetexError *err)
+{
+    const float *color = texture->spec.color;
+    RetexTexels texels = {1, 1, 0, NULL};
+    if (retex_texels_alloc(&texels))
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    retex_texture_store_texel(&texels, 0, (const float[4]){color[0], color[1], color[2], 1});
+    return make_texture(texture, NULL, &texels, nthreads, err);
 }
 
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
@@ -185,11 +254,13 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nt
     *out = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
-    RetexTexture *texture = retex_texture_new(&spec, spec.constant, &why);
+    RetexTexture *texture = retex_texture_new(&spec, &why);
     int code = why.code;
     if (texture && !spec.constant)
         code = read_image(texture, nthreads, &why);
-    if (texture && spec.constant)
+    else if (texture && retex_lay_is_image(&spec))
+        code = lay_color(texture, nthreads, &why);
+    else if (texture)
         code = make_finishes(texture, NULL, NULL, nthreads, &why);
     if (code) {
         retex_texture_close(&texture);
@@ -215,7 +286,8 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
         return RETEX_EINVAL;
     if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
-    RetexTexture *texture = retex_texture_new(&spec, 0, &why);
+    spec.constant = 0;
+    RetexTexture *texture = retex_texture_new(&spec, &why);
     RetexImage copy = {0};
     int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
     if (!code) {
@@ -229,8 +301,9 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
         RetexTexels texels = {0};
         code = take_pixels(texture, &copy, &texels, nthreads, &why);
         if (!code)
-            code = retex_texture_set_texels(texture, &texels, nthreads, &why);
-        free(texels.texels);
+            code = adjust(texture, &texels, nthreads, &why);
+        if (!code)
+            code = make_texture(texture, NULL, &texels, nthreads, &why);
         retex_image_free(&copy);
     }
     if (code) {

@@ -44,7 +44,8 @@ struct RetexTexture {
     RetexTextureSpec spec; /* with wrap = mirror for repeat = mirror */
     uint64_t charged;      /* bytes charged to the spec's budget */
     int shared;            /* 1: the texels are another texture's */
-    int repeats[2];        /* repeats that the image holds along u and v: 2 where every second one is shifted */
+    int size[2];           /* texels of the file's image; 1, 1 for a constant */
+    double repeats[2];     /* size of the image in repeats along u and v: 1, or more where several are laid into it */
     /* uv' = matrix uv + offset, from the surface's UV to that of the image with all its repeats: all of the spec. */
     double matrix[2][2];
     double offset[2];
@@ -72,17 +73,13 @@ typedef struct RetexTexels {
 void retex_texture_report_colors(const RetexTexture *texture, const RetexTextureSpec *spec);
 
 /* A texture of that placement, a constant or still without texels; NULL: the specification is wrong. */
-RetexTexture *retex_texture_new(const RetexTextureSpec *spec, int constant, RetexError *err);
-/* Make premultiplied texels those of the texture. They are used up. */
-int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err);
+RetexTexture *retex_texture_new(const RetexTextureSpec *spec, RetexError *err);
+/* Make premultiplied texels those of the texture. They are used up. tiles: those of other images for repeats, at most
+ * RETEX_TILES_MAX; or NULL. */
+int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const RetexTexels *tiles, int ntiles,
+                             int nthreads, RetexError *err);
 /* The placement of the textures of a map, whose texels may have another aspect than the image of that size. */
 RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height);
-/* 1: two repeats are one image. */
-static inline int retex_texture_has_two_repeats(const RetexTextureSpec *spec)
-{
-    return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
-}
-
 /* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
 int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
@@ -105,6 +102,8 @@ int retex_texture_is_opaque(const RetexTexture *texture);
 size_t retex_texture_texel_size(int narrow);           /* bytes */
 int retex_texels_alloc(RetexTexels *texels); /* allocate texels by width, height and narrow; not 0: out of memory */
 void retex_texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4]);
+/* Integers hold what is in 0..1. */
+void retex_texture_store_texel(const RetexTexels *texels, size_t index, const float rgba[4]);
 /* Make the texels level 0, and compute all other levels. Not 0: out of memory. */
 int retex_texture_build_pyramid(RetexTexture *texture, RetexTexels *texels, int nthreads);
 

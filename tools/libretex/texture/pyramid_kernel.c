@@ -27,6 +27,19 @@ void retex_texture_read_texel(const void *texels, size_t index, int narrow, floa
     memcpy(rgba, &texel, sizeof texel);
 }
 
+void retex_texture_store_texel(const RetexTexels *to, size_t index, const float rgba[4])
+{
+    if (!to->narrow) {
+        memcpy((float *)to->texels + 4 * index, rgba, 4 * sizeof *rgba);
+        return;
+    }
+    uint16_t *texel = (uint16_t *)to->texels + 4 * index;
+    for (int c = 0; c < 4; c++) { /* what is no number becomes 0 */
+        const float limited = rgba[c] > 0 ? rgba[c] < 1 ? rgba[c] : 1 : 0;
+        texel[c] = (uint16_t)(limited * NARROW_ONE + 0.5f);
+    }
+}
+
 /* ---- halving ---- */
 
 /* The texels, of n, that form texel i of the next coarser level, and their weights. Returns their number: 1, 2 or 3. */

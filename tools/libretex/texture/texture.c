@@ -2,9 +2,9 @@
  * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
  * filter_kernel.c, disc_kernel.c and parallelogram_kernel.c, those of whole rows in batch.c. */
 #include "base/params.h"
-#include "texture/pyramid.h"
+#include "texture/adjust.h"
+#include "texture/lay.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -25,40 +25,6 @@ static int no_memory(const RetexTexture *texture, int width, int height, RetexEr
                          "not enough memory for a texture of %d x %d texels", width, height);
 }
 
-/* Makes two repeats one image: side by side, the right one moved down, or one above the other, the upper one moved
- * right. To the filters it is an image like any other. */
-static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError *err)
-{
-    int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
-    if (!across && texture->spec.repeat != RETEX_REPEAT_BRICK)
-        return RETEX_OK;
-    int width = image->width, height = image->height;
-    RetexTexels both = {across ? 2 * width : width, across ? height : 2 * height, image->narrow, NULL};
-    if (width > INT_MAX / 2 || height > INT_MAX / 2 || retex_texels_alloc(&both))
-        return no_memory(texture, width, height, err);
-    size_t texel = retex_texture_texel_size(image->narrow), row = (size_t)width * texel;
-    size_t half = (size_t)(width / 2) * texel, rest = row - half;
-    const char *texels = image->texels;
-    for (int y = 0; y < height; y++) {
-        const char *from = texels + (size_t)y * row;
-        if (across) {
-            char *to = (char *)both.texels + 2 * (size_t)y * row;
-            int above = (y + height - height / 2) % height;
-            memcpy(to, from, row);
-            memcpy(to + row, texels + (size_t)above * row, row);
-        } else {
-            char *upper = (char *)both.texels + (size_t)y * row;
-            memcpy(upper, from + rest, half);
-            memcpy(upper + half, from, rest);
-            memcpy(upper + (size_t)height * row, from, row);
-        }
-    }
-    texture->repeats[!across] = 2;
-    free(image->texels);
-    *image = both;
-    return RETEX_OK;
-}
-
 /* Fits the repeats around a surface that closes: see <retex/texture.h>. before: units of width for a unit of UV. */
 static void fit_repeats(const RetexTexture *texture, double before[2], const double after[2])
 {
@@ -74,6 +40,20 @@ static void fit_repeats(const RetexTexture *texture, double before[2], const dou
         const double period = wrap == RETEX_WRAP_MIRROR ? 2 : texture->repeats[of],
                      around = before[axis] * after[of] / period;
         before[axis] *= fmax(1, rint(fabs(around))) / fabs(around);
+    }
+}
+
+/* What is added to the texture's UV: the offset, and what moves the middle of the image to where it is to be. */
+static void place_middle(const RetexTexture *texture, const double after[2], double turn[2][2], const double before[2],
+                         double place[2])
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    memcpy(place, spec->offset, sizeof spec->offset);
+    for (int axis = 0; axis < 2 && spec->has_at; axis++) {
+        place[axis] += 0.5;
+        for (int i = 0; i < 2; i++)
+            place[axis] -= after[axis] * turn[axis][i] * before[i] *
+                           (spec->width[0] > 0 ? spec->at[i] / spec->uv_scale[i] : spec->at[i]);
     }
 }
 
@@ -95,11 +75,13 @@ static void set_transform(RetexTexture *texture, int width, int height)
         }
         fit_repeats(texture, before, after);
     }
+    double place[2];
+    place_middle(texture, after, turn, before, place);
     for (int axis = 0; axis < 2; axis++) {
-        double sign = spec->flip[axis] ? -1 : 1, share = 1.0 / texture->repeats[axis];
+        double sign = spec->flip[axis] ? -1 : 1, share = 1 / texture->repeats[axis];
         for (int i = 0; i < 2; i++)
             texture->matrix[axis][i] = sign * share * after[axis] * turn[axis][i] * before[i];
-        texture->offset[axis] = share * (spec->flip[axis] ? 1 - spec->offset[axis] : spec->offset[axis]);
+        texture->offset[axis] = share * (spec->flip[axis] ? 1 - place[axis] : place[axis]);
     }
 }
 
@@ -135,29 +117,69 @@ int retex_texture_is_opaque(const RetexTexture *texture)
     return texture->nlevels == 0 || texture->opaque;
 }
 
-/* Charges the texels and their pyramid to the budget. */
-static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *err)
+/* Charges texels and their pyramid to the budget. */
+static int charge(RetexTexture *texture, int width, int height, int narrow, RetexError *err)
 {
-    uint64_t bytes = retex_texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
+    uint64_t bytes = retex_texture_texel_size(narrow) * (uint64_t)width * (uint64_t)height;
     bytes += bytes / 3;
-    bytes *= retex_texture_has_two_repeats(&texture->spec) ? 2 : 1;
     int code = retex_budget_charge(texture->spec.budget, bytes, texture->spec.image, err);
     if (!code)
-        texture->charged = bytes;
+        texture->charged += bytes;
     return code;
 }
 
-int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
+/* Lays repeats into one image, which takes the place of the texels. To the filters it is an image like any other. */
+static int lay(RetexTexture *texture, const RetexLayout *layout, RetexTexels *texels, const RetexTexels *tiles,
+               int ntiles, int nthreads, RetexError *err)
 {
-    int width = texels->width, height = texels->height, code = charge(texture, texels, err);
+    RetexTexels image = {layout->width, layout->height, texels->narrow, NULL}, all[1 + RETEX_TILES_MAX] = {*texels};
+    for (int k = 0; k < ntiles; k++) {
+        all[1 + k] = tiles[k];
+        image.narrow &= tiles[k].narrow;
+    }
+    if (charge(texture, image.width, image.height, image.narrow, err))
+        return RETEX_ELIMIT;
+    if (retex_texels_alloc(&image))
+        return no_memory(texture, image.width, image.height, err);
+    retex_layout_paint(layout, &texture->spec, all, 1 + ntiles, &image, nthreads);
+    memcpy(texture->repeats, layout->period, sizeof texture->repeats);
+    free(texels->texels);
+    *texels = image;
+    return RETEX_OK;
+}
+
+static int lay_repeats(RetexTexture *texture, RetexTexels *texels, const RetexTexels *tiles, int ntiles, int nthreads,
+                       RetexError *err)
+{
+    RetexLayout layout;
+    int most[2] = {texels->width, texels->height};
+    for (int k = 0; k < ntiles; k++) { /* the finest image decides, in the first one's shape */
+        const double finer = fmax((double)tiles[k].width / most[0], (double)tiles[k].height / most[1]);
+        for (int axis = 0; axis < 2 && finer > 1; axis++)
+            most[axis] = (int)ceil(most[axis] * finer);
+    }
+    int code = retex_layout_make(&layout, &texture->spec, most[0], most[1], err);
     if (!code)
-        code = compose_repeats(texture, texels, err);
+        code = lay(texture, &layout, texels, tiles, ntiles, nthreads, err);
+    retex_layout_free(&layout);
+    return code;
+}
+
+int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const RetexTexels *tiles, int ntiles,
+                             int nthreads, RetexError *err)
+{
+    int code = RETEX_OK;
+    texture->size[0] = texels->width, texture->size[1] = texels->height;
+    if (retex_lay_is_needed(&texture->spec))
+        code = lay_repeats(texture, texels, tiles, ntiles, nthreads, err);
+    else
+        code = charge(texture, texels->width, texels->height, texels->narrow, err);
     if (code)
         return code;
-    set_transform(texture, width, height);
+    set_transform(texture, texture->size[0], texture->size[1]);
     inspect_texels(texture, texels, nthreads);
     if (retex_texture_build_pyramid(texture, texels, nthreads))
-        return no_memory(texture, width, height, err);
+        return no_memory(texture, texture->size[0], texture->size[1], err);
     return RETEX_OK;
 }
 
@@ -181,41 +203,44 @@ static int check_width(const RetexTextureSpec *spec, RetexError *err)
     return RETEX_OK;
 }
 
-static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *err)
+static int check_spec(const RetexTextureSpec *spec, RetexError *err)
 {
     for (int axis = 0; axis < 2; axis++) {
-        if (!isfinite(spec->scale[axis]) || spec->scale[axis] == 0 || !isfinite(spec->offset[axis]))
-            return retex_fail(err, RETEX_EINVAL, "texture: scale must be finite and not 0, offset finite");
+        if (!isfinite(spec->scale[axis]) || spec->scale[axis] == 0 || !isfinite(spec->offset[axis]) ||
+            !isfinite(spec->at[axis]))
+            return retex_fail(err, RETEX_EINVAL, "texture: scale must be finite and not 0, offset and place finite");
         if ((unsigned)spec->wrap[axis] > RETEX_WRAP_BLACK)
             return retex_fail(err, RETEX_EINVAL, "texture: no wrap mode has the number %d", (int)spec->wrap[axis]);
     }
     if (!isfinite(spec->rotate))
         return retex_fail(err, RETEX_EINVAL, "texture: rotate must be finite");
-    if ((unsigned)spec->repeat > RETEX_REPEAT_MIRROR)
+    if ((unsigned)spec->repeat >= RETEX_REPEATS)
         return retex_fail(err, RETEX_EINVAL, "texture: no repeat has the number %d", (int)spec->repeat);
-    int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
-    if (shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
-        return retex_fail(err, RETEX_EINVAL, "texture: shifted repeats need wrap = repeat on both axes");
-    return constant ? RETEX_OK : check_width(spec, err);
+    if (retex_adjust_check(spec, err) || retex_lay_check(spec, err))
+        return RETEX_EINVAL;
+    return retex_lay_is_image(spec) ? check_width(spec, err) : RETEX_OK;
 }
 
-RetexTexture *retex_texture_new(const RetexTextureSpec *given, int constant, RetexError *err)
+RetexTexture *retex_texture_new(const RetexTextureSpec *given, RetexError *err)
 {
     RetexTextureSpec spec = *given;
-    if (check_spec(&spec, constant, err))
+    if (check_spec(&spec, err))
         return NULL;
     RetexTexture *texture = calloc(1, sizeof *texture);
     if (!texture) {
         retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
         return NULL;
     }
-    spec.constant = constant;
-    if (constant)
+    if (spec.constant) {
         retex_texel_defects_repair_color(spec.color, &texture->defects);
+        retex_adjust_color(&spec, spec.color);
+    }
+    spec.constant = !retex_lay_is_image(&spec);
     for (int axis = 0; axis < 2; axis++)
         if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
             spec.wrap[axis] = RETEX_WRAP_MIRROR;
     texture->spec = spec;
+    texture->size[0] = texture->size[1] = 1;
     texture->repeats[0] = texture->repeats[1] = 1;
     return texture;
 }
@@ -243,7 +268,7 @@ void retex_texture_close(RetexTexture **texture)
 int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    return !RETEX_PARAMS_COPY(&spec, given, NULL) && !spec.constant && spec.width[0] > 0;
+    return !RETEX_PARAMS_COPY(&spec, given, NULL) && retex_lay_is_image(&spec) && spec.width[0] > 0;
 }
 
 static int set_surface_finishes(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
@@ -266,22 +291,68 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     return set_surface_finishes(texture, surface, err);
 }
 
-/* Whether both have the same map of finishes. */
-static int has_finishes_of(const RetexTexture *texture, const RetexTextureSpec *spec)
+void retex_texture_spec_unplace(RetexTextureSpec *spec)
 {
-    const RetexTextureSpec *own = &texture->spec;
-    return strcmp(spec->finish, own->finish) == 0 &&
-           (!texture->may_have_finishes ||
-            (spec->nfinishes == own->nfinishes &&
-             memcmp(spec->roughness, own->roughness, sizeof own->roughness) == 0));
+    const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    memset(spec->target, 0, sizeof spec->target);
+    memcpy(spec->scale, plain.scale, sizeof spec->scale);
+    spec->rotate = 0;
+    memset(spec->offset, 0, sizeof spec->offset);
+    memset(spec->flip, 0, sizeof spec->flip);
+    spec->has_at = 0;
+    memset(spec->at, 0, sizeof spec->at);
+    const int has_width = retex_lay_is_needed(spec) && spec->width[0] > 0; /* joints and turns depend on it */
+    if (!has_width)
+        memset(spec->width, 0, sizeof spec->width);
+    spec->uv_scale[0] = spec->uv_scale[1] = has_width;
+    memset(spec->uv_min, 0, sizeof spec->uv_min);
+    memset(spec->uv_max, 0, sizeof spec->uv_max);
+    memset(spec->periodic, 0, sizeof spec->periodic);
+    spec->access = NULL;
+    spec->budget = NULL;
+    spec->warn = NULL;
+    spec->warn_context = NULL;
+}
+
+static int is_same_tiles(const RetexTextureSpec *a, const RetexTextureSpec *b)
+{
+    int count = retex_lay_tiles(a), same = count == retex_lay_tiles(b);
+    for (int k = 0; k < count && same; k++)
+        same = strcmp(a->tiles[k], b->tiles[k]) == 0;
+    return same;
+}
+
+static int is_laid_alike(const RetexTextureSpec *a, const RetexTextureSpec *b)
+{
+    const int have_sizes = a->grout > 0 || a->vary || a->repeat >= RETEX_REPEAT_HERRINGBONE;
+    return a->grout == b->grout && memcmp(a->grout_color, b->grout_color, sizeof a->grout_color) == 0 &&
+           a->vary == b->vary && a->vary_seed == b->vary_seed && is_same_tiles(a, b) &&
+           (!have_sizes || (a->width[0] == b->width[0] && a->width[1] == b->width[1]));
+}
+
+int retex_texture_specs_alike(const RetexTextureSpec *one, const RetexTextureSpec *other)
+{
+    RetexTextureSpec a = RETEX_TEXTURE_SPEC_INIT, b = RETEX_TEXTURE_SPEC_INIT;
+    if (RETEX_PARAMS_COPY(&a, one, NULL) || RETEX_PARAMS_COPY(&b, other, NULL) || a.constant || b.constant)
+        return 0;
+    if (strcmp(a.image, b.image) != 0 || strcmp(a.colorspace, b.colorspace) != 0 || strcmp(a.finish, b.finish) != 0 ||
+        a.repeat != b.repeat || a.wrap[0] != b.wrap[0] || a.wrap[1] != b.wrap[1] || a.is_light != b.is_light ||
+        a.nadjustments != b.nadjustments || !is_laid_alike(&a, &b))
+        return 0;
+    for (int i = 0; i < a.nadjustments; i++)
+        if (a.adjustments[i].kind != b.adjustments[i].kind ||
+            memcmp(a.adjustments[i].value, b.adjustments[i].value, sizeof a.adjustments[i].value) != 0)
+            return 0;
+    return 1;
 }
 
 static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *spec)
 {
     const RetexTextureSpec *own = &texture->spec;
-    return texture->nlevels > 0 && !spec->constant && strcmp(spec->image, own->image) == 0 &&
-           strcmp(spec->colorspace, own->colorspace) == 0 && spec->repeat == own->repeat &&
-           spec->wrap[0] == own->wrap[0] && spec->wrap[1] == own->wrap[1] && has_finishes_of(texture, spec);
+    return texture->nlevels > 0 && retex_texture_specs_alike(own, spec) &&
+           (!texture->may_have_finishes ||
+            (spec->nfinishes == own->nfinishes &&
+             memcmp(spec->roughness, own->roughness, sizeof own->roughness) == 0));
 }
 
 int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
@@ -289,7 +360,7 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     RetexError why = {0};
     int width, height;
     *out = NULL;
-    RetexTexture *placed = retex_texture_new(spec, spec->constant, &why);
+    RetexTexture *placed = retex_texture_new(spec, &why);
     int code = why.code;
     if (!code && !has_texels_of(texture, &placed->spec))
         code = retex_fail(&why, RETEX_EINVAL, "%s is not loaded as this placement needs it", texture->spec.image);
@@ -323,6 +394,7 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
     if (!square)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
     square->spec = texture->spec;
+    memcpy(square->size, texture->size, sizeof square->size);
     memcpy(square->repeats, texture->repeats, sizeof square->repeats);
     memcpy(square->matrix, texture->matrix, sizeof square->matrix);
     memcpy(square->offset, texture->offset, sizeof square->offset);
@@ -356,8 +428,8 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
 
 void retex_texture_size(const RetexTexture *texture, int *width, int *height)
 {
-    *width = texture->nlevels ? texture->levels[0].width / texture->repeats[0] : 1;
-    *height = texture->nlevels ? texture->levels[0].height / texture->repeats[1] : 1;
+    *width = texture->size[0];
+    *height = texture->size[1];
 }
 
 uint64_t retex_texture_bytes(const RetexTexture *texture)

@@ -68,6 +68,10 @@ class RetexRoi(ctypes.Structure):
 WARN = CFUNCTYPE(None, c_void_p, c_char_p)
 
 
+class RetexAdjustment(ctypes.Structure):
+    _fields_ = [("kind", c_int), ("value", c_float * 3)]
+
+
 class RetexTextureSpec(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("target", c_char * 128), ("image", c_char * 1024), ("constant", c_int),
                 ("color", c_float * 3), ("scale", c_double * 2), ("rotate", c_double), ("offset", c_double * 2),
@@ -75,7 +79,9 @@ class RetexTextureSpec(ctypes.Structure):
                 ("width", c_double * 2), ("uv_scale", c_double * 2), ("uv_min", c_double * 2), ("uv_max", c_double * 2),
                 ("access", c_void_p), ("warn", WARN), ("warn_context", c_void_p), ("is_light", c_int),
                 ("budget", c_void_p), ("periodic", c_int * 2), ("finish", c_char * 1024), ("nfinishes", c_int),
-                ("roughness", c_float * 4)]
+                ("roughness", c_float * 4), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9),
+                ("grout", c_double), ("grout_color", c_float * 3), ("vary", c_int), ("vary_seed", c_uint),
+                ("tiles", (c_char * 256) * 8), ("has_at", c_int), ("at", c_double * 2)]
 
 
 class RetexReadParams(ctypes.Structure):

@@ -15,6 +15,9 @@ from .pictures import image_of
 #: 4 channels.
 Source = Union[str, "os.PathLike[str]", Sequence[float], npt.NDArray[np.generic]]
 Pair = Union[float, Tuple[float, float]]
+Color = Union[str, Tuple[float, float, float]]
+Adjustment = Union[float, Color]
+ADJUSTMENTS = ("hue", "saturation", "gain", "gamma", "contrast", "blur", "invert", "tint", "colorize")
 
 
 def _pair(value: Pair) -> str:
@@ -31,6 +34,21 @@ def _linear(array: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
     if array.ndim == 3 and array.shape[2] == 4:
         texels[:, :, 3] = codes[array[:, :, 3]]
     return texels
+
+
+def _numbers(value: Adjustment) -> str:
+    return ",".join(repr(float(x)) for x in value) if isinstance(value, (tuple, list)) else str(value)
+
+
+def _color(color: Adjustment) -> str:
+    return "rgb({})".format(_numbers(color)) if isinstance(color, (tuple, list)) else str(color)
+
+
+def _tile(tile: Union[str, "os.PathLike[str]"]) -> str:
+    name = os.fsdecode(path_bytes(tile))
+    if not name or ":" in name or "," in name:
+        raise ValueError(f"tiles: expected pictures without a colon or comma in their names, not {name!r}")
+    return name
 
 
 def _map(finish: Union[str, "os.PathLike[str]"]) -> str:
@@ -87,6 +105,13 @@ class Texture:
     colorspace  of the image, if its file does not say it; arrays have theirs by their type
     finish      the name of a picture that says which finish of the target is where; "none": the roughness of a folder
                 says nothing. Not of arrays
+    grout       width of joints between repeats, in scene units; groutcolor: a colour
+    vary        what differs from repeat to repeat: "turn,flip,shift" or some of them, and a number
+    tiles       names of more images for the repeats
+    at          where the middle of the image lies, in scene units with a width, else in UV
+
+    hue, saturation, gain, gamma, contrast, blur, invert, tint and colorize adjust colours one after the other, in the
+    order in which they are given; `invert` is "yes", `tint` and `colorize` are colours.
 
     An array of floats is not copied until a set uses it: do not change it before."""
 
@@ -94,12 +119,22 @@ class Texture:
                  offset: Optional[Tuple[float, float]] = None, flip: Optional[str] = None,
                  wrap: Union[str, Tuple[str, str], None] = None, repeat: Optional[str] = None,
                  width: Optional[Pair] = None, colorspace: Optional[str] = None,
-                 finish: Union[str, "os.PathLike[str]", None] = None):
+                 finish: Union[str, "os.PathLike[str]", None] = None, grout: Optional[float] = None,
+                 groutcolor: Optional[Color] = None, vary: Optional[str] = None,
+                 tiles: Optional[Sequence[Union[str, "os.PathLike[str]"]]] = None,
+                 at: Optional[Tuple[float, float]] = None, **adjustments: Adjustment):
         options = {"scale": scale if scale is None else _pair(scale), "rotate": rotate,
                    "offset": offset if offset is None else _pair(offset), "flip": flip,
                    "wrap": ",".join(wrap) if isinstance(wrap, (tuple, list)) else wrap, "repeat": repeat,
                    "width": width if width is None else _pair(width), "colorspace": colorspace,
-                   "finish": finish if finish is None else _map(finish)}
+                   "finish": finish if finish is None else _map(finish), "grout": grout,
+                   "groutcolor": groutcolor if groutcolor is None else _color(groutcolor), "vary": vary,
+                   "tiles": tiles if tiles is None else ",".join(_tile(tile) for tile in tiles),
+                   "at": at if at is None else _pair(at)}
+        for name, value in adjustments.items():
+            if name not in ADJUSTMENTS:
+                raise TypeError(f"a texture has no {name!r}")
+            options[name] = _color(value) if name in ("tint", "colorize") else _numbers(value)
         self.options = ":".join(f"{name}={value}" for name, value in options.items() if value is not None)
         self.array: Optional[npt.NDArray[np.generic]] = None
         if isinstance(image, (str, os.PathLike)):

@@ -28,15 +28,51 @@ extern "C" {
 
 typedef enum RetexWrap { RETEX_WRAP_REPEAT, RETEX_WRAP_MIRROR, RETEX_WRAP_CLAMP, RETEX_WRAP_BLACK } RetexWrap;
 
-/* How repeats are arranged. Brick and half-drop need wrap = repeat on both axes and twice the memory: two repeats are
- * kept, 512 MiB for an image of 5792 x 5792 texels, without the pyramid (a third more). A shift is a whole number of
- * texels, half of the image's rounded down, so that no repeat is softer than another. */
+/* How repeats are arranged. All but straight and mirror need wrap = repeat on both axes, and more memory, because
+ * several repeats are laid into one image: two of brick and half-drop. A shift is a whole number of texels, half of the
+ * image's rounded down, so that no repeat is softer than another. Herringbone and basket need a width. Their joints and
+ * sides are whole numbers of texels, so that the ratio of the sides is the next one of small whole numbers; if the
+ * image has more than 2^26 texels, it becomes coarser. */
 typedef enum RetexRepeat {
     RETEX_REPEAT_STRAIGHT,
     RETEX_REPEAT_BRICK,     /* every second row of repeats, floor(v') odd, moved right by half a repeat */
     RETEX_REPEAT_HALF_DROP, /* every second column, floor(u') odd, moved down by half a repeat */
-    RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
+    RETEX_REPEAT_MIRROR,    /* book-matched: every second repeat mirrored, as by wrap = mirror */
+    RETEX_REPEAT_HERRINGBONE, /* repeats that lie and that stand, of any ratio: at an end of each begins another's
+                                 side. The ratio of the pitches is the nearest of whole numbers, the denominator at
+                                 most 4 */
+    RETEX_REPEAT_BASKET,    /* squares of repeats that lie, and that stand, by turns; the longer pitch is the nearest
+                               multiple of the shorter */
+    RETEX_REPEAT_HEXAGON,   /* the image's middle in hexagons with a corner above, width[0] wide */
+    RETEX_REPEATS
 } RetexRepeat;
+
+enum { RETEX_TILES_MAX = 8 };
+
+/* What differs at random from repeat to repeat, bits. Of a square repeat TURN is by quarter turns, otherwise by half a
+ * turn. FLIP mirrors along u, v or both; SHIFT moves the image within its repeat. So many different repeats are laid
+ * into one image as have at most 2^26 texels together, at most 256; then they repeat. */
+enum { RETEX_VARY_TURN = 1, RETEX_VARY_FLIP = 2, RETEX_VARY_SHIFT = 4 };
+
+/* What is done to the colours of a texture before it is filtered, one adjustment after the other. The result is
+ * limited to 0..1, of light (is_light) to 0 and more. Colours are scene-linear; alpha is blurred, and else stays. */
+typedef enum RetexAdjust {
+    RETEX_ADJUST_HUE,        /* turned by value[0] degrees in Oklab */
+    RETEX_ADJUST_SATURATION, /* Y + value[0] (c - Y), of the luminance Y, see retex/color.h; 0 = grey */
+    RETEX_ADJUST_GAIN,       /* value[c] c */
+    RETEX_ADJUST_GAMMA,      /* c^(1 / value[0]) */
+    RETEX_ADJUST_CONTRAST,   /* 0.18 (c / 0.18)^value[0] */
+    RETEX_ADJUST_BLUR,       /* a Gaussian whose standard deviation is value[0], 0..0.25, of the image's width; beyond
+                                the image is what `wrap` says */
+    RETEX_ADJUST_INVERT,     /* 1 - c of the values that sRGB encodes; value[0] is 1 */
+    RETEX_ADJUST_TINT,       /* value[c] c */
+    RETEX_ADJUST_COLORIZE,   /* value[c] Y / the mean of Y: the pattern of the luminance in one colour, the mean */
+    RETEX_ADJUSTS
+} RetexAdjust;
+typedef struct RetexAdjustment {
+    RetexAdjust kind;
+    float value[3]; /* 0 or more, but for HUE; more than 0 for GAMMA and CONTRAST */
+} RetexAdjustment;
 
 /* A texture and how it lies on its target; retex/edit.h makes it of text. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
@@ -73,11 +109,24 @@ typedef struct RetexTextureSpec {
                               it; "none": the target has one finish all over */
     int nfinishes;         /* of the target; filled in by the caller. Default 0: it has none to choose from */
     float roughness[4];    /* of these; filled in by the caller. Default 0 */
+    int nadjustments;      /* 0..RETEX_ADJUSTS, default 0; each kind at most once */
+    RetexAdjustment adjustments[RETEX_ADJUSTS];
+    double grout;          /* width in scene units of a joint at the right and upper end of each repeat, whose size
+                              stays `width`, which is needed. At most as wide as the repeat; of a colour too. Default
+                              0 */
+    float grout_color[3];  /* scene-linear; default sRGB's #808080 */
+    int vary;              /* of RETEX_VARY_…; default 0 */
+    unsigned vary_seed;    /* which repeats are picked and how they vary; default 0 */
+    char tiles[RETEX_TILES_MAX][256]; /* names of more images: each repeat has one at random, `image` among them, all of
+                              one size on the target. Behind the first "" there are no more; default "" */
+    int has_at;            /* 1: the middle of the image is `at`, and `offset` is added to that; default 0 */
+    double at[2];          /* in scene units along u and v from UV 0, 0, with a width; else in UV */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
       "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0}, \
-      "", 0, {0, 0, 0, 0} }
+      "", 0, {0, 0, 0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}, 0, \
+      {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0} }
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
@@ -96,8 +145,14 @@ typedef struct RetexTexture RetexTexture;
  * luminance or a channel above 3, of a constant by any channel; and which other maps a folder has, which are not
  * used. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
-/* The files of a texture, by number: the image, and the map of its target's finishes. */
-enum { RETEX_TEXTURE_FILE_IMAGE, RETEX_TEXTURE_FILE_FINISH, RETEX_TEXTURE_FILES };
+/* The files of a texture, by number: the image, the map of its target's finishes, and its tiles from
+ * RETEX_TEXTURE_FILE_TILES on. */
+enum {
+    RETEX_TEXTURE_FILE_IMAGE,
+    RETEX_TEXTURE_FILE_FINISH,
+    RETEX_TEXTURE_FILE_TILES,
+    RETEX_TEXTURE_FILES = RETEX_TEXTURE_FILE_TILES + RETEX_TILES_MAX
+};
 /* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the file
  * of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which is read
  * where the target has finishes. For checksums and times of files, and for all that must know what is read. To be
@@ -108,6 +163,11 @@ int retex_texture_file(char **file, const RetexTextureSpec *spec, int number, Re
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
+/* Take its placement away, and what the caller fills in but finishes: what is left decides on the texels. */
+void retex_texture_spec_unplace(RetexTextureSpec *spec);
+/* 1: both images have the same texels, whatever their placement, so that memory can be shared, as long as the files and
+ * the finishes of their targets are the same. */
+int retex_texture_specs_alike(const RetexTextureSpec *a, const RetexTextureSpec *b);
 /* Texels of one repeat; 1, 1 for a constant. */
 void retex_texture_size(const RetexTexture *texture, int *width, int *height);
 

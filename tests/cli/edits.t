@@ -1,0 +1,39 @@
+# How textures are adjusted and laid, in all the forms in which an edit comes.
+$ cp "$SCENES/textures/brick.jpg" .; oiiotool "$SCENES/textures/damask.jpg" --resize 32x16 -o tile.png; printf 'exec retex-render -q --size 64x48 --spp 16 "$TESTS/finishes.pov" -t Floor -t Wall "$@"' >r; sh r -o set.exr; printf 'retex-diff "$1" "$2" --fail-psnr "$3" -q || echo "$1 $2 $3"' >near
+
+# An adjustment is that of the image, made beforehand; a picture in which colours are lost stands for another.
+$ oiiotool brick.jpg --colorconvert sRGB linear --mulc .8,.5,.3 -d half -o gain.exr; oiiotool brick.jpg --colorconvert sRGB linear --powc .5 -d half -o gamma.exr; oiiotool brick.jpg --invert -o invert.png; for a in gain=.8,.5,.3:gain.exr gamma=2:gamma.exr invert=yes:invert.png 'tint=rgb(.8,.5,.3):gain.exr'; do retex-combine -q set.exr --texture:scale=2:${a%:*} Floor=brick.jpg -o a.exr; retex-combine -q set.exr --texture:scale=2 Floor=${a##*:} -o b.exr; sh near a.exr b.exr 60; done; sh near a.exr set.exr 40
+> a.exr set.exr 40
+$ retex-combine set.exr --texture:colorize=#602010 Floor=brick.jpg -o a.exr 2>&1 | sed 's/, [0-9.]* s$//'; retex-combine -q set.exr --texture:colorize=#ffe0c0 Floor=brick.jpg -o a.exr 2>&1 | sed 's/of [0-9].*[0-9] /of N /'; retex-combine -q set.exr --texture:colorize=red Floor=tan -o a.exr; retex-combine -q set.exr --texture Floor=red -o b.exr; cmp a.exr b.exr
+> retex-combine: a.exr: Floor <- brick.jpg, 64 x 48
+> retex-combine: warning: the mean colour differs from that of colorize= by a delta E of N (CIEDE2000)
+
+# The order counts, and the last one of a name.
+$ retex-combine -q set.exr --texture:gain=.5:gamma=2 Floor=brick.jpg -o a.exr; retex-combine -q set.exr --texture:gamma=2:gain=.5 Floor=brick.jpg -o b.exr; sh near a.exr b.exr 40; retex-combine -q set.exr --texture:gamma=9:gain=.5:gamma=2 Floor=brick.jpg -o b.exr; cmp a.exr b.exr
+> a.exr b.exr 40
+
+# Everything is the same by option, table, samples, in packs, in the name of a picture, and along the same paths.
+$ V=:width=.5,.25:repeat=herringbone:grout=.02:groutcolor=#222:vary=turn,flip,3:tiles=tile.png:at=.1,.2:hue=40:contrast=1.2; retex-combine -q set.exr --texture$V Floor=brick.jpg -o a.exr; printf 'output,Floor\nb.exr,"%s brick.jpg"\nb2.exr,":width=.6,.25:repeat=herringbone:grout=.02 brick.jpg"\nb3.exr,":width=.5,.25:repeat=herringbone:grout=.02 brick.jpg"\nb4.exr,:width=.5:hue=10 brick.jpg\nb5.exr,:width=.5:hue=20 brick.jpg\n' "$V" >t.csv; retex-combine -q set.exr --batch t.csv; cmp a.exr b.exr; retex-combine -q set.exr --texture:width=.5,.25:repeat=herringbone:grout=.02 Floor=brick.jpg -o c.exr; cmp c.exr b3.exr; retex-combine -q set.exr --texture:width=.5:hue=20 Floor=brick.jpg -o c.exr; cmp c.exr b5.exr; retex-sample -q set.exr --texture$V Floor=brick.jpg | retex-combine -q - -o b.exr; cmp a.exr b.exr; retex-pack -q set.exr --lossless -o set.retex; retex-combine -q set.retex --texture$V Floor=brick.jpg -o b.exr; cmp a.exr b.exr; sh r --replace$V Floor=brick.jpg -o p.exr; sh near a.exr p.exr 28; sh r --replace:width=.5,.25 Floor=brick.jpg -o q.exr; sh near a.exr q.exr 26
+> a.exr q.exr 26
+
+# Grout makes joints in colours too; a joint of no width is none; the middle of an image lies where it is told.
+$ retex-combine -q set.exr --texture:width=.4:grout=.1:groutcolor=white Floor=red -o a.exr; retex-combine -q set.exr --texture Floor=red -o b.exr; sh near a.exr b.exr 30; retex-combine -q set.exr --texture:width=.4:grout=0 Floor=red -o a.exr; cmp a.exr b.exr; retex-combine -q set.exr --texture:width=.5:at=.25,.25 Floor=tile.png -o a.exr; retex-combine -q set.exr --texture:width=.5:offset=0,.0 Floor=tile.png -o b.exr; sh near a.exr b.exr 90; retex-combine -q set.exr --texture:width=.5,.5:at=.25,.25 Floor=tile.png -o a.exr; retex-combine -q set.exr --texture:width=.5,.5 Floor=tile.png -o b.exr; sh near a.exr b.exr 90
+> a.exr b.exr 30
+> a.exr b.exr 90
+
+# What is refused.
+$ for o in grout=.1 repeat=hexagon width=1:grout=.1:wrap=clamp width=1:grout=.1:repeat=mirror vary=spin tiles=a,,b width=.1:grout=.2 hue=red tiles=gone.png blur=.5 width=1,.001:repeat=basket; do retex-combine set.exr --texture:$o Floor=brick.jpg -o x.exr; done; retex-combine set.exr --texture:tiles=tile.png Floor=brick.jpg -o tile.png; printf 'output,Floor\nx.exr,:tiles=gone.png brick.jpg\n' >t.csv; retex-combine set.exr --batch t.csv; test -e x.exr
+! retex-combine: error: texture options: grout needs width=, the size of a repeat
+! retex-combine: error: texture options: repeat=hexagon needs width=, the size of a repeat
+! retex-combine: error: texture options: grout needs wrap=repeat, the default, on both axes
+! retex-combine: error: texture options: grout cannot be used with repeat=mirror
+! retex-combine: error: texture option vary='spin': expected turn, flip, shift and a number of at most 9 digits, or some of them, as in vary=turn,flip,7
+! retex-combine: error: texture option tiles='a,,b': expected 1 to 8 pictures without a colon or comma in their names, of at most 255 bytes each, as in tiles=b.jpg,c.jpg
+! retex-combine: error: texture: grout is wider than a repeat
+! retex-combine: error: texture option hue='red': expected degrees, as in hue=30
+! retex-combine: error: cannot read gone.png: No such file or directory
+! retex-combine: error: texture option blur='.5': expected a part of the image's width from 0 to 0.25, as in blur=0.01
+! retex-combine: error: texture: this repeat is more than 256 times as long as wide
+! retex-combine: error: tile.png: the output would replace the texture
+! retex-combine: error: t.csv:2: cannot read gone.png: No such file or directory
+= 1
