@@ -59,6 +59,7 @@ static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
     d = digest_bytes(d, s->offset, sizeof s->offset);
     d = digest_bytes(d, s->width, sizeof s->width);
     d = digest_text(d, s->finish);
+    d = digest_number(d, (uint64_t)s->normal);
     for (int k = 0; k < RETEX_TEXTURE_FILES; k++) {
         char *file;
         if (retex_texture_file(&file, s, k, NULL)) /* as above */

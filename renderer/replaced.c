@@ -23,7 +23,8 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
     const Target *target = &scene->targets[t];
     spec->nfinishes = target->nfinishes;
     for (int k = 0; k < target->nfinishes; k++)
-        spec->roughness[k] = target->finishes[k].finish ? finish_roughness(target->finishes[k].finish) : -1;
+        spec->roughness[k] = target_finish_roughness(target, k);
+    spec->normal_tilt = target->has_normals ? NORMAL_TILT : 0;
     if (retex_texture_spec_needs_scale(spec)) {
         if (!a->measured && render_uv_scales(scene, a->cli->threads, a->uv_scales, err))
             return err->code;

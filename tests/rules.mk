@@ -173,7 +173,7 @@ bench-catalogues: all $(POST_PROGRAMS) $(BUILD)/tests/bin/make_set
 
 # Retextures against rendering again, in all scenes; what denoising gains. Each takes hours; FIDELITY_… and DENOISE_… of
 # the scripts choose less.
-.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-rooms
+.PHONY: fidelity fidelity-denoise fidelity-frames fidelity-lamps fidelity-finishes fidelity-maps fidelity-normals fidelity-rooms
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 fidelity-denoise: all fidelity-textures
@@ -186,6 +186,8 @@ fidelity-finishes: all
 	@BUILD=$(BUILD) tests/fidelity/table/finishes.sh
 fidelity-maps: all
 	@BUILD=$(BUILD) tests/fidelity/table/finish-maps.sh
+fidelity-normals: all
+	@BUILD=$(BUILD) tests/fidelity/table/normal-maps.sh
 fidelity-rooms: all
 	@BUILD=$(BUILD) tests/fidelity/table/imported-rooms.sh
 

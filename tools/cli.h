@@ -69,7 +69,7 @@ _Noreturn void cli_complete(Cli *cli);
 /* The modifiers of --texture and --replace, for --help and completion. */
 #define CLI_TEXTURE_OPTS                                                                                               \
     "scale=S[,T], rotate=DEGREES, offset=U,V, flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, "              \
-    "repeat=straight|brick|half-drop|mirror|herringbone|basket|hexagon, colorspace=NAME, finish=MAP, "                 \
+    "repeat=straight|brick|half-drop|mirror|herringbone|basket|hexagon, colorspace=NAME, finish=MAP, normal=MAP, "     \
     "grout=WIDTH, groutcolor=COLOUR, vary=turn|flip|shift, tiles=IMAGE[,IMAGE], at=X,Y, "                              \
     "hue=DEGREES, saturation=S, gain=R[,G,B], "                                                                        \
     "gamma=G, contrast=C, blur=PART, invert=yes|no, tint=COLOUR, colorize=COLOUR"

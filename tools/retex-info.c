@@ -106,7 +106,10 @@ static void print_target(FILE *out, const RetexSet *set, const RetexTarget *targ
         fprintf(out, "  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
                 target->uv_scale[1]);
     fprintf(out, "  share        %.2f%% of the picture\n", 100 * target->share);
-    for (int k = 0; k < target->nfinishes; k++)
+    if (target->normal_tilt > 0)
+        fprintf(out, "  normals      of %s, by %.3g degrees: it takes normal maps\n", plain(text, target->finishes[0]),
+                target->normal_tilt);
+    for (int k = 0; k < target->nfinishes && !(target->normal_tilt > 0); k++)
         fprintf(out, "%s%s%s%s", k ? ", " : "  finishes     ", plain(text, target->finishes[k]),
                 k + 1 == target->finish ? " (as rendered)" : "", k + 1 == target->nfinishes ? "\n" : "");
     for (int k = 0; k < target->nfinishes; k++)

@@ -23,6 +23,7 @@ typedef struct Factor {
     const FinishFactor *finishes; /* by finish of the target, or NULL: the same in all; d and i are those shown */
     const float (*weights)[FINISHES_MAX]; /* of finishes, by variant, where textures have maps of them; d and i are by
                                              those of the first. NULL: all have the one shown */
+    const FinishFactor *variants; /* by variant, where textures have normal maps; or NULL: the same in all */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* no vertex between it and the camera scattered widely */
@@ -37,7 +38,7 @@ static inline Float4 factor_whole(const Factor *f)
 /* The same, in a variant. */
 static inline Float4 factor_of_variant(const Factor *f, int variant)
 {
-    Float4 d = f->d, i = f->i;
+    Float4 d = f->variants ? f->variants[variant].d : f->d, i = f->variants ? f->variants[variant].i : f->i;
     if (f->weights)
         d = i = splat(0);
     for (int k = 0; f->weights && k < FINISHES_MAX; k++)

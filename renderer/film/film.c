@@ -450,8 +450,9 @@ static void add_finishes(RetexTarget *target, const Scene *scene, int t)
     target->finish = 1 + scene->finish_of[scene->shown][t];
     for (int k = 0; k < own->nfinishes; k++) {
         snprintf(target->finishes[k], sizeof target->finishes[k], "%s", own->finishes[k].name);
-        target->finish_roughness[k] = own->finishes[k].finish ? finish_roughness(own->finishes[k].finish) : -1;
+        target->finish_roughness[k] = target_finish_roughness(own, k);
     }
+    target->normal_tilt = own->has_normals ? NORMAL_TILT : 0;
 }
 
 static int describe_split(const Film *film, RetexSet *set, RetexError *err)

@@ -52,12 +52,13 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
 }
 
 int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Split weight, const FinishFactor *finishes,
-                      const float (*weights)[FINISHES_MAX], int reflects)
+                      const float (*weights)[FINISHES_MAX], const FinishFactor *variants, int reflects)
 {
     const PathContext *c = w->context;
     Rgb *betas = path->control->betas;
     Factor factor = shading_factor(s, color4(weight.d), color4(weight.i));
-    factor.finishes = finishes, factor.weights = weights, factor.reflects = reflects;
+    factor.finishes = finishes, factor.weights = weights;
+    factor.variants = variants, factor.reflects = reflects;
     set_seen(&factor, path);
     path->beta *= factor_whole(&factor);
     for (int v = 1; v < c->nvariants; v++)

@@ -10,25 +10,80 @@
 
 #define SAME_DIRECTION 1e-12 /* of delta lobes: squared distance */
 
-/* The weights that the maps of textures have here. */
-static __attribute__((noinline)) void look_up_weights(Vertex *v, const RenderVariant *variants, int nvariants)
+/* The weights that the maps of textures have here. Returns whether there are any. */
+static __attribute__((noinline)) int look_up_weights(Vertex *v, const RenderVariant *variants, int nvariants)
 {
     VertexFinishes *finishes = &v->finishes;
+    int any = 0;
     memset(finishes->weights, 0, sizeof *finishes->weights * (size_t)nvariants);
     for (int i = 0; i < nvariants; i++) {
         const RetexTexture *texture = variants[i].constants ? NULL : variants[i].textures[v->s.surface.target];
         if (texture && retex_texture_finishes(texture, v->s.uv.u, v->s.uv.v, finishes->shown, finishes->weights[i]))
-            finishes->has_weights = 1;
+            any = 1;
         else
             finishes->weights[i][finishes->shown] = 1;
     }
+    return any;
 }
+
+/* ---- normal maps ---- */
+
+/* Components of a normal that is tilted along one axis. */
+static void tilted_components(int axis, double components[3])
+{
+    components[axis] = sin(NORMAL_TILT * PI / 180);
+    components[!axis] = 0;
+    components[2] = cos(NORMAL_TILT * PI / 180);
+}
+
+/* The normals of which the weights are. */
+static void set_normals(VertexFinishes *finishes, int nvariants)
+{
+    double tilted[2][3];
+    tilted_components(0, tilted[0]);
+    tilted_components(1, tilted[1]);
+    for (int i = 0; i < nvariants; i++) {
+        const float *weights = finishes->weights[i];
+        for (int c = 0; c < 3; c++)
+            finishes->normals[i][c] = (c == 2 ? (double)weights[0] : 0) + (double)weights[1] * tilted[0][c] +
+                                      (double)weights[2] * tilted[1][c];
+    }
+    finishes->has_normals = 1;
+}
+
+/* The surface as the normal map of a variant has it. */
+static Split eval_normal(const Vertex *v, int variant, Vec3 wi, BsdfLight light)
+{
+    Bsdf bsdf = v->finishes.of[0];
+    float unused;
+    shading_tilt(&v->s, v->finishes.normals[variant], &bsdf);
+    return bsdf_eval(&bsdf, wi, light, &unused);
+}
+
+const FinishFactor *finishes_variants(const Vertex *v, Vec3 wi, BsdfLight light, float pdf, float times,
+                                      const FinishFactor *by_finish, int nvariants, FinishFactor out[VARIANTS_MAX])
+{
+    if (!v->finishes.count || !v->finishes.has_normals || nvariants < 2)
+        return NULL;
+    for (int i = 0; i < nvariants; i++) {
+        if (by_finish) {
+            out[i] = by_finish[0];
+            continue;
+        }
+        const Split f = eval_normal(v, i, wi, light);
+        out[i] = (FinishFactor){color4(rgb_scale(f.d, 1 / pdf)) * splat(times),
+                                color4(rgb_scale(f.i, 1 / pdf)) * splat(times)}; /* the same bits as of one variant */
+    }
+    return out;
+}
+
+/* ---- finishes ---- */
 
 /* What is shown, of values by finish. */
 static inline Split shown(const VertexFinishes *finishes, const Split values[FINISHES_MAX])
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
-    if (!finishes->has_weights)
+    if (!finishes->has_weights) /* also of a delta lobe, which normal maps leave as it is */
         return values[finishes->shown];
     for (int k = 0; k < finishes->count; k++) {
         sum.d = rgb_add(sum.d, rgb_scale(values[k].d, finishes->weights[0][k]));
@@ -43,12 +98,20 @@ void finishes_setup(Vertex *v, const Scene *scene, const RenderVariant *variants
     VertexFinishes *finishes = &v->finishes;
     finishes->count = target->nfinishes;
     finishes->shown = scene->finish_of[scene->shown][v->s.surface.target];
-    for (int k = 0; k < target->nfinishes; k++)
+    for (int k = 0; k < target->nfinishes; k++) {
+        double components[3];
         shading_bsdf_finish(&v->s, target_finish(target, k, v->s.surface.texture->finish), wo, &finishes->of[k]);
+        if (!target->has_normals || k == 0)
+            continue;
+        tilted_components(k - 1, components);
+        shading_tilt(&v->s, components, &finishes->of[k]);
+    }
     v->s.bsdf = finishes->of[finishes->shown];
-    finishes->has_weights = 0;
-    if (variants)
-        look_up_weights(v, variants, nvariants);
+    const int has_maps = variants && look_up_weights(v, variants, nvariants);
+    finishes->has_weights = has_maps && !target->has_normals;
+    finishes->has_normals = 0;
+    if (has_maps && target->has_normals)
+        set_normals(finishes, nvariants);
 }
 
 Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf)
@@ -60,7 +123,7 @@ Split finishes_eval(const Vertex *v, Vec3 wi, BsdfLight light, Split values[FINI
         sum += own;
     }
     *pdf = sum / (float)finishes->count;
-    return shown(finishes, values);
+    return finishes->has_normals ? eval_normal(v, 0, wi, light) : shown(finishes, values);
 }
 
 static Split scaled(Split s, float by)
@@ -108,13 +171,14 @@ int finishes_sample(const Vertex *v, float u_lobe, float u1, float u2, BsdfSampl
     if (!bsdf_sample(&finishes->of[k], u_lobe, u1, u2, sample))
         return 0;
     if (sample->pdf > 0) {
-        finishes_eval(v, sample->wi, BSDF_ANY_LIGHT, weights, &sample->pdf);
+        const Split whole = finishes_eval(v, sample->wi, BSDF_ANY_LIGHT, weights, &sample->pdf);
+        sample->weight = scaled(whole, 1 / sample->pdf);
         for (int i = 0; i < finishes->count; i++)
             weights[i] = scaled(weights[i], 1 / sample->pdf);
     } else {
         weigh_deltas(finishes, sample, weights);
+        sample->weight = shown(finishes, weights);
     }
-    sample->weight = shown(finishes, weights);
     return 1;
 }
 

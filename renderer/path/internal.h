@@ -49,6 +49,7 @@ typedef struct DirectLightSample {
     Factor factors[1 + LIGHT_FACTORS_MAX];
     int nfactors;
     FinishFactor finishes[FINISHES_MAX]; /* of the vertex, where it has several */
+    FinishFactor variants[VARIANTS_MAX]; /* of the vertex, where textures have normal maps */
 } DirectLightSample;
 
 /* What scatters at a vertex on a target with finishes, by finish. */
@@ -57,6 +58,9 @@ typedef struct VertexFinishes {
     int shown; /* the one in the picture, whose BSDF the shading has too */
     int has_weights; /* 1: a texture has a map of finishes; the picture's have these, by variant: */
     float weights[VARIANTS_MAX][FINISHES_MAX];
+    int has_normals; /* 1: a texture has a normal map; surfaces have these normals, by variant, along u and v and the
+                        normal: they are no sums of finishes as in sets, which is what these are compared with */
+    double normals[VARIANTS_MAX][3];
     Bsdf of[FINISHES_MAX];
 } VertexFinishes;
 
@@ -110,9 +114,9 @@ static inline int path_scale(PathWorker *w, Path *path, Rgb by)
     return path_is_alive(w, path);
 }
 /* Multiply throughput by the factor of a surface, d times its colour plus i, or by finish where it has several (else
- * NULL; weights as of Factor): in sets this may be a hit. Returns path_is_alive. */
+ * NULL; weights and variants as of Factor): in sets this may be a hit. Returns path_is_alive. */
 int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Split weight, const FinishFactor *finishes,
-                      const float (*weights)[FINISHES_MAX], int reflects);
+                      const float (*weights)[FINISHES_MAX], const FinishFactor *variants, int reflects);
 /* Hand a contribution to all sinks. */
 void path_contribute(PathWorker *worker, Path *path, const Contribution *contribution);
 /* Hand the path's light over to the film, which takes paths one after the other. */
@@ -204,6 +208,11 @@ void finishes_setup(Vertex *vertex, const Scene *scene, const RenderVariant *var
 Split finishes_eval(const Vertex *vertex, Vec3 wi, BsdfLight light, Split values[FINISHES_MAX], float *pdf);
 int finishes_sample(const Vertex *vertex, float u_lobe, float u1, float u2, BsdfSample *sample,
                     Split weights[FINISHES_MAX]);
+/* Where textures have normal maps: what is shown, by variant, over the density of the direction, times a number.
+ * by_finish: of a direction that a delta lobe reflects, its weights by finish, which no normal map changes; else
+ * NULL. Returns NULL where all have the same, else out. */
+const FinishFactor *finishes_variants(const Vertex *vertex, Vec3 wi, BsdfLight light, float pdf, float times,
+                                      const FinishFactor *by_finish, int nvariants, FinishFactor out[VARIANTS_MAX]);
 /* As bsdf_wide_probability and split_neutral, their means. */
 float finishes_wide_probability(const Vertex *vertex);
 float finishes_neutral(const Vertex *vertex, const Split weights[FINISHES_MAX]);
@@ -254,11 +263,11 @@ int scatter(PathWorker *worker, Path *path, const Vertex *vertex, BsdfSample *ne
 /* Multiply throughput by the weight of a BSDF sample. Returns path_is_alive. */
 static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight,
                                     const FinishFactor *finishes, const float (*weights)[FINISHES_MAX],
-                                    int reflects)
+                                    const FinishFactor *variants, int reflects)
 {
     if (surface_is_unsplit(w->context, s) && !s->replaced)
         return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
-    return path_apply_factor(w, path, s, weight, finishes, weights, reflects);
+    return path_apply_factor(w, path, s, weight, finishes, weights, variants, reflects);
 }
 /* Begin the next segment, whose direction was sampled with density pdf, of which the BSDF's own share is bsdf_pdf. */
 static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)

@@ -23,7 +23,7 @@ static void pass_layers(PathWorker *w, Path *path, const Surface *whole, const L
         return;
     pass_layers(w, path, whole, leaves, above->above);
     shading_above(&layer, whole, above, w->variants, w->context->nvariants);
-    path_apply_factor(w, path, &layer, (Split){rgb_grey(above->d), rgb_grey(above->i)}, NULL, NULL, 0);
+    path_apply_factor(w, path, &layer, (Split){rgb_grey(above->d), rgb_grey(above->i)}, NULL, NULL, NULL, 0);
     if (w->context->trace)
         fprintf(w->context->trace, "  below a layer of target %s d %.5g i %.5g\n",
                 w->context->scene->targets[above->target].name, above->d, above->i);

@@ -169,7 +169,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->beta_neutral *= at_most(split_neutral(weight), 1);
-    if (!path_apply_weight(w, path, s, weight, NULL, NULL, 1))
+    if (!path_apply_weight(w, path, s, weight, NULL, NULL, NULL, 1))
         return 0;
     path->kind = RAY_BOUNCE;
     path->prev_context =

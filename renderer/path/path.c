@@ -209,7 +209,7 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
 {
     const Shading *s = &v->s;
     Split weights[FINISHES_MAX];
-    FinishFactor finishes[FINISHES_MAX];
+    FinishFactor finishes[FINISHES_MAX], variants[VARIANTS_MAX];
     float pdf;
     path->leaving = 0;
     if (v->is_last && !(s->bsdf.p_passing > 0 && !s->bsdf.refracts))
@@ -226,6 +226,8 @@ int scatter(PathWorker *w, Path *path, const Vertex *v, BsdfSample *next, Ray *r
         finishes[k] = (FinishFactor){color4(weights[k].d) * splat(guided), color4(weights[k].i) * splat(guided)};
     if (!path_apply_weight(w, path, s, next->weight, v->finishes.count ? finishes : NULL,
                            v->finishes.count && v->finishes.has_weights ? v->finishes.weights : NULL,
+                           finishes_variants(v, next->wi, BSDF_ANY_LIGHT, next->pdf, guided,
+                                             next->pdf > 0 ? NULL : finishes, w->context->nvariants, variants),
                            !next->transmitted))
         return 0;
     if (w->context->trace)

@@ -66,6 +66,16 @@ void shading_bsdf_finish(const Shading *s, const Finish *finish, Vec3 wo, Bsdf *
     setup(s, &surface, wo, bsdf);
 }
 
+void shading_tilt(const Shading *s, const double components[3], Bsdf *bsdf)
+{
+    const Vec3 normal = bsdf_surface_normal(bsdf);
+    Vec3 of_u, of_v;
+    if ((components[0] == 0 && components[1] == 0) || !surface_target_frame(&s->surface, normal, &of_u, &of_v))
+        return;
+    const Vec3 tilted = vec_mad(vec_mad(vec_scale(normal, components[2]), of_u, components[0]), of_v, components[1]);
+    bsdf_tilt_diffuse(bsdf, vec_normalize(tilted));
+}
+
 void shading_bsdf_wavelength(Shading *s, Vec3 wo, double wavelength)
 {
     bsdf_setup_wavelength(&s->bsdf, &s->surface, wo, s->filter, s->transmit, s->opacity, wavelength);

@@ -43,6 +43,9 @@ static inline int shading_has_finishes(const Shading *s, const Scene *scene)
 void shading_bsdf(Shading *shading, Vec3 wo);
 /* The same with another finish. */
 void shading_bsdf_finish(const Shading *shading, const Finish *finish, Vec3 wo, Bsdf *bsdf);
+/* Tilt the normal of diffuse lobes, with all bumps that the scene has: components along u and v of the target, and
+ * along the normal, on wo's side. */
+void shading_tilt(const Shading *shading, const double components[3], Bsdf *bsdf);
 /* Whether it lets light through, which it refracts by wavelength. */
 static inline int shading_disperses(const Shading *s)
 {

@@ -26,6 +26,78 @@ Vec2 surface_target_uv(const Surface *surface)
     return target_uv_of(surface, &of);
 }
 
+/* ---- where u and v of a target grow ---- */
+
+/* From one side to the other; what goes round begins again somewhere. */
+static double difference(double after, double before)
+{
+    const double d = after - before;
+    return fabs(d) > 0.5 && fabs(d) <= 1 ? d - copysign(1, d) : d;
+}
+
+/* How UV change with a step to both sides over the plane that touches the surface. */
+static Vec2 uv_step(const Surface *surface, Vec3 step)
+{
+    Surface before = *surface, after = *surface;
+    before.position = vec_sub(surface->position, step), after.position = vec_add(surface->position, step);
+    const Vec2 a = surface_target_uv(&before), b = surface_target_uv(&after);
+    return (Vec2){difference(b.u, a.u), difference(b.v, a.v)};
+}
+
+/* Of UV that belong to the corners of a mesh, which a pigment may turn. */
+static int mesh_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Vec3 *of_v)
+{
+    const Pigment *pigment = surface->texture->pigment;
+    const Transform *placed = surface->instance ? &surface->instance->transform : NULL;
+    Vec3 along_u, along_v;
+    if (!surface_tangents(surface, 0, placed ? vec_normalize(transform_inverse_normal(placed, normal)) : normal,
+                          &along_u, &along_v))
+        return 0;
+    if (pigment->uv_mapping) {
+        const Vec3 x = transform_vector(&pigment->transform, vec3(1, 0, 0)),
+                   y = transform_vector(&pigment->transform, vec3(0, 1, 0)), u = along_u, v = along_v;
+        along_u = vec_mad(vec_scale(u, x.x), v, x.y), along_v = vec_mad(vec_scale(u, y.x), v, y.y);
+    }
+    *of_u = placed ? transform_vector(placed, along_u) : along_u;
+    *of_v = placed ? transform_vector(placed, along_v) : along_v;
+    return 1;
+}
+
+static int shape_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Vec3 *of_v)
+{
+    const double size = 1e-5 * (1 + vec_length(surface->position));
+    Vec3 s, r;
+    vec_frame(normal, &s, &r);
+    const Vec2 a = uv_step(surface, vec_scale(s, size)), b = uv_step(surface, vec_scale(r, size));
+    const double det = a.u * b.v - b.u * a.v;
+    if (!(fabs(det) > 1e-9 * (a.u * a.u + a.v * a.v + b.u * b.u + b.v * b.v)))
+        return 0;
+    *of_u = vec_scale(vec_mad(vec_scale(s, b.v), r, -a.v), det < 0 ? -1 : 1); /* where v stays */
+    *of_v = vec_scale(vec_mad(vec_scale(r, a.u), s, -b.u), det < 0 ? -1 : 1);
+    return 1;
+}
+
+int surface_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Vec3 *of_v)
+{
+    const Pigment *pigment = surface->texture->pigment;
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    Vec3 along_u, along_v;
+    if (!(mesh && mesh->nuvs && (pigment->uv_mapping || pigment->kind != PIGMENT_IMAGE)
+              ? mesh_target_frame
+              : shape_target_frame)(surface, normal, &along_u, &along_v))
+        return 0;
+    along_u = vec_mad(along_u, normal, -vec_dot(along_u, normal));
+    if (!(vec_length(along_u) > 0))
+        return 0;
+    *of_u = vec_normalize(along_u);
+    *of_v = vec_cross(normal, *of_u);
+    if (vec_dot(*of_v, along_v) < 0)
+        *of_v = vec_neg(*of_v);
+    return 1;
+}
+
+/* ---- colours ---- */
+
 static Vec3 image_point(const Surface *surface, const Pigment *pigment)
 {
     return pigment_point(pigment, surface_texture_point(surface),

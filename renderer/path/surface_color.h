@@ -18,6 +18,9 @@ PatternPoint surface_pattern_point(const Surface *surface);
 Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *target);
 /* That UV, were the surface a target. */
 Vec2 surface_target_uv(const Surface *surface);
+/* Unit vectors perpendicular to a unit normal, in the world: where u of that UV grows, and where v does, as far as
+ * it is perpendicular to the first. 0 where UV do not span the surface. */
+int surface_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Vec3 *of_v);
 /* Prefetch what surface_color will read. */
 ImagePlace shading_prefetch(const Surface *surface);
 

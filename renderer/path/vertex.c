@@ -156,6 +156,8 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
     sample->factors[0] = shading_factor(s, color4(f.d), color4(f.i));
     sample->factors[0].finishes = v->finishes.count ? sample->finishes : NULL;
     sample->factors[0].weights = v->finishes.count && v->finishes.has_weights ? v->finishes.weights : NULL;
+    sample->factors[0].variants =
+        finishes_variants(v, light->direction, kind, 1, 1, NULL, c->nvariants, sample->variants);
     sample->nfactors = 1 + light_factors(w, path, k, light, sample->factors + 1);
     sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
     const Vec3 direction = is_source ? light->shadow_direction : light->direction;

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #define ORIGINAL "original"
+#define NORMALS "normals"
 
 /* ---- the built-in ones ---- */
 
@@ -24,6 +25,12 @@ enum { BUILT_INS = sizeof built_in / sizeof *built_in };
 const char *scene_built_in_finish(int k)
 {
     return k >= 0 && k < BUILT_INS ? built_in_names[k] : NULL;
+}
+
+float target_finish_roughness(const Target *target, int k)
+{
+    const Finish *finish = target->finishes[k].finish;
+    return finish && !target->has_normals ? finish_roughness(finish) : -1; /* with normals there is nothing to choose */
 }
 
 float finish_roughness(const Finish *f)
@@ -117,6 +124,24 @@ static int find_target(Target **target, Scene *scene, const char *option, const 
                                       : "; targets are named by -t");
 }
 
+/* The word `normals`, which follows at most one finish. */
+static int add_normals(Target *target, const char *rest, RetexError *err)
+{
+    static const char *const names[] = {"normal-u", "normal-v"};
+    if (*rest || target->nfinishes > 1)
+        return retex_fail(err, RETEX_EUNSUPPORTED, "--finish: %s has normals of one finish only, as in %s=matt,normals",
+                          target->name, target->name);
+    if (target->nfinishes == 0)
+        strcpy(target->finishes[target->nfinishes++].name, ORIGINAL);
+    for (int k = 0; k < 2; k++) {
+        TargetFinish *tilted = &target->finishes[target->nfinishes++];
+        tilted->finish = target->finishes[0].finish;
+        strcpy(tilted->name, names[k]);
+    }
+    target->has_normals = 1;
+    return RETEX_OK;
+}
+
 static int read_spec(Scene *scene, const char *spec, RetexError *err)
 {
     Target *target;
@@ -125,6 +150,8 @@ static int read_spec(Scene *scene, const char *spec, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "--finish: %s is given finishes twice", target->name);
     for (const char *at = strrchr(spec, '='); !code && at;) {
         const size_t length = strcspn(++at, ",");
+        if (length == strlen(NORMALS) && strncasecmp(at, NORMALS, length) == 0)
+            return add_normals(target, at + length, err);
         if (target->nfinishes == FINISHES_MAX)
             return retex_fail(err, RETEX_ELIMIT, "--finish: %s has more than %d finishes", target->name, FINISHES_MAX);
         TargetFinish *added = &target->finishes[target->nfinishes];
@@ -146,7 +173,7 @@ static int read_shown(Scene *scene, const char *spec, int shown[RETEX_MAX_TARGET
     if (code)
         return code;
     const char *name = strrchr(spec, '=') + 1;
-    for (int k = 0; k < target->nfinishes; k++)
+    for (int k = 0; k < (target->has_normals ? 1 : target->nfinishes); k++)
         if (strcasecmp(target->finishes[k].name, name) == 0) {
             shown[target - scene->targets] = k;
             return RETEX_OK;

@@ -589,6 +589,10 @@ typedef struct TargetFinish {
     const Finish *finish; /* NULL: what the scene has */
 } TargetFinish;
 
+/* Of targets for whose textures normal maps can be chosen: degrees by which the normal is tilted in two of their
+ * finishes. Of 10, 15 and 20 this was nearest to pictures rendered with maps of 10 and 30 degrees. */
+#define NORMAL_TILT 15.0
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
@@ -596,6 +600,8 @@ typedef struct Target {
     double uv_unit[2];       /* path/target_units.h; 0, 0: UV are those of shapes and patterns */
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
     int nfinishes;           /* 0: it keeps its own */
+    int has_normals;         /* 1: they are three: one, and the same with the normal of its diffuse lobe tilted to
+                                where u grows, and v */
     TargetFinish finishes[FINISHES_MAX];
 } Target;
 
@@ -716,6 +722,8 @@ void scene_number_kept(Scene *scene);
 const char *scene_built_in_finish(int k);
 /* As maps of roughness have it: 0 a mirror, 1 matt; -1 of a metal. */
 float finish_roughness(const Finish *finish);
+/* The same of a target's, which may be the scene's own: -1. */
+float target_finish_roughness(const Target *target, int k);
 /* The finish that a texture of a target has in a combination. */
 static inline const Finish *target_finish(const Target *target, int k, const Finish *own)
 {

@@ -247,7 +247,7 @@ static __attribute__((noinline)) Split eval_coating(const Bsdf *b, Vec3 wi, Bsdf
 {
     Split sum = split_scale(eval_base(b, wi, light, pdf), b->coating.under);
     if (vec_dot(wi, b->geometric) > 0)
-        sum.i = rgb_add(sum.i, coating_eval(&b->coating, bsdf_surface_normal(b), b->wo, wi, pdf));
+        sum.i = rgb_add(sum.i, coating_eval(&b->coating, bsdf_coated_normal(b), b->wo, wi, pdf));
     return sum;
 }
 
@@ -363,6 +363,26 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
     return 1;
 }
 
+void bsdf_tilt_diffuse(Bsdf *b, Vec3 normal)
+{
+    if (b->lambert) /* which leaves the fields of other lobes unset */
+        *b = (Bsdf){.normal = b->normal,
+                    .geometric = b->geometric,
+                    .wo = b->wo,
+                    .cos_o = b->cos_o,
+                    .eta = b->eta,
+                    .bend = b->bend,
+                    .refracts = b->refracts,
+                    .p_diffuse = b->p_diffuse,
+                    .p_back = b->p_back,
+                    .diffuse = b->diffuse,
+                    .diffuse_back = b->diffuse_back,
+                    .brilliance = 1};
+    b->flat_normal = bsdf_surface_normal(b);
+    b->bumped = b->hidden = b->tilted = 1;
+    b->diffuse_normal = normal;
+}
+
 Vec3 bsdf_enter(const Bsdf *b, float u1, float u2)
 {
     const Vec3 wi = vec_neg(cosine_direction(bsdf_surface_normal(b), u1, u2));
@@ -392,7 +412,7 @@ static __attribute__((noinline)) int sample_coat(const Bsdf *b, float u1, float 
 
 static __attribute__((noinline)) int sample_sheen(const Bsdf *b, float u1, float u2, BsdfSample *sample)
 {
-    sample->wi = cosine_direction(bsdf_surface_normal(b), u1, u2);
+    sample->wi = cosine_direction(bsdf_coated_normal(b), u1, u2);
     return vec_dot(sample->wi, b->geometric) > 0 && take_direction(b, sample);
 }
 

@@ -40,7 +40,9 @@ typedef struct Bsdf {
     int lambert;             /* only diffuse lobes, of brilliance 1: fields after alpha are not set */
     int bumped;              /* normal is that of bumps; then lambert is 0 */
     int hidden;              /* bumps face away from wo: normal is that of the opposite slope, which wo sees */
+    int tilted;              /* bsdf_tilt_diffuse: hidden, as the diffuse lobes alone have a normal of their own */
     Vec3 diffuse_normal;     /* where hidden: of the diffuse lobes, for which it does not matter who looks */
+    Vec3 flat_normal;        /* where tilted: what diffuse_normal would be */
     float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; with those below and of the coating
                                                              * the sum is 1, or 0: nothing scatters */
 
@@ -90,6 +92,10 @@ Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, BsdfLight light, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
 
+/* Tilt the diffuse lobes to a normal of their own, and no other ones: from the flat normal a highlight would go to
+ * another place, which no sum of some tilted ones gives. */
+void bsdf_tilt_diffuse(Bsdf *bsdf, Vec3 normal);
+
 /* Weight of the delta lobes of an opaque surface that reflect along wi, where they are sampled with probability *p:
  * directions whose squared difference is below `tolerance` are the same. 0 and 0 where there is none. */
 Split bsdf_delta(const Bsdf *bsdf, Vec3 wi, double tolerance, float *p);
@@ -106,6 +112,12 @@ Rgb bsdf_irid(const Bsdf *bsdf, float cos_i);
 static inline Vec3 bsdf_surface_normal(const Bsdf *b)
 {
     return b->bumped && b->hidden ? b->diffuse_normal : b->normal;
+}
+
+/* The same of what lies over the diffuse lobes. */
+static inline Vec3 bsdf_coated_normal(const Bsdf *b)
+{
+    return b->bumped && b->tilted ? b->flat_normal : bsdf_surface_normal(b);
 }
 
 /* Probability of the lobes that are no deltas. */

@@ -12,7 +12,7 @@ $ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.
 ! retex-combine: error: ../t:4: more cells than the first row has
 ! retex-combine: error: ../t:5: something follows a closing quote
 ! retex-combine: error: ../t:5: b.png: the output of the table's line 8 and the output of the table's line 5 are the same file
-! retex-combine: error: ../t:6: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+! retex-combine: error: ../t:6: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 ! retex-combine: error: ../t:6: a.png: the output of the table's line 4 and the output of the table's line 6 are the same file
 ! retex-combine: error: ../t:7: no output in the first cell
 ! retex-combine: error: ../t:9: ./b.png: the output of the table's line 8 and the output of the table's line 9 are the same file
@@ -74,7 +74,7 @@ $ retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch .
 # A mistake does not hide another one of its row: in its cells, in its place, in its format, in what the set has not.
 $ printf '%s\n' output,Sofa,Floor,Wall 'gone/a.xyz,,:foo=1 brick.jpg,none.jpg' '-,,none.jpg,,' 'a.png,,rgb(1),rgb(2)' >../t; retex-combine s.exr --batch ../t
 ! retex-combine: error: ../t:1: no target is called 'Sofa'; the set has Floor, Wall
-! retex-combine: error: ../t:2: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+! retex-combine: error: ../t:2: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 ! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:2: the folder of gone/a.xyz is not there; --mkdir makes it
 ! retex-combine: error: ../t:2: gone/a.xyz: no picture format that can be written has the ending .xyz; these have: .png .jpg .pfm .tif .exr .hdr .bmp .tga .webp .avif .heic .jp2 .j2k .dpx .gif .ppm .pnm .sgi .ico .iff .rla .fits
@@ -91,7 +91,7 @@ $ printf '%s\n' output,Floor,Wall a.png,brick.jpg b.png,none.jpg c.png,none.jpg 
 > 2
 > retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
 > retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
-> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 > retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
 > retex-combine: error: ../t:7: more cells than the first row has
 > retex-combine: error: ../t:8: something follows a closing quote
@@ -105,7 +105,7 @@ $ printf '%s\n' output,Floor,Wall a.png,brick.jpg b.png,none.jpg c.png,none.jpg 
 >   "mistakes": [
 >     {"line": 3, "error": "cannot read none.jpg: No such file or directory"},
 >     {"line": 4, "error": "cannot read none.jpg: No such file or directory"},
->     {"line": 5, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize"},
+>     {"line": 5, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize"},
 >     {"line": 6, "error": "the folder of gone/e.png is not there; --mkdir makes it"},
 >     {"line": 7, "error": "more cells than the first row has"},
 >     {"line": 8, "error": "something follows a closing quote"},
@@ -118,7 +118,7 @@ $ printf '%s\n' output,Floor,Wall a.png,brick.jpg b.png,none.jpg c.png,none.jpg 
 >     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
 >     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory"},
 >     {"row": 3, "line": 4, "output": "c.png", "status": "failed", "seconds": S, "error": "cannot read none.jpg: No such file or directory"},
->     {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize"},
+>     {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize"},
 >     {"row": 5, "line": 6, "output": "gone/e.png", "status": "failed", "seconds": S, "error": "the folder of gone/e.png is not there; --mkdir makes it"},
 >     {"row": 6, "line": 7, "output": "f.png", "status": "failed", "seconds": S, "error": "more cells than the first row has"},
 >     {"row": 7, "line": 8, "output": "g.png", "status": "failed", "seconds": S, "error": "something follows a closing quote"},
@@ -139,10 +139,10 @@ $ for k in 1 2 3 4; do retex-combine s.exr --batch ../t --keep-going --progress 
 > {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 3, "total": 3}
 > retex-combine: error: 2 of 3 pictures failed
 > {"total": 3, "made": 1, "failed": 2, "seconds": S}
-> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+> retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 > retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
 > retex-combine: error: ../t:7: more cells than the first row has
-> {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize", "done": 1, "total": 3}
+> {"row": 4, "line": 5, "output": "d.png", "status": "failed", "seconds": S, "error": "no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize", "done": 1, "total": 3}
 > {"row": 5, "line": 6, "output": "gone/e.png", "status": "failed", "seconds": S, "error": "the folder of gone/e.png is not there; --mkdir makes it", "done": 2, "total": 3}
 > {"row": 6, "line": 7, "output": "f.png", "status": "failed", "seconds": S, "error": "more cells than the first row has", "done": 3, "total": 3}
 > retex-combine: error: 3 of 3 pictures failed
@@ -172,7 +172,7 @@ $ retex-combine s.exr --batch ../t --keep-going --dry-run; echo $?; retex-combin
 > retex-combine: error: ../t:1: no target is called 'Sofa'; the set has Floor, Wall
 ! retex-combine: error: ../t:3: cannot read none.jpg: No such file or directory
 ! retex-combine: error: ../t:4: cannot read none.jpg: No such file or directory
-! retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+! retex-combine: error: ../t:5: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 ! retex-combine: error: ../t:6: the folder of gone/e.png is not there; --mkdir makes it
 ! retex-combine: error: ../t:7: more cells than the first row has
 ! retex-combine: error: ../t:8: something follows a closing quote

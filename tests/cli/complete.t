@@ -64,7 +64,7 @@ $ retex-combine --complete --cross ''; retex-combine --complete --cross=; retex-
 > --cross=3	
 > json	
 $ retex-combine --complete --texture: | cut -f1 | tr '\n' ' '
-> --texture:scale= --texture:rotate= --texture:offset= --texture:flip= --texture:width= --texture:wrap= --texture:repeat= --texture:colorspace= --texture:finish= --texture:grout= --texture:groutcolor= --texture:vary= --texture:tiles= --texture:at= --texture:hue= --texture:saturation= --texture:gain= --texture:gamma= --texture:contrast= --texture:blur= --texture:invert= --texture:tint= --texture:colorize=
+> --texture:scale= --texture:rotate= --texture:offset= --texture:flip= --texture:width= --texture:wrap= --texture:repeat= --texture:colorspace= --texture:finish= --texture:normal= --texture:grout= --texture:groutcolor= --texture:vary= --texture:tiles= --texture:at= --texture:hue= --texture:saturation= --texture:gain= --texture:gamma= --texture:contrast= --texture:blur= --texture:invert= --texture:tint= --texture:colorize=
 $ retex-combine --complete --texture:scale=2:wrap=r; retex-combine --complete --texture:scale=
 > --texture:scale=2:wrap=repeat	
 > --texture:scale=2:wrap=mirror	

@@ -102,11 +102,11 @@ $ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" t.jpg; printf 'camera { 
 ! retex-sample: error: no target is called 'Sofa'; the set has Floor, Wall
 = 2
 $ for x in scal=2 rotat=30 warp=mirror colourspace=sRGB zzz=1; do retex-combine s.exr --texture:$x floor=t.jpg -o x.png; done
-! retex-combine: error: no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is scale meant?
-! retex-combine: error: no texture option is called 'rotat'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is rotate meant?
-! retex-combine: error: no texture option is called 'warp'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is wrap meant?
-! retex-combine: error: no texture option is called 'colourspace'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is colorspace meant?
-! retex-combine: error: no texture option is called 'zzz'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+! retex-combine: error: no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is scale meant?
+! retex-combine: error: no texture option is called 'rotat'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is rotate meant?
+! retex-combine: error: no texture option is called 'warp'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is wrap meant?
+! retex-combine: error: no texture option is called 'colourspace'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is colorspace meant?
+! retex-combine: error: no texture option is called 'zzz'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 = 2
 $ for x in dpeth depth,nromal smell; do retex-render --size 8x6 --aov $x box.pov -o x.exr; done 2>&1 | sed 's/expected beauty, [a-z_, ]*, not/expected LIST, not/'
 > retex-render: error: --aov: expected LIST, not `dpeth`; is depth meant?

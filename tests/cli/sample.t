@@ -31,7 +31,7 @@ $ retex-sample -q s.exr --texture floor -o x.exr
 ! retex-sample: error: texture 'floor': expected NAME=IMAGE, a target and what to put on it
 = 2
 $ retex-sample -q s.exr --texture:size=3 floor=brick.jpg -o x.exr
-! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
+! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize
 = 2
 $ retex-sample -q s.exr --texture:scale=0 floor=brick.jpg -o x.exr
 ! retex-sample: error: texture option scale='0': a scale cannot be 0

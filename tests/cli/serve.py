@@ -632,6 +632,41 @@ def finishes(server):
     expect('none on a wall', ask(server, '/v1/three/Wall=oak;Wall.finish=none/full.png').status, 200)
 
 
+def normals(server):
+    """Normal maps: pictures are retex-combine's; images in memory are shared only by textures that are turned alike."""
+    def check(edits, *textures, room='walls'):
+        answer = ask(server, f'/v1/{room}/{edits}/full.png')
+        expect(edits, answer.status, 200)
+        if answer.body != combine('a.png', f'rooms/{room}.retex', *textures, told=subprocess.DEVNULL):
+            print(f'{room} {edits}: not the bytes of retex-combine')
+        return answer
+
+    oak, tiles, gloss = 'Wall=textures/oak.jpg', 'Wall=textures/tiles', '--texture:normal=textures/gloss.bmp'
+    for round in 1, 2:
+        up = check('Wall=oak;Wall.normal=gloss', gloss, oak)
+        turned = check('Wall=oak;Wall.normal=gloss;Wall.rotate=90', gloss + ':rotate=90', oak)
+        check('Wall=oak;Wall.normal=gloss;Wall.flip=u', gloss + ':flip=u', oak)
+        check('Wall=oak;Wall.normal=gloss;Wall.scale=-2,2', gloss + ':scale=-2,2', oak)
+        check('Wall=oak;Wall.normal=gloss;Wall.scale=2', gloss + ':scale=2', oak)
+        down = check('Wall=oak;Wall.normal=gloss,dx', gloss + ',dx', oak)
+        check('Wall=tan;Wall.normal=gloss', gloss, 'Wall=tan')
+        plain = check('Wall=oak', '--texture', oak)
+        folder = check('Wall=tiles', '--texture', tiles)
+        check('Wall=tiles;Wall.normal=none', '--texture:normal=none', tiles)
+        check('Wall=tiles', '--texture', tiles, room='three')
+        expect('maps matter', len({a.body for a in (up, turned, down, plain)}), 4)
+        expect('of a folder', folder.body == up.body, True)
+    for edits, status, reason in (
+            ('Wall=oak;Wall.normal=wood', 404, "Wall.normal: there is no texture 'wood'; /v1 lists them"),
+            ('Wall=oak;Wall.finish=gloss', 400, 'Wall has no finishes to choose from: finish= cannot be used on it; '
+             'render the set with --finish Wall=NAME,NAME'),
+            ('Floor=oak;Floor.normal=gloss', 400, 'Floor takes no normal maps: normal= cannot be used on it; '
+             'render the set with --finish Floor=normals')):
+        answer = ask(server, f'/v1/walls/{edits}/full.png')
+        expect(edits, (answer.status, answer.body.decode()), (status, reason + '\n'))
+    expect('the room tells', b'"normal_tilt": 15' in ask(server, '/v1/walls').body, True)
+
+
 def new_maps(server):
     """A map that is replaced changes tags and pictures where it is read, and nowhere else."""
     cases = {'Floor=oak;Floor.finish=gloss': 'gloss.bmp', 'Floor=tan;Floor.finish=gloss': 'gloss.bmp',

@@ -108,7 +108,7 @@ $ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&
 > oiiotool ERROR: read : "room.retex?Floor=none.jpg": cannot read none.jpg: No such file or directory
 > oiiotool ERROR: read : "room.retex?Floor=-": cannot read -: No such file or directory
 > oiiotool ERROR: read : "room.retex?Floor.scale=2": Floor has options, but no texture; expected Floor=IMAGE too
-> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scal=2": no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is scale meant?
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scal=2": no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, gamma, contrast, blur, invert, tint, colorize; is scale meant?
 > oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scale=0": texture option scale='0': a scale cannot be 0
 > oiiotool ERROR: read : "room.retex?Floor=brick.jpg&floor=brick.jpg": target Floor is given two textures
 > oiiotool ERROR: read : "room.retex?Floor=rgb(1,2)": colour 'rgb(1,2)': expected rgb(r,g,b) with three numbers

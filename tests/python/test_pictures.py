@@ -249,6 +249,26 @@ def test_finishes():
         assert "--finish" in str(lib.fails(retex.Error, room.combine, finishes={"Floor": "matt"}))
 
 
+def test_normals():
+    """Normal maps: as retex-combine has them; of a text; refused ones"""
+    lib.run("retex-render", "-q", "--size", "32x24", "--spp", "4", "-t", "Floor", "-t", "Wall", "--finish",
+            "Wall=normals", lib.ROOT + "/tests/cli/finishes.pov", "-o", "normals.exr")
+    lib.run("make_picture", "bumps.png", "size=16x16", "noise=0.3")
+    with retex.open("normals.exr") as room:
+        bumps = combined("normals.exr", "--texture:normal=bumps.png,dx:rotate=30", "Wall=" + TERRAZZO)
+        check(room.combine({"Wall": retex.Texture(TERRAZZO, normal="bumps.png,dx", rotate=30)}), bumps)
+        check(room.combine(f"Wall={TERRAZZO};Wall.normal=bumps.png,dx;Wall.rotate=30"), bumps)
+        check(room.combine({"Wall": retex.Texture("tan", normal=pathlib.Path("bumps.png"))}),
+              combined("normals.exr", "--texture:normal=bumps.png", "Wall=tan"))
+        assert not np.array_equal(bumps, combined("normals.exr", "--texture:rotate=30", "Wall=" + TERRAZZO))
+        assert room.manifest["targets"][1]["normal_tilt"] == 15
+        assert "takes no normal maps" in str(lib.fails(retex.Error, room.combine,
+                                                       {"Floor": retex.Texture("tan", normal="bumps.png")}))
+        assert "there is none to choose" in str(lib.fails(retex.Error, room.combine, finishes={"Wall": "original"}))
+        for texture, normal in (np.zeros((2, 2, 3), np.float32), "bumps.png"), ("tan", "a:b.png"), ("tan", ""):
+            lib.fails(ValueError, retex.Texture, texture, normal=normal)
+
+
 def test_lights():
     """Lamps: each alone adds up to the whole; values in all their forms; unknown lamps"""
     lib.run("make_lamp_terms", "room.exr", "lit.exr")

@@ -81,7 +81,8 @@ static Factor floor_factor(float d, double u)
 static void bounce(Fixture *f, double u)
 {
     const Shading floor = {.surface = {.target = 0}, .albedo = rgb_grey(0.5f), .uv = {u, 0.25}};
-    assert_true(path_apply_factor(&f->worker, &f->path, &floor, (Split){rgb_grey(1), rgb_grey(0)}, NULL, NULL, 1));
+    assert_true(
+        path_apply_factor(&f->worker, &f->path, &floor, (Split){rgb_grey(1), rgb_grey(0)}, NULL, NULL, NULL, 1));
 }
 
 static void bring(Fixture *f, float light)

@@ -284,7 +284,7 @@ static void test_targets(void **state)
         {"WALL", RETEX_ENOTFOUND, "no target is called 'WALL'"},
         {"floor.scal", RETEX_EPARSE,
          "no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, "
-         "repeat, width, colorspace, finish, grout, groutcolor, vary, tiles, at, hue, saturation, gain, "
+         "repeat, width, colorspace, finish, normal, grout, groutcolor, vary, tiles, at, hue, saturation, gain, "
          "gamma, contrast, blur, invert, tint, colorize; is scale meant?"},
     };
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {

@@ -1,5 +1,6 @@
-/* Maps of finishes: weights of a texel by grey, colours and roughness; recombination of a random set with maps against
- * loops over its pixels that follow the definition, in one pass and from samples; placement and sharing of maps. */
+/* Maps of finishes: weights of a texel by grey, colours and roughness; recombination of a random set with maps, and
+ * with normal maps, against loops over its pixels that follow the definition, in one pass and from samples;
+ * placement and sharing of maps. */
 #include "lib_error.h"
 #include "lib_test.h"
 
@@ -91,6 +92,8 @@ static void texels_have_weights(void **state)
 /* ---- a set ---- */
 
 static float color[TEXELS * TEXELS * 4], map[TEXELS * TEXELS * 3];
+static int is_normal; /* 1: the map is of normals */
+#define TILT 20.0
 
 static void write_texture(const char *name, const float *pixels, int channels)
 {
@@ -112,6 +115,7 @@ static RetexTextureSpec make_textures(int clear)
     for (int i = 0; i < TEXELS * TEXELS; i++) {
         for (int c = 0; c < 3; c++)
             color[4 * i + c] = floorf(number() * 16) / 16, map[3 * i + c] = floorf(number() * 8) / 16;
+        map[3 * i + 2] += is_normal ? 0.5f : 0;
         color[4 * i + 3] = clear && i % 3 == 0 ? 0.25f : 1;
     }
     write_texture("color", color, 4);
@@ -120,6 +124,7 @@ static RetexTextureSpec make_textures(int clear)
     strcpy(spec.target, "Floor");
     snprintf(spec.image, sizeof spec.image, "%s/color.exr", folder);
     snprintf(spec.finish, sizeof spec.finish, "%s/map.exr", folder);
+    spec.normal = is_normal ? RETEX_NORMAL_BY_NAME : RETEX_NORMAL_NONE;
     return spec;
 }
 
@@ -168,7 +173,8 @@ static RetexSet *make_set(void)
     strcpy(set->layout, "footprints");
     strcpy(set->filter, "box");
     set->spp = 16;
-    RetexTarget target = {.name = "Floor", .original = -1, .nfinishes = FINISHES, .finish = 1};
+    RetexTarget target = {
+        .name = "Floor", .original = -1, .nfinishes = FINISHES, .finish = 1, .normal_tilt = is_normal ? TILT : 0};
     for (int k = 0; k < FINISHES; k++)
         snprintf(target.finishes[k], sizeof target.finishes[k], "finish%d", k);
     test_must(retex_set_add_target(set, &target, &index, &err), &err);
@@ -206,6 +212,17 @@ static RetexSet *make_set(void)
 /* By 1 + finish, 0 being none: the colour times the weight of the finish; the weight alone. */
 static RetexTexture *colors[1 + FINISHES], *weights_of[1 + FINISHES];
 
+/* The weight of a finish at texel i of the map, k from 1. */
+static float weight_at(int i, int k)
+{
+    const float *p = map + 3 * i, others = p[0] + p[1];
+    if (!is_normal)
+        return k == 1 ? 1 - others : p[k - 2];
+    const double x = 2 * (double)p[0] - 1, y = 2 * (double)p[1] - 1, z = 2 * (double)p[2] - 1,
+                 length = sqrt(x * x + y * y + z * z), s = sin(TILT * M_PI / 180), c = cos(TILT * M_PI / 180);
+    return (float)((k == 1 ? z - (x + y) * c / s : k == 2 ? x / s : y / s) / length);
+}
+
 static void open_products(void)
 {
     RetexImage product = {0}, weight = {0};
@@ -214,7 +231,7 @@ static void open_products(void)
     test_must(retex_image_alloc(&weight, TEXELS, TEXELS, 4, &err), &err);
     for (int k = 0; k <= FINISHES; k++) {
         for (int i = 0; i < TEXELS * TEXELS; i++) {
-            const float others = map[3 * i] + map[3 * i + 1], w = k == 0 ? 1 : k == 1 ? 1 - others : map[3 * i + k - 2];
+            const float w = k == 0 ? 1 : weight_at(i, k);
             for (int c = 0; c < 4; c++) {
                 product.pixels[4 * i + c] = color[4 * i + c] * (c < 3 ? w : 1);
                 weight.pixels[4 * i + c] = c < 3 ? w : color[4 * i + 3];
@@ -321,7 +338,9 @@ static void expected_at(const RetexSet *set, int x, int y, int shown, double rgb
             enlarged_at(set, BROAD, x, y, k, shown, 0, first);
         if (shape == 2 || shape == 4)
             enlarged_at(set, LATER, x, y, -1, shown, 0, later);
-        if (k >= 0 && (shape == 0 || shape == 4))
+        if (is_normal && shape == 0) /* no diffuse lobe reflected it: normals do not matter */
+            gate = k <= 0;
+        else if (k >= 0 && (shape == 0 || shape == 4))
             gate = gate_at(set, x, y, k, shown);
         for (int c = 0; c < 3; c++)
             rgb[c] += (double)light[c] * first[c] * later[c] * gate;
@@ -335,6 +354,7 @@ static void compare(const RetexSet *set, const RetexImage *picture, int shown, c
             double rgb[3];
             expected_at(set, x, y, shown, rgb);
             for (int c = 0; c < 3; c++) {
+                rgb[c] = is_normal ? fmax(rgb[c], 0) : rgb[c];
                 const double got = (double)picture->pixels[3 * (y * WIDTH + x) + c];
                 if (!(fabs(got - rgb[c]) < 2e-4 * (1 + rgb[c])))
                     fail_msg("%s, pixel %d,%d channel %d: %g, not %g", what, x, y, c, got, rgb[c]);
@@ -387,6 +407,15 @@ static void pictures_follow_the_definition(void **state)
     check_pictures(1, 1);
 }
 
+static void pictures_with_normals_follow_it_too(void **state)
+{
+    (void)state;
+    is_normal = 1;
+    check_pictures(0, 0);
+    check_pictures(1, 0);
+    is_normal = 0;
+}
+
 /* ---- one map for several placements ---- */
 
 static void placed_maps_share_texels(void **state)
@@ -431,6 +460,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_have_weights),
         cmocka_unit_test(pictures_follow_the_definition),
+        cmocka_unit_test(pictures_with_normals_follow_it_too),
         cmocka_unit_test(placed_maps_share_texels),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -2,6 +2,7 @@
 #include "lib_folder.h"
 #include "lib_sets.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>

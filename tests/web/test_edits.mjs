@@ -104,6 +104,11 @@ test("a map of finishes is an option, of colours too, which then have a scale", 
   same([editText(state), editText(parseEdit("Floor=oak.jpg;Floor.finish=none"))], [text, "Floor=oak.jpg"]);
 });
 
+test("a normal map stays in states and links, which pages do not show", () => {
+  const text = "Wall=oak.jpg;Wall.normal=maps/a.png,dx", state = parseEdit(text);
+  same([state.textures.Wall.normal, editText(state)], ["maps/a.png,dx", text]);
+});
+
 /* Two targets of two and three finishes and one without, two lamps and light of none. */
 function withFinishes() {
   const parameters = [], add = (lamp, value, finishes, name = `${lamp} ${finishes}`) => parameters.push({ name, lamp, value, kept: value, finishes });

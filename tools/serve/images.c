@@ -48,16 +48,23 @@ int images_has_files(const RetexTextureSpec *spec)
     return !spec->constant || images_has_map(spec);
 }
 
+/* The file of the map that the target may have, if the texture has one. */
+static int map_number(const RetexTextureSpec *spec)
+{
+    return spec->normal_tilt > 0 && !spec->finish[0] ? RETEX_TEXTURE_FILE_NORMAL : RETEX_TEXTURE_FILE_FINISH;
+}
+
 static void make_key(ImageKey *key, const RetexTextureSpec *spec, const FileId ids[RETEX_TEXTURE_FILES])
 {
     key->spec = *spec;
-    retex_texture_spec_unplace(&key->spec);
     memcpy(key->others, ids, sizeof key->others);
     key->others[RETEX_TEXTURE_FILE_IMAGE] = no_file;
-    if (!spec->finish[0] && file_id_is_same(&ids[RETEX_TEXTURE_FILE_FINISH], &no_file)) { /* finishes do not matter */
+    if (!spec->finish[0] && file_id_is_same(&ids[map_number(spec)], &no_file)) { /* finishes do not matter */
         key->spec.nfinishes = 0;
+        key->spec.normal_tilt = 0;
         memset(key->spec.roughness, 0, sizeof key->spec.roughness);
     }
+    retex_texture_spec_unplace(&key->spec);
 }
 
 static Kept *create(const void *key, const void *params_of_images)
@@ -78,7 +85,9 @@ static int is_of(const Kept *kept, const void *key)
     int are_same = 1;
     for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
         are_same &= file_id_is_same(&own->others[number], &other->others[number]);
-    return are_same && retex_texture_specs_alike(a, b) && a->nfinishes == b->nfinishes &&
+    return are_same && retex_texture_specs_alike(a, b) && a->normal_tilt == b->normal_tilt &&
+           a->rotate == b->rotate && memcmp(a->scale, b->scale, sizeof a->scale) == 0 &&
+           memcmp(a->flip, b->flip, sizeof a->flip) == 0 && a->nfinishes == b->nfinishes &&
            memcmp(a->roughness, b->roughness, sizeof a->roughness) == 0;
 }
 
@@ -250,15 +259,20 @@ int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
     return !kept;
 }
 
-/* Whether a file that is there is read: the roughness of a folder only if it can choose a finish, and there are no
- * tiles, which have none. */
+/* Whether a file that is there is read: the roughness of a folder only if it can choose a finish, its normal map
+ * only where the target takes one, both only without tiles, which have none. */
 static int is_read(const RetexTextureSpec *spec, int number, const FileId *id)
 {
     int count = 0;
     for (int k = 0; k < spec->nfinishes; k++)
         count += spec->roughness[k] >= 0;
-    return !file_id_is_same(id, &no_file) &&
-           (number != RETEX_TEXTURE_FILE_FINISH || images_has_map(spec) || (count > 1 && !spec->tiles[0][0]));
+    if (file_id_is_same(id, &no_file))
+        return 0;
+    if (number == RETEX_TEXTURE_FILE_IMAGE || number >= RETEX_TEXTURE_FILE_TILES)
+        return 1;
+    return number == map_number(spec) &&
+           (images_has_map(spec) ||
+            (!spec->tiles[0][0] && (count > 1 || number == RETEX_TEXTURE_FILE_NORMAL)));
 }
 
 /* A file that is not read: no change of it matters. */

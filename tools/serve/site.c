@@ -65,8 +65,8 @@ static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *fi
         RetexTextureSpec *spec = &request->specs[i];
         const int missing = images_find(site->images, spec, files->images[i]);
         if (missing == 1 + RETEX_TEXTURE_FILE_FINISH && images_has_map(spec))
-            return answer_error(404, "%s.finish: there is no texture '%s'; /v1 lists them", spec->target,
-                                spec->finish);
+            return answer_error(404, "%s.%s: there is no texture '%s'; /v1 lists them", spec->target,
+                                spec->normal ? "normal" : "finish", spec->finish);
         if (missing > RETEX_TEXTURE_FILE_TILES)
             return answer_error(404, "%s.tiles: there is no texture '%s'; /v1 lists them", spec->target,
                                 spec->tiles[missing - 1 - RETEX_TEXTURE_FILE_TILES]);
@@ -153,9 +153,11 @@ static RetexTextureSpec spec_on(const RetexSet *set, const RetexTextureSpec *of)
     if (target >= 0) {
         spec.nfinishes = retex_set_target(set, target)->nfinishes;
         memcpy(spec.roughness, retex_set_target(set, target)->finish_roughness, sizeof spec.roughness);
+        spec.normal_tilt = retex_set_target(set, target)->normal_tilt;
     }
-    if (!spec.nfinishes && images_has_map(&spec))
-        spec.finish[0] = '\0';
+    const int takes_map = spec.normal ? spec.normal_tilt > 0 : spec.nfinishes && !(spec.normal_tilt > 0);
+    if (!takes_map && images_has_map(&spec))
+        spec.finish[0] = '\0', spec.normal = RETEX_NORMAL_NONE;
     return spec;
 }
 
@@ -391,7 +393,9 @@ static void write_target(FILE *file, const RetexTarget *target)
     fprintf(file, ", \"uv_max\": [%.6g, %.6g]", target->uv_max[0], target->uv_max[1]);
     if (target->uv_scale[0] > 0)
         fprintf(file, ", \"uv_scale\": [%.6g, %.6g]", target->uv_scale[0], target->uv_scale[1]);
-    for (int k = 0; k < target->nfinishes; k++) {
+    if (target->normal_tilt > 0)
+        fprintf(file, ", \"normal_tilt\": %.6g", target->normal_tilt);
+    for (int k = 0; k < target->nfinishes && !(target->normal_tilt > 0); k++) {
         fputs(k ? ", " : ", \"finishes\": [", file);
         json_text(file, target->finishes[k]);
         if (k + 1 == target->nfinishes)

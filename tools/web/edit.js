@@ -88,6 +88,7 @@ const OPTIONS = {
   width: [(text) => (text.includes(",") ? pairOf(text, (x) => x > 0) : [numberOf(text)].find((x) => x > 0)), ""],
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
   finish: [(text) => (text === "none" ? "" : text), ""],
+  normal: [(text) => (text.includes(":") || text.startsWith(",") ? undefined : text.replace(/,(gl|dx)$/i, (up) => up.toLowerCase())), ""],
   grout: [numberIn(0, 1e300), "0"],
   groutcolor: [colorOf, ""],
   vary: [varyOf, ""],
@@ -136,6 +137,7 @@ function parseEdit(text) {
     if (what && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: ${what} needs wrap repeat.`);
     if (what && said.repeat === "mirror") throw new Error(`${target}: ${what} cannot be used with repeat mirror.`);
     if ((bond || said.grout > 0) && !said.width) throw new Error(`${target}: ${what} needs width.`);
+    if ("finish" in said && "normal" in said) throw new Error(`${target}: finish and normal exclude each other.`);
     if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }
   if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");

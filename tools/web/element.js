@@ -72,12 +72,13 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
       }
     }
     const map = image && options.finish && options.finish !== "none" ? await this.getMap(index, options.finish) : null;
+    const normal = image && options.normal !== "none" && String(options.normal ?? ""); // it stays in states, for the tools
     if (order !== this.textures[index].order) return; // another one has been chosen since
     placing(plainTexture(), options);
     const finish = map && !(options.finish instanceof Blob) ? String(options.finish) : "";
-    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, finish, map });
+    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, finish, normal: normal || "", map });
     this.place(name, options);
-    this.say(`${name}: ${this.textures[index].label}`);
+    this.say(`${name}: ${this.textures[index].label}${normal ? "; a page does not show normal maps" : ""}`);
   }
 
   async fetchPicture(address) {
@@ -87,7 +88,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* A picture that says which finish of a target is where. */
   async getMap(index, map) {
-    if (!this.room.targets[index].finishes) throw new Error(`${this.targets[index]} has no finishes to choose from.`);
+    if (!this.finishesOf(index).length) throw new Error(`${this.targets[index]} has no finishes to choose from.`);
     return map instanceof Blob ? decodePicture(map, map.name || "Picture") : this.fetchPicture(String(map));
   }
 
@@ -161,22 +162,28 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
     return this.textures.some((t) => t.map) ? this.colorsWith(this.finishes.map((f, t) => (this.textures[t].map ? null : f))) : this.colors;
   }
 
+  /* The finishes of a target that can be chosen: those for normal maps cannot. */
+  finishesOf(target) {
+    const { finishes = [], normal_tilt: tilt } = this.room.targets[target];
+    return tilt ? [] : finishes;
+  }
+
   /* From 1; 0: the target does not have it. */
   finishNumber(target, name) {
-    const { finishes = [] } = this.room.targets[target];
+    const finishes = this.finishesOf(target);
     return name === null ? finishesAsRendered(this.room)[target] : 1 + indexNamed(finishes.map((text) => ({ name: text })), String(name));
   }
 
   /* Of the one that is chosen. */
   finishName(target) {
-    return this.room.targets[target].finishes?.[this.finishes[target] - 1];
+    return this.finishesOf(target)[this.finishes[target] - 1];
   }
 
   getState() {
     const textures = {};
     this.textures.forEach((t, i) => {
-      const { source, scale, rotate, offset, tint, flip, wrap, repeat, finish } = t;
-      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat, ...(finish ? { finish } : {}) };
+      const { source, scale, rotate, offset, tint, flip, wrap, repeat, finish, normal } = t;
+      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat, ...(finish ? { finish } : {}), ...(normal ? { normal } : {}) };
     });
     const lamps = Object.fromEntries(this.lamps.filter((l) => l.value).map((l) => [l.name, l.value]));
     const finishes = {}, rendered = finishesAsRendered(this.room || {});
@@ -497,7 +504,7 @@ class RetexRoom extends (globalThis.HTMLElement || Object) {
 
   /* The finishes of the target that the controls change. */
   refreshFinishes() {
-    const box = this.$(".finishes"), { name, finishes = [] } = this.room.targets[this.selected], of = [name, ...finishes].join();
+    const box = this.$(".finishes"), { name } = this.room.targets[this.selected], finishes = this.finishesOf(this.selected), of = [name, ...finishes].join();
     const chosen = this.finishes[this.selected], rendered = this.finishNumber(this.selected, null);
     this.$(".finish").hidden = !finishes.length;
     if (box.dataset.of !== of)

@@ -5,7 +5,7 @@ const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
 
 const plainTexture = () => ({
   source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff", flip: "", wrap: "repeat", repeat: "straight",
-  finish: "", map: null,
+  finish: "", normal: "", map: null,
 });
 
 /* What the options of a texture may be. */

@@ -41,6 +41,7 @@ function checkManifest(room) {
     check(finishes.length > 1);
     whole(finish, 1, finishes.length);
   }
+  for (const { normal_tilt: tilt } of room.targets) if (tilt !== undefined) number(tilt);
   const color = (c) => (list(c, 3, (x) => number(x)), check(c.length === 3));
   list(room.parameters ?? [], 64, (p) => {
     named(p.name);

@@ -18,6 +18,8 @@ export interface RetexTextureOptions extends RetexPlacing {
   /** A picture that says which of the target's finishes is where: grey through the list of finishes, or red, green and
    * blue for the second, third and fourth. */
   finish?: Blob | string;
+  /** A normal map. Pages do not show it; it stays in states and links, for the tools. */
+  normal?: string;
 }
 
 export interface RetexLight {
@@ -37,7 +39,7 @@ export interface RetexLamp {
 }
 
 export interface RetexState {
-  textures: Record<string, RetexPlacing & { source: string; finish?: string }>;
+  textures: Record<string, RetexPlacing & { source: string; finish?: string; normal?: string }>;
   light: RetexLight;
   /** Values of lamps by name; "*" is all that are not named. */
   lamps?: Record<string, string>;

@@ -36,6 +36,9 @@ static int find_finish(const RetexTarget *target, const char *name, int *finish,
     char all[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {name, NULL, 0};
     *finish = 0;
+    if (target->normal_tilt > 0)
+        return retex_fail(err, RETEX_ENOTFOUND, "%s has one finish, with normals: there is none to choose",
+                          target->name);
     for (int k = 0; k < target->nfinishes; k++) {
         const size_t used = strlen(all);
         if (strcasecmp(target->finishes[k], name) == 0)

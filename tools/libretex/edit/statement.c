@@ -203,8 +203,18 @@ static int write_colorspace(const RetexTextureSpec *spec, char text[STATEMENT_TE
     return text[0] != '\0';
 }
 
+/* Both would need the same light. */
+static int check_one_map(const RetexTextureSpec *spec, int is_normal, RetexError *err)
+{
+    if (!spec->finish[0] || is_normal == (spec->normal != RETEX_NORMAL_NONE))
+        return RETEX_OK;
+    return retex_fail(err, RETEX_EPARSE, "texture options: finish= and normal= exclude each other");
+}
+
 static int parse_finish(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
+    if (check_one_map(spec, 0, err))
+        return RETEX_EPARSE;
     if (!*value || strlen(value) >= sizeof spec->finish || strchr(value, ':')) /* which would end it in an option */
         return retex_fail(err, RETEX_EPARSE,
                           OPTION "finish='%.80s': expected a picture without a colon in its name, as in "
@@ -216,7 +226,41 @@ static int parse_finish(RetexTextureSpec *spec, const char *value, RetexError *e
 
 static int write_finish(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    snprintf(text, STATEMENT_TEXT_MAX, "%s", spec->finish);
+    snprintf(text, STATEMENT_TEXT_MAX, "%s", spec->normal ? "" : spec->finish);
+    return text[0] != '\0';
+}
+
+static const char *const normal_words[] = {[RETEX_NORMAL_GL] = "gl", [RETEX_NORMAL_DX] = "dx"};
+
+/* A picture, and where its green points, if its name does not say it. */
+static int parse_normal(RetexTextureSpec *spec, const char *value, RetexError *err)
+{
+    const char *comma = strrchr(value, ',');
+    size_t length = strlen(value);
+    RetexNormalMap normal = RETEX_NORMAL_BY_NAME;
+    if (check_one_map(spec, 1, err))
+        return RETEX_EPARSE;
+    for (int k = RETEX_NORMAL_GL; comma && k <= RETEX_NORMAL_DX; k++)
+        if (strcasecmp(comma + 1, normal_words[k]) == 0)
+            normal = (RetexNormalMap)k, length = (size_t)(comma - value);
+    if (length == 0 || length >= sizeof spec->finish || strchr(value, ':')) /* which would end it in an option */
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "normal='%.80s': expected a picture without a colon in its name, as in "
+                                 "normal=bricks_nor_gl.png or normal=bricks.png,dx, or none",
+                          value);
+    memset(spec->finish, 0, sizeof spec->finish); /* specs are compared byte by byte */
+    memcpy(spec->finish, value, length);
+    spec->normal = normal;
+    return RETEX_OK;
+}
+
+static int write_normal(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
+{
+    if (!spec->normal)
+        return 0;
+    const int is_said = spec->normal != RETEX_NORMAL_BY_NAME;
+    snprintf(text, STATEMENT_TEXT_MAX, "%s%s%s", spec->finish, is_said ? "," : "",
+             is_said ? normal_words[spec->normal] : "");
     return text[0] != '\0';
 }
 
@@ -358,6 +402,7 @@ static const struct {
     {"width", parse_width, write_width},
     {"colorspace", parse_colorspace, write_colorspace},
     {"finish", parse_finish, write_finish},
+    {"normal", parse_normal, write_normal},
     {"grout", parse_grout, write_grout},
     {"groutcolor", parse_grout_color, write_grout_color},
     {"vary", parse_vary, write_vary},

@@ -9,7 +9,7 @@
 /* The first kind is the image, the others are options. The last ones are adjustments of colours, in the order of
  * RetexAdjust. */
 enum {
-    RETEX_STATEMENT_ADJUSTMENTS = 15,
+    RETEX_STATEMENT_ADJUSTMENTS = 16,
     RETEX_STATEMENTS = RETEX_STATEMENT_ADJUSTMENTS + RETEX_ADJUSTS,
     STATEMENT_TEXT_MAX = 2100
 };

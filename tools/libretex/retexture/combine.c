@@ -90,6 +90,8 @@ static int combine_strip(const void *context, RetexPolynomialRow *row, int y0, i
             code = retex_polynomial_row_make(row, y, err);
         if (!code && !row->polynomial->picture)
             combine_row(row, width, rgb);
+        for (size_t i = 0; !code && row->polynomial->has_normals && i < 3 * (size_t)width; i++)
+            rgb[i] = rgb[i] < 0 ? 0 : rgb[i]; /* a sum of light with three normals goes on below 0 behind the horizon */
         if (!code && retex_floats_have_nonfinite(rgb, 3 * (size_t)width))
             limit_row(row, 3 * (size_t)width, rgb);
     }

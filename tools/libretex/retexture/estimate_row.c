@@ -192,8 +192,20 @@ static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *
 /* A map of finishes in a row: weights of each, RGB, and light that meets the target again. */
 typedef struct RowMap {
     int count;
+    double tilt; /* radians, of a normal map; else 0 */
     const float *weights[RETEX_FINISHES_MAX];
 } RowMap;
+
+/* How much light varies with the normals that a footprint covers: their mean is the shorter, the more they differ.
+ * values: by the three normals of which others are sums, from which follows how light changes along u and v. */
+static float variance_of_normals(const RowMap *map, const float values[RETEX_FINISHES_MAX], size_t i)
+{
+    const float s = (float)sin(map->tilt), c = (float)cos(map->tilt);
+    const float w0 = map->weights[0][i], w1 = map->weights[1][i], w2 = map->weights[2][i];
+    const float x = w1 * s, y = w2 * s, z = w0 + (w1 + w2) * c;
+    const float along_u = (values[1] - c * values[0]) / s, along_v = (values[2] - c * values[0]) / s;
+    return fmaxf(1 - x * x - y * y - z * z, 0) / 2 * (along_u * along_u + along_v * along_v);
+}
 
 /* The mean of n numbers, and their variance, by the weights of finishes at a number of the row. */
 static float mean_of(const RowMap *map, const float values[RETEX_FINISHES_MAX], size_t i, float *variance)
@@ -203,8 +215,19 @@ static float mean_of(const RowMap *map, const float values[RETEX_FINISHES_MAX], 
         mean += map->weights[k][i] * values[k];
         square += map->weights[k][i] * values[k] * values[k];
     }
-    *variance = fmaxf(square - mean * mean, 0);
+    *variance = map->tilt > 0 ? variance_of_normals(map, values, i) : fmaxf(square - mean * mean, 0);
     return mean;
+}
+
+/* What the mean of f_k f_k differs by from that of f_k f_l. Weights of normals have either sign. */
+static float difference_of_squares(const RowMap *map, const float values[RETEX_FINISHES_MAX], size_t i)
+{
+    float mean = 0, square = 0;
+    for (int k = 0; k < map->count; k++) {
+        mean += map->weights[k][i] * values[k];
+        square += map->weights[k][i] * values[k] * values[k];
+    }
+    return fabsf(square - mean * mean);
 }
 
 /* Adds the error that the variance of a footprint's texture causes, and that of the finish within it. means: of the
@@ -245,14 +268,14 @@ static void add_gates(const RetexSet *set, int target, size_t n, const RowMap *m
                  later = (size_t)(first_later(set) + target * RETEX_FINISHES_MAX);
     const float k = agreement[RETEX_FOOTPRINT_BROAD], part = k * k + chance_of_finish / fmaxf((float)set->spp, 1);
     for (size_t i = 0; i < n; i++) {
-        float of_gate[RETEX_FINISHES_MAX], of_later[RETEX_FINISHES_MAX], scatter, bias;
+        float of_gate[RETEX_FINISHES_MAX], of_later[RETEX_FINISHES_MAX], scatter;
         for (int q = 0; q < map->count; q++) {
             of_gate[q] = derivatives[(gate + (size_t)q) * n + i];
             const float light = derivatives[(later + (size_t)q) * n + i], weight = map->weights[q][i];
-            of_later[q] = light > 0 && weight > 0 ? sqrtf(light / weight) : 0;
+            of_later[q] = light * weight > 0 ? sqrtf(light / weight) : 0;
         }
         mean_of(map, of_gate, i, &scatter);
-        mean_of(map, of_later, i, &bias);
+        const float bias = difference_of_squares(map, of_later, i);
         sum[i] += part * scatter + bias * bias;
     }
 }
@@ -279,7 +302,7 @@ int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const 
         sum[i] = doubtful * doubtful;
     }
     for (int t = 0; t < set->ntargets && !code; t++) {
-        RowMap map = {.count = p->mapped[t]};
+        RowMap map = {.count = p->mapped[t], .tilt = p->mapped[t] ? set->targets[t].normal_tilt * M_PI / 180 : 0};
         float *rows[RETEX_FINISHES_MAX];
         for (int k = 0; k < map.count; k++)
             map.weights[k] = rows[k] = weights + (size_t)k * n;

@@ -31,6 +31,7 @@ typedef struct RetexPolynomial {
     int lamp_pictures;                         /* or the lamps' pictures do */
     RetexRowSpan columns;                      /* outside of them rows of the picture's size may be 0 */
     float parameters[RETEX_PARAMETERS_MAX][3]; /* their values here */
+    int has_normals;                           /* 1: a target has a normal map */
     int mapped[RETEX_MAX_TARGETS];             /* by target, the number of finishes that a map tells apart; 0: no map */
     int shown[RETEX_MAX_TARGETS];              /* of these, the finish that shows where the map is transparent */
     RetexImage *gates;                         /* see polynomial_finishes.c */

@@ -33,6 +33,7 @@ int retex_polynomial_find_maps(RetexPolynomial *p, RetexError *err)
             return retex_fail(err, RETEX_EINVAL, "a map of %d finishes for %s, which has %d", p->mapped[t],
                               set->targets[t].name, set->targets[t].nfinishes);
         p->relit |= p->mapped[t] && p->lamps;
+        p->has_normals |= p->mapped[t] && set->targets[t].normal_tilt > 0;
         for (int i = 0; i < set->nparameters; i++) {
             const float *value = p->parameters[i];
             if (set->parameters[i].finishes[t] && (value[0] != 0 || value[1] != 0 || value[2] != 0))
@@ -93,6 +94,27 @@ static int first_hit(const RetexPolynomial *p, const RetexTerm *term, const Rete
     return k;
 }
 
+static int is_on_target(const RetexPolynomial *p, RetexFactor factor, int target)
+{
+    const RetexSet *set = p->set;
+    if (factor.kind == RETEX_FACTOR_FOOTPRINT)
+        return set->footprints[factor.index].target == target;
+    int any = 0;
+    for (int i = 0; factor.kind == RETEX_FACTOR_MIXTURE && i < set->mixtures[factor.index].nshares; i++)
+        any |= set->footprints[set->mixtures[factor.index].shares[i].footprint].target == target;
+    return any;
+}
+
+/* Whether light of the term met the colour of the target. If not, no diffuse lobe reflected it there: normals do not
+ * matter, and light with all of them is the same but for noise. */
+static int has_hit(const RetexPolynomial *p, const RetexPolynomialTerm *made, int target)
+{
+    int any = 0;
+    for (int k = 0; k < made->nfactors; k++)
+        any |= retex_factor_is_hit(made->factors[k]) && is_on_target(p, made->factors[k], target);
+    return any;
+}
+
 void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm *term, RetexPolynomialTerm *made)
 {
     int finishes[RETEX_MAX_TARGETS] = {0};
@@ -112,6 +134,9 @@ void retex_polynomial_factor_finishes(const RetexPolynomial *p, const RetexTerm 
         const int own = finishes[t] ? first_hit(p, term, made, t) : -1;
         if (own >= 0) {
             made->factors[own].quantity = POLYNOMIAL_FINISHED(finishes[t] - 1);
+        } else if (finishes[t] && p->set->targets[t].normal_tilt > 0 && !has_hit(p, made, t)) {
+            for (int c = 0; c < 3; c++)
+                made->weight[c] *= finishes[t] == 1;
         } else if (finishes[t] && made->nfactors < RETEX_MAX_FACTORS) {
             RetexFactor gate = retex_factor(POLYNOMIAL_GATE, t);
             gate.quantity = POLYNOMIAL_FINISHED(finishes[t] - 1);
@@ -264,19 +289,20 @@ int retex_polynomial_gate_rows(const RetexPolynomial *p, RetexRowReader *reader,
                                float *const rows[RETEX_FINISHES_MAX], RetexError *err)
 {
     const int width = p->set->width, sampled = p->samples ? retex_samples_find(p->samples, target, -1, -1) : -1;
+    const int is_signed = p->set->targets[target].normal_tilt > 0;
     const float *rgb = rows[0];
     const int is_sampled = sampled >= 0 && !(p->textures && p->textures[target]);
     const int code = is_sampled ? retex_row_reader_sample(reader, sampled, y, &rgb, err)
                                 : retex_polynomial_gate_row(p, reader, target, y, scratch, rows[0], err);
     for (size_t x = 0; x < (size_t)width && !code; x++) {
         float weights[RETEX_FINISHES_MAX] = {1};
-        for (int k = 1; k < p->mapped[target]; k++) {
+        for (int k = 1; k < RETEX_FINISHES_MAX; k++) {
             weights[k] = rgb ? rgb[3 * x + (size_t)k - 1] : 0;
             weights[0] -= weights[k];
         }
         for (int k = 0; k < p->mapped[target]; k++)
             for (int c = 0; c < 3; c++)
-                rows[k][3 * x + (size_t)c] = weights[k] > 0 ? weights[k] : 0;
+                rows[k][3 * x + (size_t)c] = weights[k] > 0 || is_signed ? weights[k] : 0;
     }
     return code;
 }

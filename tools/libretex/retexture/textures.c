@@ -97,6 +97,7 @@ static void describe_surface(RetexTextureSpec *spec, const RetexTarget *t)
     memcpy(spec->periodic, t->periodic, sizeof spec->periodic);
     spec->nfinishes = t->nfinishes;
     memcpy(spec->roughness, t->finish_roughness, sizeof spec->roughness);
+    spec->normal_tilt = t->normal_tilt;
     for (int axis = 0; axis < 2; axis++)
         if (!t->periodic[axis]) {
             spec->uv_min[axis] = t->uv_min[axis];
@@ -162,7 +163,14 @@ static int check_needs(const RetexTarget *target, const RetexTextureSpec *spec, 
         return retex_fail(err, RETEX_EINVAL,
                           "the size of target %s is not known: width= cannot be used on it, only scale=",
                           target->name);
-    if (spec->finish[0] && strcmp(spec->finish, RETEX_NO_FINISH_MAP) != 0 && !target->nfinishes)
+    if (!spec->finish[0] || strcmp(spec->finish, RETEX_NO_FINISH_MAP) == 0)
+        return RETEX_OK;
+    if (spec->normal && !(target->normal_tilt > 0))
+        return retex_fail(err, RETEX_EINVAL,
+                          "%s takes no normal maps: normal= cannot be used on it; render the set with "
+                          "--finish %s=normals",
+                          target->name, target->name);
+    if (!spec->normal && (!target->nfinishes || target->normal_tilt > 0))
         return retex_fail(err, RETEX_EINVAL,
                           "%s has no finishes to choose from: finish= cannot be used on it; render the set with "
                           "--finish %s=NAME,NAME",

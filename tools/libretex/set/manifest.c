@@ -102,6 +102,8 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
         for (int k = 0; k < target->nfinishes; k++)
             retex_json_add(&roughness, real(target->finish_roughness[k], finite));
         retex_json_put(&json, "finish_roughness", roughness);
+        if (target->normal_tilt > 0)
+            retex_json_put(&json, "normal_tilt", real(target->normal_tilt, finite));
     }
     return json;
 }

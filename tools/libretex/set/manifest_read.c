@@ -135,6 +135,8 @@ static void read_finishes(Reading *reading, const json_t *json, RetexTarget *tar
             strcpy(target->finishes[k], name);
         target->finish_roughness[k] = -1;
     }
+    if (json_object_get(json, "normal_tilt"))
+        target->normal_tilt = retex_reading_real(reading, json_object_get(json, "normal_tilt"), "normal_tilt");
     if (!json_object_get(json, "finish_roughness")) /* older sets do not know it */
         return;
     const json_t *roughness = retex_reading_array(reading, json, "finish_roughness", (size_t)target->nfinishes);

@@ -282,6 +282,10 @@ int retex_set_add_target(RetexSet *set, const RetexTarget *target, int *index, R
         target->finish < (target->nfinishes > 0))
         return retex_fail(err, RETEX_EINVAL, "the target %s has finish %d of %d", target->name, target->finish,
                           target->nfinishes);
+    if (!(target->normal_tilt >= 0) || !(target->normal_tilt < 90) ||
+        (target->normal_tilt > 0 && (target->nfinishes != 3 || target->finish != 1)))
+        return retex_fail(err, RETEX_EINVAL, "the target %s has normals that are tilted by %g degrees, of %d finishes",
+                          target->name, target->normal_tilt, target->nfinishes);
     if (index)
         *index = set->ntargets;
     set->targets[set->ntargets++] = *target;

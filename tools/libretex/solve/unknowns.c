@@ -48,7 +48,8 @@ static int find_name(RetexUnknown *unknown, int *index, const RetexSet *set, con
     if (code)
         return code;
     strcpy(unknown->name, set->targets[*index].name);
-    if (unknown->kind == RETEX_UNKNOWN_FINISH && !set->targets[*index].nfinishes)
+    if (unknown->kind == RETEX_UNKNOWN_FINISH &&
+        (!set->targets[*index].nfinishes || set->targets[*index].normal_tilt > 0))
         code = retex_fail(err, RETEX_ENOTFOUND, "the set has no finishes of '%s' to choose from", unknown->name);
     return code;
 }

@@ -11,6 +11,7 @@
 #include <retex/parallel.h>
 
 #include "texture/interpolate.h"
+#include "texture/normal_map.h"
 
 #define GREY_DIFFERENCE 0.0101f /* of channels: 2.5 of 255, for JPEG stores colours and not grey */
 
@@ -138,17 +139,32 @@ typedef struct ProductWork {
     RetexTexels map;
     RetexBetween *color_x, *map_x;                /* by column */
     RetexTexels products[RETEX_FINISHES_MAX + 1]; /* the last: the weights */
-    int count;
+    int count, is_normal, repeats[2];
 } ProductWork;
+
+/* Of the colour at one size with all repeats, which it has not itself. */
+static RetexBetween between_repeats(const ProductWork *work, int axis, int i, int of, int texels)
+{
+    const int repeats = work->repeats[axis];
+    int unused;
+    return texel_between(retex_normal_map_texel(axis, i, of / repeats, repeats, &unused), of / repeats, texels,
+                   work->spec->wrap[axis]);
+}
+
+/* Of the map, which has them. */
+static RetexBetween between_weights(const ProductWork *work, int axis, int i, int of)
+{
+    return texel_between(i, of, axis ? work->map.height : work->map.width,
+                   work->repeats[axis] == 2 ? RETEX_WRAP_REPEAT : work->spec->wrap[axis]);
+}
 
 static void multiply_job(void *context, int y, int thread)
 {
     ProductWork *work = context;
     const int width = work->products[0].width, height = work->products[0].height;
-    const RetexWrap *wrap = work->spec->wrap;
-    const RetexBetween color_y = work->color ? texel_between(y, height, work->color->height, wrap[1])
+    const RetexBetween color_y = work->color ? between_repeats(work, 1, y, height, work->color->height)
                                              : (RetexBetween){0, 0, 0},
-                       map_y = texel_between(y, height, work->map.height, wrap[1]);
+                       map_y = between_weights(work, 1, y, height);
     (void)thread;
     for (int x = 0; x < width; x++) {
         const size_t at = (size_t)y * (size_t)width + (size_t)x;
@@ -165,7 +181,7 @@ static void multiply_job(void *context, int y, int thread)
         retex_texture_store_texel(&work->products[work->count], at, product);
         for (int k = 0; k < work->count; k++) {
             for (int c = 0; c < 3; c++)
-                product[c] = color[c] * (k ? weights[k - 1] : fmaxf(first, 0));
+                product[c] = color[c] * (k ? weights[k - 1] : work->is_normal ? first : fmaxf(first, 0));
             retex_texture_store_texel(&work->products[k], at, product);
         }
     }
@@ -178,14 +194,23 @@ static int no_memory(const RetexTexture *texture, RetexError *err)
     return retex_fail(err, RETEX_ENOMEM, "not enough memory for the finishes of %s", texture->spec.target);
 }
 
-static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFinishScale scale, int channel,
-                 RetexTexels *weights, int nthreads, RetexError *err)
+static int is_normal_map(RetexFinishScale scale)
 {
-    const int is_narrow = map->narrow.pixels != NULL;
-    *weights = (RetexTexels){is_narrow ? map->narrow.width : map->image.width,
-                             is_narrow ? map->narrow.height : map->image.height, 1, NULL};
-    if (retex_texels_alloc(weights))
+    return scale == RETEX_FINISH_BY_NORMAL || scale == RETEX_FINISH_BY_NORMAL_DX;
+}
+
+static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFinishScale scale, int channel,
+                 const int repeats[2], RetexTexels *weights, int nthreads, RetexError *err)
+{
+    const int is_narrow = map->narrow.pixels != NULL, width = is_narrow ? map->narrow.width : map->image.width,
+              height = is_narrow ? map->narrow.height : map->image.height;
+    *weights = (RetexTexels){repeats[0] * width, repeats[1] * height, !is_normal_map(scale), NULL};
+    if (width > INT_MAX / 2 || height > INT_MAX / 2 || retex_texels_alloc(weights))
         return no_memory(texture, err);
+    if (is_normal_map(scale)) {
+        retex_normal_map_weigh(&texture->spec, map, scale == RETEX_FINISH_BY_NORMAL_DX, weights, nthreads);
+        return RETEX_OK;
+    }
     WeightWork work = {&texture->spec, scale, channel, weights->width, map, 0, weights};
     retex_parallel(nthreads, weights->height, find_colors_job, &work);
     retex_parallel(nthreads, weights->height, weigh_job, &work);
@@ -193,14 +218,18 @@ static int weigh(const RetexTexture *texture, const RetexDecoded *map, RetexFini
 }
 
 /* has_joints: the product is of the first finish, which joints between repeats have. */
-static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, RetexTexels *texels, int has_joints,
-                        int nthreads, RetexError *err)
+static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, const int repeats[2], RetexTexels *texels,
+                        int has_joints, int nthreads, RetexError *err)
 {
     RetexTextureSpec own = *spec;
     if (!has_joints)
         memset(own.grout_color, 0, sizeof own.grout_color);
     *made = retex_texture_new(&own, err);
-    const int code = *made ? retex_texture_set_texels(*made, texels, NULL, 0, nthreads, err) : err->code;
+    if (!*made)
+        return err->code;
+    for (int axis = 0; axis < 2; axis++)
+        (*made)->repeats[axis] = repeats[axis];
+    const int code = retex_texture_set_texels(*made, texels, NULL, 0, nthreads, err);
     if (!code) /* it is found by the specification of the whole */
         memcpy((*made)->spec.grout_color, spec->grout_color, sizeof spec->grout_color);
     return code;
@@ -209,14 +238,18 @@ static int make_texture(RetexTexture **made, const RetexTextureSpec *spec, Retex
 static int make_products(RetexTexture *texture, ProductWork *work, int nthreads, RetexError *err)
 {
     const RetexTexels *color = work->color;
-    const int width = color && color->width > work->map.width ? color->width : work->map.width,
-              height = color && color->height > work->map.height ? color->height : work->map.height;
+    const int *repeats = work->repeats, least_width = color ? repeats[0] * color->width : 0,
+              least_height = color ? repeats[1] * color->height : 0;
+    const int width = least_width > work->map.width ? least_width : work->map.width,
+              height = least_height > work->map.height ? least_height : work->map.height;
     const RetexTextureSpec spec =
-        retex_texture_finish_spec(&texture->spec, color ? color->width : width, color ? color->height : height);
+        retex_texture_finish_spec(&texture->spec, color ? color->width : width / repeats[0],
+                                  color ? color->height : height / repeats[1], work->is_normal);
     RetexFinishMap *finishes = texture->finishes;
     int code = RETEX_OK;
     for (int k = 0; k <= work->count && !code; k++) {
-        work->products[k] = (RetexTexels){width, height, k == work->count || (color && color->narrow), NULL};
+        work->products[k] =
+            (RetexTexels){width, height, !work->is_normal && (k == work->count || (color && color->narrow)), NULL};
         if (retex_texels_alloc(&work->products[k]))
             code = no_memory(texture, err);
     }
@@ -225,16 +258,16 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
     if (!code && (!work->color_x || !work->map_x))
         code = no_memory(texture, err);
     for (int x = 0; x < width && !code; x++) {
-        work->color_x[x] = texel_between(x, width, color ? color->width : width, spec.wrap[0]);
-        work->map_x[x] = texel_between(x, width, work->map.width, spec.wrap[0]);
+        work->color_x[x] = between_repeats(work, 0, x, width, color ? color->width : width / repeats[0]);
+        work->map_x[x] = between_weights(work, 0, x, width);
     }
     if (!code)
         retex_parallel(nthreads, height, multiply_job, work);
     free(work->color_x);
     free(work->map_x);
     for (int k = 0; k <= work->count && !code; k++)
-        code = make_texture(k < work->count ? &finishes->colors[k] : &finishes->weights, &spec, &work->products[k],
-                            k == 0, nthreads, err);
+        code = make_texture(k < work->count ? &finishes->colors[k] : &finishes->weights, &spec, repeats,
+                            &work->products[k], k == 0, nthreads, err);
     for (int k = 0; k <= work->count; k++)
         free(work->products[k].texels);
     return code;
@@ -243,12 +276,19 @@ static int make_products(RetexTexture *texture, ProductWork *work, int nthreads,
 int retex_finish_map_make(RetexTexture *texture, const RetexTexels *color, const RetexDecoded *map,
                           RetexFinishScale scale, int channel, int nthreads, RetexError *err)
 {
-    ProductWork work = {.spec = &texture->spec, .color = color, .count = texture->spec.nfinishes};
+    ProductWork work = {.spec = &texture->spec,
+                        .color = color,
+                        .count = texture->spec.nfinishes,
+                        .is_normal = is_normal_map(scale),
+                        .repeats = {1, 1}};
     RetexError why = {0};
     if (!(texture->finishes = calloc(1, sizeof *texture->finishes)))
         return no_memory(texture, err);
     texture->finishes->count = work.count;
-    int code = weigh(texture, map, scale, channel, &work.map, nthreads, &why);
+    texture->finishes->is_normal = work.is_normal;
+    if (work.is_normal)
+        retex_normal_map_repeats(&texture->spec, work.repeats);
+    int code = weigh(texture, map, scale, channel, work.repeats, &work.map, nthreads, &why);
     if (!code)
         code = make_products(texture, &work, nthreads, &why);
     free(work.map.texels);

@@ -11,7 +11,9 @@ typedef enum RetexFinishScale {
     RETEX_FINISH_BY_LIST,      /* grey: 0 is the first finish, 1 the last, between them in the order of the list. Else
                                   red is the second finish, green the third, blue the fourth, and the rest the first */
     RETEX_FINISH_BY_ROUGHNESS, /* roughness: finishes by their own, between the two that are next to it */
-    RETEX_FINISH_BY_GLOSS      /* the same of 1 minus the value */
+    RETEX_FINISH_BY_GLOSS,     /* the same of 1 minus the value */
+    RETEX_FINISH_BY_NORMAL,    /* a normal map whose green points up, see normal_map.h */
+    RETEX_FINISH_BY_NORMAL_DX  /* down */
 } RetexFinishScale;
 
 /* 1: enough finishes have a roughness that a map of it can choose from. */

@@ -132,6 +132,7 @@ typedef struct Named {
     unsigned maps;        /* 0: none is known */
     int resolution;       /* 0: the name says nothing */
     int is_lossy;         /* JPEG */
+    int up;               /* see maps_of */
     char key[NAME_SIZE];  /* equal for one map in several forms */
     char path[PATH_SIZE]; /* in the folder */
 } Named;
@@ -150,17 +151,29 @@ static int split(char name[NAME_SIZE], const char *words[NAME_SIZE])
     return count;
 }
 
-/* The maps by the last word that says something; of normals the one before may, as in nor_gl. */
-static unsigned maps_of(const char *const *words, int count)
+/* The last word that says something; -1 = none. */
+static int telling_word(const char *const *words, int count)
 {
-    static const char *const sides[] = {"gl", "dx", "opengl", "directx"};
     int k = count - 1;
     while (k >= 0 &&
            (words[k][strspn(words[k], "0123456789")] == '\0' || resolution_of(words[k]) || is_format(words[k])))
         k--;
-    if (k > 0 && IS_ONE_OF(sides, words[k]))
-        return maps_of_word(words[k - 1]) & 1 << MAP_NORMAL;
-    return k >= 0 ? maps_of_word(words[k]) : 0;
+    return k;
+}
+
+/* The maps by that word; of normals the one before may say it, as in nor_gl. up: 1 where green points up, -1 down, 0
+ * where the name does not tell. */
+static unsigned maps_of(const char *const *words, int count, int *up)
+{
+    static const char *const ups[] = {"gl", "opengl", "normalgl"}, *const downs[] = {"dx", "directx", "normaldx"};
+    const int k = telling_word(words, count);
+    *up = 0;
+    if (k < 0)
+        return 0;
+    *up = IS_ONE_OF(ups, words[k]) ? 1 : IS_ONE_OF(downs, words[k]) ? -1 : 0;
+    if (*up && !maps_of_word(words[k])) /* normalgl says both */
+        return k > 0 ? maps_of_word(words[k - 1]) & 1 << MAP_NORMAL : 0;
+    return maps_of_word(words[k]);
 }
 
 /* 0 where the name is that of no picture. */
@@ -173,7 +186,7 @@ static int read_name(Named *file, const char *folder, const char *name)
         return 0;
     snprintf(text, sizeof text, "%.*s", (int)(dot - name), name);
     const int count = split(text, words);
-    file->maps = maps_of(words, count);
+    file->maps = maps_of(words, count, &file->up);
     file->is_lossy = tolower((unsigned char)dot[1]) == 'j' && strcasecmp(dot + 1, "jxl") != 0;
     for (int k = 0, used = 0; k < count; k++) {
         const int resolution = resolution_of(words[k]);
@@ -197,6 +210,7 @@ typedef struct Folder {
     long entries;
     Named colors[2];               /* the best forms of the two base colours whose keys are first */
     Named roughness[2];            /* the same of roughness, or of what says it best; the second: there are several */
+    Named normals[2];              /* and of normal maps */
     char others[SHOWN][NAME_SIZE]; /* the first names of files that are no map, sorted */
     long nothers;
 } Folder;
@@ -229,13 +243,19 @@ static int roughness_rank(const Named *file)
     return file->maps == 1 << MAP_ROUGHNESS ? 3 : file->maps == 1 << MAP_GLOSS ? 2 : file->maps == PACKED;
 }
 
-static void add_roughness(Folder *folder, const Named *file)
+/* Of normal maps one whose green points up, as here; then one that does not say it. */
+static int normal_rank(const Named *file)
 {
-    const int rank = roughness_rank(file), best = roughness_rank(&folder->roughness[0]);
-    if (rank > best)
-        memset(folder->roughness, 0, sizeof folder->roughness);
-    if (rank && rank >= best)
-        keep_best(folder->roughness, file);
+    return file->maps == 1 << MAP_NORMAL ? 2 + file->up : 0;
+}
+
+static void add_ranked(Named best[2], const Named *file, int (*rank_of)(const Named *))
+{
+    const int rank = rank_of(file), before = rank_of(&best[0]);
+    if (rank > before)
+        memset(best, 0, 2 * sizeof *best);
+    if (rank && rank >= before)
+        keep_best(best, file);
 }
 
 static void add_other(Folder *folder, const char *name)
@@ -262,7 +282,8 @@ static void add_file(Folder *folder, const char *below, const char *name)
     folder->maps |= file.maps;
     if (file.maps & COLOR)
         keep_best(folder->colors, &file);
-    add_roughness(folder, &file);
+    add_ranked(folder->roughness, &file, roughness_rank);
+    add_ranked(folder->normals, &file, normal_rank);
 }
 
 /* The type of an entry. Safe access does not follow links here, so that nothing is told of what is outside: what they
@@ -392,20 +413,20 @@ static int name_unused(const Folder *folder, char **unused, RetexError *err)
     return no_memory(folder, err);
 }
 
-/* The roughness, unless several maps might be it. */
-static int choose_roughness(Folder *folder, RetexFolderFiles *files, int is_wanted, RetexError *err)
+/* The map that is wanted, unless several might be it. */
+static int choose_map(Folder *folder, RetexFolderFiles *files, RetexFolderWant want, RetexError *err)
 {
-    const Named *best = &folder->roughness[0];
-    files->has_roughness = best->maps && !folder->roughness[1].maps;
-    if (!files->has_roughness || !is_wanted)
+    const Named *wanted = want == RETEX_FOLDER_NORMAL ? folder->normals : folder->roughness;
+    files->has_maps = folder->roughness[0].maps || folder->normals[0].maps;
+    if (want == RETEX_FOLDER_COLOR || !wanted[0].maps || wanted[1].maps)
         return RETEX_OK;
-    files->channel = best->maps == PACKED; /* occlusion, roughness, metalness: red, green, blue */
-    files->is_gloss = best->maps == 1 << MAP_GLOSS;
-    folder->maps &= ~(1u << MAP_ROUGHNESS | 1u << MAP_GLOSS);
-    return (files->roughness = path_in(folder, best->path)) ? RETEX_OK : no_memory(folder, err);
+    files->channel = wanted->maps == PACKED; /* occlusion, roughness, metalness: red, green, blue */
+    files->is_gloss = wanted->maps == 1 << MAP_GLOSS;
+    folder->maps &= want == RETEX_FOLDER_NORMAL ? ~(1u << MAP_NORMAL) : ~(1u << MAP_ROUGHNESS | 1u << MAP_GLOSS);
+    return (files->map = path_in(folder, wanted->path)) ? RETEX_OK : no_memory(folder, err);
 }
 
-static int choose(Folder *folder, RetexFolderFiles *files, int wants_roughness, RetexError *err)
+static int choose(Folder *folder, RetexFolderFiles *files, RetexFolderWant want, RetexError *err)
 {
     const Named *colors = folder->colors;
     if (!colors[0].maps)
@@ -416,11 +437,11 @@ static int choose(Folder *folder, RetexFolderFiles *files, int wants_roughness, 
                           folder->length, folder->image, colors[0].path, colors[1].path);
     if (!(files->color = path_in(folder, colors[0].path)))
         return no_memory(folder, err);
-    const int code = choose_roughness(folder, files, wants_roughness, err);
+    const int code = choose_map(folder, files, want, err);
     return code ? code : name_unused(folder, &files->unused, err);
 }
 
-static int find_in_folder(RetexFolderFiles *files, const char *image, const RetexAccess *access, int wants_roughness,
+static int find_in_folder(RetexFolderFiles *files, const char *image, const RetexAccess *access, RetexFolderWant want,
                           RetexError *err)
 {
     RetexAccess own = RETEX_ACCESS_INIT;
@@ -437,7 +458,7 @@ static int find_in_folder(RetexFolderFiles *files, const char *image, const Rete
     folder->is_safe = own.safe;
     int code = list(folder, "", err);
     if (!code)
-        code = choose(folder, files, wants_roughness, err);
+        code = choose(folder, files, want, err);
     free(folder);
     return code;
 }
@@ -445,24 +466,31 @@ static int find_in_folder(RetexFolderFiles *files, const char *image, const Rete
 void retex_texture_folder_files_free(RetexFolderFiles *files)
 {
     free(files->color);
-    free(files->roughness);
+    free(files->map);
     free(files->unused);
     *files = (RetexFolderFiles){.color = NULL};
 }
 
 int retex_texture_folder_find(RetexFolderFiles *files, const char *image, const RetexAccess *access,
-                              int wants_roughness, RetexError *err)
+                              RetexFolderWant want, RetexError *err)
 {
     struct stat info;
     *files = (RetexFolderFiles){.color = NULL};
     int code = RETEX_OK;
     if (stat(image, &info) == 0 && S_ISDIR(info.st_mode))
-        code = find_in_folder(files, image, access, wants_roughness, err);
+        code = find_in_folder(files, image, access, want, err);
     else if (!(files->color = strdup(image)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to read %s", image);
     if (code)
         retex_texture_folder_files_free(files);
     return code;
+}
+
+int retex_texture_name_is_dx(const char *file)
+{
+    const char *slash = strrchr(file, '/');
+    Named named;
+    return read_name(&named, "", slash ? slash + 1 : file) && named.maps == 1 << MAP_NORMAL && named.up < 0;
 }
 
 int retex_texture_file(char **file, const RetexTextureSpec *given, int number, RetexError *err)
@@ -483,10 +511,13 @@ int retex_texture_file(char **file, const RetexTextureSpec *given, int number, R
         *file = strcmp(spec.finish, RETEX_NO_FINISH_MAP) == 0 ? NULL : strdup(spec.finish);
         return RETEX_OK;
     }
-    if (spec.constant)
+    if (spec.constant || (number == RETEX_TEXTURE_FILE_NORMAL && spec.finish[0]))
         return RETEX_OK;
-    const int code = retex_texture_folder_find(&files, spec.image, spec.access, 1, err);
-    char **found = number == RETEX_TEXTURE_FILE_FINISH ? &files.roughness : &files.color;
+    const RetexFolderWant want = number == RETEX_TEXTURE_FILE_NORMAL   ? RETEX_FOLDER_NORMAL
+                                 : number == RETEX_TEXTURE_FILE_FINISH ? RETEX_FOLDER_ROUGHNESS
+                                                                       : RETEX_FOLDER_COLOR;
+    const int code = retex_texture_folder_find(&files, spec.image, spec.access, want, err);
+    char **found = want == RETEX_FOLDER_COLOR ? &files.color : &files.map;
     *file = *found;
     *found = NULL;
     retex_texture_folder_files_free(&files);

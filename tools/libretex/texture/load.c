@@ -149,22 +149,38 @@ static int make_map(RetexTexture *texture, const RetexTexels *color, const char 
     return code;
 }
 
+static RetexFinishScale normal_scale(RetexNormalMap normal, const char *file)
+{
+    const int is_dx = normal == RETEX_NORMAL_DX || (normal == RETEX_NORMAL_BY_NAME && retex_texture_name_is_dx(file));
+    return is_dx ? RETEX_FINISH_BY_NORMAL_DX : RETEX_FINISH_BY_NORMAL;
+}
+
 /* Makes the map of finishes, where there is one. color: NULL = a constant. */
 static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, const RetexTexels *color, int nthreads,
                          RetexError *err)
 {
     const RetexTextureSpec *own = &texture->spec;
-    texture->may_have_finishes = own->finish[0] || (files && files->has_roughness);
-    if (own->tiles[0][0] && own->finish[0] && strcmp(own->finish, RETEX_NO_FINISH_MAP) != 0)
-        return retex_fail(err, RETEX_EINVAL, "%s: finish= cannot be used with tiles=, which have no map of their own",
+    const int turns = own->vary || own->grout > 0 || own->tiles[0][0] || own->repeat >= RETEX_REPEAT_HERRINGBONE;
+    texture->may_have_finishes = own->finish[0] || (files && files->has_maps);
+    if (own->finish[0] && strcmp(own->finish, RETEX_NO_FINISH_MAP) != 0 && (own->tiles[0][0] || (own->normal && turns)))
+        return retex_fail(err, RETEX_EINVAL,
+                          own->normal ? "%s: normal= cannot be used with repeats that turn or have joints or tiles"
+                                      : "%s: finish= cannot be used with tiles=, which have no map of their own",
                           own->target);
-    if (files && files->roughness && !own->tiles[0][0])
-        return make_map(texture, color, files->roughness,
-                        files->is_gloss ? RETEX_FINISH_BY_GLOSS : RETEX_FINISH_BY_ROUGHNESS, files->channel, nthreads,
-                        err);
+    if (files && files->map && !own->tiles[0][0] && !(own->normal_tilt > 0 && turns))
+        return make_map(texture, color, files->map,
+                        own->normal_tilt > 0 ? normal_scale(RETEX_NORMAL_BY_NAME, files->map)
+                        : files->is_gloss    ? RETEX_FINISH_BY_GLOSS
+                                             : RETEX_FINISH_BY_ROUGHNESS,
+                        files->channel, nthreads, err);
     if (!own->finish[0] || strcmp(own->finish, RETEX_NO_FINISH_MAP) == 0)
         return RETEX_OK;
-    if (own->nfinishes < 2)
+    if (own->normal && !(own->normal_tilt > 0))
+        return retex_fail(err, RETEX_EINVAL, "%s takes no normal maps: normal= cannot be used on it",
+                          own->target[0] ? own->target : "the target");
+    if (own->normal)
+        return make_map(texture, color, own->finish, normal_scale(own->normal, own->finish), 0, nthreads, err);
+    if (own->nfinishes < 2 || own->normal_tilt > 0)
         return retex_fail(err, RETEX_EINVAL, "%s has no finishes to choose from: finish= cannot be used on it",
                           own->target[0] ? own->target : "the target");
     return make_map(texture, color, own->finish, RETEX_FINISH_BY_LIST, 0, nthreads, err);
@@ -192,7 +208,7 @@ static int read_tiles(RetexTexture *texture, RetexTexels tiles[RETEX_TILES_MAX],
     int count = 0, code = RETEX_OK;
     for (; !code && count < retex_lay_tiles(own); count++) {
         RetexFolderFiles files;
-        code = retex_texture_folder_find(&files, own->tiles[count], own->access, 0, err);
+        code = retex_texture_folder_find(&files, own->tiles[count], own->access, RETEX_FOLDER_COLOR, err);
         if (!code)
             code = read_colors(texture, files.color, &tiles[count], nthreads, err);
         retex_texture_folder_files_free(&files);
@@ -221,10 +237,13 @@ static int make_texture(RetexTexture *texture, const RetexFolderFiles *files, Re
 static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
 {
     const RetexTextureSpec *own = &texture->spec;
-    const int wants_roughness = !own->finish[0] && retex_finish_map_has_scale(own);
+    const RetexFolderWant want = own->finish[0]                    ? RETEX_FOLDER_COLOR
+                                 : own->normal_tilt > 0            ? RETEX_FOLDER_NORMAL
+                                 : retex_finish_map_has_scale(own) ? RETEX_FOLDER_ROUGHNESS
+                                                                   : RETEX_FOLDER_COLOR;
     RetexFolderFiles files;
     RetexTexels texels = {0};
-    int code = retex_texture_folder_find(&files, own->image, own->access, wants_roughness, err);
+    int code = retex_texture_folder_find(&files, own->image, own->access, want, err);
     if (!code && files.unused)
         keep_warning(texture, files.unused);
     if (!code)

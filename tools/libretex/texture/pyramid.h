@@ -32,9 +32,11 @@ typedef struct RetexTextureLevel {
     double blur[2][2];
 } RetexTextureLevel;
 
-/* Which finish of its target a texture has where. The weights of all finishes sum to 1 at every texel. What is filtered
- * are products with the colour, for the mean of products is not the product of means. */
+/* Which finish of its target a texture has where. The weights of all finishes, and of a fourth one that is black in
+ * a normal map, sum to 1 at every texel. What is filtered are products with the colour, for the mean of products is
+ * not the product of means. */
 typedef struct RetexFinishMap {
+    int is_normal;                            /* 1: of a normal map: weights of either sign */
     int count;                                /* finishes, 2..RETEX_FINISHES_MAX */
     RetexTexture *weights;                    /* red: of the second finish, green: of the third, blue: of the fourth */
     RetexTexture *colors[RETEX_FINISHES_MAX]; /* the colour times the weight of each */
@@ -78,8 +80,9 @@ RetexTexture *retex_texture_new(const RetexTextureSpec *spec, RetexError *err);
  * RETEX_TILES_MAX; or NULL. */
 int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const RetexTexels *tiles, int ntiles,
                              int nthreads, RetexError *err);
-/* The placement of the textures of a map, whose texels may have another aspect than the image of that size. */
-RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height);
+/* The placement of the textures of a map, whose texels may have another aspect than the image of that size.
+ * is_normal: of a normal map, which has repeats that are mirrored as texels. */
+RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height, int is_normal);
 /* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
 int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);

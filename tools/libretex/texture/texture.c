@@ -169,7 +169,8 @@ int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const R
                              int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
-    texture->size[0] = texels->width, texture->size[1] = texels->height;
+    texture->size[0] = (int)(texels->width / texture->repeats[0]); /* maps may have two repeats already */
+    texture->size[1] = (int)(texels->height / texture->repeats[1]);
     if (retex_lay_is_needed(&texture->spec))
         code = lay_repeats(texture, texels, tiles, ntiles, nthreads, err);
     else
@@ -291,14 +292,28 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     return set_surface_finishes(texture, surface, err);
 }
 
+/* Whether vectors of both are turned in the same way. */
+static int is_turned_as(const RetexTextureSpec *a, const RetexTextureSpec *b)
+{
+    int same = a->rotate == b->rotate;
+    for (int axis = 0; axis < 2; axis++)
+        same &= !a->flip[axis] == !b->flip[axis] && (a->scale[axis] < 0) == (b->scale[axis] < 0);
+    return same;
+}
+
 void retex_texture_spec_unplace(RetexTextureSpec *spec)
 {
     const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
     memset(spec->target, 0, sizeof spec->target);
-    memcpy(spec->scale, plain.scale, sizeof spec->scale);
-    spec->rotate = 0;
+    if (spec->normal_tilt > 0) { /* vectors turn with the texture */
+        for (int axis = 0; axis < 2; axis++)
+            spec->scale[axis] = copysign(1, spec->scale[axis]);
+    } else {
+        memcpy(spec->scale, plain.scale, sizeof spec->scale);
+        memset(spec->flip, 0, sizeof spec->flip);
+        spec->rotate = 0;
+    }
     memset(spec->offset, 0, sizeof spec->offset);
-    memset(spec->flip, 0, sizeof spec->flip);
     spec->has_at = 0;
     memset(spec->at, 0, sizeof spec->at);
     const int has_width = retex_lay_is_needed(spec) && spec->width[0] > 0; /* joints and turns depend on it */
@@ -336,6 +351,7 @@ int retex_texture_specs_alike(const RetexTextureSpec *one, const RetexTextureSpe
     if (RETEX_PARAMS_COPY(&a, one, NULL) || RETEX_PARAMS_COPY(&b, other, NULL) || a.constant || b.constant)
         return 0;
     if (strcmp(a.image, b.image) != 0 || strcmp(a.colorspace, b.colorspace) != 0 || strcmp(a.finish, b.finish) != 0 ||
+        a.normal != b.normal ||
         a.repeat != b.repeat || a.wrap[0] != b.wrap[0] || a.wrap[1] != b.wrap[1] || a.is_light != b.is_light ||
         a.nadjustments != b.nadjustments || !is_laid_alike(&a, &b))
         return 0;
@@ -351,7 +367,8 @@ static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *sp
     const RetexTextureSpec *own = &texture->spec;
     return texture->nlevels > 0 && retex_texture_specs_alike(own, spec) &&
            (!texture->may_have_finishes ||
-            (spec->nfinishes == own->nfinishes &&
+            (spec->nfinishes == own->nfinishes && spec->normal_tilt == own->normal_tilt &&
+             (spec->normal_tilt == 0 || is_turned_as(spec, own)) &&
              memcmp(spec->roughness, own->roughness, sizeof own->roughness) == 0));
 }
 
@@ -480,6 +497,7 @@ static int derive(RetexTexture *to, const RetexTexture *from, Derive *make, cons
     if (!(to->finishes = calloc(1, sizeof *to->finishes)))
         return no_memory(from, 1, 1, err);
     to->finishes->count = from->finishes->count;
+    to->finishes->is_normal = from->finishes->is_normal;
     for (int k = 0; k <= from->finishes->count && !code; k++)
         code = make(texture_of(to->finishes, k), *texture_of(from->finishes, k), context, err);
     return code;
@@ -494,7 +512,8 @@ static int place_finishes(RetexTexture *placed, const RetexTexture *texture, Ret
 {
     int width, height;
     retex_texture_size(texture, &width, &height);
-    const RetexTextureSpec spec = retex_texture_finish_spec(&placed->spec, width, height);
+    const RetexTextureSpec spec =
+        retex_texture_finish_spec(&placed->spec, width, height, texture->finishes && texture->finishes->is_normal);
     return derive(placed, texture, place_one, &spec, err);
 }
 
@@ -508,12 +527,17 @@ static int square_finishes(RetexTexture *square, const RetexTexture *texture, in
     return derive(square, texture, square_one, &nthreads, err);
 }
 
-RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height)
+RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height, int is_normal)
 {
     RetexTextureSpec own = *spec;
     own.constant = 0;
     if (!spec->constant && own.width[0] > 0 && !(own.width[1] > 0))
         own.width[1] = own.width[0] * height / width;
+    if (is_normal && own.repeat == RETEX_REPEAT_MIRROR)
+        own.repeat = RETEX_REPEAT_STRAIGHT;
+    for (int axis = 0; axis < 2; axis++)
+        if (is_normal && own.wrap[axis] == RETEX_WRAP_MIRROR)
+            own.wrap[axis] = RETEX_WRAP_REPEAT;
     return own;
 }
 
@@ -732,10 +756,10 @@ int retex_texture_finishes(const RetexTexture *texture, double u, double v, int 
         return 0;
     retex_texture_point(finishes->weights, u, v, rgba);
     weights[0] = 1;
-    for (int k = 1; k < finishes->count; k++) {
+    for (int k = 1; k < RETEX_FINISHES_MAX; k++) {
         weights[k] = rgba[3] * rgba[k - 1] + (shown == k ? 1 - rgba[3] : 0);
         weights[0] -= weights[k];
     }
-    weights[0] = weights[0] > 0 ? weights[0] : 0;
+    weights[0] = weights[0] > 0 || finishes->is_normal ? weights[0] : 0;
     return finishes->count;
 }

@@ -318,6 +318,8 @@ static void put_finishes(json_t **object, const RetexTarget *target)
         retex_json_add(&names, text(target->finishes[k]));
     retex_json_put(object, "finishes", names);
     retex_json_put(object, "finish", json_integer(target->finish));
+    if (target->normal_tilt > 0)
+        retex_json_put(object, "normal_tilt", json_real(target->normal_tilt));
 }
 
 static json_t *describe_targets(const Web *web)
@@ -675,7 +677,7 @@ static void tell_lamps(const Web *web, const RetexWebParams *params)
         if (is_listed(web, i) && retex_parameter_lamp(set, i))
             list_name(names, sizeof names, count++ ? ", " : "lamps ", retex_parameter_lamp(set, i));
     for (int i = 0, finishes = 0; i < set->ntargets; i++)
-        if (set->targets[i].nfinishes)
+        if (set->targets[i].nfinishes && !(set->targets[i].normal_tilt > 0))
             list_name(names, sizeof names, finishes++ ? ", " : count ? "; finishes of " : "finishes of ",
                       set->targets[i].name);
     for (int i = 0; i < web->lamps.ntiles; i++) {

@@ -81,7 +81,8 @@ class RetexTextureSpec(ctypes.Structure):
                 ("budget", c_void_p), ("periodic", c_int * 2), ("finish", c_char * 1024), ("nfinishes", c_int),
                 ("roughness", c_float * 4), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9),
                 ("grout", c_double), ("grout_color", c_float * 3), ("vary", c_int), ("vary_seed", c_uint),
-                ("tiles", (c_char * 256) * 8), ("has_at", c_int), ("at", c_double * 2)]
+                ("tiles", (c_char * 256) * 8), ("has_at", c_int), ("at", c_double * 2),
+                ("normal", c_int), ("normal_tilt", c_double)]
 
 
 class RetexReadParams(ctypes.Structure):

@@ -51,12 +51,12 @@ def _tile(tile: Union[str, "os.PathLike[str]"]) -> str:
     return name
 
 
-def _map(finish: Union[str, "os.PathLike[str]"]) -> str:
-    """The name of a map of finishes; a path that is called none is a file."""
-    name = os.fsdecode(path_bytes(finish))
+def _map(option: str, file: Union[str, "os.PathLike[str]"]) -> str:
+    """The name of a map of finishes or normals; a path that is called none is a file."""
+    name = os.fsdecode(path_bytes(file))
     if not name or ":" in name:
-        raise ValueError(f"finish: expected a picture without a colon in its name, not {name!r}")
-    return "./" + name if isinstance(finish, os.PathLike) and name == "none" else name
+        raise ValueError(f"{option}: expected a picture without a colon in its name, not {name!r}")
+    return "./" + name if isinstance(file, os.PathLike) and name == "none" else name
 
 
 def _is_color(text: str) -> bool:
@@ -105,6 +105,8 @@ class Texture:
     colorspace  of the image, if its file does not say it; arrays have theirs by their type
     finish      the name of a picture that says which finish of the target is where; "none": the roughness of a folder
                 says nothing. Not of arrays
+    normal      the name of a normal map, for a target that takes one: "wall.png", "wall.png,dx" where green points down;
+                "none": that of a folder is not used. Not of arrays, nor beside finish
     grout       width of joints between repeats, in scene units; groutcolor: a colour
     vary        what differs from repeat to repeat: "turn,flip,shift" or some of them, and a number
     tiles       names of more images for the repeats
@@ -119,7 +121,8 @@ class Texture:
                  offset: Optional[Tuple[float, float]] = None, flip: Optional[str] = None,
                  wrap: Union[str, Tuple[str, str], None] = None, repeat: Optional[str] = None,
                  width: Optional[Pair] = None, colorspace: Optional[str] = None,
-                 finish: Union[str, "os.PathLike[str]", None] = None, grout: Optional[float] = None,
+                 finish: Union[str, "os.PathLike[str]", None] = None,
+                 normal: Union[str, "os.PathLike[str]", None] = None, grout: Optional[float] = None,
                  groutcolor: Optional[Color] = None, vary: Optional[str] = None,
                  tiles: Optional[Sequence[Union[str, "os.PathLike[str]"]]] = None,
                  at: Optional[Tuple[float, float]] = None, **adjustments: Adjustment):
@@ -127,7 +130,8 @@ class Texture:
                    "offset": offset if offset is None else _pair(offset), "flip": flip,
                    "wrap": ",".join(wrap) if isinstance(wrap, (tuple, list)) else wrap, "repeat": repeat,
                    "width": width if width is None else _pair(width), "colorspace": colorspace,
-                   "finish": finish if finish is None else _map(finish), "grout": grout,
+                   "finish": finish if finish is None else _map("finish", finish),
+                   "normal": normal if normal is None else _map("normal", normal), "grout": grout,
                    "groutcolor": groutcolor if groutcolor is None else _color(groutcolor), "vary": vary,
                    "tiles": tiles if tiles is None else ",".join(_tile(tile) for tile in tiles),
                    "at": at if at is None else _pair(at)}
@@ -146,8 +150,8 @@ class Texture:
         elif np.ndim(image) == 1 and len(image) == 3:
             self.image = "rgb({!r},{!r},{!r})".format(*(float(channel) for channel in image))
         elif isinstance(image, np.ndarray):
-            if finish is not None and finish != "none":
-                raise ValueError("an array has no map of finishes: write it to a file")
+            if finish not in (None, "none") or normal not in (None, "none"):
+                raise ValueError("an array has no map of finishes or normals: write it to a file")
             self.image, self.array = "an array", _linear(image)
             image_of(self.array)
         else:

@@ -71,6 +71,9 @@ typedef struct RetexTarget {
     int finish;         /* the number of the one in the picture as rendered, from 1; 0: it has none to choose from */
     float finish_roughness[RETEX_FINISHES_MAX]; /* of each, 0 a mirror, 1 matt, as maps of roughness have it; -1: of a
                                                    metal, or unknown */
+    double normal_tilt; /* degrees, 0..90. Above 0: its finishes are three, of which the second and third are the
+                           first with the normal of the diffuse lobe tilted to where u grows, and v, for textures'
+                           normal maps. There is nothing to choose then. 0: it takes no normal maps */
 } RetexTarget;
 
 typedef enum RetexFootprintKind {

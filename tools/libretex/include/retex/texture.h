@@ -47,6 +47,14 @@ typedef enum RetexRepeat {
     RETEX_REPEATS
 } RetexRepeat;
 
+/* Whether a map beside the image is a normal map, and where its green points. */
+typedef enum RetexNormalMap {
+    RETEX_NORMAL_NONE,    /* it is none */
+    RETEX_NORMAL_BY_NAME, /* down where the file's name says so, as in wall_nor_dx.png or Wall_NormalDX.png; else up */
+    RETEX_NORMAL_GL,      /* up, as OpenGL has it */
+    RETEX_NORMAL_DX       /* down, as DirectX has it */
+} RetexNormalMap;
+
 enum { RETEX_TILES_MAX = 8 };
 
 /* What differs at random from repeat to repeat, bits. Of a square repeat TURN is by quarter turns, otherwise by half a
@@ -106,7 +114,7 @@ typedef struct RetexTextureSpec {
     int periodic[2];       /* 1: the surface closes after one unit of u (or v); filled in by the caller. Default 0, 0 */
     char finish[1024];     /* a picture that says which finish of the target is where, laid as the image is, see
                               retex-edit(5). "", the default: the roughness of a folder, where `image` is one that has
-                              it; "none": the target has one finish all over */
+                              it; "none": the target has one finish all over. Or a normal map, see `normal` */
     int nfinishes;         /* of the target; filled in by the caller. Default 0: it has none to choose from */
     float roughness[4];    /* of these; filled in by the caller. Default 0 */
     int nadjustments;      /* 0..RETEX_ADJUSTS, default 0; each kind at most once */
@@ -121,12 +129,16 @@ typedef struct RetexTextureSpec {
                               one size on the target. Behind the first "" there are no more; default "" */
     int has_at;            /* 1: the middle of the image is `at`, and `offset` is added to that; default 0 */
     double at[2];          /* in scene units along u and v from UV 0, 0, with a width; else in UV */
+    RetexNormalMap normal; /* not NONE: `finish` is a normal map, and "none" uses none, nor that of a folder. Default
+                              NONE */
+    double normal_tilt;    /* degrees, that of the target, which takes normal maps where it is above 0; filled in by the
+                              caller. Default 0 */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
       "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0}, \
       "", 0, {0, 0, 0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}, 0, \
-      {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0} }
+      {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0}, RETEX_NORMAL_NONE, 0 }
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
@@ -145,19 +157,20 @@ typedef struct RetexTexture RetexTexture;
  * luminance or a channel above 3, of a constant by any channel; and which other maps a folder has, which are not
  * used. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
-/* The files of a texture, by number: the image, the map of its target's finishes, and its tiles from
- * RETEX_TEXTURE_FILE_TILES on. */
+/* The files of a texture, by number: the image, the map that `finish` names or a folder's roughness, a folder's normal
+ * map, and its tiles from RETEX_TEXTURE_FILE_TILES on. */
 enum {
     RETEX_TEXTURE_FILE_IMAGE,
     RETEX_TEXTURE_FILE_FINISH,
+    RETEX_TEXTURE_FILE_NORMAL,
     RETEX_TEXTURE_FILE_TILES,
     RETEX_TEXTURE_FILES = RETEX_TEXTURE_FILE_TILES + RETEX_TILES_MAX
 };
-/* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the file
- * of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which is read
- * where the target has finishes. For checksums and times of files, and for all that must know what is read. To be
- * freed; NULL where there is none, as the image of a constant. RETEX_EFORMAT for a folder that has no base colour, or
- * several. */
+/* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the
+ * file of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which
+ * is read where the target has finishes, and its normal map, which is where it takes one. For checksums and times of
+ * files, and for all that must know what is read. To be freed; NULL where there is none, as the image of a constant.
+ * RETEX_EFORMAT for a folder that has no base colour, or several. */
 int retex_texture_file(char **file, const RetexTextureSpec *spec, int number, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,

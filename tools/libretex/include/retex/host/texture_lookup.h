@@ -15,7 +15,8 @@ extern "C" {
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
 
 /* The weights of the target's finishes at a point, bilinear too, where the texture has a map of them; they sum to 1,
- * and where it is transparent finish `shown` has the rest. Returns their number, 0 where it has no map. */
+ * and where it is transparent finish `shown` has the rest. Returns their number, 0 where it has no map. Of a normal map
+ * they have either sign, and the fourth is of a finish that is black. */
 int retex_texture_finishes(const RetexTexture *texture, double u, double v, int shown, float weights[4]);
 
 /* Prefetch the memory of a point that will be looked up soon. */
