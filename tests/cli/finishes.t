@@ -23,6 +23,10 @@ $ T="--texture Floor=rgb(.3,.7,.2) --texture Wall=rgb(.8,.2,.5)"; P="--replace F
 $ retex-combine -q full.exr --finish Floor=Gloss -o a.exr; retex-combine -q full.exr -o b.exr; retex-diff -q a.exr b.exr --fail-psnr 40
 = 1
 
+# Three finishes make a set less than twice as large: light of more choices is rounded to coarser steps.
+$ for f in '' '--finish Floor=original,Gloss,polished'; do retex-render -q --size 160x120 --spp 32 room.pov -t Floor -t Wall $f -o size.exr; stat -c %s size.exr; done | paste -s | awk '{ print ($2 < 1.8 * $1 ? "small" : $2 / $1) }'
+> small
+
 # Matte surfaces that a mesh lights are traced in packets of their own; with another finish they are not.
 $ echo 'camera { location <0,1,-4> look_at <0,.5,0> } #declare Floor = texture { pigment { rgb .7 } finish { ambient 0 diffuse 1 } } plane { y, 0 texture { Floor } } sphere { <0,.6,0>, .6 pigment { rgb .6 } finish { ambient 0 diffuse 1 } } mesh { triangle { <-3,3,-3>, <3,3,-3>, <3,3,3> } triangle { <-3,3,-3>, <3,3,3>, <-3,3,3> } pigment { rgb 1 } finish { emission 1 diffuse 0 } }' >m.pov; printf 'exec retex-render -q --size 32x24 --spp 16 m.pov --finish Floor=original,polished "$@"' >m; sh m --full-precision -o m.exr; for f in original polished; do sh m --plain --show Floor=$f --replace 'Floor=rgb(.3,.7,.2)' -o p.exr; retex-combine -q m.exr --finish Floor=$f --texture 'Floor=rgb(.3,.7,.2)' -o c.exr; retex-diff -q c.exr p.exr --fail-psnr 60 || echo $f; done
 $ sed 's/ambient 0 diffuse 1 } } plane/ambient 0 retex { roughness 0.08 ior 1.5 } } } plane/' m.pov >e.pov; retex-render -q --size 32x24 --spp 256 --plain e.pov -o e.exr; for f in polished original; do retex-render -q --size 32x24 --spp 256 --plain --finish Floor=$f m.pov -o p.exr; sh m --spp 256 --plain --show Floor=$f -o s.exr; for i in p s; do retex-diff -q $i.exr e.exr --fail-psnr 34 || echo $i $f; done; done

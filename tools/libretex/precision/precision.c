@@ -35,7 +35,7 @@ struct RetexPrecision {
     RetexSignals signals;
     RetexEdited *edited;
     double remaining;
-    int has_noise;
+    int has_noise, has_finishes;
     int nfootprints, nmixtures;
     Footprint *footprints;
     char whole[RETEX_MIXTURES_MAX]; /* 1: the shares of the mixture are not reduced */
@@ -143,6 +143,8 @@ int retex_precision_open(RetexPrecision **result, const RetexSet *set, double re
         return code;
     }
     p->has_noise = 1;
+    /* compact sets divide by all light, which is worth its bytes once it is denoised */
+    p->has_finishes = remaining >= 1 && retex_set_has_finishes(set);
     for (int s = 0; s < p->signals.count; s++) {
         RetexSignal *signal = &p->signals.of[s];
         qsort(signal->members, (size_t)signal->nmembers, sizeof *signal->members, compare_members);
@@ -463,6 +465,7 @@ static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *row
                              .rows = rows,
                              .at = at,
                              .has_noise = p->has_noise,
+                             .has_finishes = p->has_finishes,
                              .whites = s->whites + at % (size_t)rows->width,
                              .noise = s->deviations};
     take_noise(p, s, rows, pixel);
@@ -513,11 +516,17 @@ typedef struct Rounding {
 } Rounding;
 
 /* The kind of a part's numbers, if they are rounded one by one; -1: another part. */
-static int lone_kind(const RetexSet *set, int part)
+static int lone_kind(const RetexPrecision *p, const RetexSet *set, int part)
 {
     const char *name = set->parts[part].name;
     if (part == 0)
         return RETEX_PRECISION_PICTURE;
+    for (int s = 0; s < p->signals.count && p->has_finishes; s++)
+        if (p->signals.of[s].noise == part && p->signals.of[s].lamp >= 0)
+            return RETEX_PRECISION_CHOICE_NOISE;
+    for (int t = 0; t < set->nterms && p->has_finishes; t++)
+        if (set->terms[t].radiance == part && set->terms[t].role == RETEX_ROLE_LAMP_PICTURE)
+            return RETEX_PRECISION_CHOICE_PICTURE;
     if (retex_name_is_noise(name))
         return RETEX_PRECISION_NOISE;
     if (!retex_name_is_feature(name))
@@ -528,7 +537,7 @@ static int lone_kind(const RetexSet *set, int part)
 static void round_lone_numbers(const Rounding *r, int y0, int y1)
 {
     for (int k = 0; k < r->rows->nparts; k++) {
-        const int kind = lone_kind(r->rows, k);
+        const int kind = lone_kind(r->precision, r->rows, k);
         const RetexImage *im = &r->rows->parts[k].image;
         if (kind < 0 || !im->pixels || !is_whole(r->rows, k, 1))
             continue;

@@ -17,6 +17,9 @@ static const double CARRIED = 0.8;
 /* Corrections of two and more factors have steps that are larger by this: their errors go to those of one factor. */
 static const double FURTHER_CORRECTION = 8;
 static const double LARGEST = 65504; /* that a half holds */
+/* With finishes to choose from a picture is never of all light, which is the mean over all choices: its terms with
+ * further hits only guide denoising and compact sets, and have steps that are larger by this. */
+static const double MEAN_FURTHER = 8;
 
 double retex_mean_size(const float color[3])
 {
@@ -57,7 +60,8 @@ static double light_unit(const RetexPixelLight *p, int signal)
     const double noise = p->noise[signal], white = white_of(p, &p->signals->of[signal]);
     if (p->has_noise ? !(noise > 0) : p->signals->of[signal].target < 0)
         return 0;
-    return retex_round_unit(white > 0 ? retex_precision_step(RETEX_PRECISION_LIGHT, white, noise / white) : 0);
+    const RetexPrecisionKind kind = p->has_finishes ? RETEX_PRECISION_CHOICE_LIGHT : RETEX_PRECISION_LIGHT;
+    return retex_round_unit(white > 0 ? retex_precision_step(kind, white, noise / white) : 0);
 }
 
 /* The unit for the number that closes the sum of a signal. */
@@ -69,7 +73,14 @@ static double closing_unit(const RetexPixelLight *p, const RetexSignal *signal, 
     return fmin(unit, retex_round_unit(fmax(step, finest)));
 }
 
-/* The brightest member of a signal; -1: it has no light. */
+/* Of light that no picture shows: its errors are not carried to the clusters' own light, whose ratios are weights of
+ * light that pictures do show. */
+static int is_unseen(const RetexPixelLight *p, const RetexSignal *signal, const RetexSignalMember *member)
+{
+    return p->has_finishes && signal->lamp < 0 && member->hits > 1;
+}
+
+/* The brightest member of a signal that pictures show; -1: it has no light. */
 static int brightest(const RetexPixelLight *p, const RetexSignal *signal)
 {
     int member = -1;
@@ -77,7 +88,7 @@ static int brightest(const RetexPixelLight *p, const RetexSignal *signal)
     for (int m = 0; m < signal->nmembers; m++) {
         const RetexSignalMember *one = &signal->members[m];
         const double light = (double)one->weight * retex_mean_size(retex_pixel_at(p->rows, one->part, p->at));
-        if (light > most)
+        if (light > most && !is_unseen(p, signal, one))
             most = light, member = m;
     }
     return member;
@@ -100,6 +111,14 @@ static void round_member(const RetexPixelLight *p, const RetexSignalMember *memb
     }
 }
 
+static void round_unseen(const RetexPixelLight *p, const RetexSignal *signal, double unit)
+{
+    double carried[3] = {0, 0, 0};
+    for (int m = 0; m < signal->nmembers; m++)
+        if (is_unseen(p, signal, &signal->members[m]))
+            round_member(p, &signal->members[m], unit, carried);
+}
+
 /* Corrections, which are members too, have a weight of 0. */
 static void round_signal(const RetexPixelLight *p, int number)
 {
@@ -107,10 +126,12 @@ static void round_signal(const RetexPixelLight *p, int number)
     const double unit = light_unit(p, number);
     const int closing = brightest(p, signal);
     double carried[3] = {0, 0, 0};
+    if (unit > 0)
+        round_unseen(p, signal, MEAN_FURTHER * unit);
     if (!(unit > 0) || closing < 0)
         return;
     for (int m = 0; m < signal->nmembers; m++)
-        if (m != closing && signal->members[m].weight > 0)
+        if (m != closing && signal->members[m].weight > 0 && !is_unseen(p, signal, &signal->members[m]))
             round_member(p, &signal->members[m], unit, carried);
     const RetexSignalMember *last = &signal->members[closing];
     round_member(p, last, closing_unit(p, signal, retex_pixel_at(p->rows, last->part, p->at), unit), carried);

@@ -15,6 +15,7 @@ typedef struct RetexPixelLight {
     const RetexSet *rows;
     size_t at;            /* the pixel's number in them */
     int has_noise;        /* 0: all steps are the finest */
+    int has_finishes;     /* 1: finishes to choose from, not denoised: light of role lamp is that of each choice */
     const double *noise;  /* by signal, then of all together */
     double white;         /* the largest channel of the sum of all terms of light */
     const double *whites; /* the same of each lamp's, by parameter, a row of the set apart */
