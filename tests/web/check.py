@@ -239,9 +239,59 @@ def check_lamps(page):
     page.open(url + "page.html")
 
 
+def choose(page, control, *files):
+    node = page.call("Runtime.evaluate", expression=f"{PART}('[data-set={control}]')")["result"]["objectId"]
+    page.call("DOM.setFileInputFiles", files=[f"{work}/{file}" for file in files], objectId=node)
+
+
+def check_maps(page, near):
+    """Maps of finishes in the panel, of files that are chosen and dropped, and the roughness of a folder."""
+    state = f"[{PART}('[data-set=map]').disabled, {PART}('[data-do=unmap]').disabled, {PART}('.map').textContent]"
+    result(page.run(state) == [True, True, "Maps need a new texture"], f"no map without a texture: {page.run(state)}")
+    page.room(f"setTexture('Floor', '{url}textures/brick.jpg', {{scale: [1, 1]}})")
+    result(page.run(state) == [False, True, ""], f"a texture may have a map: {page.run(state)}")
+    choose(page, "map", "textures/fans.jpg")
+    result(page.until(f"{PART}('.map').textContent === 'fans'"), f"a map is chosen: {page.run(state)}")
+    near(38, "--finish", "Floor=Gloss", f"--texture:finish={work}/textures/fans.jpg", f"Floor={work}/textures/brick.jpg")
+    result(page.run(f"[...{PART}('.finishes').querySelectorAll('input')].every(i => i.disabled)"), "with a map there is no finish to choose")
+    named = {(n.get("role", {}).get("value"), n.get("name", {}).get("value")) for n in page.call("Accessibility.getFullAXTree")["nodes"]}
+    result({("button", "Map of finishes…"), ("button", "Remove the map of finishes")} <= named, "screen readers: the map's controls have names")
+    page.shot("maps-desktop")
+    page.run(f"{PART}('[data-set=map]').focus()")
+    page.key("Tab", 9)
+    result(page.run(f"{ROOM}.shadowRoot.activeElement.dataset.do") == "unmap", "the keyboard goes from the map to its removal")
+    page.key("Enter", 13, "\r")
+    page.settle()
+    result(page.run(state) == [False, True, ""] and page.run(f"{ROOM}.shadowRoot.activeElement.dataset.set") == "map", "a map is removed by a key")
+    near(38, "--finish", "Floor=Gloss", "--texture", f"Floor={work}/textures/brick.jpg")
+    for kind in ("dragEnter", "dragOver", "drop"):
+        page.call("Input.dispatchDragEvent", type=kind, **dict(zip("xy", page.middle(".finish .file"))),
+                  data={"items": [], "files": [f"{work}/textures/damask.jpg"], "dragOperationsMask": 1})
+    result(page.until(f"{PART}('.map').textContent === 'damask'") and page.run(f"{ROOM}.textures[0].label") == "brick.jpg", "a map is dropped on the finishes")
+    os.makedirs(f"{work}/oak/textures")
+    for file, name in (("brick.jpg", "diff_1k.jpg"), ("fans.jpg", "rough_1k.jpg"), ("terrazzo.jpg", "nor_gl_1k.jpg")):
+        shutil.copy(f"{work}/textures/{file}", f"{work}/oak/textures/oak_{name}")
+    folder = ["--finish", "Floor=Gloss", "--texture", f"Floor={work}/oak"]
+    choose(page, "file", *(f"oak/textures/oak_{name}_1k.jpg" for name in ("rough", "nor_gl", "diff")))
+    result(page.until(f"{PART}('.map').textContent === 'oak rough 1k'"), f"several files are one texture: {page.run(state)}")
+    page.room("place('Floor', {scale: [1, 1]})")
+    near(38, *folder)
+    page.room("setState({finishes: {Floor: 'Gloss'}})")
+    for kind in ("dragEnter", "dragOver", "drop"):
+        page.call("Input.dispatchDragEvent", type=kind, **dict(zip("xy", page.middle("[data-do=original]"))),
+                  data={"items": [], "files": [f"{work}/oak"], "dragOperationsMask": 1})
+    result(page.until(f"{PART}('.map').textContent === 'oak rough 1k'"), f"a folder is dropped: {page.run(state)}")
+    page.room("place('Floor', {scale: [1, 1]})")
+    near(38, *folder)
+    choose(page, "file", "textures/brick.jpg", "textures/fans.jpg")
+    said = f"{PART}('.message').textContent"
+    result(page.until(f"{said}.startsWith('None of these files is a base colour')"), f"files that are no texture together: {page.run(said)}")
+    page.press("[data-do=close]")
+
+
 def check_finishes(page):
     """A set with finishes and lamps: pictures against retex-combine, buttons by mouse, keys and screen reader, links."""
-    subprocess.run(["retex-render", "-q", "--size", "96x72", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss", "-l", "Lamp",
+    subprocess.run(["retex-render", "-q", "--size", "96x72", "--spp", "64", "--denoise", "--finish", "Floor=original,Gloss,matt", "-l", "Lamp",
                     "-l", "Panel", "tests/cli/finishes.pov", "-o", f"{work}/shine.exr"], check=True)
     subprocess.run(["retex-pack", "-q", f"{work}/shine.exr", "--web", f"{work}/shine"], check=True)
 
@@ -269,6 +319,8 @@ def check_finishes(page):
     result(page.state() == colored and colored["textures"]["Floor"]["finish"].endswith("fans.jpg"), f"a link restores a map: {link}")
     near(38, *mapped)
     page.room("setTexture('Floor', null)")
+    check_maps(page, near)
+    page.room("setState({finishes: {Floor: 'Gloss'}})")
     page.run(f"{PART}('.finishes input:checked').focus()")
     page.key("ArrowLeft", 37)
     page.settle()

@@ -72,10 +72,12 @@ test("finishes of targets, which parameters refer to", async () => {
     parameters: [part([0, 0]), part([1, 0]), part([2, 0]), { ...part([2, 0]), lamp: "" }], ...changes });
   checkManifest(shiny());
   checkManifest(shiny({ targets: { finishes: ["a", "b", "c", "d"], finish: 4 } }));
-  checkManifest(shiny({ targets: { finishes: ["a", "b", "c"], finish: 1, normal_tilt: 15 } }));
+  checkManifest(shiny({ targets: { finishes: ["a", "b", "c"], finish: 1, normal_tilt: 15, finish_roughness: [1, 1, 1] } }));
+  checkManifest(shiny({ targets: { finish_roughness: [-1, 0.25] } }));
   checkManifest(shiny({ parameters: undefined }));
   for (const targets of [{ finish: 3 }, { finish: 0 }, { finish: -1 }, { finish: "satin" }, { finish: undefined }, { finishes: ["matt"], finish: 1 }, { finishes: [], finish: 0 }, { finishes: "matt" }, { finishes: null },
-    { normal_tilt: "15" }, { finishes: ["matt", 3] }, { finishes: ["a", "b", "c", "d", "e"] }, { finishes: undefined }])
+    { normal_tilt: "15" }, { finishes: ["matt", 3] }, { finishes: ["a", "b", "c", "d", "e"] }, { finishes: undefined },
+    { finish_roughness: [1] }, { finish_roughness: [0, 2] }, { finish_roughness: [0, "1"] }, { finish_roughness: 1 }])
     await fails(() => checkManifest(shiny({ targets })), DAMAGED, JSON.stringify(targets));
   for (const wrong of [part([3, 0]), part([-1, 0]), part([0.5, 0]), part(["1", 0]), part([1, 1]), part([1]), part([1, 0, 0]), part(1), part(undefined), { ...part([1, 0]), lamp: undefined }, { ...part([1, 0]), lamp: 3 }])
     await fails(() => checkManifest(shiny({ parameters: [part([0, 0]), wrong] })), DAMAGED, JSON.stringify(wrong));

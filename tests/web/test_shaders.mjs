@@ -1,7 +1,7 @@
 /* The player's whole picture, shaders included: a room that retex-pack wrote, drawn by the Renderer on webgl.mjs, against
  * retex-combine's pictures of its set. */
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { inflateSync } from "node:zlib";
 import { near, same, test } from "./tap.mjs";
@@ -29,7 +29,7 @@ const document = { createElement: () => {
   let shown;
   return { getContext: () => ({ drawImage: (image) => (shown = image), getImageData: () => ({ data: shown.rgba }) }) };
 } };
-const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest, isRelit } = player({ WebGLTexture, document });
+const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest, isRelit, readFolder } = player({ WebGLTexture, document });
 
 function open(name, { classes = () => true, lit = true } = {}) {
   const room = JSON.parse(readFileSync(`${folder}/${name}/room.json`, "utf8"));
@@ -43,8 +43,8 @@ function open(name, { classes = () => true, lit = true } = {}) {
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
   const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
     const all = room.targets.map((t, i) => {
-      const { image = null, map = null, ...options } = textures[t.name] || {}, texture = { ...plainTexture(), ...placing(plainTexture(), options), image, map, put: { shifted: "" } };
-      renderer.putTexture(i, image, map && { image: map, wrap: RetexRoom.prototype.wrapOf(texture) });
+      const { image = null, map = null, channel = null, ...options } = textures[t.name] || {}, texture = { ...plainTexture(), ...placing(plainTexture(), options), image, map, put: { shifted: "" } };
+      renderer.putTexture(i, image, map && { image: map, wrap: RetexRoom.prototype.wrapOf(texture), channel });
       return texture;
     });
     const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room, finishes }).settings();
@@ -148,14 +148,28 @@ y, x = n.mgrid[0:16, 0:24]
 put("grey.png", n.repeat((((x // 6 + y // 4) % 2) * 200 + x)[:, :, None], 3, axis=2))
 put("colors.png", n.stack([x * 10, y * 14, 0 * x], axis=2))
 put("clear.png", n.stack([200 + 0 * x, x * 8, y * 12, ((x // 6 + y // 6) % 2) * 255], axis=2))
-put("wood.png", n.stack([x * 10, 255 - x * 6, 40 + y * 12], axis=2))`);
+put("wood.png", n.stack([x * 10, 255 - x * 6, 40 + y * 12], axis=2))
+import os
+for folder, last in ("rough", 0), ("gloss", 0), ("arm", 1):
+  os.mkdir(folder); os.link("wood.png", folder + "/wood_diff.png"); rows = n.repeat((((x // 6 + y // 4) % 2) * 120 + 4 * x)[:, :, None], 3, axis=2)
+  for c in range(3): rows[:, :, c] = rows[:, :, c] if c == last else 90
+  put(f"{folder}/wood_{folder}.png", rows)`);
   for (const [what, edits, decibels, chosen = {}, split = 0] of [
     ["a grey map, right of the split", { Floor: ["wood.png", "grey.png"] }, 34, {}, 8],
     ["two maps", { Floor: ["wood.png", "colors.png", "scale=2:rotate=20:offset=0.1,0.3", { scale: [2, 2], rotate: 20, offset: [0.1, 0.3] }], Wall: [[0.3, 0.5, 0.8], "grey.png"] }, 34],
+    ["a folder with roughness", { Floor: ["rough"] }, 34],
+    ["a folder with gloss", { Floor: ["gloss"] }, 34],
+    ["a folder with roughness in green", { Floor: ["arm"] }, 34],
     ["a clear floor", { Floor: ["clear.png", "grey.png", "wrap=mirror", { wrap: "mirror" }] }, 34, { Floor: "matt", Wall: "satin" }]]) {
     const textures = {}, args = Object.entries(chosen).flatMap(([t, f]) => ["--finish", `${t}=${f}`]);
     for (const [target, [image, map, text = "scale=1", placed = {}]] of Object.entries(edits)) {
       const isColor = Array.isArray(image);
+      if (!map) {
+        const { color, rough, channel } = readFolder(readdirSync(`${folder}/${image}`).map((name) => ({ name: `${image}/${name}` })));
+        textures[target] = { image: images([color.name])[0], map: images([rough.name])[0], channel, scale: [1, 1] };
+        args.push("--texture", `${target}=${image}`);
+        continue;
+      }
       textures[target] = { image: isColor ? image : images([image])[0], map: images([map])[0], scale: [1, 1], ...placed };
       args.push(`--texture:finish=${map}:${text}`, `${target}=${isColor ? `rgb(${image})` : image}`);
     }

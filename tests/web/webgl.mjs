@@ -67,7 +67,7 @@ export class WebGLTexture {
 }
 
 const decode = (x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
-const KINDS = { sampler2D: "SAMPLER_2D", usampler2D: "UNSIGNED_INT_SAMPLER_2D", mat2: "FLOAT_MAT2", vec2: "FLOAT_VEC2", vec3: "FLOAT_VEC3", float: "FLOAT" };
+const KINDS = { sampler2D: "SAMPLER_2D", usampler2D: "UNSIGNED_INT_SAMPLER_2D", mat2: "FLOAT_MAT2", vec2: "FLOAT_VEC2", vec3: "FLOAT_VEC3", vec4: "FLOAT_VEC4", float: "FLOAT" };
 const chunks = (list, size) => Array.from({ length: list.length / size }, (_, i) => [...list].slice(i * size, (i + 1) * size));
 
 /* A context for a canvas, whose picture comes into canvas.values: four numbers of each pixel, rows from the bottom. */
@@ -105,7 +105,7 @@ export function context(canvas) {
     framebufferTexture2D: (_, attachment, kind, texture) => Object.assign(frame, { texture, layer: 0 }),
     viewport: (x, y, width, height) => (view = [width, height]),
     uniformMatrix2fv: (at, _, value) => gl.set(at, chunks(value, 4).map(([a, b, c, d]) => [[a, b], [c, d]])),
-    uniform2fv: (at, value) => gl.set(at, chunks(value, 2)), uniform3fv: (at, value) => gl.set(at, chunks(value, 3)),
+    uniform2fv: (at, value) => gl.set(at, chunks(value, 2)), uniform3fv: (at, value) => gl.set(at, chunks(value, 3)), uniform4fv: (at, value) => gl.set(at, chunks(value, 4)),
     uniform1f: (at, value) => gl.set(at, [value]), uniform1i: (at, value) => gl.uniform1iv(at, [value]),
     uniform1iv: (at, value) => gl.set(at, at.type === "bool" ? value.map(Boolean) : at.type === "int" ? value.map((x) => BigInt(x)) : value),
     set: (at, list) => (used.values[at.name] = at.isList ? list : list[0]),

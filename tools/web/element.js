@@ -399,7 +399,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     for (const button of this.offered) button.disabled = off, button.setAttribute("aria-pressed", button.dataset.source === texture.source);
     this.$("[data-set=exposure]").disabled = this.$("[data-set=warmth]").disabled = !this.renderer;
     this.$("[data-set=file]").disabled = this.$("[data-set=color]").disabled = this.$("[data-do=original]").disabled = off;
-    this.$(".chosen").textContent = wordsOf(texture.label);
+    this.$(".chosen:not(.map)").textContent = wordsOf(texture.label);
     this.$(".placing").hidden = !texture.image || Array.isArray(texture.image);
     const mean = Array.isArray(texture.scale) ? texture.scale[0] : texture.scale;
     const show = (key, value, text) => {
@@ -425,7 +425,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
   /* The finishes of the target that the controls change. */
   refreshFinishes() {
     const box = this.$(".finishes"), { name } = this.room.targets[this.selected], finishes = this.finishesOf(this.selected), of = [name, ...finishes].join();
-    const chosen = this.finishes[this.selected], rendered = this.finishNumber(this.selected, null);
+    const { image, map, mapLabel } = this.textures[this.selected], chosen = this.finishes[this.selected], rendered = this.finishNumber(this.selected, null);
     this.$(".finish").hidden = !finishes.length;
     if (box.dataset.of !== of)
       box.replaceChildren(...finishes.map((text, i) => {
@@ -438,8 +438,11 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
         return label;
       }));
     box.dataset.of = of;
-    for (const input of box.querySelectorAll("input")) input.checked = input.value === finishes[chosen - 1], input.disabled = !this.renderer;
-    this.$("[data-do=rendered]").disabled = !this.renderer || chosen === rendered;
+    for (const input of box.querySelectorAll("input")) input.checked = input.value === finishes[chosen - 1], input.disabled = !this.renderer || !!map;
+    this.$("[data-do=rendered]").disabled = !this.renderer || !!map || chosen === rendered;
+    this.$("[data-set=map]").disabled = !this.renderer || !image;
+    this.$("[data-do=unmap]").disabled = !map;
+    this.$(".map").textContent = map ? wordsOf(mapLabel) : image ? "" : "Maps need a new texture";
   }
 
   /* A row a lamp. */
@@ -515,9 +518,15 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     if (!texture) return;
     switch (input.dataset.set) {
       case "file": {
+        const files = [...input.files];
+        input.value = "";
+        if (files.length) this.try(() => this.setTexture(name, files));
+        break;
+      }
+      case "map": {
         const [file] = input.files;
         input.value = "";
-        if (file) this.try(() => this.setTexture(name, file));
+        if (file) this.try(() => this.setMap(name, file));
         break;
       }
       case "color": return this.try(() => this.setTexture(name, input.value));
@@ -551,13 +560,18 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       case "out": return this.zoomBy(1 / 1.5);
       case "full": return document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen();
       case "original": return this.setTexture(this.targets[this.selected], null);
+      case "unmap": {
+        const done = this.setMap(this.targets[this.selected], null);
+        this.$("[data-set=map]").focus(); // the button cannot be used any more
+        return done;
+      }
       case "rendered": {
         const done = this.setFinish(this.targets[this.selected]);
         this.$(".finishes input:checked").focus(); // the button cannot be used any more
         return done;
       }
       case "link": {
-        const local = this.textures.some((t) => t.local);
+        const local = this.textures.some((t) => t.local || (t.map && !t.finish));
         let where = "Link copied.";
         history.replaceState(null, "", this.link);
         try {
@@ -697,20 +711,26 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       const target = this.targetAt(event.clientX, event.clientY);
       return target >= 0 && this.renderer.canEdit(target) ? target : this.selected;
     };
+    const isMap = (event) => !!event.target.closest?.(".finish") && !this.$("[data-set=map]").disabled;
     const drag = (event, on) => {
       event.preventDefault();
       room.classList.toggle("drop", on && !!this.renderer);
       this.hover(event);
-      if (on && this.renderer) this.$(".name").hidden = false, (this.$(".name").textContent = `Put it on: ${this.targets[dropAt(event)]}`);
+      const where = isMap(event) ? `Map of finishes: ${this.targets[this.selected]}` : `Put it on: ${this.targets[dropAt(event)]}`;
+      if (on && this.renderer) this.$(".name").hidden = false, (this.$(".name").textContent = where);
     };
     room.addEventListener("dragover", (event) => drag(event, true));
     room.addEventListener("dragleave", (event) => room.contains(event.relatedTarget) || drag(event, false));
     room.addEventListener("drop", (event) => {
       drag(event, false);
-      const [file] = event.dataTransfer.files;
-      if (!file || !this.renderer) return;
-      this.select(this.targets[dropAt(event)]);
-      this.try(() => this.setTexture(this.targets[this.selected], file));
+      if (!event.dataTransfer.files.length || !this.renderer) return;
+      const dropped = droppedFiles(event.dataTransfer), asMap = isMap(event);
+      if (!asMap) this.select(this.targets[dropAt(event)]);
+      const name = this.targets[this.selected];
+      this.try(async () => {
+        const files = await dropped;
+        if (files.length) await (asMap ? this.setMap(name, files[0]) : this.setTexture(name, files));
+      });
     });
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();

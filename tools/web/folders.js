@@ -32,7 +32,7 @@ function readFolder(files) {
 }
 
 /* Whether roughness chooses among a target's finishes: that of two is known. */
-const hasRoughness = ({ finish_roughness: known = [] }) => known.filter((x) => x >= 0).length > 1;
+const hasRoughness = ({ finish_roughness: known = [], normal_tilt: tilt }) => !tilt && known.filter((x) => x >= 0).length > 1;
 
 /* All files that were dropped, those of folders too, and of folders `textures` in them. To be called before the event ends. */
 async function droppedFiles({ items, files }) {

@@ -5,7 +5,7 @@ const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
 
 const plainTexture = () => ({
   source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], tint: "#ffffff", flip: "", wrap: "repeat", repeat: "straight",
-  finish: "", normal: "", map: null,
+  finish: "", normal: "", map: null, mapLabel: "", channel: null,
 });
 
 /* What the options of a texture may be. */
@@ -150,15 +150,17 @@ ${TOOLS}
     <h2 id="what">Surface</h2>
     <div class="row targets" role="group" aria-labelledby="what"></div>
     <div class="finish" hidden>
-      <h2 id="how">Finish</h2>
+      <h2><span id="how">Finish</span><span class="chosen map" id="map"></span></h2>
       <div class="row finishes" role="radiogroup" aria-labelledby="how"></div>
       <button data-do="rendered" title="As rendered" aria-label="Finish: as rendered">↺</button>
+      <label class="file">Map of finishes…<input type="file" accept="image/*" data-set="map" aria-describedby="map"></label>
+      <button data-do="unmap" title="Remove the map" aria-label="Remove the map of finishes">×</button>
     </div>
     <h2><span id="with">Texture</span><span class="chosen"></span></h2>
     <div class="row swatches images" role="group" aria-labelledby="with"></div>
     <div class="row swatches colors" role="group" aria-label="Colours"><input type="color" value="#c8b9a6" data-set="color" title="Any colour" aria-label="Any colour"></div>
     <div class="row">
-      <label class="file">Your photo…<input type="file" accept="image/*" data-set="file"></label>
+      <label class="file">Your photo…<input type="file" accept="image/*" multiple data-set="file"></label>
       <button data-do="original">Original</button>
     </div>
     <div class="placing">

@@ -10,16 +10,33 @@ function isGrey(image) {
   return !data.some((_, i) => i % 4 === 0 && (far(i, i + 1) || far(i + 1, i + 2)));
 }
 
-/* Weights of the second finish and of later ones by texels of a map. */
+/* Weights of the second finish and of later ones by texels of a map: rough: of roughness, in one channel; channel.w: 1 of
+ * gloss. A roughness is between two finishes of the target, by their own. */
 const WEIGH = `${HEAD}
 uniform sampler2D codes;
-uniform bool grey;
+uniform bool grey, rough;
 uniform int count;
+uniform vec4 roughness, channel;
 out vec4 result;
+float scale(int k) { return k < count ? roughness[k] : -1.0; }
+vec3 between(float r) {
+  int below = -1, above = -1;
+  for (int k = 0; k < 4; k++) {
+    if (scale(k) >= 0.0 && scale(k) <= r && (below < 0 || scale(k) > scale(below))) below = k;
+    if (scale(k) > r && (above < 0 || scale(k) < scale(above))) above = k;
+  }
+  float at = below < 0 ? 1.0 : above < 0 ? 0.0 : (r - scale(below)) / (scale(above) - scale(below));
+  vec4 w = vec4(0.0);
+  if (above >= 0) w[above] = at;
+  if (below >= 0) w[below] = 1.0 - at;
+  return w.yzw;
+}
 void main() {
   vec4 code = texelFetch(codes, ivec2(gl_FragCoord.xy), 0);
   vec3 w = code.rgb * code.a;
-  if (grey) w = max(1.0 - abs(vec3(w.r * float(count - 1)) - vec3(1.0, 2.0, 3.0)), 0.0);
+  vec3 chosen = w * channel.rgb;
+  if (rough) w = between(abs(channel.w - (chosen.r + chosen.g + chosen.b)));
+  else if (grey) w = max(1.0 - abs(vec3(w.r * float(count - 1)) - vec3(1.0, 2.0, 3.0)), 0.0);
   else w *= vec3(1.0, count > 2 ? 1.0 : 0.0, count > 3 ? 1.0 : 0.0);
   result = vec4(w / max(w.r + w.g + w.b, 1.0), 1.0);
 }`;

@@ -35,10 +35,11 @@ function checkManifest(room) {
   });
   check(room.targets.length);
   const hasFinishes = room.targets.some((t) => t.finishes !== undefined), named = (name) => check(typeof name === "string");
-  for (const { finishes, finish } of room.targets) {
+  for (const { finishes, finish, finish_roughness: rough } of room.targets) {
     if (finishes === undefined) continue;
     list(finishes, 4, named);
     check(finishes.length > 1);
+    if (rough !== undefined) list(rough, 4, (x) => number(x, -1, 1)), check(rough.length === finishes.length);
     whole(finish, 1, finishes.length);
   }
   for (const { normal_tilt: tilt } of room.targets) if (tilt !== undefined) number(tilt);
@@ -303,12 +304,15 @@ class Renderer {
   }
 
   /* The texture where it has each finish, and the weights of these: the larger size of both counts. */
-  putMap(target, source, { image, wrap }) {
+  putMap(target, source, { image, wrap, channel }) {
     const { gl } = this, sizeOf = (x) => [x.naturalWidth || x.width || 1, x.naturalHeight || x.height || 1], own = sizeOf(image), count = target.finishes.length;
     this.mapPrograms ||= [WEIGH, PRODUCT, smallGateShader(this.room), gateShader(this.room), pictureShader(this.room, true)].map((text) => this.program(text));
     const codes = this.texture(gl.TEXTURE_2D, gl.RGBA8, ...own, 0, gl.NEAREST);
     this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
-    const weights = this.drawTexture(gl.RGBA16F, own, this.mapPrograms[0], { codes, grey: isGrey(image) ? 1 : 0, count }, 1);
+    const weights = this.drawTexture(gl.RGBA16F, own, this.mapPrograms[0], {
+      codes, count, grey: !channel && isGrey(image) ? 1 : 0, rough: channel ? 1 : 0, channel: channel || [0, 0, 0, 0],
+      roughness: [0, 1, 2, 3].map((k) => target.finish_roughness?.[k] ?? -1),
+    }, 1);
     for (const texture of [weights, target.image]) this.wrap(texture, wrap);
     const size = sizeOf(source).map((x, k) => Math.max(x, own[k])), format = Array.isArray(source) ? gl.RGBA16F : gl.SRGB8_ALPHA8;
     const product = (finish) => this.drawTexture(finish ? format : gl.RGBA8, size, this.mapPrograms[1], { image: target.image, weights, size, finish });
@@ -347,6 +351,7 @@ class Renderer {
       } else if (type === gl.FLOAT_MAT2) gl.uniformMatrix2fv(at, false, value);
       else if (type === gl.FLOAT_VEC2) gl.uniform2fv(at, value);
       else if (type === gl.FLOAT_VEC3) gl.uniform3fv(at, value);
+      else if (type === gl.FLOAT_VEC4) gl.uniform4fv(at, value);
       else if (type === gl.FLOAT) gl.uniform1f(at, value);
       else if (Array.isArray(value)) gl.uniform1iv(at, value);
       else gl.uniform1i(at, value);

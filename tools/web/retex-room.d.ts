@@ -16,7 +16,7 @@ export interface RetexPlacing {
 
 export interface RetexTextureOptions extends RetexPlacing {
   /** A picture that says which of the target's finishes is where: grey through the list of finishes, or red, green and
-   * blue for the second, third and fourth. */
+   * blue for the second, third and fourth; or "none". */
   finish?: Blob | string;
   /** A normal map. Pages do not show it; it stays in states and links, for the tools. */
   normal?: string;
@@ -64,7 +64,10 @@ export class RetexRoom extends HTMLElement {
   readonly lamps: RetexLamp[];
   readonly complete: Promise<void>;
   readonly link: string;
-  setTexture(target: string, source: Blob | string | null, options?: RetexTextureOptions): Promise<void>;
+  /** A list is the files of one texture: the base colour and the roughness, by their names. */
+  setTexture(target: string, source: Blob | File[] | string | null, options?: RetexTextureOptions): Promise<void>;
+  /** Another map of finishes on the texture that lies there; null: none. */
+  setMap(target: string, map: Blob | string | null): Promise<void>;
   place(target: string, options: RetexPlacing): void;
   setLight(light: Partial<RetexLight>): Promise<void>;
   /** A lamp's new value: 0, 2.5, "#ffd0a0", "3000K", "1.5*3000K"; null: as rendered. */

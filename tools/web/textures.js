@@ -35,14 +35,25 @@ function smaller(image, most) {
   return context.canvas;
 }
 
+/* What a texture keeps of a map: its address, for links, its name, and the channel that is roughness. */
+const mapOf = (map, from, channel = null) => ({
+  map, channel: map && channel, finish: map && !(from instanceof Blob) ? String(from) : "", mapLabel: map ? (from instanceof Blob ? from.name || "Picture" : nameOf(String(from))) : "",
+});
+
 /* What an element does with textures. */
 const withTextures = (Base) => class extends Base {
-  /* Put a texture on a target: a File or Blob, the URL of a picture, a colour as in retex-edit(5), or null for the original. options: scale (a number keeps the picture's proportions, a pair is as of retex-combine), rotate in
-   * degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine; finish: a File, Blob or URL of a
-   * picture that says which finish is where. Resolves when it is drawn. */
+  /* Put a texture on a target: a File or Blob, a list of the Files of one texture, the URL of a picture, a colour as in
+   * retex-edit(5), or null for the original. options: scale (a number keeps the picture's proportions, a pair is as of
+   * retex-combine), rotate in degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine; finish:
+   * a File, Blob or URL of a picture that says which finish is where, or "none". Resolves when it is drawn. */
   async setTexture(name, source, options = {}) {
     const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
-    let image = null, label = "Original", kept = null;
+    let image = null, label = "Original", kept = null, rough = null, channel = null;
+    if (Array.isArray(source)) {
+      const folder = source.length > 1 ? readFolder(source) : { color: source[0] };
+      source = folder.color;
+      if (folder.rough && !options.finish && hasRoughness(this.room.targets[index])) ({ rough, channel } = folder);
+    }
     if (source instanceof Blob) {
       label = source.name || "Picture";
       image = await decodePicture(source, label);
@@ -55,13 +66,24 @@ const withTextures = (Base) => class extends Base {
         image = await this.fetchPicture(kept);
       }
     }
-    const map = image && options.finish && options.finish !== "none" ? await this.getMap(index, options.finish) : null;
+    const chosen = options.finish || rough, map = image && chosen && chosen !== "none" ? await this.getMap(index, chosen) : null;
+    const normal = image && options.normal !== "none" && String(options.normal ?? ""); // it stays in states, for the tools
     if (order !== this.textures[index].order) return; // another one has been chosen since
     placing(plainTexture(), options);
-    const finish = map && !(options.finish instanceof Blob) ? String(options.finish) : "";
-    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, finish, map });
+    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, normal: normal || "", ...mapOf(map, chosen, channel) });
     this.place(name, options);
-    this.say(`${name}: ${this.textures[index].label}`);
+    this.say(`${name}: ${this.textures[index].label}${normal ? "; a page does not show normal maps" : ""}`);
+  }
+
+  /* Another map, or null, on what lies on a target already. */
+  async setMap(name, map) {
+    const index = this.indexOf(name), texture = this.textures[index], order = (texture.order = (texture.order || 0) + 1);
+    if (map && !texture.image) throw new Error(`A map of finishes needs a new texture on ${name}.`);
+    const image = map && (await this.getMap(index, map));
+    if (order !== texture.order) return;
+    Object.assign(texture, mapOf(image, map));
+    this.place(name, {});
+    this.say(map ? `${name}: map of finishes ${texture.mapLabel}` : `${name}: no map of finishes`);
   }
 
   async fetchPicture(address) {
@@ -92,7 +114,7 @@ const withTextures = (Base) => class extends Base {
     const most = Math.min(renderer.most, 4096) / (shifted ? 2 : 1);
     const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > most ? smaller(x, most) : x);
     const arranged = (x) => (shifted && !Array.isArray(x) ? shiftedRepeats(fit(x), repeat) : fit(x));
-    renderer.putTexture(index, arranged(image), map && { image: arranged(map), wrap });
+    renderer.putTexture(index, arranged(image), map && { image: arranged(map), wrap, channel: texture.channel });
   }
 
   /* A target's scale as a pair, by which the tools go. */

@@ -313,10 +313,13 @@ static int is_listed(const Web *web, int parameter)
 
 static void put_finishes(json_t **object, const RetexTarget *target)
 {
-    json_t *names = json_array();
-    for (int k = 0; k < target->nfinishes; k++)
+    json_t *names = json_array(), *roughness = json_array();
+    for (int k = 0; k < target->nfinishes; k++) {
         retex_json_add(&names, text(target->finishes[k]));
+        retex_json_add(&roughness, json_real((double)target->finish_roughness[k]));
+    }
     retex_json_put(object, "finishes", names);
+    retex_json_put(object, "finish_roughness", roughness);
     retex_json_put(object, "finish", json_integer(target->finish));
     if (target->normal_tilt > 0)
         retex_json_put(object, "normal_tilt", json_real(target->normal_tilt));
