@@ -9,6 +9,7 @@
 
 #include "base/digest.h"
 #include "retex-render.h"
+#include "render/mattes.h"
 
 enum {
     OPT_TARGET,
@@ -47,6 +48,8 @@ enum {
     OPT_FILTER,
     OPT_AOV,
     OPT_AOV_DIR,
+    OPT_MATTES,
+    OPT_MATTE_RANKS,
     OPT_INCLUDE,
     OPT_DECLARE,
     OPT_AMBIENT,
@@ -131,6 +134,9 @@ static const CliOption options[] = {
     [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
     [OPT_AOV_DIR] = {"aov-dir", 0, "DIR",
                      "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0},
+    [OPT_MATTES] = {"mattes", 0, "FILE.exr",
+                    "also write a file for compositors: the picture, masks of targets, Cryptomatte", 0},
+    [OPT_MATTE_RANKS] = {"matte-ranks", 0, "N", "names that Cryptomatte has in a pixel, 1 to 32; default 6", 0},
     [OPT_INCLUDE] = {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0},
     [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE",
                      "before the scene is read, declare a number or a quoted string, or set clock, frame_number, "
@@ -262,6 +268,14 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_AOV_DIR:
         a->aov_dir = cli->value;
+        break;
+    case OPT_MATTES:
+        a->mattes = cli->value;
+        break;
+    case OPT_MATTE_RANKS:
+        numbers(cli, o, 0, 1, &a->matte_ranks);
+        if (a->matte_ranks < 1 || a->matte_ranks > MATTE_RANKS_MAX)
+            cli_die(cli, "--matte-ranks: expected 1 to %d, not `%s`", MATTE_RANKS_MAX, cli->value);
         break;
     case OPT_INCLUDE:
         push(cli, a->includes, &a->nincludes, o->name);
@@ -429,6 +443,23 @@ static void check_pieces(const Arguments *a)
         cli_die(a->cli, "--shard writes rows only: give --aov, --aov-dir and --stats with --merge");
 }
 
+static void check_mattes(Arguments *a)
+{
+    if (!a->mattes) {
+        if (a->matte_ranks)
+            cli_die(a->cli, "--matte-ranks is of the file that --mattes writes");
+        return;
+    }
+    if (!cli_ends_with(a->mattes, ".exr"))
+        cli_die(a->cli, "--mattes writes OpenEXR: expected a name that ends in .exr, not `%s`", a->mattes);
+    if (answers(a) || a->variants || a->control)
+        cli_die(a->cli, "--mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, "
+                        "--trace-pixel, --variants or --control");
+    if (a->render.nshards)
+        cli_die(a->cli, "--shard writes rows only: give --mattes with --merge");
+    a->matte_ranks = a->matte_ranks ? a->matte_ranks : MATTE_RANKS;
+}
+
 /* Two positional arguments. The one that does not end in .pov may be the argument of a missing option. */
 static _Noreturn void surplus_scene(const Arguments *a)
 {
@@ -497,6 +528,7 @@ void parse_arguments(Arguments *a)
     check_finishes(a);
     check_noise(a);
     check_pieces(a);
+    check_mattes(a);
     if (a->aov_dir && (answers(a) || a->variants || a->control))
         cli_die(cli, "--aov-dir cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, "
                      "--variants or "

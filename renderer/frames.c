@@ -11,6 +11,7 @@ static void check_names(const Arguments *a)
     frames_check_name(a->cli, range, "the output", a->output, 1);
     frames_check_name(a->cli, range, "--stats", a->stats, 1);
     frames_check_name(a->cli, range, "--aov-dir", a->aov_dir, 1);
+    frames_check_name(a->cli, range, "--mattes", a->mattes, 1);
     frames_check_name(a->cli, range, "--control", a->control, 0);
     for (int k = 0; k < a->nmerged; k++)
         frames_check_name(a->cli, range, "--merge", a->merged[k], 0);
@@ -49,7 +50,7 @@ void plan_frames(Arguments *a)
 typedef struct Frame {
     Arguments arguments;
     char declares[ANIMATION_DECLARES][ANIMATION_DECLARE_SIZE];
-    char *names[LIST_MAX + 4];
+    char *names[LIST_MAX + 5];
     int nnames;
 } Frame;
 
@@ -69,6 +70,7 @@ static Frame *open_frame(const Arguments *all, int frame)
     name_file(f, &a->output, frame);
     name_file(f, &a->stats, frame);
     name_file(f, &a->aov_dir, frame);
+    name_file(f, &a->mattes, frame);
     name_file(f, &a->control, frame);
     for (int k = 0; k < a->nmerged; k++)
         name_file(f, &a->merged[k], frame);

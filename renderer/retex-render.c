@@ -10,6 +10,7 @@
 #include "retex-render.h"
 #include "watchdog.h"
 #include "render/aov_files.h"
+#include "render/mattes.h"
 
 /* Announce all files of the command line. Files that the scene names are not among them. */
 static void announce_files(Arguments *a)
@@ -29,6 +30,7 @@ static void announce_files(Arguments *a)
     cli_writes(a->cli, answers(a) ? "the answer" : "the output", output);
     cli_writes(a->cli, "--stats", a->stats);
     cli_writes(a->cli, "the file of --list-targets", a->sheet);
+    cli_writes(a->cli, "the file of --mattes", a->mattes);
     for (int k = 0; a->aov_dir && aov_files_path(path, sizeof path, a->aov_dir, k); k++)
         cli_writes(a->cli, "the file of --aov-dir", path);
 }
@@ -211,7 +213,8 @@ static int check_files(Arguments *a)
 }
 
 /* What rendering leaves: a set, or a picture as one. */
-static int finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, double parse_seconds, RetexError *err)
+static int finish_set(Arguments *a, const Scene *scene, RetexSet *set, const RenderStats *stats, double parse_seconds,
+                      RetexError *err)
 {
     int code = round_set(a, set, a->output, err);
     if (!code && a->denoise)
@@ -220,6 +223,8 @@ static int finish_set(Arguments *a, RetexSet *set, const RenderStats *stats, dou
         retex_denoise_drop_data(set);
     if (!code && a->aov_dir)
         code = aov_files_write(set, a->aov_dir, a->cli->threads, err);
+    if (!code && a->mattes)
+        code = mattes_write(scene, &a->render, &retex_set_part(set, 0)->image, a->matte_ranks, a->mattes, err);
     if (!code && a->output)
         code = write_result(a, set, a->output, err);
     if (code)
@@ -249,6 +254,8 @@ static int open_scene(Arguments *a, Scene **scene, RetexError *err)
         refuse_columns(a);
     if (!code)
         code = announce_files_of_scene(a, *scene, err);
+    if (!code && a->mattes)
+        code = mattes_check(*scene, a->mattes, err);
     if (!code && a->aov_dir && aov_files_check(a->aov_dir, &why))
         code = retex_fail(err, RETEX_EINVAL, "--aov-dir: %s", why.message);
     if (code)
@@ -290,7 +297,7 @@ static int make_picture(Arguments *a, Scene *scene, double parse_seconds, int *s
     else
         code = render(a, scene, &set, &stats, err);
     if (!code && set)
-        code = finish_set(a, set, &stats, parse_seconds, err);
+        code = finish_set(a, scene, set, &stats, parse_seconds, err);
     retex_set_close(&set);
     return code;
 }
@@ -337,7 +344,7 @@ int main(int argc, char **argv)
                .about = "Render a scene in POV-Ray's language into a set for retexturing."};
     Arguments a = {.cli = &cli};
     parse_arguments(&a);
-    int needless = a.list || a.tracing || a.variants || (a.aov_dir && !cli.output && isatty(STDOUT_FILENO));
+    int needless = a.list || a.tracing || a.variants || ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
     a.output = needless ? NULL : cli_output(&cli);
     plan_frames(&a);
     int status = for_each_frame(&a, check_files);

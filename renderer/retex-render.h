@@ -18,7 +18,8 @@ typedef struct Arguments {
     RenderParams render;
     SdlOptions sdl;
     const char *output; /* NULL = none, or the table's */
-    const char *scene, *stats, *variants, *control, *aov_dir, *sheet;
+    const char *scene, *stats, *variants, *control, *aov_dir, *sheet, *mattes;
+    int matte_ranks;
     ControlMode control_mode;
     int seeded;
     Batch batch; /* the table of --variants */
