@@ -1,0 +1,124 @@
+# retex-render --mattes: masks of targets and Cryptomatte, decoded by a reader of our own.
+$ skip-unless /usr/bin/python3 -c 'import numpy, OpenImageIO'
+
+# The file: one part, metadata and manifests as the specification has them, largest coverage first.
+$ retex-render -q --size 96x72 --spp 64 -t Floor -t Wall -t Gauze -t Glass "$TESTS/mattes.pov" --mattes m.exr -o set.exr; python3() { /usr/bin/python3 "$TESTS/mattes.py" "$@"; }; python3 layout m.exr; for k in CryptoObject CryptoMaterial; do python3 names m.exr $k; done
+> parts 1 channels 64 of Cryptomatte 48 floats True
+> CryptoObject MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
+> CryptoMaterial MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
+> CryptoThroughObject MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
+> CryptoThroughMaterial MurmurHash3_32 uint32_to_float32 manifest True ids known True ranked True
+> #7 Back Ball Cut Grid Ground Pane Pole Twin Veil
+> #7 Core Floor Gauze Glass Lattice Polished Rust Shell Steel Twin Wall
+
+# Seen directly, masks and the rest are the whole picture; nothing is more than whole, through glass and in mirrors neither.
+$ /usr/bin/python3 "$TESTS/mattes.py" sums m.exr
+> direct True
+> CryptoObject at most 1.000000
+> CryptoMaterial at most 1.000000
+> CryptoThroughObject at most 1.000000
+> CryptoThroughMaterial at most 1.000000
+> target at most 1.000000
+> layers over black 60 dB
+
+# The matte of an object, and of a texture, is the picture of the scene in which it shines and all else is black: with two
+# textures, copied, without a name, half clear, with holes, and where textures change into each other.
+$ for n in Ground Back Cut Twin lone Veil Grid Pole; do retex-render -q --size 96x72 --spp 64 --plain -D "Emit=\"$n\"" -D Direct=1 "$TESTS/mattes.pov" -o e.exr; case $n in lone) n='#7';; esac; /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 80 CryptoObject/$n; done
+> CryptoObject/Ground same
+> CryptoObject/Back same
+> CryptoObject/Cut same
+> CryptoObject/Twin same
+> CryptoObject/#7 same
+> CryptoObject/Veil same
+> CryptoObject/Grid same
+> CryptoObject/Pole same
+$ for n in Floor Wall Shell Core Gauze Lattice Rust Steel; do retex-render -q --size 96x72 --spp 64 --plain -D "Emit=\"$n\"" -D Direct=1 "$TESTS/mattes.pov" -o e.exr; /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 80 CryptoMaterial/$n; case $n in Floor|Wall|Gauze) /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 80 mask_$n;; esac; done
+> CryptoMaterial/Floor same
+> mask_Floor same
+> CryptoMaterial/Wall same
+> mask_Wall same
+> CryptoMaterial/Shell same
+> CryptoMaterial/Core same
+> CryptoMaterial/Gauze same
+> mask_Gauze same
+> CryptoMaterial/Lattice same
+> CryptoMaterial/Rust same
+> CryptoMaterial/Steel same
+
+# The same with what is seen through glass and in mirrors, up to the picture's noise.
+$ for n in Floor Wall Gauze; do retex-render -q --size 96x72 --spp 256 --plain -D "Emit=\"$n\"" "$TESTS/mattes.pov" -o e.exr; /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 48 mask_$n mask_${n}_transmitted mask_${n}_reflected; /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 48 CryptoThroughMaterial/$n; done; for n in Ground Cut Twin; do retex-render -q --size 96x72 --spp 256 --plain -D "Emit=\"$n\"" "$TESTS/mattes.pov" -o e.exr; /usr/bin/python3 "$TESTS/mattes.py" same m.exr e.exr 48 CryptoThroughObject/$n; done
+> mask_Floor mask_Floor_transmitted mask_Floor_reflected same
+> CryptoThroughMaterial/Floor same
+> mask_Wall mask_Wall_transmitted mask_Wall_reflected same
+> CryptoThroughMaterial/Wall same
+> mask_Gauze mask_Gauze_transmitted mask_Gauze_reflected same
+> CryptoThroughMaterial/Gauze same
+> CryptoThroughObject/Ground same
+> CryptoThroughObject/Cut same
+> CryptoThroughObject/Twin same
+
+# Behind glass and in mirrors apart, by what is seen first.
+$ /usr/bin/python3 "$TESTS/mattes.py" where m.exr mask_Floor_transmitted Pane; /usr/bin/python3 "$TESTS/mattes.py" where m.exr mask_Floor_reflected Pane Ball
+> mask_Floor_transmitted only in Pane True
+> mask_Floor_reflected only in Pane Ball True
+
+# By the picture's lens and filter.
+$ retex-render -q --size 96x72 --spp 64 -D Lens=1 --filter gaussian "$TESTS/mattes.pov" --mattes l.exr -o p.exr; for n in Ground Cut; do retex-render -q --size 96x72 --spp 64 --plain -D Lens=1 --filter gaussian -D "Emit=\"$n\"" -D Direct=1 "$TESTS/mattes.pov" -o e.exr; /usr/bin/python3 "$TESTS/mattes.py" same l.exr e.exr 80 CryptoObject/$n; done
+> CryptoObject/Ground same
+> CryptoObject/Cut same
+
+# The same for every number of threads, in the pieces of a crop, and after shards; nothing else changes.
+$ for n in 1 5; do retex-render -q --threads $n --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --mattes t$n.exr -o s$n.exr; done; cmp t1.exr t5.exr; retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" -o s.exr; cmp s.exr s1.exr; for k in 1 2; do retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --shard $k/2 -o shard$k; done; retex-render -q --size 40x30 --spp 4 -t Floor "$TESTS/mattes.pov" --merge shard1 --merge shard2 --mattes merged.exr -o s2.exr; cmp t1.exr merged.exr; retex-render -q --size 40x30 --spp 4 -t Floor --crop 10,5,20,20 "$TESTS/mattes.pov" --mattes crop.exr -o s3.exr; oiiotool t1.exr --cut 20x20+10+5 --fullpixels -o cut.exr; oiiotool --diff crop.exr cut.exr | tail -1
+> PASS
+
+# With frames, and ranks of its own: names beyond them are lost.
+$ retex-render -q --size 40x30 --spp 4 --plain --frames 1-2 --matte-ranks 1 "$TESTS/mattes.pov" --mattes f%d.exr -o f%d.png; /usr/bin/python3 "$TESTS/mattes.py" layout f2.exr | sed -n 1p; retex-render -q --size 40x30 --spp 4 --plain --matte-ranks 9 "$TESTS/mattes.pov" --mattes r.exr -o r.png;  /usr/bin/python3 "$TESTS/mattes.py" layout r.exr | sed -n 1p; ls f*.exr
+> parts 1 channels 20 of Cryptomatte 16 floats True
+> parts 1 channels 84 of Cryptomatte 80 floats True
+> f1.exr
+> f2.exr
+! Traceback (most recent call last):
+!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
+!     main()
+!   File "/work/w69c/tests/cli/mattes.py", line 125, in main
+!     layout(mattes)
+!   File "/work/w69c/tests/cli/mattes.py", line 100, in layout
+!     print(data["name"], data["hash"], data["conversion"],
+! BrokenPipeError: [Errno 32] Broken pipe
+! Traceback (most recent call last):
+!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
+!     main()
+!   File "/work/w69c/tests/cli/mattes.py", line 125, in main
+!     layout(mattes)
+!   File "/work/w69c/tests/cli/mattes.py", line 100, in layout
+!     print(data["name"], data["hash"], data["conversion"],
+! BrokenPipeError: [Errno 32] Broken pipe
+
+# Names as the scene says them, beyond ASCII; without targets there is the rest.
+$ printf '%s\n' 'camera{location -5*z} light_source{<2,5,-9>,1} #ifdef (Retex) global_settings{retex_names{"Ball" "Bäll (1)"}} #end' '#declare Ball=sphere{0,1 pigment{rgb .5}} object{Ball}' >names.pov; retex-render -q --size 16x12 --spp 4 --plain names.pov --mattes n.exr -o n.png; /usr/bin/python3 "$TESTS/mattes.py" names n.exr CryptoObject; /usr/bin/python3 "$TESTS/mattes.py" sums n.exr | sed -n 1p
+> Bäll (1)
+> direct True
+! Traceback (most recent call last):
+!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
+!     main()
+!   File "/work/w69c/tests/cli/mattes.py", line 127, in main
+!     sums(mattes)
+!   File "/work/w69c/tests/cli/mattes.py", line 110, in sums
+!     print(f"{kind} at most {total.max():.6f}")
+! BrokenPipeError: [Errno 32] Broken pipe
+
+# What cannot be.
+$ cp "$TESTS/mattes.pov" s.pov; retex-render s.pov --mattes m.png -o x.exr; retex-render s.pov --mattes a.exr -o a.exr; retex-render s.pov --mattes s.pov -o a.exr; retex-render s.pov --mattes nowhere/a.exr -o x.exr; retex-render s.pov --matte-ranks 4 -o x.exr; retex-render s.pov --mattes a.exr --matte-ranks 33 -o x.exr; retex-render s.pov --mattes a.exr --shard 1/2 -o x.exr; retex-render s.pov --mattes a.exr --list-targets; retex-render -t Floor -t Floor_reflected=Wall s.pov --mattes a.exr -o x.exr; retex-render s.pov --frames 1-2 --mattes a.exr -o x%d.exr; ls a.exr x.exr
+! retex-render: error: --mattes writes OpenEXR: expected a name that ends in .exr, not `m.png`
+! retex-render: error: a.exr: the output and the file of --mattes are the same file
+! retex-render: error: --mattes writes OpenEXR: expected a name that ends in .exr, not `s.pov`
+! retex-render: error: cannot write nowhere/a.exr: No such file or directory
+! retex-render: error: --matte-ranks is of the file that --mattes writes
+! retex-render: error: --matte-ranks: expected 1 to 32, not `33`
+! retex-render: error: --shard writes rows only: give --mattes with --merge
+! retex-render: error: --mattes cannot be combined with --list-targets, --list-lamps, --list-finishes, --trace-pixel, --variants or --control
+! retex-render: error: two masks would be the channel mask_Floor_reflected.R: give one target another name
+! retex-render: error: --mattes: 2 frames need a number in the name, as name-%04d.exr, not `a.exr`
+! ls: cannot access 'a.exr': No such file or directory
+! ls: cannot access 'x.exr': No such file or directory
+= 2
