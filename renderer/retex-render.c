@@ -213,8 +213,8 @@ static int check_files(Arguments *a)
 }
 
 /* What rendering leaves: a set, or a picture as one. */
-static int finish_set(Arguments *a, const Scene *scene, RetexSet *set, const RenderStats *stats, double parse_seconds,
-                      RetexError *err)
+static int finish_set(Arguments *a, const Scene *scene, RetexSet *set, const RenderStats *stats,
+                      double parse_seconds, RetexError *err)
 {
     int code = round_set(a, set, a->output, err);
     if (!code && a->denoise)
@@ -344,7 +344,8 @@ int main(int argc, char **argv)
                .about = "Render a scene in POV-Ray's language into a set for retexturing."};
     Arguments a = {.cli = &cli};
     parse_arguments(&a);
-    int needless = a.list || a.tracing || a.variants || ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
+    int needless = a.list || a.tracing || a.variants ||
+                   ((a.aov_dir || a.mattes) && !cli.output && isatty(STDOUT_FILENO));
     a.output = needless ? NULL : cli_output(&cli);
     plan_frames(&a);
     int status = for_each_frame(&a, check_files);

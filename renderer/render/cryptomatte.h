@@ -1,5 +1,5 @@
-/* Cryptomatte: mattes of all names at once, by the specification of its authors, version 1.1. A pixel has the names that
- * cover it most, each as a number that is made of the name, and its share of the pixel. */
+/* Cryptomatte: mattes of all names at once, by the specification of its authors, version 1.1. A pixel has the names
+ * that cover it most, each as a number that is made of the name, and its share of the pixel. */
 #ifndef RENDERER_RENDER_CRYPTOMATTE_H
 #define RENDERER_RENDER_CRYPTOMATTE_H
 

@@ -15,8 +15,8 @@
 #define SAMPLES_LEAST 16
 #define SAMPLES_MOST 256
 
-/* What Cryptomatte has a matte of: names of objects and of materials, seen directly, or seen through glass and in mirrors
- * too. No name is the beginning of another one: Blender takes all layers that begin so as one. */
+/* What Cryptomatte has a matte of: names of objects and of materials, seen directly, or seen through glass and in
+ * mirrors too. No name is the beginning of another one: Blender takes all layers that begin so as one. */
 enum { CRYPTO_OBJECT, CRYPTO_MATERIAL, CRYPTO_THROUGH_OBJECT, CRYPTO_THROUGH_MATERIAL, CRYPTO_KINDS };
 static const char *const crypto_kinds[CRYPTO_KINDS] = {"CryptoObject", "CryptoMaterial", "CryptoThroughObject",
                                                        "CryptoThroughMaterial"};

@@ -30,7 +30,7 @@ typedef struct Division {
     float own, mirror, bent, straight;
 } Division;
 
-/* What passes without being refracted, where the pigment is white: its colour dims what is behind, but hides nothing. */
+/* What passes without being refracted where the pigment is white: its colour dims what is behind, but hides nothing. */
 static float passes_straight(const Bsdf *b)
 {
     if (b->lambert || b->refracts || !(b->p_passing > 0))
@@ -38,8 +38,8 @@ static float passes_straight(const Bsdf *b)
     return at_most(not_negative(rgb_luminance(rgb_add(b->passing.d, b->passing.i))), 1);
 }
 
-/* By the probabilities with which paths choose lobes, which look at no pigment. POV-Ray's highlights show light sources,
- * nothing that could be covered. */
+/* By the probabilities with which paths choose lobes, which look at no pigment. POV-Ray's highlights show light
+ * sources, nothing that could be covered. */
 static Division divide(const Bsdf *b)
 {
     Division d = {.straight = passes_straight(b)};

@@ -15,10 +15,10 @@ typedef struct SeenSurface {
     const SeenLeaf *leaf;
     const Hit *hit;
     SeenHow how;
-    float covers;  /* what arrives here, without what goes straight on. Of what is seen directly the sum is 1, but for what
-                      meets nothing */
-    float ends;    /* of this, what is neither mirrored nor refracted. Over all the sum is 1 in the same way */
-    unsigned met;  /* bits: targets in or behind which this is seen */
+    float covers; /* what arrives here, without what goes straight on. Of what is seen directly the sum is 1, but for
+                     what meets nothing */
+    float ends;   /* of this, what is neither mirrored nor refracted. Over all the sum is 1 in the same way */
+    unsigned met; /* bits: targets in or behind which this is seen */
 } SeenSurface;
 typedef void SeenVisitor(void *context, const SeenSurface *seen);
 

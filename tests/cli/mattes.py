@@ -109,8 +109,10 @@ def sums(mattes):
         total = sum(coverage.astype(float) for _, coverage in mattes.ranks(kind))
         print(f"{kind} at most {total.max():.6f}")
     targets = [c[:-2] for c in mattes.direct() if c != "mask_rest.R"]
-    most = max((sum(mattes.channel(t + how + ".R").astype(float) for how in ("", "_transmitted", "_reflected"))).max()
-               for t in targets)
+    most = 0
+    for target in targets:
+        of = sum(mattes.channel(target + how + ".R").astype(float) for how in ("", "_transmitted", "_reflected"))
+        most = max(most, of.max())
     print(f"target at most {most:.6f}")
     # each layer over black, and all of them added up
     picture = numpy.stack([mattes.channel(c) for c in "RGB"], -1)

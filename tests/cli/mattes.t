@@ -77,35 +77,16 @@ $ retex-render -q --size 40x30 --spp 4 --plain --frames 1-2 --matte-ranks 1 "$TE
 > parts 1 channels 84 of Cryptomatte 80 floats True
 > f1.exr
 > f2.exr
-! Traceback (most recent call last):
-!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
-!     main()
-!   File "/work/w69c/tests/cli/mattes.py", line 125, in main
-!     layout(mattes)
-!   File "/work/w69c/tests/cli/mattes.py", line 100, in layout
-!     print(data["name"], data["hash"], data["conversion"],
-! BrokenPipeError: [Errno 32] Broken pipe
-! Traceback (most recent call last):
-!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
-!     main()
-!   File "/work/w69c/tests/cli/mattes.py", line 125, in main
-!     layout(mattes)
-!   File "/work/w69c/tests/cli/mattes.py", line 100, in layout
-!     print(data["name"], data["hash"], data["conversion"],
-! BrokenPipeError: [Errno 32] Broken pipe
 
 # Names as the scene says them, beyond ASCII; without targets there is the rest.
 $ printf '%s\n' 'camera{location -5*z} light_source{<2,5,-9>,1} #ifdef (Retex) global_settings{retex_names{"Ball" "Bäll (1)"}} #end' '#declare Ball=sphere{0,1 pigment{rgb .5}} object{Ball}' >names.pov; retex-render -q --size 16x12 --spp 4 --plain names.pov --mattes n.exr -o n.png; /usr/bin/python3 "$TESTS/mattes.py" names n.exr CryptoObject; /usr/bin/python3 "$TESTS/mattes.py" sums n.exr | sed -n 1p
 > Bäll (1)
 > direct True
-! Traceback (most recent call last):
-!   File "/work/w69c/tests/cli/mattes.py", line 144, in <module>
-!     main()
-!   File "/work/w69c/tests/cli/mattes.py", line 127, in main
-!     sums(mattes)
-!   File "/work/w69c/tests/cli/mattes.py", line 110, in sums
-!     print(f"{kind} at most {total.max():.6f}")
-! BrokenPipeError: [Errno 32] Broken pipe
+
+# Names of compounds, copies, and textures that were named again: the innermost of objects, the outermost of textures.
+$ printf '%s\n' 'camera{location -9*z} light_source{<2,5,-9>,1} #declare P=pigment{rgb .5} #declare Oak=texture{pigment{P}} #declare Planks=texture{Oak scale 2} #declare Raw=texture{pigment{rgb .3}} #declare Sawn=texture{Raw scale 3}' '#declare Leg=cylinder{-y,y,.5 texture{Planks}} #declare Chair=union{object{Leg translate -2*x} sphere{2*x,1 texture{Sawn}} box{-.5,.5 pigment{P}}} object{Chair} #declare Top=texture{Raw} texture{pigment{rgbt .5}} sphere{2*y,.5 texture{Top}}' >names.pov; retex-render -q --size 32x24 --spp 4 --plain names.pov --mattes n.exr -o n.png; for k in CryptoObject CryptoMaterial; do /usr/bin/python3 "$TESTS/mattes.py" names n.exr $k; done
+> #4 Chair Leg
+> P Planks Sawn Top
 
 # What cannot be.
 $ cp "$TESTS/mattes.pov" s.pov; retex-render s.pov --mattes m.png -o x.exr; retex-render s.pov --mattes a.exr -o a.exr; retex-render s.pov --mattes s.pov -o a.exr; retex-render s.pov --mattes nowhere/a.exr -o x.exr; retex-render s.pov --matte-ranks 4 -o x.exr; retex-render s.pov --mattes a.exr --matte-ranks 33 -o x.exr; retex-render s.pov --mattes a.exr --shard 1/2 -o x.exr; retex-render s.pov --mattes a.exr --list-targets; retex-render -t Floor -t Floor_reflected=Wall s.pov --mattes a.exr -o x.exr; retex-render s.pov --frames 1-2 --mattes a.exr -o x%d.exr; ls a.exr x.exr

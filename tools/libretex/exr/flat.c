@@ -1,5 +1,5 @@
-/* See retex/host/flat_exr.h. The header is written last into the file's front, because attributes may depend on the rows:
- * compressed chunks wait in memory. */
+/* See retex/host/flat_exr.h. Attributes may depend on the rows, so that compressed chunks wait in memory until all are
+ * there: then the header is known, and the file is written from front to back. */
 #include <retex/host/flat_exr.h>
 
 #include <stdatomic.h>

@@ -1,6 +1,6 @@
-/* A flat OpenEXR file: one part, whatever its channels, with text attributes. Every program that reads OpenEXR reads such
- * a file; not every one reads several parts. Rows are computed by the caller, 16 at a time and on all threads, and are
- * compressed at once, so that the picture is never in memory as a whole. */
+/* A flat OpenEXR file: one part, whatever its channels, with text attributes. Every program that reads OpenEXR reads
+ * such a file; not every one reads several parts. Rows are computed by the caller, 16 at a time and on all threads, and
+ * are compressed at once, so that the picture is never in memory as a whole. */
 #ifndef RETEX_HOST_FLAT_EXR_H
 #define RETEX_HOST_FLAT_EXR_H
 
@@ -22,8 +22,8 @@ typedef struct RetexFlatText {
 } RetexFlatText;
 
 /* Where rows come from. `begin` (NULL = nothing to do) is called before each 16 rows, or those that are left, are asked
- * for: `lines` rows from y on, by the same thread. It returns 0, or a RetexCode, which ends the work. `row` fills one row
- * of a channel. `texts` (NULL = none) gives the attributes, and is called once when all rows are there. */
+ * for: `lines` rows from y on, by the same thread. It returns 0, or a RetexCode, which ends the work. `row` fills one
+ * row of a channel. `texts` (NULL = none) gives the attributes, and is called once when all rows are there. */
 typedef struct RetexFlatRows {
     void *context;
     int (*begin)(void *context, int y, int lines, int thread);
