@@ -216,6 +216,7 @@ static void add_text(Mattes *m, const char *key, const char *name, const char *v
 static const RetexFlatText *metadata(void *context, int *count)
 {
     Mattes *m = context;
+    int is_whole = 1;
     for (int kind = 0; kind < CRYPTO_KINDS; kind++) {
         char key[8];
         for (int t = 0; t < m->nthreads; t++)
@@ -225,11 +226,11 @@ static const RetexFlatText *metadata(void *context, int *count)
         add_text(m, key, "name", crypto_kinds[kind]);
         add_text(m, key, "hash", "MurmurHash3_32");
         add_text(m, key, "conversion", "uint32_to_float32");
-        if (m->manifests[kind] && !m->names[kind].failed) /* may be missing: mattes are right without it */
-            add_text(m, key, "manifest", m->manifests[kind]);
+        add_text(m, key, "manifest", m->manifests[kind]);
+        is_whole &= m->manifests[kind] && !m->names[kind].failed;
     }
     *count = m->ntexts;
-    return m->texts;
+    return is_whole ? m->texts : NULL;
 }
 
 /* ---- channels ---- */

@@ -4,6 +4,7 @@
 mattes.py layout FILE            channels, metadata and manifests, and that pixels agree with them
 mattes.py sums FILE              what masks and coverages add up to
 mattes.py names FILE KIND        names of a manifest that cover more than a hundredth of some pixel
+mattes.py whole FILE KIND        whether the coverages are 1 in each pixel
 mattes.py where FILE LAYER OBJECT…  whether the layer is above a hundredth only where one of the objects is seen, and there
 mattes.py same FILE TRUTH DB LAYER…   the sum of layers, masks or KIND/NAME, against the red of a picture
 """
@@ -130,6 +131,9 @@ def main():
     elif command == "names":
         manifest = json.loads(mattes.metadata(sys.argv[3])["manifest"])
         print(*[name for name in manifest if mattes.matte(sys.argv[3], name).max() > 0.01])
+    elif command == "whole":
+        total = sum(coverage.astype(float) for _, coverage in mattes.ranks(sys.argv[3]))
+        print(sys.argv[3], "whole", abs(total - 1).max() < 1e-5)
     elif command == "where":
         inside = sum(mattes.matte("CryptoObject", name) for name in sys.argv[4:]) > 0
         layer = mattes.layer(sys.argv[3]) > 0.01

@@ -88,6 +88,17 @@ $ printf '%s\n' 'camera{location -9*z} light_source{<2,5,-9>,1} #declare P=pigme
 > #4 Chair Leg
 > P Planks Sawn Top
 
+# Within a closed room a ray ends somewhere, however often it divides in glass.
+$ printf '%s\n' 'camera{location -4*z} light_source{<0,3,-3>,1} #declare Room=box{-5,5 pigment{rgb .5}} object{Room} #declare Glass=sphere{-x,1 pigment{rgbt 1} finish{diffuse 0 reflection{0,1 fresnel}} interior{ior 1.5}} object{Glass} object{Glass translate 2*x} #declare Chrome=box{<-1,-2,0>,<1,-1.2,1> pigment{rgb .1} finish{diffuse .1 reflection .7}} object{Chrome}' >room.pov; retex-render -q --size 32x24 --spp 4 --plain room.pov --mattes n.exr -o n.png; for k in CryptoObject CryptoThroughObject CryptoThroughMaterial; do /usr/bin/python3 "$TESTS/mattes.py" whole n.exr $k; done
+> CryptoObject whole True
+> CryptoThroughObject whole True
+> CryptoThroughMaterial whole True
+
+# A file says whether it has names of more than 31 bytes.
+$ retex-render -q --size 16x12 --spp 4 --plain -t A_name_of_many_bytes=P names.pov --mattes long.exr -o n.png; for f in n long; do od -An -tx1 -j4 -N4 $f.exr; done
+>  02 00 00 00
+>  02 04 00 00
+
 # What cannot be.
 $ cp "$TESTS/mattes.pov" s.pov; retex-render s.pov --mattes m.png -o x.exr; retex-render s.pov --mattes a.exr -o a.exr; retex-render s.pov --mattes s.pov -o a.exr; retex-render s.pov --mattes nowhere/a.exr -o x.exr; retex-render s.pov --matte-ranks 4 -o x.exr; retex-render s.pov --mattes a.exr --matte-ranks 33 -o x.exr; retex-render s.pov --mattes a.exr --shard 1/2 -o x.exr; retex-render s.pov --mattes a.exr --list-targets; retex-render -t Floor -t Floor_reflected=Wall s.pov --mattes a.exr -o x.exr; retex-render s.pov --frames 1-2 --mattes a.exr -o x%d.exr; ls a.exr x.exr
 ! retex-render: error: --mattes writes OpenEXR: expected a name that ends in .exr, not `m.png`

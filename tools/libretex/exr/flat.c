@@ -259,8 +259,8 @@ int retex_flat_exr_write(const char *path, int width, int height, const RetexFla
                : file.failed               ? retex_fail(err, file.failed, "the rows of %s could not be made", path)
                                            : RETEX_OK;
     }
-    if (!code && rows->texts)
-        file.texts = rows->texts(rows->context, &file.ntexts);
+    if (!code && rows->texts && !(file.texts = rows->texts(rows->context, &file.ntexts)))
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to write layers");
     if (!code)
         code = write_file(&file, path, err);
     close_file(&file, nthreads);

@@ -23,7 +23,8 @@ typedef struct RetexFlatText {
 
 /* Where rows come from. `begin` (NULL = nothing to do) is called before each 16 rows, or those that are left, are asked
  * for: `lines` rows from y on, by the same thread. It returns 0, or a RetexCode, which ends the work. `row` fills one
- * row of a channel. `texts` (NULL = none) gives the attributes, and is called once when all rows are there. */
+ * row of a channel. `texts` (NULL = none) gives the attributes, and is called once when all rows are there; it returns
+ * NULL where memory is short. */
 typedef struct RetexFlatRows {
     void *context;
     int (*begin)(void *context, int y, int lines, int thread);
