@@ -93,7 +93,7 @@ const withTextures = (Base) => class extends Base {
 
   /* A picture that says which finish of a target is where. */
   async getMap(index, map) {
-    if (!this.room.targets[index].finishes) throw new Error(`${this.targets[index]} has no finishes to choose from.`);
+    if (!this.finishesOf(index).length) throw new Error(`${this.targets[index]} has no finishes to choose from.`);
     return map instanceof Blob ? decodePicture(map, map.name || "Picture") : this.fetchPicture(String(map));
   }
 
