@@ -117,7 +117,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
 
   /* Of the one that is chosen. */
   finishName(target) {
-    return this.finishesOf(target)[this.finishes[target] - 1];
+    return this.finishesOf(target)[this.finishes?.[target] - 1];
   }
 
   getState() {
