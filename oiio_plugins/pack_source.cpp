@@ -175,8 +175,10 @@ std::vector<RetexTextureSpec> find_textures(RetexEdit *edit, const RetexSet &set
     std::vector<RetexTextureSpec> textures;
     for (int i = 0; i < retex_edit_count(edit); i++) {
         RetexTextureSpec texture = *retex_edit_texture(edit, i);
-        if (!texture.constant)
+        if (!texture.constant && texture.image[0])
             find_file(texture.image, own, true);
+        for (int k = 0; k < texture.nlayers; k++)
+            find_file(texture.layers[k].image, own, true);
         if (texture.finish[0] && std::string(texture.finish) != "none")
             find_file(texture.finish, own, false);
         for (int k = 0; k < RETEX_TILES_MAX && texture.tiles[k][0]; k++)

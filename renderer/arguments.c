@@ -181,7 +181,7 @@ static void parse_replace(Arguments *a)
     RetexError err;
     if (a->nreplacements == RETEX_MAX_TARGETS)
         cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
-    if (texture_args_parse(a->cli, &a->replacements[a->nreplacements++], &err))
+    if (texture_args_parse(a->cli, a->replacements, &a->nreplacements, &err))
         cli_die(a->cli, "--replace: %s", err.message);
 }
 

@@ -64,6 +64,18 @@ static void prepare_process(const Cli *cli)
 
 enum { HELP_COLUMN = 30, HELP_WIDTH = 79 };
 
+/* The length of what is printed together: a word, or of one that no line can hold as much as ends with a bar. */
+static int word_length(const char *text, int indent)
+{
+    const int word = (int)strcspn(text, " ");
+    int cut = HELP_WIDTH - indent;
+    if (word <= cut)
+        return word;
+    while (cut > 0 && text[cut - 1] != '|')
+        cut--;
+    return cut ? cut : word;
+}
+
 /* Print text wrapped between words, from column `indent` on. `column` is the cursor's current column. */
 static void print_wrapped(const char *text, int column, int indent)
 {
@@ -74,7 +86,7 @@ static void print_wrapped(const char *text, int column, int indent)
     printf("%*s", indent - column, "");
     column = indent;
     while (*text) {
-        int word = (int)strcspn(text, " ");
+        int word = word_length(text, indent);
         if (column > indent && column + 1 + word > HELP_WIDTH) {
             printf("\n%*s", indent, "");
             column = indent;

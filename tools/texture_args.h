@@ -25,17 +25,27 @@ static inline void texture_args_read_by(const Cli *cli, RetexTextureSpec *spec)
     spec->budget = cli->budget;
 }
 
-/* Parse --texture or --replace, the option that cli_next returned. */
-static inline int texture_args_parse(const Cli *cli, RetexTextureSpec *spec, RetexError *err)
+/* Parse --texture or --replace, the option that cli_next returned. A layer joins the texture that its target is given
+ * before, or the other way round; else it is added to the `count` ones. */
+static inline int texture_args_parse(const Cli *cli, RetexTextureSpec *specs, int *count, RetexError *err)
 {
     RetexEdit *edit = NULL;
     int code = retex_edit_create(&edit, err);
     if (!code)
         code = retex_edit_option(edit, cli->modifiers, cli->value, err);
-    if (!code)
-        *spec = *retex_edit_texture(edit, 0);
+    if (!code) {
+        const RetexTextureSpec *spec = retex_edit_texture(edit, 0);
+        int at = *count;
+        for (int k = 0; k < *count; k++)
+            if (strcmp(specs[k].target, spec->target) == 0 && (specs[k].nlayers || spec->nlayers))
+                at = k;
+        if (at < *count)
+            code = retex_texture_spec_join(&specs[at], spec, err);
+        else
+            specs[(*count)++] = *spec;
+        texture_args_read_by(cli, &specs[at]);
+    }
     retex_edit_close(&edit);
-    texture_args_read_by(cli, spec);
     return code;
 }
 
@@ -44,7 +54,7 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     RetexError err = {0};
     if (args->count == RETEX_MAX_TARGETS)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
-    if (texture_args_parse(cli, &args->specs[args->count++], &err))
+    if (texture_args_parse(cli, args->specs, &args->count, &err))
         cli_fail(cli, &err);
 }
 
@@ -81,8 +91,10 @@ static inline void texture_args_check_frames(const Cli *cli, const FrameRange *r
                                              const RetexTextureSpec *specs, int count)
 {
     for (int i = 0; i < count; i++) {
-        if (!specs[i].constant)
+        if (!specs[i].constant && specs[i].image[0])
             frames_check_name(cli, range, what, specs[i].image, 0);
+        for (int k = 0; k < specs[i].nlayers; k++)
+            frames_check_name(cli, range, what, specs[i].layers[k].image, 0);
         if (specs[i].finish[0])
             frames_check_name(cli, range, what, specs[i].finish, 0);
     }
@@ -104,8 +116,10 @@ static inline void texture_args_set_frame(const Cli *cli, int frame, RetexTextur
 {
     for (int i = 0; i < count; i++) {
         RetexTextureSpec *spec = &specs[i];
-        if (!spec->constant)
+        if (!spec->constant && spec->image[0])
             texture_args_frame_name(cli, frame, spec->image, sizeof spec->image);
+        for (int k = 0; k < spec->nlayers; k++)
+            texture_args_frame_name(cli, frame, spec->layers[k].image, sizeof spec->layers[k].image);
         if (spec->finish[0])
             texture_args_frame_name(cli, frame, spec->finish, sizeof spec->finish);
     }

@@ -21,6 +21,24 @@ $ retex-combine -q set.exr --texture:width=.4:grout=.1:groutcolor=white Floor=re
 > a.exr b.exr 30
 > a.exr b.exr 90
 
+# Layers lie on a texture, or on the original: by options, tables, texts, samples, packs, and along the same paths.
+$ oiiotool --create 40x20 4 --fill:color=1,.1,.1,1 40x20 --fill:color=0,0,0,0 10x10+20+5 -d uint8 -o logo.png; L='--texture:over:at=.5,-.5:width=.5:rotate=20 Floor=logo.png --texture:over:at=-.4,-.6:width=.4:hue=120 Floor=logo.png'; retex-combine -q set.exr --texture:width=.6:repeat=brick:grout=.02 Floor=brick.jpg $L -o a.exr; retex-combine -q set.exr $L --texture:width=.6:repeat=brick:grout=.02 Floor=brick.jpg -o b.exr; cmp a.exr b.exr; retex-combine -q set.exr --texture:width=.6:repeat=brick:grout=.02 Floor=brick.jpg -o n.exr; sh near a.exr n.exr 30; C=':at=.5,-.5:width=.5:rotate=20 logo.png + :at=-.4,-.6:width=.4:hue=120 logo.png'; printf 'output,Floor\nb.exr,":width=.6:repeat=brick:grout=.02 brick.jpg + %s"\nn.exr,:width=.6:repeat=brick:grout=.02 brick.jpg\nc.exr,"+ %s"\n' "$C" "$C" >t.csv; retex-combine -q set.exr --batch t.csv; cmp a.exr b.exr; retex-combine -q set.exr $L -o b.exr; cmp c.exr b.exr; sh near c.exr set.exr 30; retex-sample -q set.exr $L | retex-combine -q - -o b.exr; cmp c.exr b.exr; retex-pack -q set.exr --lossless -o set.retex; retex-combine -q set.retex $L -o b.exr; cmp c.exr b.exr; sh r --replace:over:at=.5,-.5:width=.5:rotate=20 Floor=logo.png --replace:over:at=-.4,-.6:width=.4:hue=120 Floor=logo.png -o p.exr; sh near c.exr p.exr 36
+> a.exr n.exr 30
+> c.exr set.exr 30
+$ retex-combine -q set.exr --texture over:Floor=logo.png --texture over2:Floor=tile.png -o a.exr; retex-combine -q set.exr --texture:over Floor=logo.png --texture:over Floor=tile.png -o b.exr; cmp a.exr b.exr; retex-combine -q set.exr --texture:width=.5 Floor=brick.jpg --texture:over:width=.2 Floor=logo.png -o b.exr --error e.exr; oiiotool --stats e.exr | awk '/Max:/ { print ($3 > .001 ? "an error" : $0) }'; cp logo.png logo.0007.png; retex-combine -q set.exr --frames 7 --texture:over Floor=logo.%04d.png -o f.%04d.exr; retex-combine -q set.exr --texture:over Floor=logo.png -o b.exr; cmp b.exr f.0007.exr
+> an error
+$ for o in :over:wrap=clamp :over:grout=.1 :over:finish=tile.png; do retex-combine set.exr --texture$o Floor=logo.png -o x.exr; done; retex-combine set.exr --texture:over Floor=red -o x.exr; retex-combine set.exr --texture:over Floor=gone.png -o x.exr; for k in 1 2 3 4 5; do printf -- '--texture:over Floor=logo.png '; done >five; retex-combine set.exr $(cat five) -o x.exr; retex-combine set.exr --texture:over Floor=logo.png -o logo.png; printf 'output,Floor\nx.exr,tile.png + gone.png\ny.exr,tile.png + :scale=2\n' >t.csv; retex-combine set.exr --batch t.csv; test -e x.exr
+! retex-combine: error: a layer on Floor lies there once: it has no wrap, repeat, grout, vary, tiles, finish or normal
+! retex-combine: error: a layer on Floor lies there once: it has no wrap, repeat, grout, vary, tiles, finish or normal
+! retex-combine: error: a layer on Floor lies there once: it has no wrap, repeat, grout, vary, tiles, finish or normal
+! retex-combine: error: a layer on Floor must be an image, not a colour
+! retex-combine: error: cannot read gone.png: No such file or directory
+! retex-combine: error: target Floor is given more than 4 layers
+! retex-combine: error: logo.png: the output would replace the texture
+! retex-combine: error: t.csv:2: cannot read gone.png: No such file or directory
+! retex-combine: error: t.csv:3: options without an image; expected `:scale=2 IMAGE`
+= 1
+
 # What is refused.
 $ for o in grout=.1 repeat=hexagon width=1:grout=.1:wrap=clamp width=1:grout=.1:repeat=mirror vary=spin tiles=a,,b width=.1:grout=.2 hue=red tiles=gone.png blur=.5 width=1,.001:repeat=basket; do retex-combine set.exr --texture:$o Floor=brick.jpg -o x.exr; done; retex-combine set.exr --texture:tiles=tile.png Floor=brick.jpg -o tile.png; printf 'output,Floor\nx.exr,:tiles=gone.png brick.jpg\n' >t.csv; retex-combine set.exr --batch t.csv; test -e x.exr
 ! retex-combine: error: texture options: grout needs width=, the size of a repeat

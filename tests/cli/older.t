@@ -27,6 +27,11 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_texture_spec_needs_scale: 0
 > retex_texture_file: ok
 > retex_texture_load: ok
+> retex_texture_spec_unplace: scale 1
+> retex_texture_specs_alike: 1
+> retex_texture_layer_get: ''
+> retex_texture_layer_set: ok
+> retex_texture_spec_join: ok
 > retex_textures_check: ok
 > retex_textures_load: ok
 > retex_textures_place: ok

@@ -99,6 +99,24 @@ static int drop_rows(void *context, int y0, int y1, const float *rows, RetexErro
     return RETEX_OK;
 }
 
+/* What is written into the caller's structs; they have no layers. */
+static void call_specs(const RetexTextureSpec *spec)
+{
+    RetexTextureSpec *own = OLDER(RetexTextureSpec, RETEX_TEXTURE_SPEC_INIT),
+                     *layer = OLDER(RetexTextureSpec, RETEX_TEXTURE_SPEC_INIT);
+    const size_t size = own->size;
+    *own = *spec;
+    own->size = size;
+    retex_texture_spec_unplace(own);
+    printf("retex_texture_spec_unplace: scale %g\n", own->scale[0]);
+    printf("retex_texture_specs_alike: %d\n", retex_texture_specs_alike(own, spec));
+    retex_texture_layer_get(layer, own, 0);
+    printf("retex_texture_layer_get: '%s'\n", layer->image);
+    CALL(retex_texture_layer_set, own, 0, layer);
+    strcpy(layer->image, "");
+    CALL(retex_texture_spec_join, own, layer);
+}
+
 static void call_textures(const RetexSet *set, const char *argument, const char *written)
 {
     RetexTextureSpec *specs = at_the_end(&(RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT, sizeof *specs, 2);
@@ -127,6 +145,7 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     free(text);
     CALL(retex_texture_load, &texture, spec, 1);
     retex_texture_close(&texture);
+    call_specs(spec);
     CALL(retex_textures_check, set, specs, 2);
     CALL(retex_textures_load, textures, set, specs, 2, 1);
     CALL(retex_textures_place, &texture, textures[0], set, spec);

@@ -112,7 +112,7 @@ static void test_mistakes(void **state)
         {"flip=", "a=b", "u, v or uv"},
         {"flip=uu", "a=b", "u, v or uv"},
         {"flip=x", "a=b", "u, v or uv"},
-        {"repeat=bricks", "a=b", "straight, brick, half-drop or mirror"},
+        {"repeat=bricks", "a=b", "straight, brick, half-drop, mirror, herringbone, basket or hexagon"},
         {"repeat=brick:wrap=repeat,clamp", "a=b", "repeat=brick needs wrap=repeat"},
         {"wrap=mirror:repeat=half-drop", "a=b", "repeat=half-drop needs wrap=repeat"},
         {"width=0", "a=b", "lengths above 0"},

@@ -49,7 +49,7 @@ static Image *list_images(const Batch *batch, size_t *count)
     for (int row = 0; row < table->nrows; row++)
         for (int column = 0; column < table->ncolumns; column++) {
             Image image = {NULL, row, column};
-            if (!texture_table_texture(table, row, column, &spec, &image.name) && !spec.constant)
+            if (!texture_table_texture(table, row, column, &spec, &image.name) && !spec.constant && spec.image[0])
                 images[(*count)++] = image;
         }
     qsort(images, *count, sizeof *images, compare_images);
@@ -121,8 +121,8 @@ static int check_others(const RetexTextureSpec *spec, const RetexReadParams *par
     return code;
 }
 
-/* Maps of finishes, and tiles: rows that name one that cannot be read have its mistake. */
-static void check_maps_and_tiles(Batch *batch, const RetexReadParams *params)
+/* Maps of finishes, tiles and layers: rows that name one that cannot be read have its mistake. */
+static void check_other_images(Batch *batch, const RetexReadParams *params)
 {
     TextureTable *table = &batch->table;
     RetexTextureSpec spec, last = RETEX_TEXTURE_SPEC_INIT;
@@ -130,9 +130,11 @@ static void check_maps_and_tiles(Batch *batch, const RetexReadParams *params)
     const char *name;
     for (int row = 0; row < table->nrows; row++)
         for (int column = 0; column < table->ncolumns; column++) {
-            if (texture_table_texture(table, row, column, &spec, &name) || (!spec.finish[0] && !spec.tiles[0][0]))
+            if (texture_table_texture(table, row, column, &spec, &name) ||
+                (!spec.finish[0] && !spec.tiles[0][0] && !spec.nlayers))
                 continue;
-            if (strcmp(last.finish, spec.finish) != 0 || memcmp(last.tiles, spec.tiles, sizeof last.tiles) != 0) {
+            if (strcmp(last.finish, spec.finish) != 0 || memcmp(last.tiles, spec.tiles, sizeof last.tiles) != 0 ||
+                memcmp(last.layers, spec.layers, sizeof last.layers) != 0) {
                 err = (RetexError){0};
                 check_others(&spec, params, &err);
                 last = spec;
@@ -168,7 +170,7 @@ static void check_images(Batch *batch)
         else if (!unreadable && check_colorspace(known, &spec, batch->cli->threads, &err))
             note(table, images[i].row, &err);
     }
-    check_maps_and_tiles(batch, &read_params);
+    check_other_images(batch, &read_params);
     free(known);
     free(images);
 }

@@ -45,7 +45,7 @@ int images_has_map(const RetexTextureSpec *spec)
 
 int images_has_files(const RetexTextureSpec *spec)
 {
-    return !spec->constant || images_has_map(spec);
+    return !spec->constant || images_has_map(spec) || spec->nlayers;
 }
 
 /* The file of the map that the target may have, if the texture has one. */
@@ -185,7 +185,7 @@ static int identify(const Images *images, const RetexTextureSpec *spec, FileId i
 int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_TEXTURE_FILES])
 {
     char image[sizeof spec->image] = "", finish[sizeof spec->finish];
-    if (!spec->constant && find_file(images, spec->image, image, sizeof image) &&
+    if (!spec->constant && spec->image[0] && find_file(images, spec->image, image, sizeof image) &&
         find_folder(images, spec->image, image, sizeof image))
         return 1 + RETEX_TEXTURE_FILE_IMAGE;
     if (images_has_map(spec) && find_file(images, spec->finish, finish, sizeof finish))
@@ -195,6 +195,10 @@ int images_find(const Images *images, RetexTextureSpec *spec, FileId ids[RETEX_T
         if (find_file(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]) &&
             find_folder(images, spec->tiles[k], found.tiles[k], sizeof found.tiles[k]))
             return 1 + RETEX_TEXTURE_FILE_TILES + k;
+    for (int k = 0; k < spec->nlayers; k++)
+        if (find_file(images, spec->layers[k].image, found.layers[k].image, sizeof found.layers[k].image) &&
+            find_folder(images, spec->layers[k].image, found.layers[k].image, sizeof found.layers[k].image))
+            return 1 + RETEX_TEXTURE_FILE_LAYERS + k;
     strcpy(found.image, image);
     if (images_has_map(spec))
         strcpy(found.finish, finish);
@@ -241,6 +245,8 @@ static int is_of_stranger(const Images *images, const RetexTextureSpec *spec)
     int is_tile = 0;
     for (int k = 0; k < RETEX_TILES_MAX; k++)
         is_tile |= is_upload(images, spec->tiles[k]);
+    for (int k = 0; k < spec->nlayers; k++)
+        is_tile |= is_upload(images, spec->layers[k].image);
     return is_tile || (!spec->constant && is_upload(images, spec->image)) ||
            (images_has_map(spec) && is_upload(images, spec->finish));
 }
@@ -260,7 +266,7 @@ int images_is_new_upload(Images *images, const RetexTextureSpec *spec)
 }
 
 /* Whether a file that is there is read: the roughness of a folder only if it can choose a finish, its normal map
- * only where the target takes one, both only without tiles, which have none. */
+ * only where the target takes one, both only without tiles and layers, which have none. */
 static int is_read(const RetexTextureSpec *spec, int number, const FileId *id)
 {
     int count = 0;
@@ -272,7 +278,7 @@ static int is_read(const RetexTextureSpec *spec, int number, const FileId *id)
         return 1;
     return number == map_number(spec) &&
            (images_has_map(spec) ||
-            (!spec->tiles[0][0] && (count > 1 || number == RETEX_TEXTURE_FILE_NORMAL)));
+            (!spec->tiles[0][0] && !spec->nlayers && (count > 1 || number == RETEX_TEXTURE_FILE_NORMAL)));
 }
 
 /* A file that is not read: no change of it matters. */

@@ -106,10 +106,13 @@ static int take_edit(ServeRequest *request, RetexEdit *edit)
     for (int i = 0; i < retex_edit_count(edit); i++) {
         const RetexTextureSpec *spec = retex_edit_texture(edit, i);
         request->specs[request->nspecs++] = *spec;
-        if (!spec->constant && !serve_name_is_valid(spec->image))
+        if (!spec->constant && !(spec->nlayers && !spec->image[0]) && !serve_name_is_valid(spec->image))
             return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->image);
         if (spec->finish[0] && !serve_name_is_valid(spec->finish))
             return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->finish);
+        for (int k = 0; k < spec->nlayers; k++)
+            if (!serve_name_is_valid(spec->layers[k].image))
+                return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->layers[k].image);
         for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
             if (!serve_name_is_valid(spec->tiles[k]))
                 return serve_refuse(request, 400, "`%s` cannot be the name of a texture", spec->tiles[k]);

@@ -67,6 +67,9 @@ static Answer *find_files(const Site *site, ServeRequest *request, SiteFiles *fi
         if (missing == 1 + RETEX_TEXTURE_FILE_FINISH && images_has_map(spec))
             return answer_error(404, "%s.%s: there is no texture '%s'; /v1 lists them", spec->target,
                                 spec->normal ? "normal" : "finish", spec->finish);
+        if (missing > RETEX_TEXTURE_FILE_LAYERS)
+            return answer_error(404, "over:%s: there is no texture '%s'; /v1 lists them", spec->target,
+                                spec->layers[missing - 1 - RETEX_TEXTURE_FILE_LAYERS].image);
         if (missing > RETEX_TEXTURE_FILE_TILES)
             return answer_error(404, "%s.tiles: there is no texture '%s'; /v1 lists them", spec->target,
                                 spec->tiles[missing - 1 - RETEX_TEXTURE_FILE_TILES]);

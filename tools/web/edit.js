@@ -98,6 +98,15 @@ const OPTIONS = {
 };
 const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
 
+/* Layers: over:TARGET, over2:TARGET and so on. The target and the number, from 1; 0: it is no layer. */
+const layerOf = (key) => { const [, number, target] = /^over([2-4]?):(.*)$/s.exec(key) || []; return target === undefined ? [key, 0] : [target, Number(number || 1)]; };
+const layerKey = (target, layer) => `over${layer > 1 ? layer : ""}:${target}`;
+const NOT_OF_LAYERS = ["wrap", "repeat", "grout", "groutcolor", "vary", "tiles", "finish", "normal"];
+function byTargetAndLayer(a, b) {
+  const [x, i] = layerOf(a), [y, j] = layerOf(b);
+  return x < y ? -1 : x > y ? 1 : i - j;
+}
+
 /* The option that a key ends with. */
 const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
 
@@ -130,6 +139,14 @@ function parseEdit(text) {
     said[name] = isLight ? numberOf(value) : word ? OPTIONS[word][0](value) : value;
     if (said[name] === undefined) throw new Error(`${key} cannot be '${value}'.`);
   }
+  for (const [key, said] of Object.entries(textures)) {
+    const [target, layer] = layerOf(key);
+    for (let k = 1; k <= layer; k++) if (!textures[layerKey(target, k)]?.source) throw new Error(`Layer ${k} on ${target} has no image.`);
+    if (!layer) continue;
+    if (readColor(said.source)) throw new Error(`${key} must be an image, not a colour.`);
+    const other = Object.keys(said).find((word) => NOT_OF_LAYERS.includes(word));
+    if (other) throw new Error(`${key} lies there once: it has no ${other}.`);
+  }
   for (const [target, said] of Object.entries(textures)) {
     if (!said.source) throw new Error(`${target} has options, but no texture.`);
     const bond = BONDS.includes(said.repeat), laid = said.grout > 0 ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
@@ -140,7 +157,7 @@ function parseEdit(text) {
     if ("finish" in said && "normal" in said) throw new Error(`${target}: finish and normal exclude each other.`);
     if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }
-  if (Object.keys(textures).length > 8) throw new Error("There are textures for more than 8 targets.");
+  if (Object.keys(textures).filter((key) => !layerOf(key)[1]).length > 8) throw new Error("There are textures for more than 8 targets.");
   return { textures, light, lamps, finishes };
 }
 
@@ -157,7 +174,7 @@ function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
   const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
   const statements = [];
-  for (const target of Object.keys(textures).sort()) {
+  for (const target of Object.keys(textures).sort(byTargetAndLayer)) {
     const name = encode(target), option = optionOf(name);
     statements.push(`${option ? name.slice(0, -option.length - 1) + "%2E" + option : name}=${encode(textures[target].source)}`);
     const adjusted = Object.keys(textures[target]).filter((word) => word in ADJUSTMENTS);

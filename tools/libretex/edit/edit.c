@@ -68,7 +68,10 @@ static int find_texture(RetexEdit *edit, const char *target, int *index, RetexEr
         return retex_fail(err, RETEX_EPARSE, "texture '%.40s…': a target's name has at most %d bytes", target,
                           (int)sizeof edit->specs->target - 1);
     memmove(edit->specs + at + 1, edit->specs + at, (size_t)(edit->count - at) * sizeof *edit->specs);
+    memmove(edit->said_of_layers + at + 1, edit->said_of_layers + at,
+            (size_t)(edit->count - at) * sizeof *edit->said_of_layers);
     memmove(edit->said + at + 1, edit->said + at, (size_t)(edit->count++ - at) * sizeof *edit->said);
+    memset(edit->said_of_layers[at], 0, sizeof edit->said_of_layers[at]);
     edit->specs[at] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     edit->said[at] = 0;
     strcpy(edit->specs[at].target, target);
@@ -118,17 +121,27 @@ static int no_statement(const char *key, RetexError *err)
     return retex_fail(err, RETEX_EPARSE, "`%.200s`: expected TARGET=IMAGE, TARGET.OPTION=VALUE%s", key, forms);
 }
 
+/* A statement of a texture, or of a layer of it. */
+static int parse_of(RetexTextureSpec *spec, int layer, int kind, const char *value, RetexError *err)
+{
+    return layer ? retex_statement_parse_layer(spec, layer, kind, value, err)
+                 : retex_statement_parse(spec, kind, value, err);
+}
+
 static int state(RetexEdit *edit, const char *target, const char *option /* or NULL */, const char *value,
                  RetexError *err)
 {
     const int kind = option ? retex_statement_option(option, strlen(option)) : 0;
-    int at, code = find_texture(edit, target, &at, err);
+    const char *name;
+    const int layer = retex_statement_layer(target, &name);
+    int at, code = find_texture(edit, name, &at, err);
     if (code)
         return code;
-    if (edit->said[at] & 1u << kind)
+    unsigned *said = layer ? &edit->said_of_layers[at][layer - 1] : &edit->said[at];
+    if (*said & 1u << kind)
         return retex_fail(err, RETEX_EPARSE, "%s%s%s is given twice", target, option ? "." : "", option ? option : "");
-    edit->said[at] |= 1u << kind;
-    return retex_statement_parse(&edit->specs[at], kind, value, err);
+    *said |= 1u << kind;
+    return parse_of(&edit->specs[at], layer, kind, value, err);
 }
 
 /* A statement that is decoded; option: or NULL. */
@@ -161,9 +174,15 @@ int retex_edit_check(const RetexEdit *edit, RetexError *err)
     int code = RETEX_OK;
     for (int i = 0; i < edit->count && !code; i++) {
         const char *target = edit->specs[i].target;
-        code = edit->said[i] & 1 ? retex_statement_check(&edit->specs[i], err)
-                                 : retex_fail(err, RETEX_EPARSE,
-                                              "%s has options, but no texture; expected %s=IMAGE too", target, target);
+        const int is_original = !edit->said[i] && edit->specs[i].nlayers; /* layers lie on it */
+        code = (edit->said[i] & 1) || is_original
+                   ? retex_statement_check(&edit->specs[i], err)
+                   : retex_fail(err, RETEX_EPARSE, "%s has options, but no texture; expected %s=IMAGE too", target,
+                                target);
+        for (int k = 0; k < edit->specs[i].nlayers && !code; k++)
+            if (!(edit->said_of_layers[i][k] & 1))
+                code = retex_fail(err, RETEX_EPARSE, "layer %d on %s has no image; the first is over:%s=IMAGE", k + 1,
+                                  target, target);
     }
     return code;
 }
@@ -229,8 +248,17 @@ int retex_edit_parse(RetexEdit *edit, const char *text, RetexError *err)
 
 /* ---- options and cells ---- */
 
-/* `opts`, of which the last of a name holds. */
-static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *err)
+/* Whether the word `over` is among the options. */
+static int has_over(const char *opts)
+{
+    for (const char *at = opts; *at; at += strcspn(at, ":"), at += *at == ':')
+        if (strcspn(at, ":") == 4 && strncmp(at, "over", 4) == 0)
+            return 1;
+    return 0;
+}
+
+/* `opts`, of which the last of a name holds, of a texture or a layer, whose word is passed over. */
+static int parse_options(RetexTextureSpec *spec, int layer, const char *opts, RetexError *err)
 {
     char text[STATEMENT_MAX];
     int code = RETEX_OK;
@@ -241,7 +269,7 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
         next = strchr(at, ':');
         if (next)
             *next++ = '\0';
-        if (!*at) /* "::" and a colon at either end are allowed */
+        if (!*at || (layer && strcmp(at, "over") == 0)) /* "::" and a colon at either end are allowed */
             continue;
         char *value = strchr(at, '=');
         if (!value)
@@ -249,21 +277,29 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
                               at);
         *value++ = '\0';
         const int kind = retex_statement_option(at, strlen(at));
-        code = kind < 0 ? retex_statement_unknown(at, err) : retex_statement_parse(spec, kind, value, err);
+        code = kind < 0 ? retex_statement_unknown(at, err) : parse_of(spec, layer, kind, value, err);
     }
     return code;
 }
 
-static int add_texture(RetexEdit *edit, const char *target, const char *opts, const char *image, RetexError *err)
+/* layer: of `target`, from 1; 0: the texture itself; -1: the next layer. */
+static int add_texture(RetexEdit *edit, const char *target, int layer, const char *opts, const char *image,
+                       RetexError *err)
 {
     RetexEdit next = *edit;
     int at, code = find_texture(&next, target, &at, err);
-    if (!code && next.said[at])
+    layer = layer < 0 && !code ? 1 + next.specs[at].nlayers : layer;
+    if (!code && layer > RETEX_LAYERS_MAX)
+        code = retex_fail(err, RETEX_EINVAL, "target %s is given more than %d layers", target, RETEX_LAYERS_MAX);
+    unsigned *said = layer && !code ? &next.said_of_layers[at][layer - 1] : &next.said[at];
+    if (!code && *said)
         code = retex_fail(err, RETEX_EINVAL, "target %s is given two textures", target);
     if (!code)
-        code = parse_options(&next.specs[at], opts, err);
+        code = parse_options(&next.specs[at], layer, opts, err);
     if (!code)
-        code = state(&next, target, NULL, image, err);
+        code = parse_of(&next.specs[at], layer, 0, image, err);
+    if (!code)
+        *said |= 1;
     if (!code)
         code = retex_statement_check(&next.specs[at], err);
     if (!code)
@@ -273,32 +309,54 @@ static int add_texture(RetexEdit *edit, const char *target, const char *opts, co
 
 int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err)
 {
-    char target[sizeof edit->specs->target + 1];
-    const char *equals = arg ? strchr(arg, '=') : NULL;
+    char key[sizeof edit->specs->target + 8];
+    const char *target, *equals = arg ? strchr(arg, '=') : NULL;
     if (!equals || equals == arg)
         return retex_fail(err, RETEX_EPARSE, "texture '%s': expected NAME=IMAGE, a target and what to put on it",
                           arg ? arg : "");
     if (!equals[1])
         return retex_fail(err, RETEX_EPARSE, "texture '%s': no image after '='", arg);
-    snprintf(target, sizeof target, "%.*s", (int)(equals - arg), arg);
-    return add_texture(edit, target, opts ? opts : "", equals + 1, err);
+    snprintf(key, sizeof key, "%.*s", (int)(equals - arg), arg);
+    opts = opts ? opts : "";
+    const int is_layer = retex_statement_layer(key, &target) || has_over(opts); /* the next one */
+    return add_texture(edit, target, is_layer ? -1 : 0, opts, equals + 1, err);
+}
+
+/* A part of a cell: `IMAGE`, or `:opts IMAGE`. */
+static int add_part(RetexEdit *edit, const char *target, int layer, char *part, RetexError *err)
+{
+    char *image = part;
+    if (*part == ':') {
+        image += strcspn(part, " ");
+        if (*image)
+            *image++ = '\0';
+        image += strspn(image, " ");
+    }
+    if (!*image)
+        return retex_fail(err, RETEX_EPARSE, "options without an image; expected `:scale=2 IMAGE`");
+    return add_texture(edit, target, layer, *part == ':' ? part : "", image, err);
 }
 
 int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err)
 {
-    char opts[STATEMENT_MAX] = "";
-    if (*cell == ':') {
-        const size_t length = strcspn(cell, " ");
-        if (length >= sizeof opts)
-            return retex_fail(err, RETEX_EPARSE, "the options are too long");
-        memcpy(opts, cell, length);
-        opts[length] = '\0';
-        cell += length;
-        cell += strspn(cell, " ");
+    static const char divider[] = " + ";
+    char text[STATEMENT_MAX], *part = text;
+    if (strlen(cell) >= sizeof text)
+        return retex_fail(err, RETEX_EPARSE, "a cell of more than %d characters", STATEMENT_MAX - 1);
+    strcpy(text, cell);
+    const int is_original = strncmp(text, divider + 1, 2) == 0; /* `+ logo.png`: layers on the original */
+    part += is_original ? 2 : 0;
+    int code = RETEX_OK;
+    for (int layer = is_original ? -1 : 0; part && !code; layer = -1) {
+        char *next = strstr(part, divider);
+        if (next) {
+            *next = '\0';
+            next += strlen(divider);
+        }
+        code = add_part(edit, target, layer, part, err);
+        part = next;
     }
-    if (!*cell)
-        return retex_fail(err, RETEX_EPARSE, "options without an image; expected `:scale=2 IMAGE`");
-    return add_texture(edit, target, opts, cell, err);
+    return code;
 }
 
 /* ---- targets ---- */
@@ -311,12 +369,13 @@ int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *
         int target, at, code = retex_target_find(&target, names, edit->specs[i].target, err);
         if (!code)
             code = find_texture(&next, names->names[target], &at, err);
-        if (!code && next.said[at])
+        if (!code && (next.said[at] || next.specs[at].nlayers))
             code = retex_fail(err, RETEX_EINVAL, "target %s is given two textures", names->names[target]);
         if (code)
             return code;
         next.specs[at] = edit->specs[i];
         next.said[at] = edit->said[i];
+        memcpy(next.said_of_layers[at], edit->said_of_layers[i], sizeof next.said_of_layers[at]);
         strcpy(next.specs[at].target, names->names[target]);
     }
     *edit = next;

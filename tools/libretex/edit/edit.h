@@ -14,6 +14,7 @@ extern const RetexKeyedKind *const retex_edit_keyed[RETEX_EDIT_KEYED];
 struct RetexEdit {
     int count;
     RetexTextureSpec specs[RETEX_MAX_TARGETS]; /* sorted by target */
+    unsigned said_of_layers[RETEX_MAX_TARGETS][RETEX_LAYERS_MAX]; /* the same of these */
     unsigned said[RETEX_MAX_TARGETS]; /* bit k: a statement of kind k; of textures of options and cells only bit 0 */
     RetexKeyedList keyed[RETEX_EDIT_KEYED];
 };

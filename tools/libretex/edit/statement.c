@@ -66,7 +66,7 @@ static int write_image(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MA
         write_color(spec->color, text);
     else
         snprintf(text, STATEMENT_TEXT_MAX, "%s", spec->image);
-    return 1;
+    return spec->constant || spec->image[0];
 }
 
 /* ---- options ---- */
@@ -410,6 +410,11 @@ static const struct {
     {"at", parse_at, write_at},
 };
 
+int retex_statement_is_wrap(int kind)
+{
+    return kind < RETEX_STATEMENT_ADJUSTMENTS && kinds[kind].parse == parse_wrap;
+}
+
 static RetexAdjust adjustment_of(int kind)
 {
     return (RetexAdjust)(kind - RETEX_STATEMENT_ADJUSTMENTS);
@@ -431,6 +436,33 @@ int retex_statement_write(const RetexTextureSpec *spec, int kind, char text[STAT
     return kind < RETEX_STATEMENT_ADJUSTMENTS
                ? kinds[kind].write(spec, text)
                : retex_adjustment_write(spec, adjustment_of(kind), text, STATEMENT_TEXT_MAX);
+}
+
+int retex_statement_layer(const char *key, const char **name)
+{
+    enum { LENGTH = 4 };
+    *name = key;
+    if (strncmp(key, "over", LENGTH) != 0)
+        return 0;
+    const int is_numbered = key[LENGTH] >= '2' && key[LENGTH] <= '0' + RETEX_LAYERS_MAX;
+    if (key[LENGTH + is_numbered] != ':')
+        return 0;
+    *name = key + LENGTH + is_numbered + 1;
+    return is_numbered ? key[LENGTH] - '0' : 1;
+}
+
+int retex_statement_parse_layer(RetexTextureSpec *spec, int layer, int kind, const char *value, RetexError *err)
+{
+    const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    RetexTextureSpec own = RETEX_TEXTURE_SPEC_INIT;
+    while (spec->nlayers < layer)
+        spec->layers[spec->nlayers++] = plain.layers[0];
+    retex_texture_layer_get(&own, spec, layer - 1);
+    RetexError why = {0};
+    const int code = retex_statement_parse(&own, kind, value, err);
+    return code                                                      ? code
+           : !retex_texture_layer_set(spec, layer - 1, &own, &why) ? RETEX_OK
+                                                                     : retex_fail(err, RETEX_EPARSE, "%s", why.message);
 }
 
 int retex_statement_ordered(const RetexTextureSpec *spec, int index)

@@ -24,6 +24,14 @@ int retex_statement_write(const RetexTextureSpec *spec, int kind, char text[STAT
  * in the order in which they are made. -1: it has no statement of that number. */
 int retex_statement_ordered(const RetexTextureSpec *spec, int index);
 
+/* The layer, from 1, that a key is of, over:NAME or overN:NAME; 0: it is of the target itself. *name: the target's. */
+int retex_statement_layer(const char *key, const char **name);
+/* RETEX_EPARSE where the value is none, or a layer has no such statement. Layers are added as far as needed. */
+int retex_statement_parse_layer(RetexTextureSpec *spec, int layer, int kind, const char *value, RetexError *err);
+
+/* 1: it says what lies beyond the image, which layers do not have. */
+int retex_statement_is_wrap(int kind);
+
 /* Of an option's word of `length` bytes; -1 = none. */
 int retex_statement_option(const char *word, size_t length);
 /* RETEX_EPARSE: no option has this word. */

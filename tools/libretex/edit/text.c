@@ -52,28 +52,39 @@ static int close_text(FILE *file, char **text, RetexError *err)
     return RETEX_OK;
 }
 
-/* A statement of a texture, where it says something: divider, key, value. */
-static void write_statement(FILE *file, const RetexTextureSpec *spec, int index, const char *divider)
+/* The statements of a texture, or of a layer of it, each after the divider but the first of all. */
+static void write_texture(FILE *file, const RetexTextureSpec *spec, int layer, int divider, int *written)
 {
-    char value[STATEMENT_TEXT_MAX];
-    const int kind = retex_statement_ordered(spec, index);
-    if (kind < 0 || !retex_statement_write(spec, kind, value))
-        return;
-    fputs(divider, file);
-    write_key(file, spec->target, retex_statement_word(kind));
-    write_encoded(file, value, NULL);
+    char value[STATEMENT_TEXT_MAX], prefix[16] = "";
+    if (layer)
+        snprintf(prefix, sizeof prefix, layer > 1 ? "over%d:" : "over:", layer);
+    for (int k = 0; k < RETEX_STATEMENTS; k++) {
+        const int kind = retex_statement_ordered(spec, k);
+        if (kind < 0 || (layer && retex_statement_is_wrap(kind)) || !retex_statement_write(spec, kind, value))
+            continue;
+        if ((*written)++)
+            fputc(divider, file);
+        fputs(prefix, file);
+        write_key(file, spec->target, retex_statement_word(kind));
+        write_encoded(file, value, NULL);
+    }
 }
 
 int retex_edit_text(const RetexEdit *edit, int divider, char **text, RetexError *err)
 {
-    const char between[2] = {(char)divider, '\0'};
+    int written = 0;
     size_t size;
     *text = NULL;
     FILE *file = open_memstream(text, &size);
-    for (int i = 0; i < edit->count && file; i++)
-        for (int k = 0; k < RETEX_STATEMENTS; k++)
-            write_statement(file, &edit->specs[i], k, i || k ? between : "");
-    for (int kind = 0, written = edit->count; kind < RETEX_EDIT_KEYED && file; kind++)
+    for (int i = 0; i < edit->count && file; i++) {
+        write_texture(file, &edit->specs[i], 0, divider, &written);
+        for (int k = 0; k < edit->specs[i].nlayers; k++) {
+            RetexTextureSpec layer = RETEX_TEXTURE_SPEC_INIT;
+            retex_texture_layer_get(&layer, &edit->specs[i], k);
+            write_texture(file, &layer, 1 + k, divider, &written);
+        }
+    }
+    for (int kind = 0; kind < RETEX_EDIT_KEYED && file; kind++)
         for (int i = 0; i < edit->keyed[kind].count; i++, written++)
             write_keyed(file, retex_edit_keyed[kind], &edit->keyed[kind].of[i], written ? divider : 0);
     return close_text(file, text, err);
@@ -101,6 +112,8 @@ void retex_edit_image_text(const RetexTextureSpec *given, char *text, size_t siz
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     char value[STATEMENT_TEXT_MAX];
     (void)RETEX_PARAMS_COPY(&spec, given, NULL);
-    retex_statement_write(&spec, 0, value);
-    snprintf(text, size, "%s", value);
+    const int is_original = !retex_statement_write(&spec, 0, value);
+    size_t used = (size_t)snprintf(text, size, "%s", is_original ? "" : value);
+    for (int k = 0; k < spec.nlayers && used < size; k++)
+        used += (size_t)snprintf(text + used, size - used, "%s+ %s", used ? " " : "", spec.layers[k].image);
 }

@@ -1,6 +1,7 @@
 /* Filters rows of footprints. Footprints with coverage are collected and given to the fastest kernel that the processor
  * can run; those that the kernel does not filter are filtered one by one. */
 #include "texture/batch.h"
+#include "texture/layer.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,6 +16,7 @@ static const struct {
     float narrowest, least, most;
 } gaussians[] = {[RETEX_TEXTURE_GAUSSIAN] = {1.0f / 64, 0.35f, 0}, [RETEX_TEXTURE_BROAD] = {1.0f / 4, 0.35f, 1.9f}};
 
+#define OVER_PIXELS 256 /* of a layer, filtered in one call */
 #define LEAST_ALPHA 1e-20f /* alpha below this has no colour that a float can hold */
 
 /* The number of usable levels: only a level whose texels have about the same size along both axes stands for the
@@ -178,8 +180,9 @@ size_t retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const Retex
     return left;
 }
 
-void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
-                          int spreads, size_t n, float *colors, int channels)
+/* A texture without what lies on it. */
+static void filter_alone(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
+                         int spreads, size_t n, float *colors, int channels)
 {
     if (texture->nlevels) {
         (void)retex_texture_filter_batches(retex_texture_batch_kernels[retex_cpu_level()], texture, shape, uv, spread,
@@ -192,5 +195,41 @@ void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
             memcpy(colors + (size_t)channels * i, color, (size_t)channels * sizeof *colors);
         else
             memset(colors + (size_t)channels * i, 0, (size_t)channels * sizeof *colors);
+    }
+}
+
+/* Filters a layer, and lays it over the colours below. */
+static void filter_over(const RetexTexture *over, RetexTextureFilter shape, const float *uv, const float *spread,
+                        int spreads, size_t n, float *colors, int channels)
+{
+    float rgba[4 * OVER_PIXELS];
+    for (size_t from = 0; from < n; from += OVER_PIXELS) {
+        const size_t count = n - from < OVER_PIXELS ? n - from : OVER_PIXELS;
+        filter_alone(over, shape, uv + 3 * from, spread + (size_t)spreads * from, spreads, count, rgba, 4);
+        for (size_t i = 0; i < count; i++) {
+            float *below = colors + (size_t)channels * (from + i);
+            float color[4] = {below[0], below[1], below[2], channels == 4 ? below[3] : 1};
+            if (!(uv[3 * (from + i) + 2] > 0))
+                continue;
+            retex_lay_over(color, rgba + 4 * i);
+            memcpy(below, color, (size_t)channels * sizeof *below);
+        }
+    }
+}
+
+void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
+                          int spreads, size_t n, float *colors, int channels)
+{
+    if (!texture->over) {
+        filter_alone(texture, shape, uv, spread, spreads, n, colors, channels);
+        return;
+    }
+    for (const RetexTexture *layer = texture; layer; layer = layer->over) {
+        RetexTexture alone = *layer; /* some footprints are filtered one by one, with what lies on the texture */
+        alone.over = NULL;
+        if (layer == texture)
+            filter_alone(&alone, shape, uv, spread, spreads, n, colors, channels);
+        else
+            filter_over(&alone, shape, uv, spread, spreads, n, colors, channels);
     }
 }

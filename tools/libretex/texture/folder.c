@@ -500,7 +500,13 @@ int retex_texture_file(char **file, const RetexTextureSpec *given, int number, R
     *file = NULL;
     if (RETEX_PARAMS_COPY(&spec, given, err))
         return RETEX_EINVAL;
-    if (number >= RETEX_TEXTURE_FILE_TILES) {
+    if (number >= RETEX_TEXTURE_FILE_LAYERS) {
+        const int layer = number - RETEX_TEXTURE_FILE_LAYERS;
+        if (layer >= spec.nlayers)
+            return RETEX_OK;
+        strcpy(spec.image, spec.layers[layer].image);
+        spec.constant = 0;
+    } else if (number >= RETEX_TEXTURE_FILE_TILES) {
         const int tile = number - RETEX_TEXTURE_FILE_TILES;
         if (tile >= retex_lay_tiles(&spec))
             return RETEX_OK;
@@ -511,7 +517,7 @@ int retex_texture_file(char **file, const RetexTextureSpec *given, int number, R
         *file = strcmp(spec.finish, RETEX_NO_FINISH_MAP) == 0 ? NULL : strdup(spec.finish);
         return RETEX_OK;
     }
-    if (spec.constant || (number == RETEX_TEXTURE_FILE_NORMAL && spec.finish[0]))
+    if (spec.constant || !spec.image[0] || (number == RETEX_TEXTURE_FILE_NORMAL && spec.finish[0]))
         return RETEX_OK;
     const RetexFolderWant want = number == RETEX_TEXTURE_FILE_NORMAL   ? RETEX_FOLDER_NORMAL
                                  : number == RETEX_TEXTURE_FILE_FINISH ? RETEX_FOLDER_ROUGHNESS

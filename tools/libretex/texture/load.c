@@ -13,6 +13,7 @@
 #include "texture/finish_map.h"
 #include "texture/folder.h"
 #include "texture/lay.h"
+#include "texture/layer.h"
 
 #define TOLD_DELTA_E 0.5 /* less is not seen */
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
@@ -71,6 +72,12 @@ void retex_texture_report_colors(const RetexTexture *texture, const RetexTexture
         spec->warn(spec->warn_context, line);
     free(lines);
     retex_texel_defects_report(&texture->defects, spec, (long)width * height);
+    const RetexTexture *over = texture->over;
+    for (int k = 0; k < spec->nlayers && over; k++, over = over->over) {
+        RetexTextureSpec layer = RETEX_TEXTURE_SPEC_INIT;
+        retex_texture_layer_get(&layer, spec, k);
+        retex_texture_report_colors(over, &layer);
+    }
 }
 
 /* Returns the texture without pointers to the caller's data, which may not live as long. */
@@ -167,7 +174,7 @@ static int make_finishes(RetexTexture *texture, const RetexFolderFiles *files, c
                           own->normal ? "%s: normal= cannot be used with repeats that turn or have joints or tiles"
                                       : "%s: finish= cannot be used with tiles=, which have no map of their own",
                           own->target);
-    if (files && files->map && !own->tiles[0][0] && !(own->normal_tilt > 0 && turns))
+    if (files && files->map && !own->tiles[0][0] && !own->nlayers && !(own->normal_tilt > 0 && turns))
         return make_map(texture, color, files->map,
                         own->normal_tilt > 0 ? normal_scale(RETEX_NORMAL_BY_NAME, files->map)
                         : files->is_gloss    ? RETEX_FINISH_BY_GLOSS
@@ -254,6 +261,18 @@ static int read_image(RetexTexture *texture, int nthreads, RetexError *err)
     return code;
 }
 
+/* An image of one texel through which the original shows. */
+static int make_clear(RetexTexture *texture, int nthreads, RetexError *err)
+{
+    RetexTexels texels = {1, 1, 1, NULL};
+    if (retex_texels_alloc(&texels))
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    retex_texture_store_texel(&texels, 0, (const float[4]){0, 0, 0, 0});
+    const int code = retex_texture_set_texels(texture, &texels, NULL, 0, nthreads, err);
+    free(texels.texels);
+    return code;
+}
+
 /* A colour with joints is an image of one texel. */
 static int lay_color(RetexTexture *texture, int nthreads, RetexError *err)
 {
@@ -263,6 +282,20 @@ static int lay_color(RetexTexture *texture, int nthreads, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
     retex_texture_store_texel(&texels, 0, (const float[4]){color[0], color[1], color[2], 1});
     return make_texture(texture, NULL, &texels, nthreads, err);
+}
+
+/* Loads the layers of a texture that is loaded. */
+static int load_layers(RetexTexture *texture, const RetexTextureSpec *spec, int nthreads, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < spec->nlayers && !code; k++) {
+        RetexTextureSpec layer = RETEX_TEXTURE_SPEC_INIT;
+        retex_texture_layer_get(&layer, spec, k);
+        layer.warn = NULL; /* warnings are told with those of the whole */
+        code = retex_texture_load(&texture->over, &layer, nthreads, err);
+        texture = texture->over;
+    }
+    return code;
 }
 
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nthreads, RetexError *err)
@@ -275,12 +308,16 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *given, int nt
         return RETEX_EINVAL;
     RetexTexture *texture = retex_texture_new(&spec, &why);
     int code = why.code;
-    if (texture && !spec.constant)
+    if (texture && retex_texture_is_original(&spec))
+        code = make_clear(texture, nthreads, &why);
+    else if (texture && !spec.constant)
         code = read_image(texture, nthreads, &why);
     else if (texture && retex_lay_is_image(&spec))
         code = lay_color(texture, nthreads, &why);
     else if (texture)
         code = make_finishes(texture, NULL, NULL, nthreads, &why);
+    if (!code)
+        code = load_layers(texture, &spec, nthreads, &why);
     if (code) {
         retex_texture_close(&texture);
         if (code == RETEX_EIO) { /* perhaps a misspelt colour */
@@ -323,6 +360,8 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             code = adjust(texture, &texels, nthreads, &why);
         if (!code)
             code = make_texture(texture, NULL, &texels, nthreads, &why);
+        if (!code)
+            code = load_layers(texture, &spec, nthreads, &why);
         retex_image_free(&copy);
     }
     if (code) {

@@ -62,6 +62,7 @@ struct RetexTexture {
      * made of */
     float tail[TEXTURE_TAIL_STEPS * TEXTURE_TAIL_END + 2];
     RetexFinishMap *finishes; /* or NULL: one finish all over */
+    RetexTexture *over;       /* the layer that lies on it, or NULL */
     int may_have_finishes;    /* 1: whether it has some, and which, depends on those of the target */
 };
 

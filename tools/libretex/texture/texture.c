@@ -4,6 +4,7 @@
 #include "base/params.h"
 #include "texture/adjust.h"
 #include "texture/lay.h"
+#include "texture/layer.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -217,7 +218,7 @@ static int check_spec(const RetexTextureSpec *spec, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "texture: rotate must be finite");
     if ((unsigned)spec->repeat >= RETEX_REPEATS)
         return retex_fail(err, RETEX_EINVAL, "texture: no repeat has the number %d", (int)spec->repeat);
-    if (retex_adjust_check(spec, err) || retex_lay_check(spec, err))
+    if (retex_adjust_check(spec, err) || retex_lay_check(spec, err) || retex_layers_check(spec, err))
         return RETEX_EINVAL;
     return retex_lay_is_image(spec) ? check_width(spec, err) : RETEX_OK;
 }
@@ -260,6 +261,7 @@ void retex_texture_close(RetexTexture **texture)
         }
     }
     close_finishes(*texture);
+    retex_texture_close(&(*texture)->over);
     retex_budget_release((*texture)->spec.budget, (*texture)->charged);
     free((*texture)->color_warning);
     free(*texture);
@@ -269,7 +271,12 @@ void retex_texture_close(RetexTexture **texture)
 int retex_texture_spec_needs_scale(const RetexTextureSpec *given)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    return !RETEX_PARAMS_COPY(&spec, given, NULL) && retex_lay_is_image(&spec) && spec.width[0] > 0;
+    if (RETEX_PARAMS_COPY(&spec, given, NULL))
+        return 0;
+    int needs = retex_lay_is_image(&spec) && spec.width[0] > 0;
+    for (int k = 0; k < spec.nlayers && k < RETEX_LAYERS_MAX; k++)
+        needs |= spec.layers[k].width[0] > 0;
+    return needs;
 }
 
 static int set_surface_finishes(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
@@ -289,7 +296,8 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     retex_texture_size(texture, &width, &height);
     if (!spec.constant)
         set_transform(texture, width, height);
-    return set_surface_finishes(texture, surface, err);
+    const int code = texture->over ? retex_texture_set_surface(texture->over, surface, err) : RETEX_OK;
+    return code ? code : set_surface_finishes(texture, surface, err);
 }
 
 /* Whether vectors of both are turned in the same way. */
@@ -301,7 +309,7 @@ static int is_turned_as(const RetexTextureSpec *a, const RetexTextureSpec *b)
     return same;
 }
 
-void retex_texture_spec_unplace(RetexTextureSpec *spec)
+static void unplace(RetexTextureSpec *spec)
 {
     const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
     memset(spec->target, 0, sizeof spec->target);
@@ -323,10 +331,25 @@ void retex_texture_spec_unplace(RetexTextureSpec *spec)
     memset(spec->uv_min, 0, sizeof spec->uv_min);
     memset(spec->uv_max, 0, sizeof spec->uv_max);
     memset(spec->periodic, 0, sizeof spec->periodic);
+    for (int k = 0; k < spec->nlayers; k++) {
+        RetexTextureSpec layer = RETEX_TEXTURE_SPEC_INIT;
+        retex_texture_layer_get(&layer, spec, k);
+        unplace(&layer);
+        retex_texture_layer_set(spec, k, &layer, NULL);
+    }
     spec->access = NULL;
     spec->budget = NULL;
     spec->warn = NULL;
     spec->warn_context = NULL;
+}
+
+void retex_texture_spec_unplace(RetexTextureSpec *given)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    if (RETEX_PARAMS_COPY(&spec, given, NULL))
+        return;
+    unplace(&spec);
+    RETEX_PARAMS_RETURN(given, &spec, NULL);
 }
 
 static int is_same_tiles(const RetexTextureSpec *a, const RetexTextureSpec *b)
@@ -345,6 +368,18 @@ static int is_laid_alike(const RetexTextureSpec *a, const RetexTextureSpec *b)
            (!have_sizes || (a->width[0] == b->width[0] && a->width[1] == b->width[1]));
 }
 
+static int has_layers_alike(const RetexTextureSpec *a, const RetexTextureSpec *b)
+{
+    int alike = a->nlayers == b->nlayers;
+    for (int k = 0; k < a->nlayers && alike; k++) {
+        RetexTextureSpec one = RETEX_TEXTURE_SPEC_INIT, other = RETEX_TEXTURE_SPEC_INIT;
+        retex_texture_layer_get(&one, a, k);
+        retex_texture_layer_get(&other, b, k);
+        alike = retex_texture_specs_alike(&one, &other);
+    }
+    return alike;
+}
+
 int retex_texture_specs_alike(const RetexTextureSpec *one, const RetexTextureSpec *other)
 {
     RetexTextureSpec a = RETEX_TEXTURE_SPEC_INIT, b = RETEX_TEXTURE_SPEC_INIT;
@@ -353,7 +388,7 @@ int retex_texture_specs_alike(const RetexTextureSpec *one, const RetexTextureSpe
     if (strcmp(a.image, b.image) != 0 || strcmp(a.colorspace, b.colorspace) != 0 || strcmp(a.finish, b.finish) != 0 ||
         a.normal != b.normal ||
         a.repeat != b.repeat || a.wrap[0] != b.wrap[0] || a.wrap[1] != b.wrap[1] || a.is_light != b.is_light ||
-        a.nadjustments != b.nadjustments || !is_laid_alike(&a, &b))
+        a.nadjustments != b.nadjustments || !is_laid_alike(&a, &b) || !has_layers_alike(&a, &b))
         return 0;
     for (int i = 0; i < a.nadjustments; i++)
         if (a.adjustments[i].kind != b.adjustments[i].kind ||
@@ -370,6 +405,19 @@ static int has_texels_of(const RetexTexture *texture, const RetexTextureSpec *sp
             (spec->nfinishes == own->nfinishes && spec->normal_tilt == own->normal_tilt &&
              (spec->normal_tilt == 0 || is_turned_as(spec, own)) &&
              memcmp(spec->roughness, own->roughness, sizeof own->roughness) == 0));
+}
+
+/* Places the layers of `texture` on another one. */
+static int place_layers(RetexTexture *placed, const RetexTexture *texture, const RetexTextureSpec *spec,
+                        RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < spec->nlayers && !code; k++, placed = placed->over, texture = texture->over) {
+        RetexTextureSpec layer = RETEX_TEXTURE_SPEC_INIT;
+        retex_texture_layer_get(&layer, spec, k);
+        code = retex_texture_place(&placed->over, texture->over, &layer, err);
+    }
+    return code;
 }
 
 int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err)
@@ -395,9 +443,12 @@ int retex_texture_place(RetexTexture **out, const RetexTexture *texture, const R
     placed->shared = 1;
     placed->charged = 0;
     placed->color_warning = NULL;
+    placed->over = NULL;
     retex_texture_size(texture, &width, &height);
     set_transform(placed, width, height);
     code = place_finishes(placed, texture, err);
+    if (!code)
+        code = place_layers(placed, texture, &placed->spec, err);
     if (code)
         retex_texture_close(&placed);
     *out = placed;
@@ -437,6 +488,8 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, int nt
     }
     if (!code)
         code = square_finishes(square, texture, nthreads, err);
+    if (!code && texture->over)
+        code = retex_texture_square(&square->over, texture->over, nthreads, err);
     if (code)
         retex_texture_close(&square);
     *out = square;
@@ -451,7 +504,7 @@ void retex_texture_size(const RetexTexture *texture, int *width, int *height)
 
 uint64_t retex_texture_bytes(const RetexTexture *texture)
 {
-    return texture->charged + finishes_bytes(texture);
+    return texture->charged + finishes_bytes(texture) + (texture->over ? retex_texture_bytes(texture->over) : 0);
 }
 
 /* ---- maps of finishes ---- */
@@ -619,6 +672,12 @@ static void look_up(const RetexTexture *texture, double u, double v, int nearest
         point_at(texture, uv, nearest, rgba);
     else
         memset(rgba, 0, 4 * sizeof(float));
+    for (const RetexTexture *over = texture->over; over; over = over->over) {
+        float color[4] = {0, 0, 0, 0};
+        if (texture_uv(over, u, v, uv))
+            point_at(over, uv, nearest, color);
+        retex_lay_over(rgba, color);
+    }
 }
 
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4])
@@ -701,10 +760,15 @@ static void filter_at(const RetexTexture *texture, double u, double v, const dou
                       float rgba[4])
 {
     RetexTexelFootprint footprint;
-    if (!find_footprint(texture, u, v, covariance, &footprint, rgba))
-        return;
-    filter(texture, &footprint, rgba);
-    unassociate(rgba);
+    if (find_footprint(texture, u, v, covariance, &footprint, rgba)) {
+        filter(texture, &footprint, rgba);
+        unassociate(rgba);
+    }
+    if (texture->over) {
+        float over[4];
+        filter_at(texture->over, u, v, covariance, filter, over);
+        retex_lay_over(rgba, over);
+    }
 }
 
 void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
@@ -741,11 +805,16 @@ void retex_texture_parallelogram(const RetexTexture *texture, double u, double v
         for (int i = 0; i < 2; i++)
             sides[k][i] = (texture->matrix[i][0] * axes[k][0] + texture->matrix[i][1] * axes[k][1]) * texels[i];
     }
-    if (!find_footprint(texture, u, v, covariance, &footprint, rgba))
-        return;
-    limit_sides(&footprint, sides);
-    retex_texture_parallelogram_kernel(texture, &footprint, sides, rgba);
-    unassociate(rgba);
+    if (find_footprint(texture, u, v, covariance, &footprint, rgba)) {
+        limit_sides(&footprint, sides);
+        retex_texture_parallelogram_kernel(texture, &footprint, sides, rgba);
+        unassociate(rgba);
+    }
+    if (texture->over) {
+        float over[4];
+        retex_texture_parallelogram(texture->over, u, v, axes, over);
+        retex_lay_over(rgba, over);
+    }
 }
 
 int retex_texture_finishes(const RetexTexture *texture, double u, double v, int shown, float weights[4])

@@ -72,6 +72,12 @@ class RetexAdjustment(ctypes.Structure):
     _fields_ = [("kind", c_int), ("value", c_float * 3)]
 
 
+class RetexTextureLayer(ctypes.Structure):
+    _fields_ = [("image", c_char * 256), ("colorspace", c_char * 64), ("scale", c_double * 2), ("rotate", c_double),
+                ("offset", c_double * 2), ("width", c_double * 2), ("flip", c_int * 2), ("has_at", c_int),
+                ("at", c_double * 2), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9)]
+
+
 class RetexTextureSpec(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("target", c_char * 128), ("image", c_char * 1024), ("constant", c_int),
                 ("color", c_float * 3), ("scale", c_double * 2), ("rotate", c_double), ("offset", c_double * 2),
@@ -82,7 +88,8 @@ class RetexTextureSpec(ctypes.Structure):
                 ("roughness", c_float * 4), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9),
                 ("grout", c_double), ("grout_color", c_float * 3), ("vary", c_int), ("vary_seed", c_uint),
                 ("tiles", (c_char * 256) * 8), ("has_at", c_int), ("at", c_double * 2),
-                ("normal", c_int), ("normal_tilt", c_double)]
+                ("normal", c_int), ("normal_tilt", c_double), ("nlayers", c_int),
+                ("layers", RetexTextureLayer * 4)]
 
 
 class RetexReadParams(ctypes.Structure):
@@ -195,6 +202,7 @@ PLAIN: Dict[str, Tuple[List[Any], Any]] = {
     "retex_edit_count": ([c_void_p], c_int),
     "retex_edit_lights": ([c_void_p], c_int),
     "retex_edit_texture": ([c_void_p, c_int], POINTER(RetexTextureSpec)),
+    "retex_texture_layer_get": ([POINTER(RetexTextureSpec), POINTER(RetexTextureSpec), c_int], None),
     "retex_edit_image_text": ([POINTER(RetexTextureSpec), c_char_p, c_size_t], None),
     "retex_set_close": ([_handle], None),
     "retex_set_find_target": ([c_void_p, c_char_p], c_int),

@@ -209,11 +209,22 @@ Textures = Union[Mapping[str, Union[Source, Texture]], str]
 
 def parse_edit(text: str) -> Dict[str, Texture]:
     """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato".
-    Its lamps and finishes are left out."""
+    Layers have keys such as "over:Floor", as they have where textures are given. Its lamps and finishes are left out."""
     with _edit() as edit:
         call("retex_edit_parse", edit, path_bytes(text))
         specs = [lib.retex_edit_texture(edit, index)[0] for index in range(lib.retex_edit_count(edit))]
-        return {os.fsdecode(spec.target): Texture._of_spec(spec) for spec in specs}
+        textures: Dict[str, Texture] = {}
+        for spec in specs:
+            target = os.fsdecode(spec.target)
+            if spec.image or spec.constant:
+                alone = RetexTextureSpec.from_buffer_copy(spec)
+                alone.nlayers = 0
+                textures[target] = Texture._of_spec(alone)
+            for index in range(spec.nlayers):
+                layer = RetexTextureSpec(size=ctypes.sizeof(RetexTextureSpec))
+                lib.retex_texture_layer_get(byref(layer), byref(spec), index)
+                textures[f"over{index + 1 if index else ''}:{target}"] = Texture._of_spec(layer)
+        return textures
 
 
 #: A lamp's new value: a number that multiplies it, a colour of three numbers, or text, as in retex-edit(5).

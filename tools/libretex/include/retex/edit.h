@@ -5,8 +5,9 @@
  *
  *     TARGET=IMAGE           a texture, the name of a file
  *     TARGET=COLOUR          a colour, see retex/color_text.h
- *     TARGET.OPTION=VALUE    how the texture lies; OPTION is scale, rotate, offset, flip, wrap, repeat, width or
- *                            colorspace, see RetexTextureSpec
+ *     TARGET.OPTION=VALUE    how the texture lies; OPTION is scale, rotate, hue or another word of retex-edit(5),
+ *                            which fills a member of RetexTextureSpec
+ *     over:TARGET=IMAGE      a layer on it, with options of its own; over2: to over4: lie on that
  *     light:LAMP=VALUE       a lamp's new value, see retex/lamp.h; LAMP `*` is all lamps that the edit does not name
  *     finish:TARGET=NAME     one of the finishes that the set has for a target
  *
@@ -45,9 +46,10 @@ int retex_edit_set(RetexEdit *edit, const char *key, const char *value, RetexErr
 /* Whether each target with options has a texture, and the options suit each other. */
 int retex_edit_check(const RetexEdit *edit, RetexError *err);
 /* Add the texture of an option of a command line, --texture[:opts] NAME=IMAGE. opts: `scale=2,2:rotate=30`, of which
- * the last of a name holds; or NULL. */
+ * the last of a name holds; or NULL. The word `over` among them makes it the target's next layer. */
 int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err);
-/* Add the texture of a cell of a table, for the target that its column has: IMAGE or `:opts IMAGE`. */
+/* Add the texture of a cell of a table, for the target that its column has: IMAGE or `:opts IMAGE`, and layers behind
+ * ` + `; `+ IMAGE` lies on the original. */
 int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err);
 /* Add the value of an option of a command line, --light NAME=VALUE. */
 int retex_edit_light(RetexEdit *edit, const char *arg, RetexError *err);

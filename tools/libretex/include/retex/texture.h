@@ -82,6 +82,20 @@ typedef struct RetexAdjustment {
     float value[3]; /* 0 or more, but for HUE; more than 0 for GAMMA and CONTRAST */
 } RetexAdjustment;
 
+/* A picture that lies once on a texture, or on the original: a logo, a rug, a stain. What is transparent, and what is
+ * beyond the picture, shows what lies below. Its members mean what those of RetexTextureSpec mean. */
+typedef struct RetexTextureLayer {
+    char image[256];
+    char colorspace[64];
+    double scale[2], rotate, offset[2], width[2];
+    int flip[2];
+    int has_at;
+    double at[2];
+    int nadjustments;
+    RetexAdjustment adjustments[RETEX_ADJUSTS];
+} RetexTextureLayer;
+enum { RETEX_LAYERS_MAX = 4 };
+
 /* A texture and how it lies on its target; retex/edit.h makes it of text. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
     size_t size;
@@ -133,12 +147,16 @@ typedef struct RetexTextureSpec {
                               NONE */
     double normal_tilt;    /* degrees, that of the target, which takes normal maps where it is above 0; filled in by the
                               caller. Default 0 */
+    int nlayers;           /* 0..RETEX_LAYERS_MAX, default 0. With layers `image` may be "", and `constant` 0: then they
+                              lie on the original. There is no map of finishes or normals then */
+    RetexTextureLayer layers[RETEX_LAYERS_MAX]; /* the lowest first */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
       "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0}, \
       "", 0, {0, 0, 0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}, 0, \
-      {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0}, RETEX_NORMAL_NONE, 0 }
+      {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0}, RETEX_NORMAL_NONE, 0, \
+      0, {{"", "", {1, 1}, 0, {0, 0}, {0, 0}, {0, 0}, 0, {0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}}} }
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
@@ -158,13 +176,14 @@ typedef struct RetexTexture RetexTexture;
  * used. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* The files of a texture, by number: the image, the map that `finish` names or a folder's roughness, a folder's normal
- * map, and its tiles from RETEX_TEXTURE_FILE_TILES on. */
+ * map, its tiles from RETEX_TEXTURE_FILE_TILES on, and its layers from RETEX_TEXTURE_FILE_LAYERS on. */
 enum {
     RETEX_TEXTURE_FILE_IMAGE,
     RETEX_TEXTURE_FILE_FINISH,
     RETEX_TEXTURE_FILE_NORMAL,
     RETEX_TEXTURE_FILE_TILES,
-    RETEX_TEXTURE_FILES = RETEX_TEXTURE_FILE_TILES + RETEX_TILES_MAX
+    RETEX_TEXTURE_FILE_LAYERS = RETEX_TEXTURE_FILE_TILES + RETEX_TILES_MAX,
+    RETEX_TEXTURE_FILES = RETEX_TEXTURE_FILE_LAYERS + RETEX_LAYERS_MAX
 };
 /* The file of that number that retex_texture_load would read now: the image itself, or where it is a folder, the
  * file of its base colour, by the rules of retex-edit(5); the map that spec names, or the folder's roughness, which
@@ -176,6 +195,14 @@ int retex_texture_file(char **file, const RetexTextureSpec *spec, int number, Re
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, int nthreads, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
+/* Layer number `index`, which must be one, as a texture of its own, on the same target, in a struct whose size is set;
+ * and back: RETEX_EINVAL where a layer cannot be
+ * so. */
+void retex_texture_layer_get(RetexTextureSpec *layer, const RetexTextureSpec *spec, int index);
+int retex_texture_layer_set(RetexTextureSpec *spec, int index, const RetexTextureSpec *layer, RetexError *err);
+/* Add the layers of `more` to those of a texture on the same target. One of both may have an image, which lies below.
+ * RETEX_EINVAL: both have; or there are too many layers. */
+int retex_texture_spec_join(RetexTextureSpec *spec, const RetexTextureSpec *more, RetexError *err);
 /* Take its placement away, and what the caller fills in but finishes: what is left decides on the texels. */
 void retex_texture_spec_unplace(RetexTextureSpec *spec);
 /* 1: both images have the same texels, whatever their placement, so that memory can be shared, as long as the files and
