@@ -632,6 +632,35 @@ def finishes(server):
     expect('none on a wall', ask(server, '/v1/three/Wall=oak;Wall.finish=none/full.png').status, 200)
 
 
+def laid(server):
+    """Adjusted, laid and layered textures: pictures are retex-combine's, also of images that are in memory."""
+    oak, bodies = 'textures/oak.jpg', set()
+    for round in 1, 2:
+        for edits, *textures in (
+                ('Floor=oak;Floor.hue=40', '--texture:hue=40', 'Floor=' + oak),
+                ('Floor=oak;Floor.hue=80', '--texture:hue=80', 'Floor=' + oak),
+                ('Floor=oak;Floor.width=.5;Floor.grout=.02', '--texture:width=.5:grout=.02', 'Floor=' + oak),
+                ('Floor=oak;Floor.width=.6;Floor.grout=.02', '--texture:width=.6:grout=.02', 'Floor=' + oak),
+                ('Floor=tan;Floor.width=.5;Floor.grout=.05', '--texture:width=.5:grout=.05', 'Floor=tan'),
+                ('Floor=oak;Floor.vary=flip;Floor.tiles=gloss', '--texture:vary=flip:tiles=textures/gloss.bmp',
+                 'Floor=' + oak),
+                ('over:Floor=gloss;over:Floor.scale=.5', '--texture:over:scale=.5', 'Floor=textures/gloss.bmp'),
+                ('Floor=oak;over:Floor=gloss;over:Floor.scale=.5', '--texture', 'Floor=' + oak,
+                 '--texture:over:scale=.5', 'Floor=textures/gloss.bmp'),
+                ('Floor=oak;over:Floor=gloss;over:Floor.scale=.7', '--texture', 'Floor=' + oak,
+                 '--texture:over:scale=.7', 'Floor=textures/gloss.bmp')):
+            answer = ask(server, f'/v1/two/{edits}/full.png')
+            expect(edits, answer.status, 200)
+            if answer.body != combine('a.png', 'rooms/two.retex', *textures, told=subprocess.DEVNULL):
+                print(f'{edits}: not the bytes of retex-combine')
+            bodies.add(answer.body)
+    expect('different pictures', len(bodies), 9)
+    for edits, name in ('Floor=oak;Floor.tiles=none', 'Floor.tiles'), ('over:Floor=none', 'over:Floor'):
+        answer = ask(server, f'/v1/two/{edits}/full.png')
+        expect(edits, (answer.status, answer.body.decode()),
+               (404, f"{name}: there is no texture 'none'; /v1 lists them\n"))
+
+
 def normals(server):
     """Normal maps: pictures are retex-combine's; images in memory are shared only by textures that are turned alike."""
     def check(edits, *textures, room='walls'):
