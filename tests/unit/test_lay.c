@@ -215,7 +215,7 @@ static void test_no_gaps(void **state)
             texels[i] = NAN;
         retex_layout_paint(&layout, &spec, &tile, 1, &image, 2);
         for (size_t i = 0; i < count; i++)
-            assert_float_equal(texels[4 * i + 1] + texels[4 * i + 2], 1, 1e-5);
+            assert_true(fabsf(texels[4 * i + 1] + texels[4 * i + 2] - 1) < 1e-5f); /* nor NaN */
         free(image.texels);
         free(tile.texels);
         retex_layout_free(&layout);
