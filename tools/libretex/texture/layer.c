@@ -6,22 +6,28 @@
 
 #include "base/params.h"
 
+/* The members that a layer has of a texture, of whose image's name it holds less. */
+#define COPY_SHARED(to, from)                                                                                          \
+    do {                                                                                                               \
+        memcpy((to)->image, (from)->image, sizeof((RetexTextureLayer *)0)->image);                                     \
+        memcpy((to)->colorspace, (from)->colorspace, sizeof(from)->colorspace);                                        \
+        memcpy((to)->scale, (from)->scale, sizeof(from)->scale);                                                       \
+        memcpy((to)->offset, (from)->offset, sizeof(from)->offset);                                                    \
+        memcpy((to)->width, (from)->width, sizeof(from)->width);                                                       \
+        memcpy((to)->flip, (from)->flip, sizeof(from)->flip);                                                          \
+        memcpy((to)->at, (from)->at, sizeof(from)->at);                                                                \
+        memcpy((to)->adjustments, (from)->adjustments, sizeof(from)->adjustments);                                     \
+        (to)->rotate = (from)->rotate;                                                                                 \
+        (to)->has_at = (from)->has_at;                                                                                 \
+        (to)->nadjustments = (from)->nadjustments;                                                                     \
+    } while (0)
+
 static void get(RetexTextureSpec *layer, const RetexTextureSpec *spec, int index)
 {
     const RetexTextureLayer *own = &spec->layers[index];
     *layer = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
     memcpy(layer->target, spec->target, sizeof layer->target);
-    memcpy(layer->image, own->image, sizeof own->image);
-    memcpy(layer->colorspace, own->colorspace, sizeof own->colorspace);
-    memcpy(layer->scale, own->scale, sizeof own->scale);
-    memcpy(layer->offset, own->offset, sizeof own->offset);
-    memcpy(layer->width, own->width, sizeof own->width);
-    memcpy(layer->flip, own->flip, sizeof own->flip);
-    memcpy(layer->at, own->at, sizeof own->at);
-    memcpy(layer->adjustments, own->adjustments, sizeof own->adjustments);
-    layer->rotate = own->rotate;
-    layer->has_at = own->has_at;
-    layer->nadjustments = own->nadjustments;
+    COPY_SHARED(layer, own);
     layer->wrap[0] = layer->wrap[1] = RETEX_WRAP_BLACK;
     memcpy(layer->uv_scale, spec->uv_scale, sizeof spec->uv_scale);
     memcpy(layer->uv_min, spec->uv_min, sizeof spec->uv_min);
@@ -57,17 +63,7 @@ static int set(RetexTextureSpec *spec, int index, const RetexTextureSpec *layer,
     if (strlen(layer->image) >= sizeof own->image)
         return retex_fail(err, RETEX_EINVAL, "a layer on %s: the image's name has at most %zu bytes", spec->target,
                           sizeof own->image - 1);
-    memcpy(own->image, layer->image, sizeof own->image);
-    memcpy(own->colorspace, layer->colorspace, sizeof own->colorspace);
-    memcpy(own->scale, layer->scale, sizeof own->scale);
-    memcpy(own->offset, layer->offset, sizeof own->offset);
-    memcpy(own->width, layer->width, sizeof own->width);
-    memcpy(own->flip, layer->flip, sizeof own->flip);
-    memcpy(own->at, layer->at, sizeof own->at);
-    memcpy(own->adjustments, layer->adjustments, sizeof own->adjustments);
-    own->rotate = layer->rotate;
-    own->has_at = layer->has_at;
-    own->nadjustments = layer->nadjustments;
+    COPY_SHARED(own, layer);
     return RETEX_OK;
 }
 
