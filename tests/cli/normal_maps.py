@@ -38,6 +38,8 @@ def main():
         write(f"waves{degrees}", rows(lambda r, c, d=degrees: encoded(wave(r, c, d))))
     write("flat", rows(lambda r, c: (128, 128, 255)))
     write("other", rows(lambda r, c: (127, 128, 255)))
+    steep = math.radians(30)  # every texel the other way than its neighbour: flat on average
+    write("ridges", rows(lambda r, c: encoded(((-1) ** c * math.sin(steep), 0, math.cos(steep)))))
     write("color", rows(color))
 
     def down(r, c):

@@ -19,12 +19,16 @@ $ for m in waves_nor_dx.ppm plain_down.ppm,dx; do sh m $m color.ppm -o a.exr; sh
 > a.exr waves.exr 42
 
 # As the same paths give it with the map; none is much farther.
-$ printf 'exec sh n --spp 128 --plain "$@"' >p; sh n --spp 128 -o long.exr; for m in waves10 waves30; do sh p --replace:normal=$m.ppm Wall=color.ppm -o own-$m.exr; sh c long.exr --texture:normal=$m.ppm Wall=color.ppm -o $m.exr --error e-$m.exr; done; sh near own-waves10.exr waves10.exr 47; sh near own-waves30.exr waves30.exr 40; sh c long.exr --texture Wall=color.ppm -o n.exr --error e.exr; sh near own-waves10.exr n.exr 47; sh near own-waves30.exr n.exr 40
+$ printf 'exec sh n --spp 128 --plain "$@"' >p; sh n --spp 128 -o long.exr; for m in waves10 waves30; do sh p --replace:normal=$m.ppm Wall=color.ppm -o own-$m.exr; sh c long.exr --texture:normal=$m.ppm Wall=color.ppm -o $m.exr; done; sh near own-waves10.exr waves10.exr 47; sh near own-waves30.exr waves30.exr 40; sh c long.exr --texture Wall=color.ppm -o n.exr; sh near own-waves10.exr n.exr 47; sh near own-waves30.exr n.exr 40
 > own-waves10.exr n.exr 47
 > own-waves30.exr n.exr 40
-$ oiiotool e-waves10.exr e.exr --sub -o more.exr; oiiotool --stats more.exr | awk '/Max:/ { print ($3 > 1e-4 ? "more where normals vary" : $0) }'; oiiotool --stats waves30.exr | awk '/Min:/ { print ($3 >= 0 ? "never below 0" : $0) }'
-> more where normals vary
+$ oiiotool --stats waves30.exr | awk '/Min:/ { print ($3 >= 0 ? "never below 0" : $0) }'
 > never below 0
+
+# The error map knows how much the normals in a footprint differ; ridges finer than a pixel are flat on average. Later hits alone give .018.
+$ for m in flat ridges; do sh m $m.ppm:scale=.2 tan -o a.exr --error e-$m.exr; oiiotool --stats e-$m.exr | awk -v m=$m '/Avg:/ { print m, ($3 > .028 ? "off" : $3 < .001 ? "right" : $0) }'; done
+> flat right
+> ridges off
 $ printf 'output,Wall\nv1.exr,:normal=waves10.ppm color.ppm\nv2.exr,color.ppm\nv3.exr,:normal=turned.ppm:scale=2 tan\n' >t.csv; sh n --spp 8 --plain --variants t.csv; sh n --spp 8 --plain --replace:normal=waves10.ppm Wall=color.ppm -o w1.exr; sh n --spp 8 --plain --replace Wall=color.ppm -o w2.exr; sh n --spp 8 --plain --replace:normal=turned.ppm:scale=2 Wall=tan -o w3.exr; for k in 1 2 3; do cmp v$k.exr w$k.exr; done; sh near v1.exr v2.exr 42
 
 # Diffuse light alone follows them: what a mirror reflects does not, and its weights stay 1.
