@@ -26,7 +26,7 @@ $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 
 $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/confine.o
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
@@ -35,7 +35,7 @@ SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif)
 $(BUILD)/tests/unit/test_serve_request $(BUILD)/tests/unit/test_serve_iiif: $(SERVE_URL_OBJECTS)
 $(BUILD)/tests/unit/test_serve_clients: $(patsubst %,$(BUILD)/obj/tools/serve/%.o,address clients head peers)
 $(BUILD)/tests/unit/test_serve: $(SERVE_URL_OBJECTS) \
-	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work shrink names kept content decoding images rooms uploads)
+	$(patsubst %,$(BUILD)/obj/tools/serve/%.o,answer body cache headers work names kept content decoding images rooms uploads)
 $(BUILD)/tests/fuzz/fuzz_request: $(BUILD)/obj/tests/fuzz/fuzz_request.o $(FUZZ_OBJECTS) $(SERVE_URL_OBJECTS) \
 	    $(BUILD)/obj/tools/json_text.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)

@@ -12,6 +12,8 @@ static const CliOption options[] = {
     {"light", 0, "NAME=VALUE", "give lamp NAME another brightness or colour: 0, 2.5, #ffd0a0, 3000K, 1.5*3000K", 0},
     {"finish", 0, "TARGET=NAME", "give TARGET another of the finishes that the set has for it", 0},
     {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
+    {"size", 0, "WxH", "a smaller picture: of WxH pixels, or Wx or xH to keep the aspect", 0},
+    {"crop", 0, "X,Y,W,H", "only this rectangle of the picture", 0},
     {"display", 0, "NAME", "OCIO display for the picture", 0},
     {"view", 0, "NAME", "OCIO view of that display", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
@@ -79,7 +81,11 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "free") == 0) {
             job->unknowns = cli->value;
         } else if (strcmp(option->name, "region") == 0) {
-            job_take_region(cli, job);
+            job_take_rectangle(cli, option, job->region);
+        } else if (strcmp(option->name, "crop") == 0) {
+            job_take_rectangle(cli, option, job->crop);
+        } else if (strcmp(option->name, "size") == 0) {
+            job_take_size(cli, job);
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_size(cli, option);
         } else if (strcmp(option->name, "batch") == 0) {
@@ -114,6 +120,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--free and --region belong to --solve");
     if (job->solve && (job->table || job->frames.step || job->error))
         cli_die(cli, "--solve excludes --batch, --frames and --error");
+    if (job->solve && (job->crop[2] || job->scaled[0] || job->scaled[1]))
+        cli_die(cli, "--solve excludes --size and --crop; --region says which part counts");
     if (job->solve && cli->output && strcmp(cli->output, "-") == 0)
         cli_die(cli, "with --solve, standard output has what is found: name a file with -o");
     if (job->write.colorspace && (job->write.display || job->write.view))

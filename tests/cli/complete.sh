@@ -13,7 +13,7 @@ exec "$TESTS/complete.py" "$1" "$2" \
     'retex-combine room.exr --texture=Floor=fo' \
     'retex-combine room.exr --texture:scale=2:wr' \
     'retex-combine room.exr --texture:wrap=mir' \
-    'retex-combine room.exr --cr' \
+    'retex-combine room.exr --cros' \
     'retex-combine room.exr --cross ' \
     'retex-combine room.exr --batch ' \
     'retex-combine room.exr --batch-root=' \

@@ -172,7 +172,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" bash "$PWD/a root/usr/share/bash-comple
 >     all: <retex-combine><room.exr><--texture:scale=2:wrap=>
 > retex-combine room.exr --texture:wrap=mir: <retex-combine><room.exr><--texture:wrap=mirror>
 >     all: <retex-combine><room.exr><--texture:wrap=mirror>
-> retex-combine room.exr --cr: <retex-combine><room.exr><--cross>
+> retex-combine room.exr --cros: <retex-combine><room.exr><--cross>
 >     all: <retex-combine><room.exr><--cross>
 > retex-combine room.exr --cross : <retex-combine><room.exr><--cross>
 >     all: <retex-combine><room.exr><--cross><0><2><3>
@@ -226,7 +226,7 @@ $ RETEX_MAX_TIME=60 "$TESTS/complete.sh" fish "$PWD/a root/usr/share/fish/vendor
 > retex-combine room.exr --texture=Floor=fo: --texture=Floor=folder/
 > retex-combine room.exr --texture:scale=2:wr: --texture:scale=2:wrap=
 > retex-combine room.exr --texture:wrap=mir: --texture:wrap=mirror
-> retex-combine room.exr --cr: --cross
+> retex-combine room.exr --cros: --cross
 > retex-combine room.exr --cross : 0 2 3
 > retex-combine room.exr --batch : a root/ folder/ table.csv
 > retex-combine room.exr --batch-root=: --batch-root=a root/ --batch-root=folder/

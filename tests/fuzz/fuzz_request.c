@@ -52,16 +52,16 @@ static void check_name(const char *name)
     fuzz_must(serve_name_is_valid(name) && !strpbrk(name, "/\\?*:") && name[0] != '.', "a name is a file's own");
 }
 
-static int same_place(const ServePlace *a, const ServePlace *b)
+static int same_place(const RetexCut *a, const RetexCut *b)
 {
     return memcmp(a, b, sizeof *a) == 0;
 }
 
 /* The canonical URL asks for the same, and is its own canonical URL. */
-static void check_canonical(const ServeRequest *request, const ServePlace *place, int width, int height)
+static void check_canonical(const ServeRequest *request, const RetexCut *place, int width, int height)
 {
     static ServeRequest again;
-    ServePlace same;
+    RetexCut same;
     char url[IIIF_URL_MAX], canonical[IIIF_URL_MAX];
     iiif_canonical(url, request, place, "", width, height);
     if (strlen(url) > SERVE_URL_MAX)
@@ -80,7 +80,7 @@ static void check_place(ServeRequest *request)
     static const int sizes[][2] = {{300, 200}, {1, 1}, {1999, 1001}, {3, 2000}, {1 << 29, 1 << 29}, {16384, 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         int width = sizes[i][0], height = sizes[i][1];
-        ServePlace place;
+        RetexCut place;
         int status = iiif_place(request, width, height, &place);
         fuzz_must(status == request->status && (!status || status == 400 || status == 501), "a status of its own");
         request->status = 0;

@@ -139,6 +139,26 @@ def test_width_of_array():
         assert error.code == retex.Code.EINVAL, error
 
 
+def test_size():
+    """Smaller pictures, against means"""
+    with retex.open("room.exr") as room:
+        full = room.combine({"Floor": OAK})
+        small = full.reshape(35, 4, 50, 4, 3).mean((1, 3))
+        assert np.allclose(room.combine({"Floor": OAK}, size=(50, 35)), small, atol=1e-5)
+        part = full[20:100, 10:110].reshape(20, 4, 25, 4, 3).mean((1, 3))
+        for size in ((25, 20), (None, 20), (25, None)):
+            assert np.allclose(room.combine({"Floor": OAK}, crop=(10, 20, 100, 80), size=size), part, atol=1e-5)
+        middle = full[:, 30:170].reshape(10, 14, 10, 14, 3).mean((1, 3))
+        assert np.allclose(room.combine({"Floor": OAK}, size=(10, 10)), middle, atol=1e-5)
+        assert np.array_equal(list(room.batch([{"Floor": OAK}], size=(50, 35)))[0],
+                              room.combine({"Floor": OAK}, size=(50, 35)))
+        error = room.error({"Floor": OAK}).reshape(35, 4, 50, 4, 3).mean((1, 3))
+        assert np.allclose(room.error({"Floor": OAK}, size=(50, None)), error, atol=1e-5)
+        for size in ((0, 5), (-1, None), (None, None), (201, None), (50, 141)):
+            lib.fails((ValueError, retex.Error), room.combine, size=size)
+        lib.fails(ValueError, room.combine, size=(50, 35), out=np.zeros((35, 50, 3), np.float32))
+
+
 def test_crop():
     """A part of the picture"""
     with retex.open("room.exr") as room:

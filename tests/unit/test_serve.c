@@ -22,7 +22,6 @@
 #include "serve/images.h"
 #include "serve/kept.h"
 #include "serve/rooms.h"
-#include "serve/shrink.h"
 #include "serve/uploads.h"
 #include "serve/work.h"
 
@@ -243,53 +242,6 @@ static void test_base(void **state)
     assert_string_equal(header_base(text, sizeof text, "a/b", "https"), "");
     assert_string_equal(header_base(text, sizeof text, "a\"b", "https"), "");
     assert_string_equal(header_base(text, sizeof text, NULL, "https"), "");
-}
-
-/* ---- smaller pictures ---- */
-
-/* The mean of what pixel x, y of the smaller picture covers, by small steps. */
-static double mean(const RetexImage *im, double x0, double x1, double y0, double y1, int channel)
-{
-    double sum = 0, area = 0;
-    for (int y = 0; y < im->height; y++)
-        for (int x = 0; x < im->width; x++) {
-            const double w = (x + 1 < x1 ? x + 1 : x1) - (x > x0 ? x : x0),
-                         h = (y + 1 < y1 ? y + 1 : y1) - (y > y0 ? y : y0);
-            if (w > 0 && h > 0) {
-                sum += w * h * (double)im->pixels[retex_image_index(im, x, y) + (size_t)channel];
-                area += w * h;
-            }
-        }
-    return sum / area;
-}
-
-static void test_shrink(void **state)
-{
-    static const int sizes[][2] = {{31, 23}, {30, 22}, {16, 12}, {1, 1}, {7, 23}, {31, 5}};
-    enum { X0 = 4, X1 = 35 };
-    RetexImage im = {0};
-    RetexError err = {0};
-    (void)state;
-    test_random_image(&im, 40, 23, 3, 3, 0, 10);
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        const int width = sizes[i][0], height = sizes[i][1];
-        RetexImage tall = {0}, small = {0};
-        test_must(retex_image_alloc(&tall, width, im.height, 3, &err), &err);
-        test_must(retex_image_alloc(&small, width, height, 3, &err), &err);
-        for (int y = 0; y < im.height; y++)
-            shrink_row(tall.pixels + retex_image_index(&tall, 0, y), width, im.pixels + retex_image_index(&im, 0, y),
-                       X0, X1);
-        shrink_rows(&small, &tall, 2);
-        for (int y = 0; y < height; y++)
-            for (int x = 0; x < width; x++) {
-                const double step = (double)(X1 - X0) / width, down = (double)im.height / height;
-                assert_float_equal(small.pixels[retex_image_index(&small, x, y) + 1],
-                                   mean(&im, X0 + x * step, X0 + (x + 1) * step, y * down, (y + 1) * down, 1), 1e-4);
-            }
-        retex_image_free(&tall);
-        retex_image_free(&small);
-    }
-    retex_image_free(&im);
 }
 
 /* ---- rooms and images ---- */
@@ -698,7 +650,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_long_message), cmocka_unit_test(test_cache),  cmocka_unit_test(test_work),
         cmocka_unit_test(test_etags),        cmocka_unit_test(test_ranges), cmocka_unit_test(test_base),
-        cmocka_unit_test(test_shrink),       cmocka_unit_test(test_kept),   cmocka_unit_test(test_rooms),
+        cmocka_unit_test(test_kept),   cmocka_unit_test(test_rooms),
         cmocka_unit_test(test_contents),     cmocka_unit_test(test_images), cmocka_unit_test(test_uploads),
     };
     return cmocka_run_group_tests(tests, enter_folder, test_remove_folder);

@@ -17,7 +17,7 @@ typedef struct Row {
     int room_width, room_height;
     const char *url; /* after /iiif/3/room/ */
     int status;
-    ServePlace place;
+    RetexCut place;
 } Row;
 
 static const Row rows[] = {
@@ -122,7 +122,7 @@ static void test_places(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         ServeRequest request;
-        ServePlace place = {0};
+        RetexCut place = {0};
         char url[200];
         snprintf(url, sizeof url, "/iiif/3/room/%s", rows[i].url);
         int status = serve_request_parse(&request, url, NULL, ALL);
@@ -160,7 +160,7 @@ static void test_fill(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof fills / sizeof *fills; i++) {
         ServeRequest request;
-        ServePlace place = {0};
+        RetexCut place = {0};
         char url[200];
         snprintf(url, sizeof url, "/v1/room/%s", fills[i].url);
         assert_int_equal(serve_request_parse(&request, url, NULL, ALL), 0);
@@ -194,7 +194,7 @@ static void test_rotations(void **state)
 static void assert_canonical(const char *url, const char *expected)
 {
     ServeRequest request;
-    ServePlace place;
+    RetexCut place;
     char text[IIIF_URL_MAX];
     assert_int_equal(serve_request_parse(&request, url, NULL, ALL), 0);
     assert_int_equal(iiif_place(&request, 300, 200, &place), 0);

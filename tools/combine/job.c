@@ -1,5 +1,7 @@
 /* The files of retex-combine: they are announced and checked before work, and opened. See job.h. */
 #include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -24,6 +26,31 @@ int job_check_samples(const Cli *cli, const Job *job, RetexError *err)
     return fail_samples(cli, job, &why, err);
 }
 
+void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4])
+{
+    int *r = rectangle, length = 0;
+    if (sscanf(cli->value, "%d,%d,%d,%d%n", &r[0], &r[1], &r[2], &r[3], &length) != 4 || cli->value[length] ||
+        r[0] < 0 || r[1] < 0 || r[2] < 1 || r[3] < 1 || r[0] > RETEX_MAX_SIZE || r[1] > RETEX_MAX_SIZE ||
+        r[2] > RETEX_MAX_SIZE || r[3] > RETEX_MAX_SIZE)
+        cli_die(cli, "--%s: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '%s'",
+                option->name, cli->value);
+}
+
+void job_take_size(const Cli *cli, Job *job)
+{
+    const char *text = cli->value;
+    char *end;
+    for (int k = 0; k < 2; k++, text = end + 1) {
+        const long number = *text >= '0' && *text <= '9' ? strtol(text, &end, 10) : (end = (char *)(uintptr_t)text, 0);
+        if (number > RETEX_MAX_SIZE || (end > text && number < 1) || *end != (k ? '\0' : 'x'))
+            break;
+        job->scaled[k] = (int)number;
+        if (k && (job->scaled[0] || job->scaled[1]))
+            return;
+    }
+    cli_die(cli, "--size: expected WxH in pixels, or Wx or xH to keep the aspect, not '%s'", cli->value);
+}
+
 static int load_samples(const Cli *cli, Job *job, RetexError *err)
 {
     RetexError why = {0};
@@ -43,6 +70,12 @@ int job_open(const Cli *cli, Job *job, RetexError *err)
     if (code)
         return code;
     cli_check_pixels(cli, job->set, job->set_path);
+    const RetexSetInfo info = retex_set_info(job->set);
+    code = retex_cut_fit(&job->cut, info.width, info.height, job->crop, job->scaled[0], job->scaled[1], err);
+    if (code)
+        return code;
+    job->combine.x0 = job->cut.x, job->combine.x1 = job->cut.x + job->cut.width;
+    job->combine.y0 = job->cut.y, job->combine.y1 = job->cut.y + job->cut.height;
     return job->samples_path ? load_samples(cli, job, err) : RETEX_OK;
 }
 

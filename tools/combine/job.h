@@ -14,6 +14,8 @@ typedef struct Job {
     const char *output;
     const char *solve, *unknowns; /* --solve, --free */
     int region[4];                /* x, y, width, height; all 0: the picture */
+    int crop[4], scaled[2];       /* --crop, as region, and --size: width, height, 0 where it follows from the other */
+    RetexCut cut;                 /* what these are of the open set */
     FrameRange frames;
     Batch batch;
     TextureArgs textures;
@@ -37,6 +39,10 @@ int job_check_samples(const Cli *cli, const Job *job, RetexError *err);
 /* Open the set, and the samples from the same stream or from a separate file. */
 int job_open(const Cli *cli, Job *job, RetexError *err);
 void job_close(Job *job);
+/* Parse --crop or --region: x, y, width, height. */
+void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4]);
+/* Parse --size. */
+void job_take_size(const Cli *cli, Job *job);
 /* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
 int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
 /* Give the parameters of the set the values that an edit has for its lamps. */
@@ -72,8 +78,6 @@ void job_report(const Cli *cli, const char *output, double began, int done, int 
 
 /* 1: the picture of --solve is a colour. */
 int job_solve_is_color(const Job *job);
-/* Parse --region. */
-void job_take_region(const Cli *cli, Job *job);
 /* --solve: find what is free, print it, and write the picture if there is an output; return the exit status. */
 int job_solve(const Cli *cli, Job *job, double began);
 

@@ -54,6 +54,47 @@ static int write_rows(void *picture, int y0, int y1, const float *rows, RetexErr
     return retex_picture_rows(picture, y0, y1, rows, err);
 }
 
+/* retex_retexture, or retex_estimate_error. */
+typedef int Maker(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                  const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err);
+
+typedef struct CutRows {
+    const RetexImage *image;
+    RetexRowSink *sink;
+    void *context;
+} CutRows;
+
+static void give_strip(void *context, int index, int thread)
+{
+    const CutRows *cut = context;
+    const int y0 = index * RETEX_PICTURE_STRIP, end = y0 + RETEX_PICTURE_STRIP;
+    (void)thread;
+    (void)cut->sink(cut->context, y0, end < cut->image->height ? end : cut->image->height,
+                    cut->image->pixels + retex_image_index(cut->image, 0, y0), NULL); /* the picture keeps the error */
+}
+
+/* Make the picture, or the cut of it that is wanted. */
+static int make_cut(const Job *job, const Row *row, Maker *make, RetexRowSink *sink, void *context, int nthreads,
+                    RetexError *err)
+{
+    const RetexSetInfo info = retex_set_info(job->set);
+    RetexShrink *shrink = NULL;
+    RetexImage image = {0};
+    if (retex_cut_is_whole(&job->cut, info.width, info.height))
+        return make(job->set, job->samples, row->textures, &job->combine, sink, context, nthreads, err);
+    int code = retex_shrink_open(&shrink, &job->cut, info.width, err);
+    if (!code)
+        code = make(job->set, job->samples, row->textures, &job->combine, retex_shrink_rows, shrink, nthreads, err);
+    if (!code)
+        code = retex_shrink_take(&shrink, &image, nthreads, err);
+    CutRows rows = {&image, sink, context};
+    if (!code)
+        retex_parallel(nthreads, (image.height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP, give_strip, &rows);
+    retex_shrink_close(&shrink);
+    retex_image_free(&image);
+    return code;
+}
+
 /* The picture of the expected error while it is written. */
 typedef struct ErrorPicture {
     RetexPicture *picture;
@@ -74,8 +115,7 @@ static int write_error_rows(void *context, int y0, int y1, const float *rows, Re
 /* Compute and write the expected error; text gets its root mean square. */
 static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
 {
-    const RetexSetInfo info = retex_set_info(job->set);
-    const int width = info.width, height = info.height;
+    const int width = job->cut.scaled_width, height = job->cut.scaled_height;
     const int strips = (height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
     ErrorPicture error = {NULL, calloc((size_t)strips, sizeof *error.squares), (size_t)width};
     double squares = 0;
@@ -83,8 +123,7 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
     if (!code)
         code = retex_picture_open(&error.picture, job->error, width, height, 3, NULL, err);
     if (!code)
-        code = retex_estimate_error(job->set, job->samples, row->textures, &job->combine, write_error_rows, &error,
-                                    cli->threads, err);
+        code = make_cut(job, row, retex_estimate_error, write_error_rows, &error, cli->threads, err);
     int closed = retex_picture_close(&error.picture, !code, code ? NULL : err);
     for (int i = 0; i < strips && error.squares; i++)
         squares += error.squares[i];
@@ -95,7 +134,7 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
 
 int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
 {
-    const RetexSetInfo info = retex_set_info(job->set);
+    const RetexCut *cut = &job->cut;
     RetexPicture *picture = NULL;
     struct stat old;
     char text[2048], expected[64] = "";
@@ -104,10 +143,9 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     if (code)
         return code;
     watchdog_remove(is_new ? job->error : NULL);
-    code = retex_picture_open(&picture, output, info.width, info.height, 3, &job->write, err);
+    code = retex_picture_open(&picture, output, cut->scaled_width, cut->scaled_height, 3, &job->write, err);
     if (!code)
-        code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
-                               err);
+        code = make_cut(job, row, retex_retexture, write_rows, picture, cli->threads, err);
     int closed = retex_picture_close(&picture, !code, code ? NULL : err);
     code = code ? code : closed;
     if (code && is_new)
@@ -116,21 +154,21 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     if (code)
         return code;
     cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-             describe(job, row, text, sizeof text), info.width, info.height, expected, retex_clock_seconds() - began);
+             describe(job, row, text, sizeof text), cut->scaled_width, cut->scaled_height, expected,
+             retex_clock_seconds() - began);
     return RETEX_OK;
 }
 
 int job_try_picture(const Cli *cli, Job *job, const Row *row, const char *output, size_t *bytes, RetexError *err)
 {
-    const RetexSetInfo info = retex_set_info(job->set);
+    const RetexCut *cut = &job->cut;
     RetexPicture *picture = NULL;
     const char *ending = strrchr(output, '.');
     void *data = NULL;
-    int code =
-        retex_picture_open_memory(&picture, ending ? ending + 1 : "exr", info.width, info.height, 3, &job->write, err);
+    int code = retex_picture_open_memory(&picture, ending ? ending + 1 : "exr", cut->scaled_width, cut->scaled_height,
+                                         3, &job->write, err);
     if (!code)
-        code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
-                               err);
+        code = make_cut(job, row, retex_retexture, write_rows, picture, cli->threads, err);
     if (code)
         retex_picture_close(&picture, 0, NULL);
     else

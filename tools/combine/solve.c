@@ -20,16 +20,6 @@ int job_solve_is_color(const Job *job)
     return retex_color_parse(color, job->solve, NULL) != RETEX_ENOTFOUND;
 }
 
-void job_take_region(const Cli *cli, Job *job)
-{
-    int *r = job->region, length = 0;
-    if (sscanf(cli->value, "%d,%d,%d,%d%n", &r[0], &r[1], &r[2], &r[3], &length) != 4 || cli->value[length] ||
-        r[0] < 0 || r[1] < 0 || r[2] < 1 || r[3] < 1 || r[0] > RETEX_MAX_SIZE || r[1] > RETEX_MAX_SIZE ||
-        r[2] > RETEX_MAX_SIZE || r[3] > RETEX_MAX_SIZE)
-        cli_die(cli, "--region: expected X,Y,W,H, the left and top edge, the width and the height in pixels, not '%s'",
-                cli->value);
-}
-
 /* ---- the picture ---- */
 
 static int fill_color(RetexImage *picture, const Job *job, RetexError *err)

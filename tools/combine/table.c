@@ -183,7 +183,12 @@ static const char *describe_options(const Job *job, char *text, size_t size)
                           job->combine.cross, write->display ? write->display : "", write->view ? write->view : "",
                           write->colorspace ? write->colorspace : "", (unsigned)sum.crc);
     if (write->depth && length >= 0 && (size_t)length < size)
-        snprintf(text + length, size - (size_t)length, " depth=%d", write->depth);
+        length += snprintf(text + length, size - (size_t)length, " depth=%d", write->depth);
+    if (job->crop[2] && length >= 0 && (size_t)length < size)
+        length += snprintf(text + length, size - (size_t)length, " crop=%d,%d,%d,%d", job->crop[0], job->crop[1],
+                           job->crop[2], job->crop[3]);
+    if ((job->scaled[0] || job->scaled[1]) && length >= 0 && (size_t)length < size)
+        snprintf(text + length, size - (size_t)length, " size=%dx%d", job->scaled[0], job->scaled[1]);
     return text;
 }
 

@@ -132,17 +132,17 @@ static int scaled(int a, int b, int c)
     return value > INT32_MAX ? INT32_MAX : (int)value;
 }
 
-static int place_region(ServeRequest *request, int room_width, int room_height, ServePlace *place)
+static int place_region(ServeRequest *request, int room_width, int room_height, RetexCut *place)
 {
     const ServeRegion *region = &request->region;
     double x = region->x, y = region->y, width = region->width, height = region->height;
     int side = room_width < room_height ? room_width : room_height;
     switch (region->kind) {
     case SERVE_REGION_FULL:
-        *place = (ServePlace){0, 0, room_width, room_height, 0, 0};
+        *place = (RetexCut){0, 0, room_width, room_height, 0, 0};
         return 0;
     case SERVE_REGION_SQUARE:
-        *place = (ServePlace){(room_width - side) / 2, (room_height - side) / 2, side, side, 0, 0};
+        *place = (RetexCut){(room_width - side) / 2, (room_height - side) / 2, side, side, 0, 0};
         return 0;
     case SERVE_REGION_PERCENT:
         x = round(x * room_width / 100);
@@ -163,21 +163,17 @@ static int place_region(ServeRequest *request, int room_width, int room_height, 
     return 0;
 }
 
-/* The part in the middle that has the aspect of width and height, neither of which is larger than the region. */
-static void cut_to_aspect(ServePlace *place, int width, int height)
+static int fill_size(ServeRequest *request, RetexCut *place)
 {
-    if ((int64_t)place->width * height > (int64_t)place->height * width) {
-        int cut = scaled(place->height, width, height);
-        place->x += (place->width - cut) / 2;
-        place->width = cut;
-    } else {
-        int cut = scaled(place->width, height, width);
-        place->y += (place->height - cut) / 2;
-        place->height = cut;
-    }
+    const int region[4] = {place->x, place->y, place->width, place->height};
+    RetexError err = {0};
+    return retex_cut_fit(place, place->x + place->width, place->y + place->height, region, request->size.width,
+                         request->size.height, &err)
+               ? serve_refuse(request, 400, "%s", err.message)
+               : 0;
 }
 
-static int place_size(ServeRequest *request, ServePlace *place)
+static int place_size(ServeRequest *request, RetexCut *place)
 {
     const ServeSize *size = &request->size;
     int region_width = place->width, region_height = place->height, width = size->width, height = size->height;
@@ -206,8 +202,9 @@ static int place_size(ServeRequest *request, ServePlace *place)
             width = scaled(region_width, height, region_height);
         }
         break;
-    case SERVE_SIZE_EXACT:
     case SERVE_SIZE_FILL:
+        return fill_size(request, place);
+    case SERVE_SIZE_EXACT:
         break;
     }
     if (width > region_width || height > region_height || size->percent > 100)
@@ -216,16 +213,14 @@ static int place_size(ServeRequest *request, ServePlace *place)
                             region_height);
     if (width < 1 || height < 1)
         return serve_refuse(request, 400, "a picture of 0 pixels");
-    if (size->kind == SERVE_SIZE_FILL)
-        cut_to_aspect(place, width, height);
     place->scaled_width = width;
     place->scaled_height = height;
     return 0;
 }
 
-int iiif_place(ServeRequest *request, int room_width, int room_height, ServePlace *place)
+int iiif_place(ServeRequest *request, int room_width, int room_height, RetexCut *place)
 {
-    *place = (ServePlace){0};
+    *place = (RetexCut){0};
     return place_region(request, room_width, room_height, place) || place_size(request, place) ? request->status : 0;
 }
 
@@ -242,7 +237,7 @@ const char *iiif_id(char text[IIIF_URL_MAX], const ServeRequest *request, const 
     return text;
 }
 
-const char *iiif_canonical(char text[IIIF_URL_MAX], const ServeRequest *request, const ServePlace *place,
+const char *iiif_canonical(char text[IIIF_URL_MAX], const ServeRequest *request, const RetexCut *place,
                            const char *base, int room_width, int room_height)
 {
     char region[64] = "full", size[32] = "max";

@@ -1,6 +1,5 @@
-/* See picture.h. A whole picture is encoded strip by strip while it is made. Of a part, or a smaller picture, rows are
- * scaled to their width when they are made, so that never all of a large picture is in memory; then columns are scaled,
- * then it is mirrored, turned and encoded. */
+/* See picture.h. A whole picture is encoded strip by strip while it is made. A part, or a
+ * smaller picture, is made first, then it is mirrored, turned and encoded. */
 #include "picture.h"
 
 #include <pthread.h>
@@ -9,9 +8,6 @@
 
 #include <retex/clock.h>
 #include <retex/color.h>
-#include <retex/parallel.h>
-
-#include "shrink.h"
 
 static int check_time(double deadline, RetexError *err)
 {
@@ -53,9 +49,8 @@ static int write_rows(void *context, int y0, int y1, const float *rows, RetexErr
 static int is_whole(const PicturePlan *plan)
 {
     const RetexSetInfo info = retex_set_info(plan->set);
-    const ServePlace *p = &plan->place;
-    return p->width == info.width && p->height == info.height && p->scaled_width == p->width &&
-           p->scaled_height == p->height && !plan->quarter_turns && !plan->mirror && !plan->gray;
+    return retex_cut_is_whole(&plan->place, info.width, info.height) && !plan->quarter_turns && !plan->mirror &&
+           !plan->gray;
 }
 
 static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
@@ -74,45 +69,33 @@ static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t
 
 typedef struct Part {
     const PicturePlan *plan;
-    RetexImage *image; /* rows of the part, scaled to their width */
+    RetexShrink *shrink;
 } Part;
 
 static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
 {
     const Part *part = context;
-    const ServePlace *place = &part->plan->place;
-    const size_t length = 3 * (size_t)retex_set_info(part->plan->set).width;
     int code = check_time(part->plan->deadline, err);
-    for (int y = y0; y < y1 && !code; y++, rows += length)
-        shrink_row(part->image->pixels + retex_image_index(part->image, 0, y - place->y), place->scaled_width, rows,
-                   place->x, place->x + place->width);
-    return code;
+    return code ? code : retex_shrink_rows(part->shrink, y0, y1, rows, err);
 }
 
 /* The part at its size. */
 static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads, RetexError *err)
 {
-    const ServePlace *place = &plan->place;
-    RetexImage tall = {0};
-    Part part = {plan, &tall};
+    const RetexCut *place = &plan->place;
+    Part part = {plan, NULL};
     RetexCombineParams params = RETEX_COMBINE_INIT;
     params.y0 = place->y;
     params.y1 = place->y + place->height;
     params.x0 = place->x;
     params.x1 = place->x + place->width;
     params.parameters = plan->parameters;
-    int code = retex_image_alloc(&tall, place->scaled_width, place->height, 3, err);
+    int code = retex_shrink_open(&part.shrink, place, retex_set_info(plan->set).width, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);
-    if (!code && place->scaled_height == place->height) {
-        *scaled = tall;
-        return RETEX_OK;
-    }
     if (!code)
-        code = retex_image_alloc(scaled, place->scaled_width, place->scaled_height, 3, err);
-    if (!code)
-        shrink_rows(scaled, &tall, nthreads);
-    retex_image_free(&tall);
+        code = retex_shrink_take(&part.shrink, scaled, nthreads, err);
+    retex_shrink_close(&part.shrink);
     return code;
 }
 
@@ -156,25 +139,10 @@ static int turn(RetexImage *image, int quarters, RetexError *err)
     return RETEX_OK;
 }
 
-typedef struct Encoding {
-    RetexPicture *picture;
-    const RetexImage *image;
-} Encoding;
-
-static void encode_strip(void *context, int index, int thread)
-{
-    const Encoding *encoding = context;
-    const RetexImage *image = encoding->image;
-    const int y0 = index * RETEX_PICTURE_STRIP, end = y0 + RETEX_PICTURE_STRIP;
-    (void)thread;
-    (void)retex_picture_rows(encoding->picture, y0, end < image->height ? end : image->height,
-                             image->pixels + retex_image_index(image, 0, y0), NULL); /* the picture keeps the error */
-}
-
 static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t *bytes, RetexError *err)
 {
     RetexImage image = {0};
-    Encoding encoding = {NULL, &image};
+    RetexPicture *picture = NULL;
     int code = make_scaled(&image, plan, nthreads, err);
     if (!code && plan->gray)
         make_gray(&image);
@@ -183,11 +151,10 @@ static int make_part(const PicturePlan *plan, int nthreads, void **data, size_t 
     if (!code)
         code = turn(&image, plan->quarter_turns, err);
     if (!code)
-        code = open_picture(&encoding.picture, plan, image.width, image.height, err);
+        code = open_picture(&picture, plan, image.width, image.height, err);
     if (!code)
-        retex_parallel(nthreads, (image.height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP, encode_strip,
-                       &encoding);
-    code = take_picture(&encoding.picture, code, data, bytes, err);
+        code = retex_picture_image(picture, &image, nthreads, err);
+    code = take_picture(&picture, code, data, bytes, err);
     retex_image_free(&image);
     return code;
 }

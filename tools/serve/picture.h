@@ -11,7 +11,7 @@ typedef struct PicturePlan {
     const RetexSet *set;
     RetexTexture *const *textures; /* by target */
     const float *parameters;       /* of the set, as of RetexCombineParams */
-    ServePlace place;
+    RetexCut place;
     int quarter_turns, mirror, gray;
     ServeFormat format;
     int quality;     /* 1..100 */

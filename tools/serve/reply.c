@@ -102,7 +102,7 @@ static void add_iiif_link(struct MHD_Response *response, const Exchange *exchang
     static const char level[] = "<http://iiif.io/api/image/3/level2.json>;rel=\"profile\"";
     const Answer *answer = exchange->answer;
     ServeRequest request = exchange->request;
-    ServePlace place;
+    RetexCut place;
     char base[256], url[IIIF_URL_MAX], text[IIIF_URL_MAX + sizeof level + 32];
     if (request.route != SERVE_IIIF_IMAGE || !answer->width ||
         iiif_place(&request, answer->width, answer->height, &place))

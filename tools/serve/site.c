@@ -122,7 +122,7 @@ typedef struct SiteContents {
 
 /* The tag says what the picture is made of: the build, the colours that a display needs, the contents of the room and
  * of the files of textures, the edits, and the pixels. It is the same on all machines that have the same files. */
-static void make_etag(const Site *site, const ServeRequest *request, const ServePlace *place, const Room *room,
+static void make_etag(const Site *site, const ServeRequest *request, const RetexCut *place, const Room *room,
                       const SiteContents *contents, char etag[ETAG_SIZE])
 {
     static const Hash128 begin = HASH128_BEGIN;
@@ -141,7 +141,7 @@ static void make_etag(const Site *site, const ServeRequest *request, const Serve
     snprintf(etag, ETAG_SIZE, "\"%016llx%016llx\"", (unsigned long long)hash.high, (unsigned long long)hash.low);
 }
 
-static int find_place(ServeRequest *request, const Room *room, ServePlace *place)
+static int find_place(ServeRequest *request, const Room *room, RetexCut *place)
 {
     const RetexSetInfo info = retex_set_info(room->set);
     return iiif_place(request, info.width, info.height, place);
@@ -179,7 +179,7 @@ int site_known_etag(const Site *site, const ServeRequest *request, char etag[ETA
 {
     char path[PATH_MAX];
     FileId id;
-    ServePlace place;
+    RetexCut place;
     SiteContents contents = {0};
     if (!is_picture(request->route) || rooms_find(site->rooms, request->room, path, &id))
         return 0;

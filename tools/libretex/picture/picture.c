@@ -325,16 +325,29 @@ static void write_strip(void *context, int index, int thread)
                              NULL); /* the picture keeps the error */
 }
 
+int retex_picture_image(RetexPicture *picture, const RetexImage *image, int nthreads, RetexError *err)
+{
+    WholeImage whole = {picture, image};
+
+    if (image->width != picture->width || image->height != picture->height || image->channels != picture->channels)
+        return retex_fail(err, RETEX_EINVAL, "an image of %dx%d pixels, %d channels, is not that of the picture",
+                          image->width, image->height, image->channels);
+    retex_parallel(nthreads, picture->nstrips, write_strip, &whole);
+    if (picture->error.code && err)
+        *err = picture->error;
+    return picture->error.code;
+}
+
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, int nthreads,
                       RetexError *err)
 {
-    WholeImage whole = {NULL, src};
+    RetexPicture *picture;
 
     if (!src->pixels)
         return retex_fail(err, RETEX_EINVAL, "there is no picture to be written");
-    const int status = retex_picture_open(&whole.picture, path, src->width, src->height, src->channels, params, err);
+    const int status = retex_picture_open(&picture, path, src->width, src->height, src->channels, params, err);
     if (status)
         return status;
-    retex_parallel(nthreads, whole.picture->nstrips, write_strip, &whole);
-    return retex_picture_close(&whole.picture, 1, err);
+    (void)retex_picture_image(picture, src, nthreads, NULL); /* which the picture keeps the error of */
+    return retex_picture_close(&picture, 1, err);
 }

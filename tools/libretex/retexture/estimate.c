@@ -115,13 +115,16 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
     RetexPolynomial polynomial;
     if (RETEX_PARAMS_COPY(&own, params, err))
         return RETEX_EINVAL;
+    RetexRowSpan rows = {0, set->height};
+    if (own.y1 > own.y0)
+        rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
     int code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 1, nthreads, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], nthreads, err);
     if (!code)
-        code = retex_polynomial_strips(&polynomial, 0, set->height, estimate_strip, &estimate, sink, context, nthreads,
-                                       err);
+        code = retex_polynomial_strips(&polynomial, rows.begin, rows.end, estimate_strip, &estimate, sink, context,
+                                       nthreads, err);
     retex_textures_close(estimate.squares);
     retex_polynomial_close(&polynomial);
     return code;

@@ -107,6 +107,10 @@ class RetexCombineParams(ctypes.Structure):
                 [("parameters", POINTER(c_float)), ("terms_only", c_int)])
 
 
+class RetexCut(ctypes.Structure):
+    _fields_ = [(name, c_int) for name in ("x", "y", "width", "height", "scaled_width", "scaled_height")]
+
+
 class RetexDenoiseParams(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("strength", c_float), ("radius", c_int), ("footprints", c_int), ("scalar", c_int),
                 ("progress", c_void_p), ("progress_context", c_void_p), ("near", c_char_p), ("budget", c_void_p),
@@ -186,6 +190,9 @@ CALLS: Dict[str, List[Any]] = {
     "retex_set_manifest": [c_void_p, c_void_p, _handle],
     "retex_set_write": [c_void_p, c_void_p, c_char_p, c_void_p, c_int],
     "retex_pack_write": [c_void_p, c_char_p, POINTER(RetexPackParams), POINTER(c_size_t), c_int],
+    "retex_cut_fit": [POINTER(RetexCut), c_int, c_int, POINTER(c_int), c_int, c_int],
+    "retex_shrink_open": [_handle, POINTER(RetexCut), c_int],
+    "retex_shrink_take": [_handle, _image, c_int],
     "retex_denoise": [c_void_p, POINTER(RetexDenoiseParams), POINTER(RetexRoi), c_int],
     "retex_denoise_picture": [c_char_p, c_char_p, POINTER(RetexDenoisePictureParams), POINTER(RetexDenoiseParams),
                               c_int],
@@ -207,6 +214,7 @@ PLAIN: Dict[str, Tuple[List[Any], Any]] = {
     "retex_set_close": ([_handle], None),
     "retex_set_find_target": ([c_void_p, c_char_p], c_int),
     "retex_samples_close": ([_handle], None),
+    "retex_shrink_close": ([_handle], None),
     "retex_denoise_has_data": ([c_void_p], c_int),
 }
 
@@ -225,6 +233,8 @@ except AttributeError as missing:
 
 #: A sink of rows that puts them into an image: C calls C, without Python's lock.
 keep_rows = ctypes.cast(lib.retex_image_keep_rows, c_void_p)
+#: One that makes them smaller.
+shrink_rows = ctypes.cast(lib.retex_shrink_rows, c_void_p)
 
 
 def call(name: str, *arguments: Any) -> None:

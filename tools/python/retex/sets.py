@@ -13,13 +13,15 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optio
 
 import numpy as np
 
-from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexDenoiseParams, RetexImage, RetexPackParams
-from .library import RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes, text_bytes, threads_of
+from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexCut, RetexDenoiseParams, RetexImage
+from .library import RetexPackParams, RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes
+from .library import shrink_rows, text_bytes, threads_of
 from .library import warn
 from .pictures import Path, Picture, array_of, image_of
 from .texture import Light, Texture, Textures, parameters_of, parse_edit
 
 Crop = Tuple[int, int, int, int]
+Size = Tuple[Optional[int], Optional[int]]
 MEGABYTE = 1 << 20
 
 
@@ -310,26 +312,37 @@ class Set:
             raise ValueError("parameters: each takes three numbers")
         return (c_float * len(numbers))(*numbers)
 
-    def _params(self, crop: Optional[Crop], cross: int,
-                parameters: Any) -> Tuple[RetexCombineParams, Tuple[slice, slice]]:
+    def _cut(self, crop: Optional[Crop], size: Optional[Size]) -> RetexCut:
         x, y, width, height = crop or (0, 0, self.width, self.height)
         if x < 0 or y < 0 or width < 1 or height < 1 or x + width > self.width or y + height > self.height:
             raise ValueError(f"crop: {crop} is not within the picture's {self.width}x{self.height} pixels")
-        params = RetexCombineParams(sizeof(RetexCombineParams), cross, y, y + height, x, x + width, parameters, 0)
-        return params, (slice(y, y + height), slice(x, x + width))
+        if size and (min(side or 1 for side in size) < 1 or not any(size)):
+            raise ValueError(f"size: {size} has no pixels")
+        cut = RetexCut()
+        call("retex_cut_fit", byref(cut), self.width, self.height, (c_int * 4)(x, y, width, height),
+             *(side or 0 for side in size or (0, 0)))
+        return cut
 
     def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
               cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
               parameters: Optional[Mapping[str, Sequence[float]]] = None,
               lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
-              finishes: Optional[Mapping[str, str]] = None) -> Picture:
+              finishes: Optional[Mapping[str, str]] = None, size: Optional[Size] = None) -> Picture:
         threads_of(threads)
+        if size and out is not None:
+            raise ValueError("out and size exclude each other")
         with self._shared() as pointer:
             values = parameters_of(pointer, len(self.manifest["parameters"]), textures, lights, solo, finishes)
             if values is not None and parameters:
                 raise ValueError("parameters and lights or finishes exclude each other")
-            params, part = self._params(crop, cross, values if values is not None else self._parameters(parameters))
+            cut = self._cut(crop, size)
+            params = RetexCombineParams(sizeof(RetexCombineParams), cross, cut.y, cut.y + cut.height, cut.x,
+                                        cut.x + cut.width, values if values is not None
+                                        else self._parameters(parameters), 0)
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
+            arguments = pointer, samples._handle.pointer if samples else None, by_target, byref(params)
+            if size:
+                return self._shrunk(what, arguments, cut, threads)
             if out is None:
                 image = RetexImage()
                 call("retex_image_alloc", byref(image), self.width, self.height, 3)
@@ -339,15 +352,24 @@ class Set:
                 if borrowed is not out or out.shape != (self.height, self.width, 3) or not out.flags.writeable:
                     raise ValueError(f"out: expected a writable array of float32, {self.height} x {self.width} x 3, "
                                      "row after row")
-            call(what, pointer, samples._handle.pointer if samples else None, by_target, byref(params), keep_rows,
-                 ctypes.addressof(image), threads)
-            return out[part]
+            call(what, *arguments, keep_rows, ctypes.addressof(image), threads)
+            return out[cut.y:cut.y + cut.height, cut.x:cut.x + cut.width]
+
+    def _shrunk(self, what: str, arguments: Tuple[Any, ...], cut: RetexCut, threads: int) -> Picture:
+        shrink, image = c_void_p(), RetexImage()
+        call("retex_shrink_open", byref(shrink), byref(cut), self.width)
+        try:
+            call(what, *arguments, shrink_rows, shrink, threads)
+            call("retex_shrink_take", byref(shrink), byref(image), threads)
+        finally:
+            lib.retex_shrink_close(byref(shrink))
+        return array_of(image)
 
     def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
                 lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
                 finishes: Optional[Mapping[str, str]] = None,
-                parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None, cross: int = 3,
-                out: Optional[Picture] = None, threads: int = 0) -> Picture:
+                parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None,
+                size: Optional[Size] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
 
         textures  by target: a file's name, a colour, an array, or a Texture; or the text of an edit
@@ -358,29 +380,32 @@ class Set:
         finishes  names of finishes that the set has, by target
         parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it
+        size      width, height of the picture, or of its crop: smaller, every pixel the mean of what it covers. None for
+                  one of them keeps the aspect; with both the crop loses what does not fit, evenly on both sides
         cross     use cross terms of paths with at most this many hits, 0, 2 or 3
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
         return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters,
-                          lights=lights, solo=solo, finishes=finishes)
+                          lights=lights, solo=solo, finishes=finishes, size=size)
 
     def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
               lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
-              finishes: Optional[Mapping[str, str]] = None, crop: Optional[Crop] = None, cross: int = 3,
-              out: Optional[Picture] = None, threads: int = 0) -> Picture:
+              finishes: Optional[Mapping[str, str]] = None, crop: Optional[Crop] = None, size: Optional[Size] = None,
+              cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
-        difference to rendering again with these textures."""
+        difference to rendering again with these textures. With `size` it is the mean of that of the pixels."""
         return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads, lights=lights,
-                          solo=solo, finishes=finishes)
+                          solo=solo, finishes=finishes, size=size)
 
-    def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, cross: int = 3, threads: int = 0,
-              memory: int = 2048 * MEGABYTE, texture_memory: int = 512 * MEGABYTE) -> Iterator[Picture]:
+    def batch(self, rows: Iterable[Textures], *, crop: Optional[Crop] = None, size: Optional[Size] = None,
+              cross: int = 3, threads: int = 0, memory: int = 2048 * MEGABYTE,
+              texture_memory: int = 512 * MEGABYTE) -> Iterator[Picture]:
         """Make a picture for each row, a mapping as for combine(), when it is asked for. The set stays decoded if it
         takes at most `memory` bytes, and so do the textures used last, up to `texture_memory`."""
         cache = _TextureCache(texture_memory)
         self.preload(memory=memory, threads=threads)
         for row in rows:
-            yield self._make("retex_retexture", row, None, crop, cross, None, threads, cache)
+            yield self._make("retex_retexture", row, None, crop, cross, None, threads, cache, size=size)
 
     def preload(self, *, memory: int = 2048 * MEGABYTE, threads: int = 0) -> None:
         """Decode what combine() reads, if it takes at most `memory` bytes: before several pictures of the set."""

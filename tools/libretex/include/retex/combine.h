@@ -14,7 +14,7 @@ extern "C" {
 typedef struct RetexCombineParams {
     size_t size;
     int cross;  /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
-    int y0, y1; /* retex_retexture makes only rows y0 <= y < y1; default 0, 0 = all */
+    int y0, y1; /* retex_retexture and retex_estimate_error make only rows y0 <= y < y1; default 0, 0 = all */
     int x0, x1; /* and of these only x0 <= x < x1, the rest is 0 or its value; default 0, 0 = all */
     const float *parameters; /* the value of each parameter of the set, three numbers each, scene-linear, not negative;
                                 those of kind CORRECTION are not read. Default NULL: as rendered */

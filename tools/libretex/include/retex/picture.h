@@ -27,6 +27,10 @@ int retex_picture_open(RetexPicture **picture, const char *path, int width, int 
  * fails with the same error. The file is the same to the byte whatever the order and the threads. */
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err);
 
+/* Submit all rows of an image of the picture's size and channels. */
+int retex_picture_image(RetexPicture *picture, const RetexImage *image, int nthreads /* 0 = all cores */,
+                        RetexError *err);
+
 /* Complete the file and put it at its path; fails if any call before did, or rows are missing. keep = 0: give up.
  * Unless it succeeds no new file is left and an old file is complete. Nulls *picture; NULL in it is fine. To be called
  * before the process exits, while no other thread uses the picture. */

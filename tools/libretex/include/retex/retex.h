@@ -26,6 +26,7 @@
 #include <retex/samples.h>
 #include <retex/set.h>
 #include <retex/set_file.h>
+#include <retex/shrink.h>
 #include <retex/solve.h>
 #include <retex/texture.h>
 #include <retex/version.h>
