@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/edit.h>
 #include "base/digest.h"
 #include "retex-render.h"
 
@@ -49,17 +50,19 @@ static uint64_t digest_file(uint64_t digest, const char *path)
 
 static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
 {
-    const int numbers[] = {s->constant, (int)s->wrap[0], (int)s->wrap[1], s->flip[0], s->flip[1], (int)s->repeat};
+    char *options = NULL;
     d = digest_text(d, s->target);
-    d = digest_text(d, s->colorspace);
-    d = digest_bytes(d, numbers, sizeof numbers);
     d = digest_bytes(d, s->color, sizeof s->color);
-    d = digest_bytes(d, s->scale, sizeof s->scale);
-    d = digest_bytes(d, &s->rotate, sizeof s->rotate);
-    d = digest_bytes(d, s->offset, sizeof s->offset);
-    d = digest_bytes(d, s->width, sizeof s->width);
-    d = digest_text(d, s->finish);
-    d = digest_number(d, (uint64_t)s->normal);
+    d = digest_number(d, (uint64_t)s->constant);
+    for (int k = -1; k < s->nlayers; k++) {
+        RetexTextureSpec layer = *s;
+        if (k >= 0)
+            retex_texture_layer_get(&layer, s, k);
+        if (retex_edit_options_text(&layer, &options, NULL)) /* no memory: as if nothing else had been said */
+            options = NULL;
+        d = digest_text(d, options ? options : "");
+        free(options);
+    }
     for (int k = 0; k < RETEX_TEXTURE_FILES; k++) {
         char *file;
         if (retex_texture_file(&file, s, k, NULL)) /* as above */
@@ -82,6 +85,7 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
     uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
     dl_iterate_phdr(digest_program, &d);
     d = digest_bytes(d, &r->noise, sizeof r->noise);
+    d = digest_bytes(d, &r->unit, sizeof r->unit);
     d = digest_number(d, scene->digest);
     d = digest_bytes(d, numbers, sizeof numbers);
     for (int k = 0; k < a->ndeclares; k++)

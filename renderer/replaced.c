@@ -25,6 +25,7 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
     for (int k = 0; k < target->nfinishes; k++)
         spec->roughness[k] = target_finish_roughness(target, k);
     spec->normal_tilt = target->has_normals ? NORMAL_TILT : 0;
+    spec->unit = a->render.unit;
     if (retex_texture_spec_needs_scale(spec)) {
         if (!a->measured && render_uv_scales(scene, a->cli->threads, a->uv_scales, err))
             return err->code;

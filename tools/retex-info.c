@@ -208,6 +208,8 @@ static void print_set(FILE *out, const RetexSet *set, const Sizes *sizes)
                 info.further_hits, (double)info.further_ratio[0], (double)info.further_ratio[1],
                 (double)info.further_ratio[2]);
     print_clusters(out, set);
+    if (info.unit != 1)
+        fprintf(out, "scene unit     %g m\n", info.unit);
     fprintf(out, "max depth      %d segments\n", info.max_depth);
     if (info.scene[0])
         fprintf(out, "scene          %s\n", plain(text, info.scene));

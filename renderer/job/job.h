@@ -6,9 +6,10 @@
 #include "render/render.h"
 #include "sdl/sdl.h"
 
-/* Set an option of retex-render by name: spp, noise, size, seed, max-depth, crop, filter, layout, clusters, orders, aov
- * (repeated calls add AOVs); and plain, strict-paper, caustics-guide, ambient, no-ambient, strict, with the value NULL
- * or "1" for yes and "0" for no. RETEX_ENOTFOUND if no option has that name. Messages begin with the name. */
+/* Set an option of retex-render by name: spp, noise, size, unit, seed, max-depth, crop, filter, layout, clusters,
+ * orders, aov (repeated calls add AOVs); and plain, strict-paper, caustics-guide, ambient, no-ambient, strict, with the
+ * value NULL or "1" for yes and "0" for no. RETEX_ENOTFOUND if no option has that name. Messages begin with the
+ * name. */
 int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, const char *value, RetexError *err);
 
 /* Parse `count` whole numbers, 0 to 2^24, between separators. Return 0 if the text is anything else. */

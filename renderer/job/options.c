@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/edit.h>
 #include <retex/nearest.h>
 #include "film/params.h"
 #include "job/animation.h"
@@ -82,6 +83,16 @@ static int set_size(const Option *o)
     return RETEX_OK;
 }
 
+static int set_unit(const Option *o)
+{
+    RetexError why = {0};
+    if (retex_length_parse(&o->render->unit, o->value, &why) || o->render->unit < 1e-9 || o->render->unit > 1e9)
+        return retex_fail(o->err, RETEX_EPARSE,
+                          "%s: expected what a scene unit is, as cm, 0.01 or 2.5cm: 1e-9 to 1e9 metres, not `%s`",
+                          o->name, o->value);
+    return RETEX_OK;
+}
+
 static int set_crop(const Option *o)
 {
     int crop[4];
@@ -154,6 +165,8 @@ static int set_value(const Option *o)
         return set_real(o, 0, 1, &r->light_share);
     if (!strcmp(o->name, "size"))
         return set_size(o);
+    if (!strcmp(o->name, "unit"))
+        return set_unit(o);
     if (!strcmp(o->name, "crop"))
         return set_crop(o);
     if (!strcmp(o->name, "filter"))

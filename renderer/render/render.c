@@ -28,6 +28,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     info.generator = "retex-render " RETEX_VERSION;
     info.orders = r->params.orders, info.spp = r->params.spp;
     info.max_depth = r->params.max_depth, info.seed = r->params.seed;
+    info.unit = r->params.unit;
     return retex_set_describe(*set, &info, err);
 }
 

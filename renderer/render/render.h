@@ -54,10 +54,11 @@ typedef struct RenderParams {
     RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
     int caustics_guide;      /* photons show paths where caustics come from, see caustics.h: 0 (default) those of light
                                 sources and, where it pays, of small emitters, 1 of all emitters too, -1 none */
+    double unit;             /* metres of a scene unit, > 0; default 1 */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 6, .sharp = 4, .broad = 2, .extra = 8, \
-      .orders = 6, .light_share = 0.1 }
+      .orders = 6, .light_share = 0.1, .unit = 1 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

@@ -41,6 +41,8 @@ $ set -- --plain --spp 24; ./stop INT "$@" -o i.png 2>err; sed '/^Terminated/d; 
 > retex-render: warning: i.png.partial is unchanged: --resume continues from it
 ! ls: cannot access '*.partial': No such file or directory
 = 2
+$ ./stop INT --plain --spp 24 --replace:tint=red floor=tan -o i.png 2>err; ./long --plain --spp 24 --replace:tint=blue floor=tan --resume -o i.png; rm -f *.partial
+! retex-render: error: i.png.partial is of another render: other options, another scene or build
 $ ./stop TERM -o - >i.exr 2>err; ls *.partial
 ! ls: cannot access '*.partial': No such file or directory
 = 2

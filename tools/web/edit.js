@@ -51,6 +51,20 @@ function numbersOf(text, count, least, most) {
   const numbers = text.split(",").map(numberOf), all = numbers.length === 1 ? Array(count).fill(numbers[0]) : numbers;
   return all.length === count && all.every((x) => x >= least && x <= most) ? all : undefined;
 }
+/* Metres in a unit of length, as a fraction. */
+const UNITS = { mm: [1, 1000], cm: [1, 100], m: [1, 1], in: [254, 10000], ft: [3048, 10000] };
+/* One or two lengths that are allowed: numbers, or, if all have a unit, a text in metres. */
+function lengthsOf(text, isAllowed) {
+  const parts = text.split(",").map((part) => /^(.*?)\s*(mm|cm|m|in|ft)?\s*$/is.exec(part)), units = parts.filter((part) => part[2]).length;
+  const lengths = parts.map(([, number, unit]) => (([top, bottom]) => (numberOf(number) * top) / bottom)(UNITS[(unit || "m").toLowerCase()]));
+  if (lengths.length > 2 || (units && units < lengths.length) || !lengths.every((x) => isFinite(x) && isAllowed(x))) return undefined;
+  return units && lengths.some(Boolean) ? lengths.map((x) => `${numberText(x)}m`).join() : lengths.length > 1 ? lengths : lengths[0];
+}
+/* Whether some of these are in metres, and some are not; nothing and 0 are neither. */
+function mixesUnits(lengths) {
+  const said = lengths.filter((length) => [length].flat().some(Boolean));
+  return said.some((length) => typeof length === "string") && said.some((length) => typeof length !== "string");
+}
 const numberIn = (least, most) => (text) => numbersOf(text, 1, least, most)?.[0];
 const colorOf = (text) => (parseColor(text) ? text : undefined);
 function varyOf(text) {
@@ -85,15 +99,15 @@ const OPTIONS = {
   flip: [(text) => wordOf(text, ["u", "v", "uv", "vu"])?.replace("vu", "uv"), ""],
   wrap: [wrapsOf, "repeat"],
   repeat: [(text) => wordOf(text, [...REPEATS, ...BONDS]), "straight"],
-  width: [(text) => (text.includes(",") ? pairOf(text, (x) => x > 0) : [numberOf(text)].find((x) => x > 0)), ""],
+  width: [(text) => lengthsOf(text, (x) => x > 0), ""],
   colorspace: [(text) => (text.includes(":") ? undefined : text), ""],
   finish: [(text) => (text === "none" ? "" : text), ""],
   normal: [(text) => (text.includes(":") || text.startsWith(",") ? undefined : text.replace(/,(gl|dx)$/i, (up) => up.toLowerCase())), ""],
-  grout: [numberIn(0, 1e300), "0"],
+  grout: [(text) => (text.includes(",") ? undefined : lengthsOf(text, (x) => x >= 0)), "0"],
   groutcolor: [colorOf, ""],
   vary: [varyOf, ""],
   tiles: [tilesOf, ""],
-  at: [(text) => (text.includes(",") ? pairOf(text, () => true) : undefined), ""],
+  at: [(text) => (text.includes(",") ? lengthsOf(text, () => true) : undefined), ""],
   ...ADJUSTMENTS,
 };
 const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
@@ -140,6 +154,8 @@ function parseEdit(text) {
     if (said[name] === undefined) throw new Error(`${key} cannot be '${value}'.`);
   }
   for (const [key, said] of Object.entries(textures)) {
+    if (mixesUnits([said.width, said.grout, said.at])) throw new Error(`${key}: all lengths have a unit, or none.`);
+    if (typeof said.at === "string" && !said.width) throw new Error(`${key}: at with lengths needs width.`);
     const [target, layer] = layerOf(key);
     for (let k = 1; k <= layer; k++) if (!textures[layerKey(target, k)]?.source) throw new Error(`Layer ${k} on ${target} has no image.`);
     if (!layer) continue;
@@ -149,11 +165,11 @@ function parseEdit(text) {
   }
   for (const [target, said] of Object.entries(textures)) {
     if (!said.source) throw new Error(`${target} has options, but no texture.`);
-    const bond = BONDS.includes(said.repeat), laid = said.grout > 0 ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
+    const bond = BONDS.includes(said.repeat), laid = parseFloat(said.grout) > 0 ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
     const what = bond || isShifted(said.repeat) ? `repeat ${said.repeat}` : laid;
     if (what && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: ${what} needs wrap repeat.`);
     if (what && said.repeat === "mirror") throw new Error(`${target}: ${what} cannot be used with repeat mirror.`);
-    if ((bond || said.grout > 0) && !said.width) throw new Error(`${target}: ${what} needs width.`);
+    if ((bond || parseFloat(said.grout) > 0) && !said.width) throw new Error(`${target}: ${what} needs width.`);
     if ("finish" in said && "normal" in said) throw new Error(`${target}: finish and normal exclude each other.`);
     if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }

@@ -11,6 +11,7 @@
 
 #include "edit/adjustment.h"
 #include "edit/number.h"
+#include "texture/pyramid.h"
 
 #define OPTION "texture option "
 
@@ -167,13 +168,33 @@ static int write_repeat(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_M
     return spec->repeat != RETEX_REPEAT_STRAIGHT;
 }
 
+static void set_metric(RetexTextureSpec *spec, int length, int metric)
+{
+    spec->metric = metric ? spec->metric | length : spec->metric & ~length;
+}
+
+static void write_lengths(const RetexTextureSpec *spec, int length, const double *values, int count,
+                          char text[STATEMENT_TEXT_MAX])
+{
+    const char *unit = spec->metric & length ? "m" : "";
+    char numbers[2][RETEX_NUMBER_MAX];
+    retex_number_text(values[0], numbers[0]);
+    if (count > 1)
+        snprintf(text, STATEMENT_TEXT_MAX, "%s%s,%s%s", numbers[0], unit, retex_number_text(values[1], numbers[1]),
+                 unit);
+    else
+        snprintf(text, STATEMENT_TEXT_MAX, "%s%s", numbers[0], unit);
+}
+
 /* One or two lengths; the image determines the second where it is missing. */
 static int parse_width(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    if (!retex_numbers_parse(spec->width, 2, value) || !(spec->width[0] > 0) || !(spec->width[1] > 0))
+    int metric;
+    if (!retex_lengths_parse(spec->width, 2, value, &metric) || !(spec->width[0] > 0) || !(spec->width[1] > 0))
         return retex_fail(err, RETEX_EPARSE,
-                          OPTION "width='%s': expected one or two lengths above 0, as in width=1.2 or width=1.2,0.2",
+                          OPTION "width='%s': expected one or two lengths above 0, as in width=1.2 or width=60cm,9cm",
                           value);
+    set_metric(spec, RETEX_METRIC_WIDTH, metric);
     if (!strchr(value, ','))
         spec->width[1] = 0;
     return RETEX_OK;
@@ -181,9 +202,7 @@ static int parse_width(RetexTextureSpec *spec, const char *value, RetexError *er
 
 static int write_width(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    if (spec->width[1] > 0)
-        return write_pair(spec->width, 0, text);
-    retex_number_text(spec->width[0], text);
+    write_lengths(spec, RETEX_METRIC_WIDTH, spec->width, spec->width[1] > 0 ? 2 : 1, text);
     return spec->width[0] > 0;
 }
 
@@ -268,16 +287,18 @@ static int write_normal(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_M
 
 static int parse_grout(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    const char *end;
-    if (!retex_number_parse(value, &end, &spec->grout) || *retex_skip_spaces(end) || spec->grout < 0)
-        return retex_fail(err, RETEX_EPARSE, OPTION "grout='%.80s': expected a length of 0 or more, as in grout=0.004",
+    int metric;
+    if (!retex_lengths_parse(&spec->grout, 1, value, &metric) || spec->grout < 0)
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "grout='%.80s': expected a length of 0 or more, as in grout=0.004 or grout=4mm",
                           value);
+    set_metric(spec, RETEX_METRIC_GROUT, metric && spec->grout > 0);
     return RETEX_OK;
 }
 
 static int write_grout(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    retex_number_text(spec->grout, text);
+    write_lengths(spec, RETEX_METRIC_GROUT, &spec->grout, 1, text);
     return spec->grout > 0;
 }
 
@@ -373,15 +394,19 @@ static int write_tiles(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MA
 
 static int parse_at(RetexTextureSpec *spec, const char *value, RetexError *err)
 {
-    if (!strchr(value, ',') || !retex_numbers_parse(spec->at, 2, value))
-        return retex_fail(err, RETEX_EPARSE, OPTION "at='%.80s': expected two numbers, as in at=1.2,0.4", value);
+    int metric;
+    if (!strchr(value, ',') || !retex_lengths_parse(spec->at, 2, value, &metric))
+        return retex_fail(err, RETEX_EPARSE,
+                          OPTION "at='%.80s': expected two numbers or lengths, as in at=1.2,0.4 or at=120cm,40cm",
+                          value);
     spec->has_at = 1;
+    set_metric(spec, RETEX_METRIC_AT, metric && (spec->at[0] != 0 || spec->at[1] != 0));
     return RETEX_OK;
 }
 
 static int write_at(const RetexTextureSpec *spec, char text[STATEMENT_TEXT_MAX])
 {
-    write_pair(spec->at, 0, text);
+    write_lengths(spec, RETEX_METRIC_AT, spec->at, 2, text);
     return spec->has_at;
 }
 
@@ -494,6 +519,22 @@ int retex_statement_unknown(const char *word, RetexError *err)
                       retex_meant(nearest.best, meant));
 }
 
+/* Of a texture, and of each of its layers. */
+static int check_units(const RetexTextureSpec *spec, RetexError *err)
+{
+    RetexTextureSpec layer = *spec;
+    for (int k = -1; k < spec->nlayers; k++) {
+        if (k >= 0)
+            retex_texture_layer_get(&layer, spec, k);
+        if (retex_texture_mixes_units(&layer))
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture options: all lengths have a unit, as in width=60cm:grout=4mm, or none");
+        if (layer.metric & RETEX_METRIC_AT && !(layer.width[0] > 0))
+            return retex_fail(err, RETEX_EPARSE, "texture options: at= with lengths needs width=");
+    }
+    return RETEX_OK;
+}
+
 int retex_statement_check(const RetexTextureSpec *spec, RetexError *err)
 {
     const int is_laid = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP ||
@@ -510,5 +551,5 @@ int retex_statement_check(const RetexTextureSpec *spec, RetexError *err)
         return retex_fail(err, RETEX_EPARSE, "texture options: %s cannot be used with repeat=mirror", option);
     if (needs_width && !(spec->width[0] > 0))
         return retex_fail(err, RETEX_EPARSE, "texture options: %s needs width=, the size of a repeat", option);
-    return RETEX_OK;
+    return check_units(spec, err);
 }

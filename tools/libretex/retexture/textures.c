@@ -91,8 +91,9 @@ static int check_footprints(const Loading *loading, RetexError *err)
 
 /* ---- loading ---- */
 
-static void describe_surface(RetexTextureSpec *spec, const RetexTarget *t)
+static void describe_surface(RetexTextureSpec *spec, const RetexSet *set, const RetexTarget *t)
 {
+    spec->unit = set->unit;
     memcpy(spec->uv_scale, t->uv_scale, sizeof spec->uv_scale);
     memcpy(spec->periodic, t->periodic, sizeof spec->periodic);
     spec->nfinishes = t->nfinishes;
@@ -112,7 +113,7 @@ static void load_job(void *context, int index, int thread)
     int target = loading->target[index];
     RetexTextureSpec spec = loading->specs[index];
     spec.warn = NULL; /* warnings come afterwards, in the order of specs */
-    describe_surface(&spec, &loading->set->targets[target]);
+    describe_surface(&spec, loading->set, &loading->set->targets[target]);
     retex_texture_load(&loading->textures[target], &spec, loading->threads, &loading->errors[index]);
 }
 
@@ -136,7 +137,7 @@ static int load_textures(Loading *loading, int nthreads, RetexError *err)
 int retex_textures_move(RetexTexture *texture, const RetexSet *set, int target, RetexError *err)
 {
     RetexTextureSpec surface = RETEX_TEXTURE_SPEC_INIT;
-    describe_surface(&surface, &set->targets[target]);
+    describe_surface(&surface, set, &set->targets[target]);
     return retex_texture_set_surface(texture, &surface, err);
 }
 
@@ -153,7 +154,7 @@ int retex_textures_place(RetexTexture **placed, const RetexTexture *texture, con
     const int code = retex_target_find(&target, &names, own.target, err);
     if (code)
         return code;
-    describe_surface(&own, &set->targets[target]);
+    describe_surface(&own, set, &set->targets[target]);
     return retex_texture_place(placed, texture, &own, err);
 }
 

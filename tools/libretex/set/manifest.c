@@ -272,6 +272,8 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "folded_white", real(set->folded_white, finite));
     if (set->further_hits)
         retex_json_put(root, "further", write_further(set, finite));
+    if (set->unit != 1)
+        retex_json_put(root, "unit", real(set->unit, finite));
     retex_json_put(root, "denoised", json_boolean(set->denoised));
     retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
     retex_json_put(root, "targets", targets);

@@ -305,6 +305,9 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
         set->folded_white = retex_reading_real(reading, json_object_get(root, "folded_white"), "folded_white");
     if (json_object_get(root, "further"))
         read_further(reading, json_object_get(root, "further"), set);
+    set->unit = json_object_get(root, "unit") ? retex_reading_real(reading, json_object_get(root, "unit"), "unit") : 1;
+    if (!reading->status && !(set->unit > 0))
+        retex_reading_fail(reading, RETEX_EFORMAT, "has a scene unit of 0 metres or less");
     if (json_object_get(root, "denoised"))
         set->denoised = retex_reading_boolean(reading, json_object_get(root, "denoised"), "denoised");
     set->strict_paper = retex_reading_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");

@@ -29,6 +29,7 @@ int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a set");
     set->width = width;
     set->height = height;
+    set->unit = 1;
     strcpy(set->layout, "paper");
     strcpy(set->filter, "box");
     *result = set;
@@ -76,7 +77,8 @@ void retex_set_get_info(const RetexSet *set, RetexSetInfo *info)
                         .nterms = set->nterms,
                         .nparameters = set->nparameters,
                         .nparts = set->nparts,
-                        .further_hits = set->further_hits};
+                        .further_hits = set->further_hits,
+                        .unit = set->unit};
     memcpy(own.further_ratio, set->further_ratio, sizeof own.further_ratio);
     (void)RETEX_PARAMS_RETURN(info, &own, NULL);
 }
@@ -100,6 +102,8 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err
         if (!(info.further_ratio[c] >= 0 && info.further_ratio[c] <= RETEX_FURTHER_RATIO_MAX))
             return retex_fail(err, RETEX_EINVAL, "the ratio of further hits is 0 to %d, not %g",
                               RETEX_FURTHER_RATIO_MAX, (double)info.further_ratio[c]);
+    if (!isfinite(info.unit) || !(info.unit > 0))
+        return retex_fail(err, RETEX_EINVAL, "a scene unit is above 0 metres, not %g", info.unit);
     copy_text(set->layout, sizeof set->layout, info.layout);
     copy_text(set->filter, sizeof set->filter, info.filter);
     copy_text(set->scene, sizeof set->scene, info.scene);
@@ -109,6 +113,7 @@ int retex_set_describe(RetexSet *set, const RetexSetInfo *given, RetexError *err
     set->denoised = info.denoised, set->strict_paper = info.strict_paper;
     set->folded = info.folded, set->folded_white = info.folded_white;
     set->further_hits = info.further_hits;
+    set->unit = info.unit;
     memcpy(set->further_ratio, info.further_ratio, sizeof set->further_ratio);
     return 0;
 }

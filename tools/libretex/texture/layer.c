@@ -20,6 +20,7 @@
         (to)->rotate = (from)->rotate;                                                                                 \
         (to)->has_at = (from)->has_at;                                                                                 \
         (to)->nadjustments = (from)->nadjustments;                                                                     \
+        (to)->metric = (from)->metric;                                                                                 \
     } while (0)
 
 static void get(RetexTextureSpec *layer, const RetexTextureSpec *spec, int index)
@@ -30,6 +31,7 @@ static void get(RetexTextureSpec *layer, const RetexTextureSpec *spec, int index
     COPY_SHARED(layer, own);
     layer->wrap[0] = layer->wrap[1] = RETEX_WRAP_BLACK;
     memcpy(layer->uv_scale, spec->uv_scale, sizeof spec->uv_scale);
+    layer->unit = spec->unit;
     memcpy(layer->uv_min, spec->uv_min, sizeof spec->uv_min);
     memcpy(layer->uv_max, spec->uv_max, sizeof spec->uv_max);
     layer->access = spec->access;

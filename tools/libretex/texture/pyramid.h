@@ -84,7 +84,9 @@ int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const R
 /* The placement of the textures of a map, whose texels may have another aspect than the image of that size.
  * is_normal: of a normal map, which has repeats that are mirrored as texels. */
 RetexTextureSpec retex_texture_finish_spec(const RetexTextureSpec *spec, int width, int height, int is_normal);
-/* Put the texture on another surface: its uv_scale, uv_min and uv_max become those of this spec, all else stays.
+/* 1: some lengths of the texture itself are in metres, and some are not. */
+int retex_texture_mixes_units(const RetexTextureSpec *spec);
+/* Put the texture on another surface: its uv_scale, unit, uv_min and uv_max become those of this spec, all else stays.
  * RETEX_EINVAL where it has a width and uv_scale is unknown; it is then unchanged. */
 int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *spec, RetexError *err);
 /* A texture with the placement, surface included, of another spec. It shares the texels of `texture`, which must be

@@ -44,6 +44,12 @@ static void fit_repeats(const RetexTexture *texture, double before[2], const dou
     }
 }
 
+/* What a unit of the surface's u or v measures, in the unit of the texture's lengths. */
+static double length_of_uv(const RetexTextureSpec *spec, int axis)
+{
+    return spec->uv_scale[axis] * (spec->metric ? spec->unit : 1);
+}
+
 /* What is added to the texture's UV: the offset, and what moves the middle of the image to where it is to be. */
 static void place_middle(const RetexTexture *texture, const double after[2], double turn[2][2], const double before[2],
                          double place[2])
@@ -54,7 +60,7 @@ static void place_middle(const RetexTexture *texture, const double after[2], dou
         place[axis] += 0.5;
         for (int i = 0; i < 2; i++)
             place[axis] -= after[axis] * turn[axis][i] * before[i] *
-                           (spec->width[0] > 0 ? spec->at[i] / spec->uv_scale[i] : spec->at[i]);
+                           (spec->width[0] > 0 ? spec->at[i] / length_of_uv(spec, i) : spec->at[i]);
     }
 }
 
@@ -71,7 +77,7 @@ static void set_transform(RetexTexture *texture, int width, int height)
     if (spec->width[0] > 0) {
         double size[2] = {spec->width[0], spec->width[1] > 0 ? spec->width[1] : spec->width[0] * height / width};
         for (int axis = 0; axis < 2; axis++) {
-            before[axis] *= spec->uv_scale[axis];
+            before[axis] *= length_of_uv(spec, axis);
             after[axis] = 1 / size[axis];
         }
         fit_repeats(texture, before, after);
@@ -187,6 +193,14 @@ int retex_texture_set_texels(RetexTexture *texture, RetexTexels *texels, const R
 
 /* ---- life ---- */
 
+int retex_texture_mixes_units(const RetexTextureSpec *spec)
+{
+    const int is_placed = spec->has_at && (spec->at[0] != 0 || spec->at[1] != 0);
+    const int lengths = (spec->width[0] > 0 ? RETEX_METRIC_WIDTH : 0) | (spec->grout > 0 ? RETEX_METRIC_GROUT : 0) |
+                        (is_placed ? RETEX_METRIC_AT : 0);
+    return (spec->metric & lengths) != 0 && (spec->metric & lengths) != lengths;
+}
+
 static void close_finishes(RetexTexture *texture);
 static uint64_t finishes_bytes(const RetexTexture *texture);
 
@@ -197,6 +211,10 @@ static int check_width(const RetexTextureSpec *spec, RetexError *err)
             return retex_fail(err, RETEX_EINVAL, "texture: width must be finite and above 0");
     if (spec->width[1] > 0 && !(spec->width[0] > 0))
         return retex_fail(err, RETEX_EINVAL, "texture: a second width needs a first one");
+    if (!isfinite(spec->unit) || !(spec->unit > 0))
+        return retex_fail(err, RETEX_EINVAL, "texture: a scene unit of %g metres", spec->unit);
+    if (retex_texture_mixes_units(spec))
+        return retex_fail(err, RETEX_EINVAL, "texture: all lengths have a unit, or none");
     for (int axis = 0; axis < 2 && spec->width[0] > 0; axis++)
         if (!isfinite(spec->uv_scale[axis]) || !(spec->uv_scale[axis] > 0))
             return retex_fail(err, RETEX_EINVAL,
@@ -288,6 +306,7 @@ int retex_texture_set_surface(RetexTexture *texture, const RetexTextureSpec *sur
     RetexTextureSpec spec = texture->spec;
     int width, height;
     memcpy(spec.uv_scale, surface->uv_scale, sizeof spec.uv_scale);
+    spec.unit = surface->unit;
     memcpy(spec.uv_min, surface->uv_min, sizeof spec.uv_min);
     memcpy(spec.uv_max, surface->uv_max, sizeof spec.uv_max);
     if (!spec.constant && check_width(&spec, err))
@@ -327,6 +346,8 @@ static void unplace(RetexTextureSpec *spec)
     const int has_width = retex_lay_is_needed(spec) && spec->width[0] > 0; /* joints and turns depend on it */
     if (!has_width)
         memset(spec->width, 0, sizeof spec->width);
+    spec->metric = 0; /* texels depend on the ratios of lengths */
+    spec->unit = 1;
     spec->uv_scale[0] = spec->uv_scale[1] = has_width;
     memset(spec->uv_min, 0, sizeof spec->uv_min);
     memset(spec->uv_max, 0, sizeof spec->uv_max);

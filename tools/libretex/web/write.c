@@ -536,6 +536,8 @@ static char *describe(const Web *web, RetexError *err)
                   describe_targets(web), "lights", describe_lights(web), "classes", describe_classes(web));
     if (number_of(web, set->nparameters))
         retex_json_put(&object, "parameters", describe_parameters(web));
+    if (set->unit != 1)
+        retex_json_put(&object, "unit", json_real(set->unit));
     retex_json_put(&object, "reduced", web->reduced.ntiles ? describe_atlas(web, &web->reduced) : json_null());
     if (web->lamps.ntiles)
         retex_json_put(&object, "lamps", describe_lamps(web));

@@ -75,7 +75,7 @@ class RetexAdjustment(ctypes.Structure):
 class RetexTextureLayer(ctypes.Structure):
     _fields_ = [("image", c_char * 256), ("colorspace", c_char * 64), ("scale", c_double * 2), ("rotate", c_double),
                 ("offset", c_double * 2), ("width", c_double * 2), ("flip", c_int * 2), ("has_at", c_int),
-                ("at", c_double * 2), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9)]
+                ("at", c_double * 2), ("nadjustments", c_int), ("adjustments", RetexAdjustment * 9), ("metric", c_int)]
 
 
 class RetexTextureSpec(ctypes.Structure):
@@ -89,7 +89,7 @@ class RetexTextureSpec(ctypes.Structure):
                 ("grout", c_double), ("grout_color", c_float * 3), ("vary", c_int), ("vary_seed", c_uint),
                 ("tiles", (c_char * 256) * 8), ("has_at", c_int), ("at", c_double * 2),
                 ("normal", c_int), ("normal_tilt", c_double), ("nlayers", c_int),
-                ("layers", RetexTextureLayer * 4)]
+                ("layers", RetexTextureLayer * 4), ("metric", c_int), ("unit", c_double)]
 
 
 class RetexReadParams(ctypes.Structure):

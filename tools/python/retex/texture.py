@@ -20,7 +20,9 @@ Adjustment = Union[float, Color]
 ADJUSTMENTS = ("hue", "saturation", "gain", "gamma", "contrast", "blur", "invert", "tint", "colorize")
 
 
-def _pair(value: Pair) -> str:
+def _pair(value: Union[Pair, str]) -> str:
+    if isinstance(value, str):
+        return value
     return ",".join(f"{float(number)!r}" for number in (value if isinstance(value, (tuple, list)) else (value,)))
 
 
@@ -101,16 +103,16 @@ class Texture:
     flip        "u", "v" or "uv": mirrored
     wrap        "repeat", "mirror", "clamp" or "black"; a pair for u and v
     repeat      "straight", "brick", "half-drop" or "mirror"
-    width       of one repeat in scene units; a pair for width and height
+    width       of one repeat in scene units, or text with units: "60cm"; a pair, or "60cm,9cm", for width and height
     colorspace  of the image, if its file does not say it; arrays have theirs by their type
     finish      the name of a picture that says which finish of the target is where; "none": the roughness of a folder
                 says nothing. Not of arrays
     normal      the name of a normal map, for a target that takes one: "wall.png", "wall.png,dx" where green points down;
                 "none": that of a folder is not used. Not of arrays, nor beside finish
-    grout       width of joints between repeats, in scene units; groutcolor: a colour
+    grout       width of joints between repeats, in scene units, or "4mm"; groutcolor: a colour
     vary        what differs from repeat to repeat: "turn,flip,shift" or some of them, and a number
     tiles       names of more images for the repeats
-    at          where the middle of the image lies, in scene units with a width, else in UV
+    at          where the middle of the image lies, in scene units with a width, or "1.2m,40cm", else in UV
 
     hue, saturation, gain, gamma, contrast, blur, invert, tint and colorize adjust colours one after the other, in the
     order in which they are given; `invert` is "yes", `tint` and `colorize` are colours.
@@ -120,12 +122,12 @@ class Texture:
     def __init__(self, image: Source, *, scale: Optional[Pair] = None, rotate: Optional[float] = None,
                  offset: Optional[Tuple[float, float]] = None, flip: Optional[str] = None,
                  wrap: Union[str, Tuple[str, str], None] = None, repeat: Optional[str] = None,
-                 width: Optional[Pair] = None, colorspace: Optional[str] = None,
+                 width: Union[Pair, str, None] = None, colorspace: Optional[str] = None,
                  finish: Union[str, "os.PathLike[str]", None] = None,
-                 normal: Union[str, "os.PathLike[str]", None] = None, grout: Optional[float] = None,
+                 normal: Union[str, "os.PathLike[str]", None] = None, grout: Union[float, str, None] = None,
                  groutcolor: Optional[Color] = None, vary: Optional[str] = None,
                  tiles: Optional[Sequence[Union[str, "os.PathLike[str]"]]] = None,
-                 at: Optional[Tuple[float, float]] = None, **adjustments: Adjustment):
+                 at: Union[Tuple[float, float], str, None] = None, **adjustments: Adjustment):
         options = {"scale": scale if scale is None else _pair(scale), "rotate": rotate,
                    "offset": offset if offset is None else _pair(offset), "flip": flip,
                    "wrap": ",".join(wrap) if isinstance(wrap, (tuple, list)) else wrap, "repeat": repeat,

@@ -74,6 +74,9 @@ int retex_edit_options_text(const RetexTextureSpec *spec, char **text, RetexErro
 /* Its image's name or its colour, for messages too: cut off where it is longer than `size` bytes. */
 void retex_edit_image_text(const RetexTextureSpec *spec, char *text, size_t size);
 
+/* A length: a number with mm, cm, m, in or ft; the number alone is metres, the unit alone one of it. RETEX_EPARSE. */
+int retex_length_parse(double *metres, const char *text, RetexError *err);
+
 /* ---- what it says ---- */
 
 int retex_edit_count(const RetexEdit *edit);

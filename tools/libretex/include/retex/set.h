@@ -218,6 +218,8 @@ typedef struct RetexSetInfo {
     int ntargets, nfootprints, nmixtures, nterms, nparameters, nparts;
     int further_hits;       /* 0..RETEX_FURTHER_HITS_MAX: see RETEX_QUANTITY_FURTHER; 0: no factor has that quantity */
     float further_ratio[3]; /* of light with one more hit to light without it, textures left out; 0..2 */
+    double unit;            /* metres of a scene unit, above 0, for lengths of textures that have a unit; 1 where the
+                               scene did not say */
 } RetexSetInfo;
 
 /* Fill what info->size says that the caller knows. */

@@ -57,6 +57,9 @@ typedef enum RetexNormalMap {
 
 enum { RETEX_TILES_MAX = 8 };
 
+/* Which lengths are in metres, not in scene units, bits. All that a texture or a layer has are, or none is. */
+enum { RETEX_METRIC_WIDTH = 1, RETEX_METRIC_GROUT = 2, RETEX_METRIC_AT = 4 };
+
 /* What differs at random from repeat to repeat, bits. Of a square repeat TURN is by quarter turns, otherwise by half a
  * turn. FLIP mirrors along u, v or both; SHIFT moves the image within its repeat. So many different repeats are laid
  * into one image as have at most 2^26 texels together, at most 256; then they repeat. */
@@ -93,6 +96,7 @@ typedef struct RetexTextureLayer {
     double at[2];
     int nadjustments;
     RetexAdjustment adjustments[RETEX_ADJUSTS];
+    int metric;
 } RetexTextureLayer;
 enum { RETEX_LAYERS_MAX = 4 };
 
@@ -150,13 +154,15 @@ typedef struct RetexTextureSpec {
     int nlayers;           /* 0..RETEX_LAYERS_MAX, default 0. With layers `image` may be "", and `constant` 0: then they
                               lie on the original. There is no map of finishes or normals then */
     RetexTextureLayer layers[RETEX_LAYERS_MAX]; /* the lowest first */
+    int metric;            /* of RETEX_METRIC_…: these are in metres. Default 0 */
+    double unit;           /* metres of a scene unit, > 0; filled in by the caller. Default 1 */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
       "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL, {0, 0}, \
       "", 0, {0, 0, 0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}, 0, \
       {0.21586050f, 0.21586050f, 0.21586050f}, 0, 0, {""}, 0, {0, 0}, RETEX_NORMAL_NONE, 0, \
-      0, {{"", "", {1, 1}, 0, {0, 0}, {0, 0}, {0, 0}, 0, {0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}}} }
+      0, {{"", "", {1, 1}, 0, {0, 0}, {0, 0}, {0, 0}, 0, {0, 0}, 0, {{RETEX_ADJUST_HUE, {0, 0, 0}}}, 0}}, 0, 1 }
 
 /* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
