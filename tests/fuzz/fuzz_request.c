@@ -19,6 +19,8 @@ static void begin(void)
         "/v1/room/Floor=oak;Wall=rgb(.2,.3,.4)/800x600.jpg?Floor.scale=2,1&Floor.rotate=30&crop=1,2,30,40&quality=90\n",
         "/v1/room/Floor=a%20b.png;Floor.wrap=mirror,clamp;Floor.flip=uv/x600\nimage/avif,image/webp;q=0.8,*/*;q=0.1",
         "/v1/room/full.png?Floor.colorspace=Linear%20Rec.709\nimage/*",
+        "/v1/room/Floor=a;Floor.width=60cm;Floor.grout=4mm;Floor.tiles=b,c;Floor.vary=turn,3/x90.jpg?Floor.hue=30\n",
+        "/v1/room/over:Floor=logo;over:Floor.at=1,2;over:Floor.width=.5;finish:Wall=satin/full.jpg\n",
         "/v1/room/thumbnail.webp\n",
         "/v1/room/light:Lamp=1.5*3000K;Floor=oak/640x.jpg?light:Sun=0\n",
         "/v1/r%C3%A4ume,+(2)\n",
@@ -134,8 +136,15 @@ static int run(const unsigned char *bytes, size_t size)
     for (int i = 0; i < request.nspecs; i++) {
         fuzz_must(i == 0 || strcmp(request.specs[i - 1].target, request.specs[i].target) < 0, "targets are sorted");
         check_plain(request.specs[i].target);
-        if (!request.specs[i].constant)
-            check_name(request.specs[i].image);
+        const RetexTextureSpec *spec = &request.specs[i];
+        if (!spec->constant && (spec->image[0] || !spec->nlayers))
+            check_name(spec->image);
+        for (int k = 0; k < spec->nlayers; k++)
+            check_name(spec->layers[k].image);
+        for (int k = 0; k < RETEX_TILES_MAX && spec->tiles[k][0]; k++)
+            check_name(spec->tiles[k]);
+        if (spec->finish[0])
+            check_name(spec->finish);
     }
     if (request.route == SERVE_PICTURE || request.route == SERVE_THUMBNAIL || request.route == SERVE_IIIF_IMAGE)
         check_place(&request);
