@@ -32,7 +32,7 @@ static void begin(void)
         "Floor=a;Floor.width=60cm,12in;Floor.grout=4mm;Floor.groutcolor=gray;Floor.at=1m,2ft;Floor.repeat=herringbone",
         "Floor=a;Floor.vary=turn,flip,shift,7;Floor.tiles=b.jpg,c.jpg;Floor.width=1;Floor.repeat=basket",
         "Floor=a;Floor.normal=n.png,dx;Wall=b;Wall.repeat=hexagon;Wall.width=.3;Wall.grout=.01;Wall.vary=turn",
-        "over:Floor=logo.png;over:Floor.at=1.2,.4;over:Floor.width=.5;over2:Floor=b.png;over2:Floor.rotate=20;Floor=tan",
+        "over:Floor=logo.png;over:Floor.at=1.2,.4;over:Floor.width=.5;over2:Floor=b.png;over2:Floor.rotate=9;Floor=tan",
         "over:width=5cm:at=1m,2m:invert=yes\nFloor=logo.png",
         "grout=.01:width=.2:vary=flip,3:repeat=brick\nFloor=#fff",
         "light:a%2Eb=0&light:Lamp=tomato*2&light:rest=1e3*12000K",
