@@ -14,8 +14,11 @@ static const CliOption options[] = {
     {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
     {"size", 0, "WxH", "a smaller picture: of WxH pixels, or Wx or xH to keep the aspect", 0},
     {"crop", 0, "X,Y,W,H", "only this rectangle of the picture", 0},
+    {"exposure", 0, "STOPS", "make the picture brighter, by 2^STOPS; -30 to 30", 0},
+    {"auto-exposure", 0, NULL, "bring the picture's mean brightness to a middle grey, before --exposure", 0},
+    {"white-balance", 0, "KELVINS", "make light of so many kelvins white, 1000 to 25000", 0},
     {"display", 0, "NAME", "OCIO display for the picture", 0},
-    {"view", 0, "NAME", "OCIO view of that display", 0},
+    {"view", 0, "NAME", "view of that display: Standard, Filmic, Neutral, Raw, or one of $OCIO", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
     {"quality", 0, "N", "quality of a JPEG, 1 to 100; default 95", 0},
     {"depth", 0, "8|16", "bits of a PNG, TIFF or other file of integers; default 8, of TIFF and DPX 16", 0},
@@ -40,6 +43,15 @@ static void check(const Cli *cli, int code, const RetexError *err)
         cli_fail(cli, err);
 }
 
+/* An option about how the picture is developed: picture:NAME=VALUE. */
+static void take_picture_key(const Cli *cli, const CliOption *option, RetexEdit *edit)
+{
+    RetexError err = {0};
+    char key[64];
+    snprintf(key, sizeof key, "picture:%s", option->name);
+    check(cli, retex_edit_set(edit, key, option->argument ? cli->value : "yes", &err), &err);
+}
+
 static void parse(Cli *cli, Job *job)
 {
     RetexError err = {0};
@@ -58,10 +70,11 @@ static void parse(Cli *cli, Job *job)
             check(cli, retex_edit_finish(job->lights, cli->value, &err), &err);
         } else if (strcmp(option->name, "solo") == 0) {
             check(cli, retex_edit_solo(solo, cli->value, &err), &err);
+        } else if (strcmp(option->name, "view") == 0 || strcmp(option->name, "exposure") == 0 ||
+                   strcmp(option->name, "white-balance") == 0 || strcmp(option->name, "auto-exposure") == 0) {
+            take_picture_key(cli, option, job->lights);
         } else if (strcmp(option->name, "display") == 0) {
             job->write.display = cli->value;
-        } else if (strcmp(option->name, "view") == 0) {
-            job->write.view = cli->value;
         } else if (strcmp(option->name, "colorspace") == 0) {
             job->write.colorspace = cli->value;
         } else if (strcmp(option->name, "quality") == 0) {
@@ -98,6 +111,7 @@ static void parse(Cli *cli, Job *job)
     }
     check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
     retex_edit_close(&solo);
+    check(cli, job_develop(job, job->lights, &err), &err);
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
     const int keep_going = job->batch.keep_going;
@@ -122,6 +136,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--solve excludes --batch, --frames and --error");
     if (job->solve && (job->crop[2] || job->scaled[0] || job->scaled[1]))
         cli_die(cli, "--solve excludes --size and --crop; --region says which part counts");
+    if (job->solve && (job->develop.exposure != 0 || job->develop.white_balance != 0 || job->develop.auto_exposure))
+        cli_die(cli, "--solve excludes --exposure, --auto-exposure and --white-balance");
     if (job->solve && cli->output && strcmp(cli->output, "-") == 0)
         cli_die(cli, "with --solve, standard output has what is found: name a file with -o");
     if (job->write.colorspace && (job->write.display || job->write.view))

@@ -213,20 +213,11 @@ static int next_row(Reader *reader, TableRow *row)
     }
 }
 
-static const char *after_prefix(const TextureTable *table, int column, const char *prefix)
+const char *texture_table_name(const TextureTable *table, int column, const char *prefix)
 {
-    const char *name = table->columns[column];
-    return strncmp(name, prefix, strlen(prefix)) == 0 ? name + strlen(prefix) : NULL;
-}
-
-const char *texture_table_lamp(const TextureTable *table, int column)
-{
-    return after_prefix(table, column, "light:");
-}
-
-const char *texture_table_finish(const TextureTable *table, int column)
-{
-    return after_prefix(table, column, "finish:");
+    const char *key = table->columns[column];
+    const size_t length = strlen(prefix);
+    return strncmp(key, prefix, length) == 0 && key[length] == ':' ? key + length + 1 : NULL;
 }
 
 int texture_table_is_target(const TextureTable *table, int column)

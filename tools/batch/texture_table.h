@@ -1,6 +1,7 @@
 /* A table of pictures: comma-separated values (RFC 4180), or values between semicolons or tabs, as spreadsheets write
- * them in other countries. The first row names the columns: output, then targets, and `light:LAMP`. Each further row is
- * a picture: its file, then for each target a texture as retex_edit_cell reads it, for each lamp a value, or nothing.
+ * them in other countries. The first row names the columns: output, then targets, `light:LAMP`, `finish:TARGET` and
+ * `picture:KEY`. Each further row is a picture: its file, then for each target a texture as retex_edit_cell reads it, for
+ * each other key a value, or nothing.
  * The whole table is read at once. Mistakes are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H
@@ -61,13 +62,12 @@ const char *texture_table_output(const TextureTable *table, int row);
 int texture_table_texture(const TextureTable *table, int row, int column, RetexTextureSpec *spec, const char **image);
 /* All textures of a row that are not wrong; returns their number. */
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS]);
-/* The lamp of a column, or NULL. */
-const char *texture_table_lamp(const TextureTable *table, int column);
-/* The target whose finish a column is, or NULL. */
-const char *texture_table_finish(const TextureTable *table, int column);
+/* What a column of keys with a prefix names: of "light" the lamp, of "finish" the target, of "picture" the key; or
+ * NULL. */
+const char *texture_table_name(const TextureTable *table, int column, const char *prefix);
 /* Whether it has textures for a target. */
 int texture_table_is_target(const TextureTable *table, int column);
-/* Add the lamps and finishes of a row to an edit. */
+/* Add the lamps and finishes of a row, and what it says of the picture, to an edit. */
 int texture_table_lights(const TextureTable *table, int row, RetexEdit *edit, RetexError *err);
 
 /* Add a mistake of a row, or of the table itself, which line 1 stands for. */

@@ -17,6 +17,8 @@
 
 #include <retex/color.h>
 
+#include "../libretex/picture/view.h"
+
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace bridge
@@ -249,8 +251,14 @@ Transform transform_to_display(const std::string &display, const std::string &vi
     std::string shown_on = find_display(config, display);
     std::string shown_as = find_view(config, shown_on, view);
     if (config == all.own) {
-        const char *space = config->getDisplayViewColorSpaceName(shown_on.c_str(), shown_as.c_str());
-        return transform_to(space);
+        Transform last = transform_to(config->getDisplayViewColorSpaceName(shown_on.c_str(), shown_as.c_str()));
+        RetexView curve = retex_view_find(shown_as.c_str());
+        if (curve == RETEX_VIEW_STANDARD || curve == RETEX_VIEWS)
+            return last;
+        return [curve, last](float *rgba, long pixels) {
+            retex_view_apply(curve, rgba, size_t(pixels), 4);
+            last(rgba, pixels);
+        };
     }
     OCIO::DisplayViewTransformRcPtr step = OCIO::DisplayViewTransform::Create();
     step->setDisplay(shown_on.c_str());

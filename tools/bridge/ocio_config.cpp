@@ -1,5 +1,6 @@
 // The built-in OpenColorIO configuration, used unless $OCIO is set. Its reference space is scene-linear Rec.709, as in
-// libretex. OpenColorIO 2.1 has no built-in configuration, and pictures must be the same on every machine.
+// libretex. OpenColorIO 2.1 has no built-in configuration, and pictures must be the same on every machine. The curves of
+// Filmic and Neutral precede that of sRGB: picture/view.h computes them.
 #include "bridge.hpp"
 
 namespace bridge
@@ -33,10 +34,12 @@ file_rules:
 displays:
   sRGB:
     - !<View> {name: Standard, colorspace: sRGB}
+    - !<View> {name: Filmic, colorspace: sRGB}
+    - !<View> {name: Neutral, colorspace: sRGB}
     - !<View> {name: Raw, colorspace: raw}
 
 active_displays: [sRGB]
-active_views: [Standard, Raw]
+active_views: [Standard, Filmic, Neutral, Raw]
 
 colorspaces:
   - !<ColorSpace>

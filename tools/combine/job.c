@@ -110,12 +110,21 @@ int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count,
     return retex_textures_check(job->set, specs, count, err);
 }
 
+int job_develop(Job *job, const RetexEdit *edit, RetexError *err)
+{
+    job->develop = (RetexDevelop)RETEX_DEVELOP_INIT;
+    job->combine.develop = &job->develop;
+    job->write.view = retex_edit_view(edit);
+    return retex_edit_develop(edit, &job->develop, err);
+}
+
 int job_light(Job *job, const RetexEdit *lights, RetexError *err)
 {
     job->combine.parameters = NULL;
-    if (!retex_edit_lights(lights))
-        return RETEX_OK;
-    const int code = retex_edit_parameters(lights, job->set, job->parameters, err);
+    int code = job_develop(job, lights, err);
+    if (code || !retex_edit_lights(lights))
+        return code;
+    code = retex_edit_parameters(lights, job->set, job->parameters, err);
     if (!code)
         job->combine.parameters = job->parameters;
     return code;

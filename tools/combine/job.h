@@ -22,7 +22,8 @@ typedef struct Job {
     uint64_t memory; /* bytes of the set that --batch may keep in memory */
     RetexWriteParams write;
     RetexCombineParams combine;
-    RetexEdit *lights; /* of the command line */
+    RetexDevelop develop;
+    RetexEdit *lights; /* of the command line: lamps, finishes, and how the picture is developed */
     float parameters[3 * RETEX_PARAMETERS_MAX];
     RetexSet *set;         /* rows are read when they are needed */
     RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
@@ -45,7 +46,9 @@ void job_take_rectangle(const Cli *cli, const CliOption *option, int rectangle[4
 void job_take_size(const Cli *cli, Job *job);
 /* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
 int job_check_textures(const Job *job, const RetexTextureSpec *specs, int count, RetexError *err);
-/* Give the parameters of the set the values that an edit has for its lamps. */
+/* Develop the picture as an edit says, and show it in its view, which is borrowed from the edit. */
+int job_develop(Job *job, const RetexEdit *edit, RetexError *err);
+/* The same, and give the parameters of the set the values that the edit has for its lamps. */
 int job_light(Job *job, const RetexEdit *lights, RetexError *err);
 /* Add the targets whose corrections a picture with these textures uses. */
 void job_add_corrected(const Job *job, const RetexTextureSpec *specs, int nspecs, int corrected[RETEX_MAX_TARGETS]);

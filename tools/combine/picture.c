@@ -43,7 +43,7 @@ static const char *describe(const Job *job, const Row *row, char *text, size_t s
                                  textures[i].texture);
     if (!used)
         used += (size_t)snprintf(text, size, "original textures");
-    if (retex_edit_lights(row->lights) && used < size && !retex_edit_text(row->lights, ';', &lights, NULL))
+    if (used < size && !retex_edit_text(row->lights, ';', &lights, NULL) && *lights)
         snprintf(text + used, size - used, ", %s", lights);
     free(lights);
     return text;
@@ -132,14 +132,31 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
     return code ? code : closed;
 }
 
+/* Find the exposure that the picture's own brightness asks for; text gets it. */
+static int find_exposure(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
+{
+    double stops = 0;
+    int code = RETEX_OK;
+    if (job->develop.auto_exposure) {
+        code = retex_auto_exposure(&stops, job->set, job->samples, row->textures, &job->combine, cli->threads, err);
+        snprintf(text, size, ", auto-exposure %+.2f", stops);
+        stops += job->develop.exposure;
+        job->develop.exposure = fmin(fmax(stops, -RETEX_EXPOSURE_MAX), RETEX_EXPOSURE_MAX);
+        job->develop.auto_exposure = 0;
+    }
+    return code;
+}
+
 int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
 {
     const RetexCut *cut = &job->cut;
     RetexPicture *picture = NULL;
     struct stat old;
-    char text[2048], expected[64] = "";
+    char text[2048], expected[64] = "", exposed[64] = "";
     int is_new = job->error && stat(job->error, &old) != 0;
     int code = job->error ? make_error(cli, job, row, expected, sizeof expected, err) : RETEX_OK;
+    if (!code)
+        code = find_exposure(cli, job, row, exposed, sizeof exposed, err);
     if (code)
         return code;
     watchdog_remove(is_new ? job->error : NULL);
@@ -153,8 +170,8 @@ int job_make_picture(const Cli *cli, Job *job, const Row *row, const char *outpu
     watchdog_remove(NULL);
     if (code)
         return code;
-    cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-             describe(job, row, text, sizeof text), cut->scaled_width, cut->scaled_height, expected,
+    cli_info(cli, "%s: %s, %d x %d%s%s, %.2f s", strcmp(output, "-") ? output : "standard output",
+             describe(job, row, text, sizeof text), cut->scaled_width, cut->scaled_height, exposed, expected,
              retex_clock_seconds() - began);
     return RETEX_OK;
 }

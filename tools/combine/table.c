@@ -47,7 +47,7 @@ static void find_lamps(TextureTable *table, const RetexSet *set)
     int taken[RETEX_PARAMETERS_MAX] = {0};
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
-        const char *name = texture_table_lamp(table, i);
+        const char *name = texture_table_name(table, i, "light");
         int lamp = -1;
         if (!name || (strcmp(name, "*") == 0 && retex_set_has_lamps(set)))
             continue;
@@ -66,7 +66,7 @@ static void find_finishes(TextureTable *table, const RetexSet *set)
     retex_set_target_names(&names, set);
     for (int i = 0; i < table->ncolumns; i++) {
         RetexError err = {0};
-        const char *name = texture_table_finish(table, i);
+        const char *name = texture_table_name(table, i, "finish");
         if (!name)
             continue;
         if (retex_target_find(&t, &names, name, &err))
@@ -78,6 +78,38 @@ static void find_finishes(TextureTable *table, const RetexSet *set)
     }
 }
 
+/* Keys of the picture: their cells are checked where they are read, but for the view, which the display must have. */
+static void find_picture_keys(TextureTable *table, const RetexWriteParams *write)
+{
+    for (int i = 0; i < table->ncolumns; i++) {
+        const char *name = texture_table_name(table, i, "picture");
+        for (int k = 0; name && k < i; k++)
+            if (strcmp(table->columns[k], table->columns[i]) == 0)
+                texture_table_mistake(table, TABLE_ITSELF, "'%s' has two columns", table->columns[i]);
+        if (name && strcmp(name, "view") == 0 && write->colorspace)
+            texture_table_mistake(table, TABLE_ITSELF, "--colorspace excludes a column %s", table->columns[i]);
+    }
+}
+
+/* Whether the pictures of the rows can be written in their views. */
+static void check_views(TextureTable *table, const RetexWriteParams *write)
+{
+    RetexEdit *edit = NULL;
+    RetexError err = {0};
+    int code = retex_edit_create(&edit, &err);
+    for (int row = 0; row < table->nrows && !code && !write->colorspace; row++) {
+        const char *output = texture_table_output(table, row);
+        RetexWriteParams params = *write;
+        retex_edit_clear(edit);
+        if (texture_table_lights(table, row, edit, NULL) || !(params.view = retex_edit_view(edit)) ||
+            retex_image_format_check(output, write, NULL))
+            continue; /* without a view, or what is wrong there is told with the row */
+        if (retex_image_format_check(output, &params, &err))
+            texture_table_mistake(table, row, "%s", err.message);
+    }
+    retex_edit_close(&edit);
+}
+
 /* The context of a batch. */
 typedef struct Table {
     const Cli *cli;
@@ -85,7 +117,7 @@ typedef struct Table {
     KeptTextures kept;
 } Table;
 
-/* The lamps of a row, and those of --light that it does not name. */
+/* The lamps of a row, and how its picture is developed; what it does not name is as the command line has it. */
 static int light_row(const Job *job, int row, RetexEdit **lights, RetexError *err)
 {
     int code = retex_edit_create(lights, err);
@@ -201,6 +233,8 @@ int job_run_table(const Cli *cli, Job *job)
     find_columns(&batch->table, job->set);
     find_lamps(&batch->table, job->set);
     find_finishes(&batch->table, job->set);
+    find_picture_keys(&batch->table, &job->write);
+    check_views(&batch->table, &job->write);
     RetexError err = {0};
     if (retex_edit_bind_lamps(job->lights, job->set, &err))
         cli_fail(cli, &err);

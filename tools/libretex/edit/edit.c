@@ -13,6 +13,7 @@
 #include "edit/finishes.h"
 #include "edit/keyed.h"
 #include "edit/lights.h"
+#include "edit/picture.h"
 #include "edit/statement.h"
 
 enum { STATEMENT_MAX = 4096 }; /* bytes of a statement, and of the options of a texture */
@@ -20,6 +21,7 @@ enum { STATEMENT_MAX = 4096 }; /* bytes of a statement, and of the options of a 
 const RetexKeyedKind *const retex_edit_keyed[RETEX_EDIT_KEYED] = {
     [RETEX_EDIT_LIGHTS] = &retex_keyed_light,
     [RETEX_EDIT_FINISHES] = &retex_keyed_finish,
+    [RETEX_EDIT_PICTURE] = &retex_keyed_picture,
 };
 
 int retex_edit_create(RetexEdit **edit, RetexError *err)
@@ -382,14 +384,11 @@ int retex_edit_bind(RetexEdit *edit, const RetexTargetNames *names, RetexError *
     return RETEX_OK;
 }
 
-/* ---- lamps and finishes ---- */
+/* ---- keyed statements ---- */
 
 int retex_edit_lights(const RetexEdit *edit)
 {
-    int count = 0;
-    for (int kind = 0; kind < RETEX_EDIT_KEYED; kind++)
-        count += edit->keyed[kind].count;
-    return count;
+    return edit->keyed[RETEX_EDIT_LIGHTS].count + edit->keyed[RETEX_EDIT_FINISHES].count;
 }
 
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err)

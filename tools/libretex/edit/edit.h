@@ -8,7 +8,7 @@
 #include "edit/keyed.h"
 
 /* Its lists of keyed statements, in the order of the canonical text. */
-enum { RETEX_EDIT_LIGHTS, RETEX_EDIT_FINISHES, RETEX_EDIT_KEYED };
+enum { RETEX_EDIT_LIGHTS, RETEX_EDIT_FINISHES, RETEX_EDIT_PICTURE, RETEX_EDIT_KEYED };
 extern const RetexKeyedKind *const retex_edit_keyed[RETEX_EDIT_KEYED];
 
 struct RetexEdit {

@@ -89,6 +89,7 @@ static int convert_alpha(RetexPicture *picture, void *codes, int bits, int chann
         for (size_t i = 0; i < pixels; i++)
             for (size_t c = 0; c < 3; c++)
                 colors[3 * i + c] = channels == 3 ? rows[4 * i + c] * rows[4 * i + 3] : rows[4 * i + c];
+        retex_view_apply(picture->view, colors, pixels, 3);
         to_srgb(color_codes, bits, colors, 3 * pixels);
         if (channels == 4)
             join_alpha(codes, bits, color_codes, rows, pixels);
@@ -97,6 +98,22 @@ static int convert_alpha(RetexPicture *picture, void *codes, int bits, int chann
     if (color_codes != codes)
         free(color_codes);
     return status;
+}
+
+/* Converts rows by a view that is more than the display's curve. */
+static int convert_view(RetexPicture *picture, void *codes, int bits, int channels, const float *rows, size_t pixels,
+                        RetexError *err)
+{
+    const size_t count = pixels * (size_t)channels;
+    float *shown = malloc(count * sizeof *shown);
+
+    if (!shown)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    memcpy(shown, rows, count * sizeof *shown);
+    retex_view_apply(picture->view, shown, pixels, (size_t)channels);
+    to_srgb(codes, bits, shown, count);
+    free(shown);
+    return 0;
 }
 
 int retex_picture_codes(RetexPicture *picture, void *codes, int bits, int channels, const float *rows, int nrows,
@@ -113,6 +130,8 @@ int retex_picture_codes(RetexPicture *picture, void *codes, int bits, int channe
     }
     if (picture->channels == 4)
         return convert_alpha(picture, codes, bits, channels, rows, pixels, err);
+    if (picture->view == RETEX_VIEW_FILMIC || picture->view == RETEX_VIEW_NEUTRAL)
+        return convert_view(picture, codes, bits, channels, rows, pixels, err);
     to_srgb(codes, bits, rows, pixels * (size_t)channels);
     return 0;
 }

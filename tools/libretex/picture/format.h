@@ -12,6 +12,7 @@
 #include <retex/picture.h>
 
 #include "picture/bridge_load.h"
+#include "picture/view.h"
 #include "io/output.h"
 
 typedef struct RetexPictureFormat {
@@ -38,6 +39,8 @@ struct RetexPicture {
     char *path;
     int width, height, channels; /* of the rows that are submitted */
     RetexWriteParams params;     /* its strings are copies */
+    RetexView view;              /* RETEX_VIEWS: the bridge converts to the colours that params name, or to an sRGB
+                                    that nothing precedes */
     const RetexPictureFormat *format;
     void *state; /* state of the format between its calls */
 

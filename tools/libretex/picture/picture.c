@@ -50,11 +50,18 @@ static int is_given(const char *text)
     return text && text[0];
 }
 
-/* 1 if the colours are those of the built-in configuration by default, which need no OpenColorIO. */
+/* The view of the built-in configuration's display by which the colours are shown; RETEX_VIEWS: none, they need
+ * OpenColorIO. */
+static RetexView own_view(const RetexWriteParams *params)
+{
+    const int is_own = !is_given(params->colorspace) && !is_given(getenv("OCIO")) &&
+                       (!is_given(params->display) || strcasecmp(params->display, "sRGB") == 0);
+    return is_own ? retex_view_find(params->view) : RETEX_VIEWS;
+}
+
 static int has_own_colors(const RetexWriteParams *params)
 {
-    return !is_given(params->colorspace) && !is_given(params->display) && !is_given(params->view) &&
-           !is_given(getenv("OCIO"));
+    return own_view(params) != RETEX_VIEWS;
 }
 
 static int check_params(const char *path, const RetexWriteParams *params, RetexError *err)
@@ -147,6 +154,7 @@ static RetexPicture *new_picture(const char *path, int width, int height, int ch
     picture->nstrips = (height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
     picture->strips = calloc((size_t)picture->nstrips, sizeof *picture->strips);
     picture->params = *params;
+    picture->view = own_view(params);
     picture->params.display = copy_text(params->display, &failed);
     picture->params.view = copy_text(params->view, &failed);
     picture->params.colorspace = copy_text(params->colorspace, &failed);

@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "retexture/combine_kernel.h"
 #include "retexture/combine_rows.h"
+#include "retexture/develop.h"
 #include "base/value_check.h"
 #include "retexture/polynomial_strips.h"
 #include "set/set.h"
@@ -80,9 +81,9 @@ static int copy_picture(RetexPolynomialRow *row, int y, float *out, RetexError *
 
 static int combine_strip(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
+    const RetexDeveloper *developer = context; /* or NULL */
     const int width = row->polynomial->set->width;
     int code = RETEX_OK;
-    (void)context;
     for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)width) {
         if (row->polynomial->picture)
             code = copy_picture(row, y, rgb, err);
@@ -94,22 +95,37 @@ static int combine_strip(const void *context, RetexPolynomialRow *row, int y0, i
             rgb[i] = rgb[i] < 0 ? 0 : rgb[i]; /* a sum of light with three normals goes on below 0 behind the horizon */
         if (!code && retex_floats_have_nonfinite(rgb, 3 * (size_t)width))
             limit_row(row, 3 * (size_t)width, rgb);
+        if (!code && developer && developer->is_needed)
+            retex_develop_kernel(developer, rgb, (size_t)width);
     }
     return code;
 }
 
-static int combine(const RetexPolynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
-                   RetexError *err)
+/* The developer of a picture: its automatic exposure needs a first pass. */
+static int open_developer(RetexDeveloper *developer, const RetexSet *set, const RetexSamples *samples,
+                          RetexTexture *const *textures, const RetexCombineParams *params, int nthreads,
+                          RetexError *err)
 {
-    return retex_polynomial_strips(polynomial, y0, y1, combine_strip, NULL, sink, context, nthreads, err);
+    RetexDevelop own = RETEX_DEVELOP_INIT;
+    double stops = 0;
+    int code = RETEX_PARAMS_COPY(&own, params->develop, err);
+    if (!code)
+        code = retex_developer_open(developer, &own, 0, err);
+    if (code || !own.auto_exposure)
+        return code;
+    code = retex_auto_exposure(&stops, set, samples, textures, params, nthreads, err);
+    return code ? code : retex_developer_open(developer, &own, stops, err);
 }
 
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
     RetexCombineParams own = RETEX_COMBINE_INIT;
+    RetexDeveloper developer;
     RetexPolynomial polynomial;
     int code = RETEX_PARAMS_COPY(&own, params, err);
+    if (!code)
+        code = open_developer(&developer, set, samples, textures, &own, nthreads, err);
     if (!code)
         code = retex_polynomial_open(&polynomial, set, samples, textures, &own, 0, nthreads, err);
     if (code)
@@ -119,7 +135,8 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
         rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
     if (own.x1 > own.x0)
         polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){own.x0, own.x1});
-    code = combine(&polynomial, rows.begin, rows.end, sink, context, nthreads, err);
+    code = retex_polynomial_strips(&polynomial, rows.begin, rows.end, combine_strip, &developer, sink, context, nthreads,
+                                   err);
     retex_polynomial_close(&polynomial);
     return code;
 }
@@ -181,16 +198,21 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
                   const RetexRoi *roi, int nthreads, RetexError *err)
 {
     Region region = {.dst = dst};
+    RetexTexture *const none[RETEX_MAX_TARGETS] = {NULL};
     RetexCombineParams own = RETEX_COMBINE_INIT;
+    RetexDeveloper developer;
     RetexPolynomial polynomial;
     int code = RETEX_PARAMS_COPY(&own, params, err);
+    if (!code)
+        code = open_developer(&developer, set, samples, none, &own, nthreads, err);
     if (!code)
         code = retex_polynomial_open(&polynomial, set, samples, NULL, &own, 0, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);
     if (!code)
-        code = combine(&polynomial, region.roi.y0, region.roi.y1, copy_rows, &region, nthreads, err);
+        code = retex_polynomial_strips(&polynomial, region.roi.y0, region.roi.y1, combine_strip, &developer, copy_rows,
+                                       &region, nthreads, err);
     retex_polynomial_close(&polynomial);
     return code;
 }

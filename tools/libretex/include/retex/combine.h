@@ -2,6 +2,7 @@
 #ifndef RETEX_COMBINE_H
 #define RETEX_COMBINE_H
 
+#include <retex/develop.h>
 #include <retex/picture.h>
 #include <retex/samples.h>
 
@@ -19,10 +20,12 @@ typedef struct RetexCombineParams {
     const float *parameters; /* the value of each parameter of the set, three numbers each, scene-linear, not negative;
                                 those of kind CORRECTION are not read. Default NULL: as rendered */
     int terms_only; /* 1: the sum of terms, though part 0 may be the result, see RETEX_ROLE_PICTURE; default 0 */
+    const RetexDevelop *develop; /* borrowed: how the picture is developed; retex_estimate_error does not read it.
+                                    Default NULL: not at all */
 } RetexCombineParams;
 #define RETEX_COMBINE_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0                                                             \
+        sizeof(RetexCombineParams), 3, 0, 0, 0, 0, NULL, 0, NULL                                                       \
     }
 
 /* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
@@ -59,6 +62,15 @@ int retex_image_keep_rows(void *image, int y0, int y1, const float *rows, RetexE
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
+
+/* The exposure, in stops, that brings the log-average luminance of the whole picture that retex_retexture makes, before it
+ * is developed, to 0.18, the reflectance of a grey card: the geometric mean over its pixels that are not black, as in
+ * Reinhard, Stark, Shirley and Ferwerda, 'Photographic Tone Reproduction for Digital Images' (2002), Eq. 1. 0 where all
+ * are black; within RETEX_EXPOSURE_MAX. It takes as long as making the picture. */
+int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples /* or NULL */,
+                        RetexTexture *const textures[RETEX_MAX_TARGETS],
+                        const RetexCombineParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
+                        RetexError *err);
 
 /* The expected error of what retex_retexture makes of the same arguments, as rows of a picture: the standard deviation,
  * per channel and scene-linear, of the difference to rendering again with these textures at the set's sample count. It

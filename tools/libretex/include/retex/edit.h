@@ -10,15 +10,18 @@
  *     over:TARGET=IMAGE      a layer on it, with options of its own; over2: to over4: lie on that
  *     light:LAMP=VALUE       a lamp's new value, see retex/lamp.h; LAMP `*` is all lamps that the edit does not name
  *     finish:TARGET=NAME     one of the finishes that the set has for a target
+ *     picture:exposure=EV    how the picture is developed, see retex/develop.h: `exposure`, `white-balance`,
+ *                            `auto-exposure`, which is yes or no; and its `view`, see retex/image_file.h
  *
  * as in `Floor=oak.jpg;Floor.scale=2,1;Wall=tomato`. What follows the last point of a key is an option if it is the
  * word of one; else the point belongs to the name of the target. Calls that add to an edit leave it as it was where
  * they fail, with RETEX_EPARSE and a message that says what would be right, or RETEX_EINVAL for a second texture on one
  * target. An edit holds at most RETEX_MAX_TARGETS textures, sorted by target, then the values of lamps, sorted by lamp,
- * and finishes, sorted by target. */
+ * finishes, sorted by target, and statements about the picture, sorted by key. */
 #ifndef RETEX_EDIT_H
 #define RETEX_EDIT_H
 
+#include <retex/develop.h>
 #include <retex/lamp.h>
 #include <retex/target_name.h>
 #include <retex/texture.h>
@@ -58,9 +61,11 @@ int retex_edit_light(RetexEdit *edit, const char *arg, RetexError *err);
 int retex_edit_solo(RetexEdit *edit, const char *lamp, RetexError *err);
 /* Add the finish of an option of a command line, --finish TARGET=NAME. */
 int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err);
-/* Add the lamps, and finishes of targets, of another edit that this one does not name. */
+/* Add the lamps, the finishes of targets, and what is said of the picture, of another edit that this one does not
+ * name. */
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err);
-/* What a key with a prefix names: the lamp of light:LAMP, the target of finish:TARGET. NULL: it is another key. */
+/* What a key with a prefix names: the lamp of light:LAMP, the target of finish:TARGET, the key of picture:KEY. NULL: it is
+ * another key. */
 const char *retex_edit_key_name(const char *key);
 /* Whether a key is TARGET.OPTION. */
 int retex_edit_key_is_option(const char *key);
@@ -88,6 +93,11 @@ RetexTextureSpec *retex_edit_texture(RetexEdit *edit, int index);
 
 /* How many lamps it names, `*` among them, and finishes. */
 int retex_edit_lights(const RetexEdit *edit);
+/* How the picture is developed: what the edit says takes the place of what *develop, begun with RETEX_DEVELOP_INIT,
+ * says. */
+int retex_edit_develop(const RetexEdit *edit, RetexDevelop *develop, RetexError *err);
+/* The view of the picture, for RetexWriteParams; borrowed until the edit changes. NULL: it names none. */
+const char *retex_edit_view(const RetexEdit *edit);
 
 /* ---- the targets and lamps that there are ---- */
 

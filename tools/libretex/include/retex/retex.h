@@ -11,6 +11,7 @@
 #include <retex/combine.h>
 #include <retex/denoise.h>
 #include <retex/denoise_picture.h>
+#include <retex/develop.h>
 #include <retex/diff.h>
 #include <retex/edit.h>
 #include <retex/error.h>
