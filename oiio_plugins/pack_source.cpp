@@ -22,6 +22,11 @@ namespace
 // Number of sets kept in memory, and of their pictures, which are small.
 const size_t sets_kept = 3, pictures_kept = 8;
 
+bool is_developed(const RetexDevelop &develop)
+{
+    return develop.exposure != 0 || develop.white_balance != 0 || develop.auto_exposure;
+}
+
 // ---- the set ----
 
 // The set of a pack. The picture reads rows of the open file when it needs them; the first request for another part
@@ -58,9 +63,10 @@ class PackSet
         });
         return *whole_;
     }
-    // The picture with these textures and parameters; without any, the picture as rendered, as far as the set has it.
-    RetexImage picture(std::vector<RetexTextureSpec> specs, const std::vector<float> &parameters, const Budget &budget,
-                       int threads)
+    // The picture with these textures and parameters, developed; without any, the picture as rendered, as far as the set
+    // has it.
+    RetexImage picture(std::vector<RetexTextureSpec> specs, const std::vector<float> &parameters,
+                       const RetexDevelop &develop, const Budget &budget, int threads)
     {
         for (RetexTextureSpec &spec : specs)
             spec.budget = budget.begin();
@@ -68,7 +74,7 @@ class PackSet
         RetexImage picture{};
         RetexTexture *textures[RETEX_MAX_TARGETS];
         const RetexSetInfo info = retex_set_info(set_);
-        if (!info.nterms && specs.empty() && parameters.empty()) {
+        if (!info.nterms && specs.empty() && parameters.empty() && !is_developed(develop)) {
             must(retex_image_copy(&picture, &retex_set_part(&whole(threads), 0)->image, &err), err);
             return picture;
         }
@@ -77,6 +83,7 @@ class PackSet
             code = retex_image_alloc(&picture, info.width, info.height, 3, &err);
         RetexCombineParams params = RETEX_COMBINE_INIT;
         params.parameters = parameters.empty() ? nullptr : parameters.data();
+        params.develop = &develop;
         if (!code)
             code = retex_retexture(set_, nullptr, textures, &params, keep_rows, &picture, threads, &err);
         retex_textures_close(textures);
@@ -203,6 +210,14 @@ std::vector<float> find_parameters(RetexEdit *edit, const RetexSet &set)
     return values;
 }
 
+RetexDevelop find_develop(const RetexEdit *edit)
+{
+    RetexError err{};
+    RetexDevelop develop = RETEX_DEVELOP_INIT;
+    must(retex_edit_develop(edit, &develop, &err), err);
+    return develop;
+}
+
 // The edit as the rest of a name.
 std::string text_of(const RetexEdit *edit)
 {
@@ -245,6 +260,7 @@ class PackSource final : public Source
         budget_.check_size(info.width, info.height);
         textures_ = find_textures(edit_.get(), set_->description(), own_);
         parameters_ = find_parameters(edit_.get(), set_->description());
+        develop_ = find_develop(edit_.get());
         for (const RetexTextureSpec &texture : textures_)
             for (const std::string &file : files_of(texture))
                 stamp_ += " " + file_stamp(file);
@@ -277,7 +293,7 @@ class PackSource final : public Source
   private:
     bool is_edited() const
     {
-        return !textures_.empty() || !parameters_.empty();
+        return !textures_.empty() || !parameters_.empty() || is_developed(develop_);
     }
     const Picture &picture()
     {
@@ -290,7 +306,7 @@ class PackSource final : public Source
     std::shared_ptr<Picture> make_picture() const
     {
         auto picture = std::make_shared<Picture>();
-        picture->image = set_->picture(textures_, parameters_, budget_, threads_);
+        picture->image = set_->picture(textures_, parameters_, develop_, budget_, threads_);
         if (!is_edited())
             make_manifest(*picture, set_->whole(threads_));
         return picture;
@@ -304,6 +320,7 @@ class PackSource final : public Source
     const std::shared_ptr<PackSet> set_;
     std::vector<RetexTextureSpec> textures_;
     std::vector<float> parameters_;
+    RetexDevelop develop_ = RETEX_DEVELOP_INIT;
     std::mutex mutex_;
     std::shared_ptr<Picture> picture_;
 };

@@ -14,6 +14,8 @@ static const CliOption options[] = {
     {"solo", 0, "NAME", "turn off all lamps but NAME, and those of --light", 0},
     {"size", 0, "WxH", "a smaller picture: of WxH pixels, or Wx or xH to keep the aspect", 0},
     {"crop", 0, "X,Y,W,H", "only this rectangle of the picture", 0},
+    {"preset", 0, "FILE", "what --save-preset wrote: textures, lamps, finishes, exposure, view; options go first", 0},
+    {"save-preset", 0, "FILE", "write these options to a file, for --preset", 0},
     {"exposure", 0, "STOPS", "make the picture brighter, by 2^STOPS; -30 to 30", 0},
     {"auto-exposure", 0, NULL, "bring the picture's mean brightness to a middle grey, before --exposure", 0},
     {"white-balance", 0, "KELVINS", "make light of so many kelvins white, 1000 to 25000", 0},
@@ -73,6 +75,10 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "view") == 0 || strcmp(option->name, "exposure") == 0 ||
                    strcmp(option->name, "white-balance") == 0 || strcmp(option->name, "auto-exposure") == 0) {
             take_picture_key(cli, option, job->lights);
+        } else if (strcmp(option->name, "preset") == 0) {
+            job->preset = cli->value;
+        } else if (strcmp(option->name, "save-preset") == 0) {
+            job->save_preset = cli->value;
         } else if (strcmp(option->name, "display") == 0) {
             job->write.display = cli->value;
         } else if (strcmp(option->name, "colorspace") == 0) {
@@ -111,6 +117,12 @@ static void parse(Cli *cli, Job *job)
     }
     check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
     retex_edit_close(&solo);
+    cli_reads(cli, "the preset", job->preset);
+    cli_writes(cli, "--save-preset", job->save_preset);
+    if (job->save_preset)
+        check(cli, retex_file_write_check(job->save_preset, &err), &err);
+    if (job->preset)
+        texture_args_add_preset(cli, &job->textures, job->lights, job->preset);
     check(cli, job_develop(job, job->lights, &err), &err);
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
@@ -132,10 +144,10 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--error needs the textures: name them with --texture");
     if (!job->solve && (job->unknowns || job->region[2]))
         cli_die(cli, "--free and --region belong to --solve");
-    if (job->solve && (job->table || job->frames.step || job->error))
-        cli_die(cli, "--solve excludes --batch, --frames and --error");
     if (job->solve && (job->crop[2] || job->scaled[0] || job->scaled[1]))
         cli_die(cli, "--solve excludes --size and --crop; --region says which part counts");
+    if (job->solve && (job->table || job->frames.step || job->error || job->save_preset))
+        cli_die(cli, "--solve excludes --batch, --frames, --error and --save-preset");
     if (job->solve && (job->develop.exposure != 0 || job->develop.white_balance != 0 || job->develop.auto_exposure))
         cli_die(cli, "--solve excludes --exposure, --auto-exposure and --white-balance");
     if (job->solve && cli->output && strcmp(cli->output, "-") == 0)
@@ -160,6 +172,13 @@ static int make_single(const Cli *cli, Job *job, double began)
     job_report(cli, job->output, began, 1, 1);
     kept_textures_close(&kept);
     return CLI_OK;
+}
+
+static void save_preset(const Cli *cli, const Job *job)
+{
+    RetexError err = {0};
+    if (job->save_preset && texture_args_save_preset(&job->textures, job->lights, job->save_preset, &err))
+        cli_fail(cli, &err);
 }
 
 /* Keep freed memory in the process. Hundreds of strips are allocated and freed; the system would clear their memory
@@ -192,7 +211,10 @@ int main(int argc, char **argv)
     warn_display(&cli, &job);
     if (job.frames.step) {
         job_check_frames(&cli, &job);
-        return cli_close(&cli, job_run_frames(&cli, &job));
+        const int failed = job_run_frames(&cli, &job);
+        if (!failed)
+            save_preset(&cli, &job);
+        return cli_close(&cli, failed);
     }
     job_announce(&cli, &job);
     if (job.output)
@@ -203,6 +225,8 @@ int main(int argc, char **argv)
                  : job.solve ? job_solve(&cli, &job, began)
                              : make_single(&cli, &job, began);
     job_close(&job);
+    if (status == CLI_OK)
+        save_preset(&cli, &job);
     retex_edit_close(&job.lights);
     return cli_close(&cli, status);
 }

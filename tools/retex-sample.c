@@ -4,17 +4,32 @@
 
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
+    {"preset", 0, "FILE", "the textures of a preset, as of retex-combine; options go first", 0},
     FRAMES_OPTION,
     {"keep-going", 0, NULL, "continue after a frame that fails", 0},
     {0},
 };
 
 typedef struct Job {
-    const char *set, *output;
+    const char *set, *preset, *output;
     TextureArgs textures;
     FrameRange frames;
     int keep_going;
 } Job;
+
+/* Of a preset the textures count: lamps and what is said of the picture are for retex-combine. */
+static void add_preset(const Cli *cli, Job *job)
+{
+    RetexEdit *others = NULL;
+    RetexError err = {0};
+    if (!job->preset)
+        return;
+    if (retex_edit_create(&others, &err))
+        cli_fail(cli, &err);
+    cli_reads(cli, "the preset", job->preset);
+    texture_args_add_preset(cli, &job->textures, others, job->preset);
+    retex_edit_close(&others);
+}
 
 static void parse(Cli *cli, Job *job)
 {
@@ -23,6 +38,8 @@ static void parse(Cli *cli, Job *job)
             frames_take(cli, option, &job->frames);
         else if (option != &cli_positional && strcmp(option->name, "keep-going") == 0)
             job->keep_going = 1;
+        else if (option != &cli_positional && strcmp(option->name, "preset") == 0)
+            job->preset = cli->value;
         else if (option != &cli_positional)
             texture_args_add(cli, &job->textures);
         else if (job->set)
@@ -32,6 +49,7 @@ static void parse(Cli *cli, Job *job)
     }
     if (!job->set)
         cli_die(cli, "no set given; - is standard input");
+    add_preset(cli, job);
     if (!job->textures.count)
         cli_die(cli, "no texture given; expected --texture NAME=IMAGE");
     if (job->keep_going && !job->frames.step)

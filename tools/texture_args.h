@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <retex/retex.h>
 
@@ -56,6 +57,49 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
     if (texture_args_parse(cli, args->specs, &args->count, &err))
         cli_fail(cli, &err);
+}
+
+/* Add the textures of a preset for targets that have none, and what else it says to `edit`, if that does not. */
+static inline void texture_args_add_preset(const Cli *cli, TextureArgs *args, RetexEdit *edit, const char *path)
+{
+    RetexEdit *preset = NULL;
+    RetexError err = {0};
+    int code = retex_edit_create(&preset, &err);
+    if (!code)
+        code = retex_preset_read(preset, path, &err);
+    if (!code)
+        code = retex_edit_complete_lights(edit, preset, &err);
+    for (int i = 0; !code && i < retex_edit_count(preset); i++) {
+        const RetexTextureSpec *spec = retex_edit_texture(preset, i);
+        int at = 0;
+        while (at < args->count && strcasecmp(args->specs[at].target, spec->target) != 0)
+            at++;
+        if (at < args->count)
+            continue;
+        if (args->count == RETEX_MAX_TARGETS)
+            cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
+        args->specs[args->count++] = *spec;
+        texture_args_read_by(cli, &args->specs[at]);
+    }
+    retex_edit_close(&preset);
+    if (code)
+        cli_fail(cli, &err);
+}
+
+/* Write textures, and what `lights` has, as a preset. */
+static inline int texture_args_save_preset(const TextureArgs *args, const RetexEdit *lights, const char *path,
+                                           RetexError *err)
+{
+    RetexEdit *edit = NULL;
+    int code = retex_edit_create(&edit, err);
+    for (int i = 0; i < args->count && !code; i++)
+        code = retex_edit_add(edit, &args->specs[i], err);
+    if (!code)
+        code = retex_edit_complete_lights(edit, lights, err);
+    if (!code)
+        code = retex_preset_write(edit, path, err);
+    retex_edit_close(&edit);
+    return code;
 }
 
 /* Announce the files of a texture: of a folder, those that are used. For a name with options,

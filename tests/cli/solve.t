@@ -75,7 +75,7 @@ $ oiiotool known.exr --resize 48x36 -o wrong.exr; head -c 300 known.png >cut.png
 > =
 > retex-combine: error: the table of --batch names the outputs: no -o
 > =
-> retex-combine: error: --solve excludes --batch, --frames and --error
+> retex-combine: error: --solve excludes --batch, --frames, --error and --save-preset
 > =
 > retex-combine: error: --error needs the textures: name them with --texture
 > =

@@ -12,6 +12,7 @@
 typedef struct Job {
     const char *set_path, *samples_path, *table, *error;
     const char *output;
+    const char *preset, *save_preset;
     const char *solve, *unknowns; /* --solve, --free */
     int region[4];                /* x, y, width, height; all 0: the picture */
     int crop[4], scaled[2];       /* --crop, as region, and --size: width, height, 0 where it follows from the other */

@@ -20,6 +20,7 @@ static int open_picture(RetexPicture **picture, const PicturePlan *plan, int wid
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
     params.quality = plan->quality;
+    params.view = plan->view;
     return retex_picture_open_memory(picture, serve_format_extension(plan->format), width, height, 3, &params, err);
 }
 
@@ -59,6 +60,7 @@ static int make_whole(const PicturePlan *plan, int nthreads, void **data, size_t
     Whole whole = {plan, NULL};
     RetexCombineParams params = RETEX_COMBINE_INIT;
     params.parameters = plan->parameters;
+    params.develop = &plan->develop;
     int code = open_picture(&whole.picture, plan, info.width, info.height, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, &params, write_rows, &whole, nthreads, err);
@@ -90,6 +92,7 @@ static int make_scaled(RetexImage *scaled, const PicturePlan *plan, int nthreads
     params.x0 = place->x;
     params.x1 = place->x + place->width;
     params.parameters = plan->parameters;
+    params.develop = &plan->develop;
     int code = retex_shrink_open(&part.shrink, place, retex_set_info(plan->set).width, err);
     if (!code)
         code = retex_retexture(plan->set, NULL, plan->textures, &params, keep_rows, &part, nthreads, err);
@@ -182,7 +185,7 @@ static int has_signature(ServeFormat format, const char *data, size_t bytes)
 static int can_write(ServeFormat format)
 {
     static const float pixels[3 * 8 * 8];
-    const PicturePlan plan = {.format = format, .quality = 80};
+    const PicturePlan plan = {.format = format, .quality = 80, .view = ""};
     RetexPicture *picture = NULL;
     void *data = NULL;
     size_t bytes = 0;

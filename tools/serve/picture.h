@@ -11,6 +11,8 @@ typedef struct PicturePlan {
     const RetexSet *set;
     RetexTexture *const *textures; /* by target */
     const float *parameters;       /* of the set, as of RetexCombineParams */
+    RetexDevelop develop;
+    char view[RETEX_NAME_MAX]; /* of the display; "": its default */
     RetexCut place;
     int quarter_turns, mirror, gray;
     ServeFormat format;

@@ -135,13 +135,24 @@ static int add_edits(ServeRequest *request, RetexEdit *edit, const char *text)
     return retex_edit_parse(edit, text, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
 }
 
-/* TARGET.OPTION=VALUE, light:LAMP=VALUE or finish:TARGET=NAME of a query. */
+/* TARGET.OPTION=VALUE, or a key with a prefix, of a query. */
 static int add_option(ServeRequest *request, RetexEdit *edit, const char *key, const char *value)
 {
     RetexError err = {0};
     if (strchr(value, ';'))
         return serve_refuse(request, 400, "%s: expected & before what follows, not a semicolon", key);
     return retex_edit_set(edit, key, value, &err) ? serve_refuse(request, 400, "%s", err.message) : 0;
+}
+
+/* The key of an edit, picture:NAME, of a name that queries have without the prefix; or NULL. */
+static const char *picture_key(const char *name)
+{
+    static const char *const keys[] = {"picture:exposure", "picture:white-balance", "picture:auto-exposure",
+                                       "picture:view"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcmp(name, retex_edit_key_name(keys[i])) == 0)
+            return keys[i];
+    return NULL;
 }
 
 /* ---- pictures ---- */
@@ -176,12 +187,16 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
+        } else if (picture_key(query)) {
+            if (add_option(request, edit, picture_key(query), value))
+                return request->status;
         } else if (retex_edit_key_is_option(query) || retex_edit_key_name(query)) {
             if (add_option(request, edit, query, value))
                 return request->status;
         } else {
             return serve_refuse(request, 400,
-                                "`%s`: expected crop, quality, TARGET.OPTION, light:LAMP or finish:TARGET, each once",
+                                "`%s`: expected crop, quality, exposure, white-balance, auto-exposure, view, "
+                                "TARGET.OPTION, light:LAMP or finish:TARGET, each once",
                                 query);
         }
     }

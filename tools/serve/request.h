@@ -8,9 +8,9 @@
  *     /iiif/3/ID/REGION/SIZE/ROTATION/QUALITY.FORMAT
  *
  * EDITS are the text of an edit, see retex/edit.h, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have
- * further options of these targets, lamps `light:LAMP=VALUE`, finishes `finish:TARGET=NAME`, and crop=X,Y,WIDTH,HEIGHT,
- * quality=1..100. SIZE is
- * WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
+ * further options of these targets, lamps `light:LAMP=VALUE`, finishes `finish:TARGET=NAME`, exposure=STOPS,
+ * white-balance=KELVINS, auto-exposure=yes and view=NAME, which mean picture:exposure and so on, and
+ * crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
  *
  * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be
  * UTF-8 without control characters, slashes and backslashes. */

@@ -252,17 +252,23 @@ static void find_corrected(const ServeRequest *request, const RetexSet *set, int
     }
 }
 
-/* The values of the set's parameters as a request says; they stay NULL where it says nothing. */
-static int light_lamps(const ServeRequest *request, const RetexSet *set, float values[], const float **parameters,
-                       RetexError *err)
+/* What a request says beside textures: how the picture is developed, and the values of the set's parameters, which stay
+ * NULL where it says nothing. */
+static int plan_light(PicturePlan *plan, const ServeRequest *request, const RetexSet *set, float values[],
+                      RetexError *err)
 {
     RetexEdit *edit = NULL;
     int code = retex_edit_create(&edit, err);
+    plan->develop = (RetexDevelop)RETEX_DEVELOP_INIT;
     if (!code)
         code = retex_edit_parse(edit, request->edits, err);
+    if (!code)
+        code = retex_edit_develop(edit, &plan->develop, err);
+    if (!code && retex_edit_view(edit))
+        strcpy(plan->view, retex_edit_view(edit));
     if (!code && retex_edit_lights(edit)) {
         code = retex_edit_parameters(edit, set, values, err);
-        *parameters = values;
+        plan->parameters = values;
     }
     retex_edit_close(&edit);
     return code;
@@ -282,7 +288,7 @@ static int make_file(const Site *site, const ServeRequest *request, PicturePlan 
     if (!code)
         code = place_textures(site, request, room->set, textures, err);
     if (!code)
-        code = light_lamps(request, room->set, values, &plan->parameters, err);
+        code = plan_light(plan, request, room->set, values, err);
     if (!code)
         code = picture_make(plan, nthreads, data, bytes, err);
     retex_textures_close(textures->textures);

@@ -9,6 +9,7 @@
 
 #include <retex/nearest.h>
 
+#include "base/params.h"
 #include "edit/edit.h"
 #include "edit/finishes.h"
 #include "edit/keyed.h"
@@ -322,6 +323,27 @@ int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexE
     opts = opts ? opts : "";
     const int is_layer = retex_statement_layer(key, &target) || has_over(opts); /* the next one */
     return add_texture(edit, target, is_layer ? -1 : 0, opts, equals + 1, err);
+}
+
+int retex_edit_add(RetexEdit *edit, const RetexTextureSpec *given, RetexError *err)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexEdit next = *edit;
+    int at, code = RETEX_PARAMS_COPY(&spec, given, err);
+    if (!code)
+        code = find_texture(&next, spec.target, &at, err);
+    if (!code && (next.said[at] || next.specs[at].nlayers))
+        code = retex_fail(err, RETEX_EINVAL, "target %s is given two textures", spec.target);
+    if (!code)
+        code = retex_statement_check(&spec, err);
+    if (code)
+        return code;
+    next.specs[at] = spec;
+    next.said[at] = spec.constant || spec.image[0];
+    for (int k = 0; k < spec.nlayers; k++)
+        next.said_of_layers[at][k] = 1;
+    *edit = next;
+    return RETEX_OK;
 }
 
 /* A part of a cell: `IMAGE`, or `:opts IMAGE`. */

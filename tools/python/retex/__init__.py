@@ -20,8 +20,9 @@ Error."""
 from .library import Code, Error, RetexWarning
 from .pictures import Picture, denoise_picture, encode, read, write
 from .sets import Samples, Set, Target, open  # pylint: disable=redefined-builtin
-from .texture import Source, Texture, edit_text, parse_edit
+from .texture import Source, Texture, edit_text, edit_view, load_preset, parse_edit, save_preset
 
 __version__ = "0.1.0"
 __all__ = ["Code", "Error", "Picture", "RetexWarning", "Samples", "Set", "Source", "Target", "Texture",
-           "denoise_picture", "edit_text", "encode", "open", "parse_edit", "read", "write"]
+           "denoise_picture", "edit_text", "edit_view", "encode", "load_preset", "open", "parse_edit", "read",
+           "save_preset", "write"]

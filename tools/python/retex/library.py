@@ -102,9 +102,13 @@ class RetexWriteParams(ctypes.Structure):
                 ("quality", c_int), ("is_data", c_int), ("depth", c_int)]
 
 
+class RetexDevelop(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("exposure", c_double), ("white_balance", c_double), ("auto_exposure", c_int)]
+
+
 class RetexCombineParams(ctypes.Structure):
     _fields_ = ([("size", c_size_t)] + [(name, c_int) for name in ("cross", "y0", "y1", "x0", "x1")] +
-                [("parameters", POINTER(c_float)), ("terms_only", c_int)])
+                [("parameters", POINTER(c_float)), ("terms_only", c_int), ("develop", POINTER(RetexDevelop))])
 
 
 class RetexCut(ctypes.Structure):
@@ -130,8 +134,8 @@ class RetexPackParams(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int), ("warn", WARN), ("warn_context", c_void_p)]
 
 
-STRUCTURES = (RetexError, RetexImage, RetexRoi, RetexTextureSpec, RetexReadParams, RetexWriteParams, RetexCombineParams,
-              RetexDenoiseParams, RetexDenoisePictureParams, RetexPackParams)
+STRUCTURES = (RetexError, RetexImage, RetexRoi, RetexTextureSpec, RetexReadParams, RetexWriteParams, RetexDevelop,
+              RetexCombineParams, RetexDenoiseParams, RetexDenoisePictureParams, RetexPackParams)
 
 
 def _places() -> List[str]:
@@ -177,6 +181,9 @@ CALLS: Dict[str, List[Any]] = {
     "retex_edit_set": [c_void_p, c_char_p, c_char_p],
     "retex_edit_solo": [c_void_p, c_char_p],
     "retex_edit_parameters": [c_void_p, c_void_p, POINTER(c_float)],
+    "retex_edit_develop": [c_void_p, POINTER(RetexDevelop)],
+    "retex_preset_read": [c_void_p, c_char_p],
+    "retex_preset_write": [c_void_p, c_char_p],
     "retex_edit_option": [c_void_p, c_char_p, c_char_p],
     "retex_edit_text": [c_void_p, c_int, _handle],
     "retex_edit_options_text": [POINTER(RetexTextureSpec), _handle],
@@ -208,6 +215,7 @@ PLAIN: Dict[str, Tuple[List[Any], Any]] = {
     "retex_edit_close": ([_handle], None),
     "retex_edit_count": ([c_void_p], c_int),
     "retex_edit_lights": ([c_void_p], c_int),
+    "retex_edit_view": ([c_void_p], c_char_p),
     "retex_edit_texture": ([c_void_p, c_int], POINTER(RetexTextureSpec)),
     "retex_texture_layer_get": ([POINTER(RetexTextureSpec), POINTER(RetexTextureSpec), c_int], None),
     "retex_edit_image_text": ([POINTER(RetexTextureSpec), c_char_p, c_size_t], None),

@@ -15,8 +15,7 @@ import numpy as np
 
 from .library import MAX_TARGETS, Code, Error, RetexCombineParams, RetexCut, RetexDenoiseParams, RetexImage
 from .library import RetexPackParams, RetexTextureSpec, call, free, keep_rows, lib, pass_warnings, path_bytes
-from .library import shrink_rows, text_bytes, threads_of
-from .library import warn
+from .library import shrink_rows, text_bytes, threads_of, warn
 from .pictures import Path, Picture, array_of, image_of
 from .texture import Light, Texture, Textures, parameters_of, parse_edit
 
@@ -325,20 +324,19 @@ class Set:
 
     def _make(self, what: str, textures: Optional[Textures], samples: Optional[Samples], crop: Optional[Crop],
               cross: int, out: Optional[Picture], threads: int, cache: Optional[_TextureCache] = None,
-              parameters: Optional[Mapping[str, Sequence[float]]] = None,
-              lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
-              finishes: Optional[Mapping[str, str]] = None, size: Optional[Size] = None) -> Picture:
+              parameters: Optional[Mapping[str, Sequence[float]]] = None, size: Optional[Size] = None,
+              **said: Any) -> Picture:
         threads_of(threads)
         if size and out is not None:
             raise ValueError("out and size exclude each other")
         with self._shared() as pointer:
-            values = parameters_of(pointer, len(self.manifest["parameters"]), textures, lights, solo, finishes)
+            values, develop = parameters_of(pointer, len(self.manifest["parameters"]), textures, **said)
             if values is not None and parameters:
                 raise ValueError("parameters and lights or finishes exclude each other")
             cut = self._cut(crop, size)
             params = RetexCombineParams(sizeof(RetexCombineParams), cross, cut.y, cut.y + cut.height, cut.x,
                                         cut.x + cut.width, values if values is not None
-                                        else self._parameters(parameters), 0)
+                                        else self._parameters(parameters), 0, ctypes.pointer(develop))
             by_target, _kept, _specs = self._textures(pointer, textures, threads, cache)
             arguments = pointer, samples._handle.pointer if samples else None, by_target, byref(params)
             if size:
@@ -367,7 +365,8 @@ class Set:
 
     def combine(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
                 lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
-                finishes: Optional[Mapping[str, str]] = None,
+                finishes: Optional[Mapping[str, str]] = None, exposure: Optional[float] = None,
+                white_balance: Optional[float] = None, auto_exposure: bool = False,
                 parameters: Optional[Mapping[str, Sequence[float]]] = None, crop: Optional[Crop] = None,
                 size: Optional[Size] = None, cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """Make a picture: red, green and blue, scene-linear. Targets without a texture keep their own.
@@ -378,6 +377,9 @@ class Set:
                   as in retex-edit(5): "3000K", "1.5*#ffd0a0"; "*" is all lamps that are not named
         solo      turn off all lamps but this one and those of `lights`
         finishes  names of finishes that the set has, by target
+        exposure  stops: the picture is 2**exposure times as bright
+        white_balance  kelvins: what light of this colour does to white becomes white
+        auto_exposure  True: first bring the picture's log-average brightness to 0.18
         parameters  by name, such as that of a lamp: three numbers each; others stay as rendered
         crop      x, y, width, height: make only this part, and return it
         size      width, height of the picture, or of its crop: smaller, every pixel the mean of what it covers. None for
@@ -386,14 +388,15 @@ class Set:
         out       put the picture there instead of into a new array
         threads   0: all cores. The picture is the same to the bit for every number."""
         return self._make("retex_retexture", textures, samples, crop, cross, out, threads, parameters=parameters,
-                          lights=lights, solo=solo, finishes=finishes, size=size)
+                          lights=lights, solo=solo, finishes=finishes, exposure=exposure,
+                          white_balance=white_balance, auto_exposure=auto_exposure, size=size)
 
     def error(self, textures: Optional[Textures] = None, *, samples: Optional[Samples] = None,
               lights: Optional[Mapping[str, Light]] = None, solo: Optional[str] = None,
               finishes: Optional[Mapping[str, str]] = None, crop: Optional[Crop] = None, size: Optional[Size] = None,
               cross: int = 3, out: Optional[Picture] = None, threads: int = 0) -> Picture:
         """The expected error of what combine() makes of the same arguments: the standard deviation, per channel, of the
-        difference to rendering again with these textures. With `size` it is the mean of that of the pixels."""
+        difference to rendering again with these textures, before it is developed. With `size` it is the mean of that of the pixels."""
         return self._make("retex_estimate_error", textures, samples, crop, cross, out, threads, lights=lights,
                           solo=solo, finishes=finishes, size=size)
 

@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, Mapping, Optional, Sequence, Tuple, Unio
 import numpy as np
 import numpy.typing as npt
 
-from .library import Error, Code, RetexTextureSpec, call, free, lib, path_bytes, text_bytes, threads_of, warn
+from .library import Error, Code, RetexDevelop, RetexTextureSpec, call, free, lib, path_bytes, text_bytes, threads_of, warn
 from .pictures import image_of
 
 #: A file's name or a colour as text; a colour, scene-linear red, green and blue; or an array of rows, texels and 1, 3 or
@@ -211,7 +211,8 @@ Textures = Union[Mapping[str, Union[Source, Texture]], str]
 
 def parse_edit(text: str) -> Dict[str, Texture]:
     """The textures of an edit, by target: of a text as in retex-edit(5), "Floor=oak.jpg;Floor.scale=2,1;Wall=tomato".
-    Layers have keys such as "over:Floor", as they have where textures are given. Its lamps and finishes are left out."""
+    Layers have keys such as "over:Floor", as they have where textures are given. Its lamps, finishes and what it says of
+    the picture are left out."""
     with _edit() as edit:
         call("retex_edit_parse", edit, path_bytes(text))
         specs = [lib.retex_edit_texture(edit, index)[0] for index in range(lib.retex_edit_count(edit))]
@@ -242,36 +243,77 @@ def _light_text(value: Light) -> str:
     return f"rgb({red!r},{green!r},{blue!r})"
 
 
-def parameters_of(pointer: c_void_p, count: int, textures: Optional[Textures], lights: Optional[Mapping[str, Light]],
-                  solo: Optional[str], finishes: Optional[Mapping[str, str]]) -> Any:
-    """The values of a set's parameters as C takes them, with these lamps and finishes, and those of an edit; None: as
-    rendered."""
+def _say(edit: c_void_p, textures: Optional[Textures], *, lights: Optional[Mapping[str, Light]] = None,
+         solo: Optional[str] = None, finishes: Optional[Mapping[str, str]] = None, exposure: Optional[float] = None,
+         white_balance: Optional[float] = None, auto_exposure: bool = False, view: Optional[str] = None) -> None:
+    """Add to an edit what is said beside textures, and the text of an edit."""
+    if isinstance(textures, str):
+        call("retex_edit_parse", edit, path_bytes(textures))
+    said = {"exposure": exposure if exposure is None else repr(float(exposure)),
+            "white-balance": white_balance if white_balance is None else repr(float(white_balance)),
+            "auto-exposure": "yes" if auto_exposure else None, "view": view}
+    for lamp, value in (lights or {}).items():
+        call("retex_edit_set", edit, b"light:" + text_bytes(lamp), text_bytes(_light_text(value)))
+    for target, finish in (finishes or {}).items():
+        call("retex_edit_set", edit, b"finish:" + text_bytes(target), text_bytes(finish))
+    if solo is not None:
+        call("retex_edit_solo", edit, text_bytes(solo))
+    for key, text in said.items():
+        if text is not None:
+            call("retex_edit_set", edit, b"picture:" + key.encode(), text_bytes(text))
+
+
+def parameters_of(pointer: c_void_p, count: int, textures: Optional[Textures], **said: Any) -> Any:
+    """What lamps, finishes and the rest of an edit make of a picture: the values of the set's parameters as C takes them,
+    None as rendered; and how it is developed."""
+    develop = RetexDevelop(ctypes.sizeof(RetexDevelop))
     with _edit() as edit:
-        if isinstance(textures, str):
-            call("retex_edit_parse", edit, path_bytes(textures))
-        for lamp, value in (lights or {}).items():
-            call("retex_edit_set", edit, b"light:" + text_bytes(lamp), text_bytes(_light_text(value)))
-        for target, finish in (finishes or {}).items():
-            call("retex_edit_set", edit, b"finish:" + text_bytes(target), text_bytes(finish))
-        if solo is not None:
-            call("retex_edit_solo", edit, text_bytes(solo))
+        _say(edit, textures, **said)
+        call("retex_edit_develop", edit, byref(develop))
         if not lib.retex_edit_lights(edit):
-            return None
+            return None, develop
         values = (ctypes.c_float * max(3 * count, 1))()
         call("retex_edit_parameters", edit, pointer, values)
-        return values
+        return values, develop
 
 
-def edit_text(textures: Textures) -> str:
-    """The canonical text of an edit, which is the same for textures that look the same, however they were written. An
-    array has none."""
+@contextlib.contextmanager
+def _edit_of(textures: Optional[Textures], **said: Any) -> Iterator[c_void_p]:
     with _edit() as edit:
-        if isinstance(textures, str):
-            call("retex_edit_parse", edit, path_bytes(textures))
-            textures = {}
-        for target, source in textures.items():
+        _say(edit, textures, **said)
+        for target, source in ({} if isinstance(textures, str) else textures or {}).items():
             texture = Texture.of(source)
             if texture.array is not None:
                 raise ValueError(f"{target}: an array cannot be written as text")
             texture._add(edit, target)
+        yield edit
+
+
+def edit_text(textures: Optional[Textures] = None, **said: Any) -> str:
+    """The canonical text of an edit, which is the same for textures that look the same, however they were written. An
+    array has none. Further arguments are those of Set.combine(): lights, solo, finishes, exposure, white_balance,
+    auto_exposure; and `view`, that of write()."""
+    with _edit_of(textures, **said) as edit:
         return _take_text("retex_edit_text", edit, ord(";"))
+
+
+def edit_view(text: str) -> Optional[str]:
+    """The view that the text of an edit names, for write() and encode(); or None."""
+    with _edit_of(text) as edit:
+        view = lib.retex_edit_view(edit)
+        return None if view is None else os.fsdecode(view)
+
+
+def load_preset(path: Union[str, "os.PathLike[str]"]) -> str:
+    """The edit of a preset, as save_preset() and retex-combine --save-preset write them: a text for Set.combine(),
+    Set.batch() and edit_view()."""
+    with _edit() as edit:
+        call("retex_preset_read", edit, path_bytes(path))
+        return _take_text("retex_edit_text", edit, ord(";"))
+
+
+def save_preset(path: Union[str, "os.PathLike[str]"], textures: Optional[Textures] = None, **said: Any) -> None:
+    """Write an edit as a preset; its arguments are those of edit_text(). Names of images are written from the folder of
+    the preset, so that it may be moved together with them. The file is complete or not there."""
+    with _edit_of(textures, **said) as edit:
+        call("retex_preset_write", edit, path_bytes(path))

@@ -51,6 +51,8 @@ int retex_edit_check(const RetexEdit *edit, RetexError *err);
 /* Add the texture of an option of a command line, --texture[:opts] NAME=IMAGE. opts: `scale=2,2:rotate=30`, of which
  * the last of a name holds; or NULL. The word `over` among them makes it the target's next layer. */
 int retex_edit_option(RetexEdit *edit, const char *opts, const char *arg, RetexError *err);
+/* Add a texture with its layers, for its target. */
+int retex_edit_add(RetexEdit *edit, const RetexTextureSpec *spec, RetexError *err);
 /* Add the texture of a cell of a table, for the target that its column has: IMAGE or `:opts IMAGE`, and layers behind
  * ` + `; `+ IMAGE` lies on the original. */
 int retex_edit_cell(RetexEdit *edit, const char *target, const char *cell, RetexError *err);

@@ -13,6 +13,8 @@ extern "C" {
 /* Write a file of any kind as all outputs of the library are written: under a temporary name, renamed when complete; or
  * to "-", standard output. */
 int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
+/* Check whether it could, as far as that is known without writing: a folder that takes files. */
+int retex_file_write_check(const char *path, RetexError *err);
 
 /* Remove all pending files: outputs under temporary names that are not complete. For a process that ends in the middle
  * of its work, from any thread; no output can be completed afterwards. */

@@ -24,6 +24,7 @@
 #include <retex/pack.h>
 #include <retex/parallel.h>
 #include <retex/picture.h>
+#include <retex/preset.h>
 #include <retex/samples.h>
 #include <retex/set.h>
 #include <retex/set_file.h>
