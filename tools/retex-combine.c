@@ -45,19 +45,36 @@ static void check(const Cli *cli, int code, const RetexError *err)
         cli_fail(cli, err);
 }
 
-/* An option about how the picture is developed: picture:NAME=VALUE. */
-static void take_picture_key(const Cli *cli, const CliOption *option, RetexEdit *edit)
+/* Options about how the picture is developed, picture:NAME=VALUE; the last of a name holds. */
+static const char *const picture_keys[] = {"exposure", "white-balance", "auto-exposure", "view"};
+enum { PICTURE_KEYS = sizeof picture_keys / sizeof *picture_keys };
+
+static int take_picture_key(const Cli *cli, const CliOption *option, const char *values[PICTURE_KEYS])
+{
+    int i = 0;
+    while (i < PICTURE_KEYS && strcmp(picture_keys[i], option->name) != 0)
+        i++;
+    if (i < PICTURE_KEYS)
+        values[i] = option->argument ? cli->value : "yes";
+    return i < PICTURE_KEYS;
+}
+
+static void set_picture_keys(const Cli *cli, RetexEdit *edit, const char *const values[PICTURE_KEYS])
 {
     RetexError err = {0};
-    char key[64];
-    snprintf(key, sizeof key, "picture:%s", option->name);
-    check(cli, retex_edit_set(edit, key, option->argument ? cli->value : "yes", &err), &err);
+    for (int i = 0; i < PICTURE_KEYS; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "picture:%s", picture_keys[i]);
+        if (values[i])
+            check(cli, retex_edit_set(edit, key, values[i], &err), &err);
+    }
 }
 
 static void parse(Cli *cli, Job *job)
 {
     RetexError err = {0};
     RetexEdit *solo = NULL;
+    const char *values[PICTURE_KEYS] = {NULL};
     check(cli, retex_edit_create(&job->lights, &err) || retex_edit_create(&solo, &err), &err);
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
@@ -72,9 +89,6 @@ static void parse(Cli *cli, Job *job)
             check(cli, retex_edit_finish(job->lights, cli->value, &err), &err);
         } else if (strcmp(option->name, "solo") == 0) {
             check(cli, retex_edit_solo(solo, cli->value, &err), &err);
-        } else if (strcmp(option->name, "view") == 0 || strcmp(option->name, "exposure") == 0 ||
-                   strcmp(option->name, "white-balance") == 0 || strcmp(option->name, "auto-exposure") == 0) {
-            take_picture_key(cli, option, job->lights);
         } else if (strcmp(option->name, "preset") == 0) {
             job->preset = cli->value;
         } else if (strcmp(option->name, "save-preset") == 0) {
@@ -111,12 +125,14 @@ static void parse(Cli *cli, Job *job)
             job->table = cli->value;
         } else if (strcmp(option->name, "frames") == 0) {
             frames_take(cli, option, &job->frames);
-        } else if (!batch_option(&job->batch, cli, option) && !batch_catalogue_option(&job->batch, cli, option)) {
+        } else if (!take_picture_key(cli, option, values) && !batch_option(&job->batch, cli, option) &&
+                   !batch_catalogue_option(&job->batch, cli, option)) {
             cli_take_progress(cli);
         }
     }
     check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
     retex_edit_close(&solo);
+    set_picture_keys(cli, job->lights, values);
     cli_reads(cli, "the preset", job->preset);
     cli_writes(cli, "--save-preset", job->save_preset);
     if (job->save_preset)

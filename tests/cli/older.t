@@ -22,6 +22,10 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_edit_create: ok
 > retex_edit_option: ok
 > retex_edit_option: ok
+> retex_edit_set: ok
+> retex_edit_develop: ok
+> retex_edit_develop: 2
+> retex_edit_add: ok
 > retex_edit_options_text: ok
 > retex_edit_image_text: wood.png of scale=3,3
 > retex_texture_spec_needs_scale: 0
@@ -36,6 +40,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_textures_load: ok
 > retex_textures_place: ok
 > retex_retexture: ok
+> retex_auto_exposure: ok
 > retex_estimate_error: ok
 > retex_sample_textures: ok
 > retex_sample: ok

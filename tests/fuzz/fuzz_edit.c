@@ -36,6 +36,7 @@ static void begin(void)
         "over:width=5cm:at=1m,2m:invert=yes\nFloor=logo.png",
         "grout=.01:width=.2:vary=flip,3:repeat=brick\nFloor=#fff",
         "light:a%2Eb=0&light:Lamp=tomato*2&light:rest=1e3*12000K",
+        "picture:exposure=.5;picture:white-balance=4000;picture:auto-exposure=yes;picture:view=Filmic;Floor=oak.jpg",
         "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
     };
     uint64_t random = 1;

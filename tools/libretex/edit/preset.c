@@ -79,7 +79,8 @@ static int name_from_preset(char *name, size_t size, const Move *move, RetexErro
     const size_t length = folder_length(move->preset);
     if (!length)
         return RETEX_OK;
-    if ((size_t)snprintf(made, sizeof made, "%.*s%s", (int)length, move->preset, name) >= sizeof made)
+    const char *from_there = name + (strncmp(name, "./", 2) == 0 ? 2 : 0);
+    if ((size_t)snprintf(made, sizeof made, "%.*s%s", (int)length, move->preset, from_there) >= sizeof made)
         return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
     return set_name(name, size, made, err);
 }
@@ -174,7 +175,7 @@ int retex_preset_parse(RetexEdit *edit, const void *data, size_t bytes, const ch
     if (!root && !where.text[0]) /* jansson says nothing then */
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
     if (!root)
-        return retex_fail_at(err, RETEX_EFORMAT, name, where.line, 0, "no JSON: %s", where.text);
+        return retex_fail_at(err, RETEX_EFORMAT, name, where.line, where.column, "not a preset, which is JSON");
     int code = find_text(&text, root, name, err);
     if (!code)
         code = add_text(edit, text, name, err);
