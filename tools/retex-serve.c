@@ -17,6 +17,7 @@ static const CliOption options[] = {
     {"port", 0, "N", "listen on this port; 0: a free one, which is printed; default 8080", 0},
     {"listen", 0, "ADDRESS", "listen on this address; default 127.0.0.1", 0},
     {"textures", 0, "FOLDER", "images that a URL may name; without it there are only colours", 0},
+    {"presets", 0, "FOLDER", "presets that a URL may name, files NAME.json as retex-combine writes them", 0},
     {"quality", 0, "N", "quality of JPEG, WebP and AVIF if the URL has none, 1 to 100; default 95", 0},
     {"memory", 0, "SIZE", "keep decoded rooms of at most SIZE in memory; default 2048 MB", 0},
     {"texture-memory", 0, "SIZE", "keep images of textures of at most SIZE in memory; default 512 MB", 0},
@@ -41,7 +42,7 @@ static const CliOption options[] = {
 };
 
 typedef struct Job {
-    const char *folder, *textures;
+    const char *folder, *textures, *presets;
     uint64_t memory, texture_memory, picture_memory; /* bytes */
     const char *uploads;
     uint64_t upload_size, upload_total; /* bytes */
@@ -117,6 +118,8 @@ static void parse(Cli *cli, Job *job)
             job->http.address = cli->value;
         } else if (strcmp(option->name, "textures") == 0) {
             job->textures = cli->value;
+        } else if (strcmp(option->name, "presets") == 0) {
+            job->presets = cli->value;
         } else if (strcmp(option->name, "uploads") == 0) {
             job->uploads = cli->value;
         } else if (strcmp(option->name, "upload-size") == 0) {
@@ -144,20 +147,21 @@ static void parse(Cli *cli, Job *job)
 
 /* ---- start ---- */
 
-/* The folders of images. */
+/* The folders of images and presets. */
 typedef struct Folders {
-    RetexAccess access; /* to these alone, wherever links lead, and in the formats of safe access */
-    const char *roots[2];
-    char *textures, *uploads; /* or NULL */
+    RetexAccess access; /* to those of images alone, wherever links lead, and in the formats of safe access */
+    const char *roots[2], *preset_roots[1];
+    RetexAccess access_to_presets; /* to that folder alone */
+    char *textures, *uploads, *presets; /* or NULL */
 } Folders;
 
-static char *find_folder(const Cli *cli, Folders *folders, const char *option, const char *name)
+static char *find_folder(const Cli *cli, RetexAccess *access, const char **roots, const char *option, const char *name)
 {
     char *path = name ? realpath(name, NULL) : NULL;
     if (name && !path)
         cli_die(cli, "%s: there is no folder %s", option, name);
     if (path)
-        folders->roots[folders->access.nroots++] = path;
+        roots[access->nroots++] = path;
     return path;
 }
 
@@ -167,8 +171,13 @@ static void allow_folders(const Cli *cli, const Job *job, Folders *folders)
     folders->access.safe = 1;
     folders->access.accept_damaged = cli->access.accept_damaged;
     folders->access.roots = folders->roots;
-    folders->textures = find_folder(cli, folders, "--textures", job->textures);
-    folders->uploads = find_folder(cli, folders, "--uploads", job->uploads);
+    folders->textures = find_folder(cli, &folders->access, folders->roots, "--textures", job->textures);
+    folders->uploads = find_folder(cli, &folders->access, folders->roots, "--uploads", job->uploads);
+    folders->access_to_presets = (RetexAccess)RETEX_ACCESS_INIT;
+    folders->access_to_presets.safe = 1;
+    folders->access_to_presets.roots = folders->preset_roots;
+    folders->presets =
+        find_folder(cli, &folders->access_to_presets, folders->preset_roots, "--presets", job->presets);
 }
 
 /* A budget of what is read; that of cli is stopped while requests are still being answered. */
@@ -216,6 +225,7 @@ static void open_site(const Cli *cli, const Job *job, Site *site, const Folders 
     if (!(site->pictures = cache_open((size_t)share_of(cli, job->picture_memory, 16))))
         cli_die(cli, "not enough memory");
     site->quality = job->quality;
+    site->presets = (Presets){folders->presets, &folders->access_to_presets};
 }
 
 /* Print the address, or write it to the file of -o, when the server can be reached. */
@@ -340,6 +350,7 @@ int main(int argc, char **argv)
     retex_budget_close(&budget);
     retex_budget_close(&upload_budget);
     free(folders.textures);
+    free(folders.presets);
     free(folders.uploads);
     return cli_close(&cli, CLI_OK);
 }

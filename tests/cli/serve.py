@@ -661,6 +661,72 @@ def laid(server):
                (404, f"{name}: there is no texture 'none'; /v1 lists them\n"))
 
 
+def developed(server):
+    """Exposure, white balance and views: pictures are retex-combine's; parts and tiles fit each other."""
+    oak, tags = ['--texture', 'Floor=textures/oak.jpg'], set()
+    for round in 1, 2:
+        for query, *options in (
+                ('', ), ('exposure=.5', '--exposure', '.5'), ('white-balance=4000', '--white-balance', '4000'),
+                ('auto-exposure=yes', '--auto-exposure'), ('view=Filmic', '--view', 'Filmic'),
+                ('exposure=-1&white-balance=9000&auto-exposure=yes&view=neutral', '--exposure', '-1', '--white-balance',
+                 '9000', '--auto-exposure', '--view', 'neutral')):
+            answer = ask(server, f'/v1/raw/Floor=oak/full.png?{query}')
+            expect(query, answer.status, 200)
+            if answer.body != combine('a.png', 'rooms/raw.exr', *oak, *options):
+                print(f'{query}: not the bytes of retex-combine')
+            said = ''.join(';picture:' + key for key in query.split('&') if key)
+            for path in f'/v1/raw/Floor=oak{said}/full.png', f'/iiif/3/raw;Floor=oak{said}/full/max/0/default.png':
+                expect(path, ask(server, path).body == answer.body, True)
+            tags.add(answer.getheader('ETag'))
+    expect('tags', len(tags), 6)
+    query = 'exposure=1&white-balance=3000&auto-exposure=yes&view=Filmic'
+    whole = ask(server, f'/v1/raw/full.png?{query}').body
+    open('whole.png', 'wb').write(whole)
+    open('part.png', 'wb').write(ask(server, f'/v1/raw/full.png?crop=9,5,20,30&{query}').body)
+    subprocess.run('oiiotool whole.png --cut 20x30+9+5 -o cut.png; retex-diff -q part.png cut.png --fail-psnr 100',
+                   shell=True, check=True)
+    said = 'picture:auto-exposure=yes;picture:white-balance=2000'
+    gray = ask(server, f'/iiif/3/raw;{said}/full/max/0/gray.png').body
+    open('gray.png', 'wb').write(gray)
+    channels = subprocess.run(['oiiotool', '--stats', 'gray.png'], capture_output=True, text=True).stdout
+    expect('grey', len(set(re.search('Stats Avg: ([^(]*)', channels)[1].split())), 1)
+    for query, status, reason in (
+            ('exposure=31', 400, "exposure '31': expected stops, -30 to 30, as in 0.5"),
+            ('auto-exposure=1', 400, "auto-exposure '1': expected yes or no"),
+            ('exposure=1&exposure=1', 400, 'picture:exposure is given twice'),
+            ('exposure=1&picture:exposure=1', 400, 'picture:exposure is given twice'),
+            ('view=None', 404, "display sRGB has no view 'None'; there are Standard, Filmic, Neutral, Raw")):
+        answer = ask(server, '/v1/raw/full.png?' + query)
+        expect(query, (answer.status, answer.body.decode()), (status, reason + '\n'))
+
+
+def presets(server):
+    """Presets: what retex-combine writes, by name. What a URL says goes before them."""
+    expect('list', json.loads(ask(server, '/v1').body)['presets'], ['broken', 'gone', 'outside', 'warm'])
+    warm = combine('a.png', 'rooms/raw.exr', '--preset', 'presets/warm.json')
+    for round in 1, 2:
+        answer = ask(server, '/v1/raw/full.png?preset=warm')
+        expect('a preset', (answer.status, answer.body == warm), (200, True))
+    said = '/v1/raw/Floor=oak;Floor.rotate=30;Wall=tan;picture:exposure=.5;picture:view=Filmic/full.png'
+    expect('the same edit', ask(server, said).body == warm, True)
+    own = combine('a.png', 'rooms/raw.exr', '--preset', 'presets/warm.json', '--texture', 'Floor=red', '--exposure', '0')
+    expect('more', ask(server, '/v1/raw/floor=red/full.png?exposure=0&preset=warm').body == own, True)
+    for path, status, reason in (
+            ('/v1/raw/full.png?preset=cold', 404, "there is no preset 'cold'; /v1 lists them"),
+            ('/v1/raw/full.png?preset=outside', 404, "there is no preset 'outside'; /v1 lists them"),
+            ('/v1/raw/full.png?preset=broken', 500, "the preset 'broken' cannot be used: not a preset, which is JSON"),
+            ('/v1/raw/full.png?preset=gone', 404, "Floor: there is no texture 'gone.jpg'; /v1 lists them"),
+            ('/v1/raw/full.png?preset=..%2Fother', 400, None), ('/v1/raw/full.png?preset=.x', 400, None),
+            ('/v1/raw/full.png?preset=warm&preset=warm', 400, None), ('/v1/raw?preset=warm', 400, None)):
+        answer = ask(server, path)
+        expect(path, (answer.status, answer.body.decode()), (status, reason + '\n' if reason else answer.body.decode()))
+    text = open('presets/warm.json').read()
+    open('presets/new', 'w').write(text.replace('0.5', '1.5'))
+    os.replace('presets/new', 'presets/warm.json')
+    changed = ask(server, '/v1/raw/full.png?preset=warm')
+    expect('after a change', changed.body == combine('a.png', 'rooms/raw.exr', '--preset', 'presets/warm.json'), True)
+
+
 def normals(server):
     """Normal maps: pictures are retex-combine's; images in memory are shared only by textures that are turned alike."""
     def check(edits, *textures, room='walls'):
@@ -829,7 +895,7 @@ OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-c
            'documented': ['--uploads', 'uploads'], 'heads': ['--uploads', 'uploads'],
            'proxied': ['--uploads', 'uploads', '--trusted-proxy', '127.0.0.1', '--per-client', '8', '--threads', '1'],
            'clients': ['--uploads', 'uploads', '--per-client', '16'], 'crawling': ['--uploads', 'uploads'],
-           'texts': ['--threads', '1', '--per-client', '0'], 'refused': ['--timeout', '1'],
+           'presets': ['--presets', 'presets'], 'texts': ['--threads', '1', '--per-client', '0'], 'refused': ['--timeout', '1'],
            'crowd': ['--queue', '0', '--threads', '1'],
            'slow': ['--timeout', '0.5'], 'deadline': ['--deadline', '0.001']}
 for name in sys.argv[1:]:

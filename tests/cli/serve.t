@@ -18,6 +18,9 @@ $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; serve together texts cro
 > slow
 > deadline
 > end
+$ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir presets; retex-combine -q rooms/raw.exr --texture:rotate=30 Floor=textures/oak.jpg --texture Wall=tan --exposure .5 --view Filmic -o x.png --save-preset presets/warm.json; cp presets/warm.json outside.json; ln -s ../outside.json presets/outside.json; echo broken >presets/broken.json; echo '{"retex-preset": 1, "edit": "Floor=gone.jpg"}' >presets/gone.json; cp presets/warm.json presets/.x.json; serve developed presets
+> developed
+> presets
 
 # Images that clients send.
 $ serve() { /usr/bin/python3 "$TESTS/serve.py" "$@"; }; mkdir uploads; touch uploads/.incoming-9.jpg; make_picture wide.png size=1200x1000; make_picture third.png size=8x8; serve uploads documented off heads

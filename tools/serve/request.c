@@ -127,6 +127,56 @@ static int take_edit(ServeRequest *request, RetexEdit *edit)
     return request->status;
 }
 
+/* A name without its folder, and without slashes at its end. */
+static void cut_folder(char *name, size_t size)
+{
+    size_t length = strlen(name);
+    while (length > 1 && name[length - 1] == '/')
+        name[--length] = '\0';
+    const char *slash = strrchr(name, '/');
+    if (!slash)
+        return;
+    length = strlen(slash + 1);
+    memmove(name, slash + 1, length);
+    memset(name + length, 0, size - length); /* specs are compared byte by byte */
+}
+
+static void cut_folders(RetexTextureSpec *spec)
+{
+    cut_folder(spec->image, sizeof spec->image);
+    cut_folder(spec->finish, sizeof spec->finish);
+    for (int k = 0; k < RETEX_TILES_MAX; k++)
+        cut_folder(spec->tiles[k], sizeof spec->tiles[k]);
+    for (int k = 0; k < spec->nlayers; k++)
+        cut_folder(spec->layers[k].image, sizeof spec->layers[k].image);
+}
+
+int serve_request_complete(ServeRequest *request, RetexEdit *preset)
+{
+    RetexEdit *edit = NULL;
+    RetexError err = {0};
+    int code = retex_edit_create(&edit, &err);
+    if (!code)
+        code = retex_edit_parse(edit, request->edits, &err);
+    for (int i = 0; i < retex_edit_count(preset) && !code; i++) {
+        RetexTextureSpec *spec = retex_edit_texture(preset, i);
+        int has = 0;
+        for (int k = 0; k < request->nspecs; k++)
+            has |= strcasecmp(request->specs[k].target, spec->target) == 0;
+        cut_folders(spec);
+        code = has ? RETEX_OK : retex_edit_add(edit, spec, &err);
+    }
+    if (!code)
+        code = retex_edit_complete_lights(edit, preset, &err);
+    request->nspecs = 0;
+    if (code)
+        serve_refuse(request, code == RETEX_ENOMEM ? 503 : 400, "%s", err.message);
+    else
+        take_edit(request, edit);
+    retex_edit_close(&edit);
+    return request->status;
+}
+
 static int add_edits(ServeRequest *request, RetexEdit *edit, const char *text)
 {
     RetexError err = {0};
@@ -187,6 +237,10 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
         } else if (strcmp(query, "quality") == 0 && !request->quality) {
             if (!url_integer(value, &request->quality) || request->quality < 1 || request->quality > 100)
                 return serve_refuse(request, 400, "quality: expected 1 to 100, not `%s`", value);
+        } else if (strcmp(query, "preset") == 0 && !request->preset[0]) {
+            if (!serve_name_is_valid(value))
+                return serve_refuse(request, 400, "`%s` cannot be the name of a preset", value);
+            strcpy(request->preset, value);
         } else if (picture_key(query)) {
             if (add_option(request, edit, picture_key(query), value))
                 return request->status;
@@ -195,7 +249,7 @@ static int parse_query(ServeRequest *request, RetexEdit *edit, char *query)
                 return request->status;
         } else {
             return serve_refuse(request, 400,
-                                "`%s`: expected crop, quality, exposure, white-balance, auto-exposure, view, "
+                                "`%s`: expected crop, quality, preset, exposure, white-balance, auto-exposure, view, "
                                 "TARGET.OPTION, light:LAMP or finish:TARGET, each once",
                                 query);
         }

@@ -9,7 +9,7 @@
  *
  * EDITS are the text of an edit, see retex/edit.h, as in `Floor=oak;Floor.scale=2,1;Wall=rgb(.2,.3,.4)`. QUERY may have
  * further options of these targets, lamps `light:LAMP=VALUE`, finishes `finish:TARGET=NAME`, exposure=STOPS,
- * white-balance=KELVINS, auto-exposure=yes and view=NAME, which mean picture:exposure and so on, and
+ * white-balance=KELVINS, auto-exposure=yes and view=NAME, which mean picture:exposure and so on, preset=NAME, and
  * crop=X,Y,WIDTH,HEIGHT, quality=1..100. SIZE is WIDTHxHEIGHT, WIDTHx, xHEIGHT, full or thumbnail.
  *
  * Parts of the path and of the query are percent-decoded once, after they were divided. What they then hold must be
@@ -17,7 +17,7 @@
 #ifndef RETEX_SERVE_REQUEST_H
 #define RETEX_SERVE_REQUEST_H
 
-#include <retex/texture.h>
+#include <retex/edit.h>
 #include <retex/set.h>
 
 enum {
@@ -81,7 +81,8 @@ typedef struct ServeRequest {
      * retex_set_find_target. */
     int nspecs;
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
-    char edits[SERVE_URL_MAX]; /* the same as the canonical text of an edit */
+    char edits[SERVE_URL_MAX]; /* the same as the canonical text of an edit, with all else that it says */
+    char preset[SERVE_NAME_MAX + 1]; /* the name of one, or "" */
 
     /* pictures, thumbnails and images of IIIF */
     ServeRegion region;
@@ -98,6 +99,10 @@ typedef struct ServeRequest {
  * or NULL; formats has the bit 1 << f of each ServeFormat f that can be written, JPEG's always. Returns
  * request->status. */
 int serve_request_parse(ServeRequest *request, const char *url, const char *accept, unsigned formats);
+
+/* Add what a preset says and the request does not: textures of targets, lamps, and so on. Images that it names with
+ * folders are meant without these. Returns request->status. */
+int serve_request_complete(ServeRequest *request, RetexEdit *preset);
 
 /* Refuse a request: set its status and reason, and return the status. Text that comes from the URL must be decoded. */
 int serve_refuse(ServeRequest *request, int status, const char *fmt, ...) RETEX_PRINTF(3, 4);

@@ -101,6 +101,22 @@ static void write_key(const Site *site, const ServeRequest *request, const char 
     }
 }
 
+static Answer *add_preset(const Site *site, ServeRequest *request)
+{
+    RetexEdit *preset = NULL;
+    RetexError err = {0};
+    int code = retex_edit_create(&preset, &err);
+    if (!code)
+        code = presets_read(&site->presets, request->preset, preset, &err);
+    Answer *error = code == RETEX_ENOTFOUND ? answer_error(404, "%s; /v1 lists them", err.message)
+                    : code                  ? answer_error(code == RETEX_ENOMEM ? 503 : 500, "%s", err.message)
+                                            : NULL;
+    if (!code && serve_request_complete(request, preset))
+        error = answer_error(request->status, "%s", request->reason);
+    retex_edit_close(&preset);
+    return error;
+}
+
 Answer *site_key(const Site *site, ServeRequest *request, const char *base, char text[SITE_KEY_MAX])
 {
     SiteFiles files = {0};
@@ -109,7 +125,9 @@ Answer *site_key(const Site *site, ServeRequest *request, const char *base, char
         append(&key, "%d", request->route);
         return NULL;
     }
-    Answer *error = find_files(site, request, &files);
+    Answer *error = request->preset[0] ? add_preset(site, request) : NULL;
+    if (!error)
+        error = find_files(site, request, &files);
     if (!error)
         write_key(site, request, base, &files, text);
     return error;
@@ -376,11 +394,13 @@ static void tell_name(void *context, const char *name)
 
 static int write_rooms(const Site *site, FILE *file)
 {
-    List rooms = {file, 0}, images = {file, 0};
+    List rooms = {file, 0}, images = {file, 0}, presets = {file, 0};
     fputs("{\"rooms\": [", file);
     int failed = rooms_list(site->rooms, tell_name, &rooms);
     fputs("], \"textures\": [", file);
     failed |= images_list(site->images, tell_name, &images);
+    fputs(site->presets.folder ? "], \"presets\": [" : "", file);
+    failed |= presets_list(&site->presets, tell_name, &presets);
     fputs("], \"formats\": [", file);
     for (int format = 0, count = 0; format < SERVE_FORMATS; format++)
         if (picture_formats() & 1u << format)

@@ -4,6 +4,7 @@
 
 #include "cache.h"
 #include "images.h"
+#include "presets.h"
 #include "rooms.h"
 #include "uploads.h"
 #include "work.h"
@@ -11,6 +12,7 @@
 typedef struct Site {
     Rooms *rooms;
     Images *images;
+    Presets presets;
     Uploads *uploads; /* NULL: there are none */
     Cache *pictures;
     int quality; /* of pictures that ask for none */
@@ -27,7 +29,8 @@ typedef enum SiteWork {
 SiteWork site_work_of(const Site *site, const ServeRequest *request);
 
 /* What a request is of, by the files as they are now: two requests with the same key have the same answer. The names
- * of files in request->specs become paths. Reads no file. NULL, or an error: a room or texture that is not there. */
+ * of files in request->specs become paths, and what a preset says is added. Reads no other file. NULL, or an error: a
+ * room, texture or preset that is not there. */
 Answer *site_key(const Site *site, ServeRequest *request, const char *base, char key[SITE_KEY_MAX]);
 
 /* The entity tag of a picture, if its room is open, so that it is known without waiting: 1, or 0. */
