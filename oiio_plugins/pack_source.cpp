@@ -63,8 +63,8 @@ class PackSet
         });
         return *whole_;
     }
-    // The picture with these textures and parameters, developed; without any, the picture as rendered, as far as the set
-    // has it.
+    // The picture with these textures and parameters, developed; without any, the picture as rendered, as far as the
+    // set has it.
     RetexImage picture(std::vector<RetexTextureSpec> specs, const std::vector<float> &parameters,
                        const RetexDevelop &develop, const Budget &budget, int threads)
     {

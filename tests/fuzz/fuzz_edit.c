@@ -1,8 +1,10 @@
-/* Edits as text or, where the input has a line end, as an option: `opts` and `NAME=IMAGE` before and behind it. What is
- * accepted must have a canonical text that says the same, and give finite colours wherever it is looked up. */
+/* Edits as text or, where the input has a line end, as an option: `opts` and `NAME=IMAGE` before and behind it; or,
+ * where it begins with a brace, as a preset. What is accepted must have a canonical text that says the same, and
+ * give finite colours wherever it is looked up. */
 #include <math.h>
 #include <retex/edit.h>
 #include <retex/host/texture_lookup.h>
+#include <retex/preset.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +39,7 @@ static void begin(void)
         "grout=.01:width=.2:vary=flip,3:repeat=brick\nFloor=#fff",
         "light:a%2Eb=0&light:Lamp=tomato*2&light:rest=1e3*12000K",
         "picture:exposure=.5;picture:white-balance=4000;picture:auto-exposure=yes;picture:view=Filmic;Floor=oak.jpg",
+        "{\"retex-preset\": 1, \"edit\": \"Floor=../oak.jpg;light:Lamp=2;picture:exposure=1\"}",
         "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
     };
     uint64_t random = 1;
@@ -120,7 +123,9 @@ static int run(const unsigned char *bytes, size_t size)
     if (line)
         *line = '\0';
     if (text && !retex_edit_create(&edit, NULL) && !retex_edit_create(&again, NULL))
-        code = line ? retex_edit_option(edit, text, line + 1, NULL) : retex_edit_parse(edit, text, NULL);
+        code = *text == '{' ? retex_preset_parse(edit, text, strlen(text), "a preset", NULL)
+               : line       ? retex_edit_option(edit, text, line + 1, NULL)
+                            : retex_edit_parse(edit, text, NULL);
     fuzz_must(!edit || !code || retex_edit_count(edit) == 0, "what fails adds nothing");
     if (!code)
         check_canonical(edit, again);

@@ -1,7 +1,7 @@
 /* A table of pictures: comma-separated values (RFC 4180), or values between semicolons or tabs, as spreadsheets write
  * them in other countries. The first row names the columns: output, then targets, `light:LAMP`, `finish:TARGET` and
- * `picture:KEY`. Each further row is a picture: its file, then for each target a texture as retex_edit_cell reads it, for
- * each other key a value, or nothing.
+ * `picture:KEY`. Each further row is a picture: its file, then for each target a texture as retex_edit_cell reads it,
+ * for each other key a value, or nothing.
  * The whole table is read at once. Mistakes are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H

@@ -1,6 +1,6 @@
 // The built-in OpenColorIO configuration, used unless $OCIO is set. Its reference space is scene-linear Rec.709, as in
-// libretex. OpenColorIO 2.1 has no built-in configuration, and pictures must be the same on every machine. The curves of
-// Filmic and Neutral precede that of sRGB: picture/view.h computes them.
+// libretex. OpenColorIO 2.1 has no built-in configuration, and pictures must be the same on every machine. The curves
+// of Filmic and Neutral precede that of sRGB: picture/view.h computes them.
 #include "bridge.hpp"
 
 namespace bridge

@@ -1,5 +1,5 @@
-/* Statements PREFIX:NAME=VALUE: of lamps and of finishes of targets, which a set has by a name, and of how the picture is
- * developed. Each kind of them is a row, with a list in the edit, sorted by name. Private to libretex. */
+/* Statements PREFIX:NAME=VALUE: of lamps and of finishes of targets, which a set has by a name, and of how the picture
+ * is developed. Each kind of them is a row, with a list in the edit, sorted by name. Private to libretex. */
 #ifndef RETEX_EDIT_KEYED_H
 #define RETEX_EDIT_KEYED_H
 

@@ -60,7 +60,7 @@ static const char *as_file(const char *name)
 /* Between names that are meant from the folder of a preset, and from the current folder. */
 typedef struct Move {
     const char *preset; /* its path */
-    const char *real;   /* its folder without symbolic links, where names are to be meant from there; NULL: they are */
+    const char *real;   /* its folder without symbolic links, if names are to be meant from there */
 } Move;
 
 static int set_name(char *name, size_t size, const char *made, RetexError *err)
@@ -90,7 +90,7 @@ static int name_for_preset(char *name, size_t size, const Move *move, RetexError
     char folder[PATH_MAX], file[PATH_MAX], made[PATH_MAX] = "";
     const size_t length = image_folder_length(name);
     size_t same = 0, at = 0;
-    if (!real_folder(folder, name, length)) /* a folder that is not there, or whose name has numbers of frames to come */
+    if (!real_folder(folder, name, length)) /* it is not there, or is to have a frame's number */
         return RETEX_OK;
     if ((size_t)snprintf(file, sizeof file, "%s%s%s", folder, folder[1] ? "/" : "", name + length) >= sizeof file)
         return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);

@@ -2,9 +2,9 @@
  * to linear colours of the display, 0 to 1. They are computed here and nowhere else, by this library and by the bridge.
  * Private to libretex.
  *
- * Filmic: the curve that Krzysztof Narkowicz fitted to the Academy's transforms ('ACES Filmic Tone Mapping Curve', 2016),
- * (2.51 x² + 0.03 x) / (2.43 x² + 0.59 x + 0.14) of each channel, with x the colour times the factor that leaves a grey
- * of 0.18 as it is. What is 10 times as bright as white becomes white.
+ * Filmic: the curve that Krzysztof Narkowicz fitted to the Academy's transforms ('ACES Filmic Tone Mapping Curve',
+ * 2016), x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14) of each channel, with x the colour times the factor that
+ * leaves a grey of 0.18 as it is. What is 10 times as bright as white becomes white.
  *
  * Neutral: the Khronos PBR Neutral Tone Mapper (Khronos Group, 2024). It keeps colours up to 0.8 but for 0.04, what a
  * dielectric surface reflects, and compresses and desaturates brighter ones. */

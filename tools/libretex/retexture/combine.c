@@ -135,9 +135,26 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
         rows = retex_span_intersection(rows, (RetexRowSpan){own.y0, own.y1});
     if (own.x1 > own.x0)
         polynomial.columns = retex_span_intersection(polynomial.columns, (RetexRowSpan){own.x0, own.x1});
-    code = retex_polynomial_strips(&polynomial, rows.begin, rows.end, combine_strip, &developer, sink, context, nthreads,
-                                   err);
+    code = retex_polynomial_strips(&polynomial, rows.begin, rows.end, combine_strip, &developer, sink, context,
+                                   nthreads, err);
     retex_polynomial_close(&polynomial);
+    return code;
+}
+
+int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples,
+                        RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexCombineParams *params, int nthreads,
+                        RetexError *err)
+{
+    RetexCombineParams own = RETEX_COMBINE_INIT;
+    RetexMeter meter = {0};
+    int code = RETEX_PARAMS_COPY(&own, params, err);
+    own.x0 = own.x1 = own.y0 = own.y1 = 0;
+    own.develop = NULL;
+    if (!code)
+        code = retex_meter_open(&meter, set->width, set->height, err);
+    if (!code)
+        code = retex_retexture(set, samples, textures, &own, retex_meter_rows, &meter, nthreads, err);
+    *exposure = retex_meter_close(&meter);
     return code;
 }
 

@@ -1,5 +1,4 @@
-/* What a picture's exposure and white balance make of its colours, and the exposure that suits it. See
- * retex/combine.h. */
+/* What a picture's exposure and white balance make of its colours, and the exposure that suits it. See develop.h. */
 #include "retexture/develop.h"
 
 #include <math.h>
@@ -9,7 +8,6 @@
 #include <retex/lamp.h>
 
 #include "base/params.h"
-#include "set/set.h"
 
 /* ---- white balance ---- */
 
@@ -86,59 +84,38 @@ int retex_developer_open(RetexDeveloper *developer, const RetexDevelop *given, d
 
 /* ---- the exposure of a picture ---- */
 
-/* A RetexRowSink adds up logarithms. Strips are added in their order in the end, so that the sum is the same for every
- * number of threads. */
-typedef struct Meter {
-    size_t width;
-    struct {
-        double sum;
-        long count;
-    } *strips;
-} Meter;
-
-static int measure_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+int retex_meter_open(RetexMeter *meter, int width, int height, RetexError *err)
 {
-    const Meter *meter = context;
-    const size_t pixels = meter->width * (size_t)(y1 - y0);
-    double sum = 0;
-    long count = 0;
+    *meter = (RetexMeter){.width = (size_t)width, .nstrips = (height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP};
+    meter->strips = calloc((size_t)meter->nstrips, sizeof *meter->strips);
+    return meter->strips ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to measure a picture");
+}
+
+int retex_meter_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    const RetexMeter *meter = context;
+    RetexMeterStrip *strip = &meter->strips[y0 / RETEX_PICTURE_STRIP];
     (void)err;
-    for (size_t i = 0; i < pixels; i++, rows += 3) {
+    for (size_t i = meter->width * (size_t)(y1 - y0); i > 0; i--, rows += 3) {
         const float luminance = retex_luminancef(rows[0], rows[1], rows[2]);
         if (!(luminance > 0))
             continue;
-        sum += (double)log2f(luminance);
-        count++;
+        strip->sum += (double)log2f(luminance);
+        strip->count++;
     }
-    meter->strips[y0 / RETEX_PICTURE_STRIP].sum = sum;
-    meter->strips[y0 / RETEX_PICTURE_STRIP].count = count;
     return RETEX_OK;
 }
 
-int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples,
-                        RetexTexture *const textures[RETEX_MAX_TARGETS], const RetexCombineParams *params, int nthreads,
-                        RetexError *err)
+double retex_meter_close(RetexMeter *meter)
 {
     static const double GREY = 0.18;
-    RetexCombineParams own = RETEX_COMBINE_INIT;
-    const int nstrips = (set->height + RETEX_PICTURE_STRIP - 1) / RETEX_PICTURE_STRIP;
-    Meter meter = {(size_t)set->width, NULL};
     double sum = 0;
     long count = 0;
-    *exposure = 0;
-    int code = RETEX_PARAMS_COPY(&own, params, err);
-    own.x0 = own.x1 = own.y0 = own.y1 = 0;
-    own.develop = NULL;
-    if (!code && !(meter.strips = calloc((size_t)nstrips, sizeof *meter.strips)))
-        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to measure a picture");
-    if (!code)
-        code = retex_retexture(set, samples, textures, &own, measure_rows, &meter, nthreads, err);
-    for (int i = 0; i < nstrips && !code; i++) {
-        sum += meter.strips[i].sum;
-        count += meter.strips[i].count;
+    for (int i = 0; i < meter->nstrips && meter->strips; i++) {
+        sum += meter->strips[i].sum;
+        count += meter->strips[i].count;
     }
-    free(meter.strips);
-    if (!code && count)
-        *exposure = fmin(fmax(log2(GREY) - sum / (double)count, -RETEX_EXPOSURE_MAX), RETEX_EXPOSURE_MAX);
-    return code;
+    free(meter->strips);
+    meter->strips = NULL;
+    return count ? fmin(fmax(log2(GREY) - sum / (double)count, -RETEX_EXPOSURE_MAX), RETEX_EXPOSURE_MAX) : 0;
 }

@@ -63,10 +63,10 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
 
-/* The exposure, in stops, that brings the log-average luminance of the whole picture that retex_retexture makes, before it
- * is developed, to 0.18, the reflectance of a grey card: the geometric mean over its pixels that are not black, as in
- * Reinhard, Stark, Shirley and Ferwerda, 'Photographic Tone Reproduction for Digital Images' (2002), Eq. 1. 0 where all
- * are black; within RETEX_EXPOSURE_MAX. It takes as long as making the picture. */
+/* The exposure, in stops, that brings the log-average luminance of the whole picture that retex_retexture makes, before
+ * it is developed, to 0.18, the reflectance of a grey card: the geometric mean over its pixels that are not black, as
+ * in Reinhard, Stark, Shirley and Ferwerda, 'Photographic Tone Reproduction for Digital Images' (2002), Eq. 1. 0 where
+ * all are black; within RETEX_EXPOSURE_MAX. It takes as long as making the picture. */
 int retex_auto_exposure(double *exposure, const RetexSet *set, const RetexSamples *samples /* or NULL */,
                         RetexTexture *const textures[RETEX_MAX_TARGETS],
                         const RetexCombineParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,

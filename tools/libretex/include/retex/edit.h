@@ -66,8 +66,8 @@ int retex_edit_finish(RetexEdit *edit, const char *arg, RetexError *err);
 /* Add the lamps, the finishes of targets, and what is said of the picture, of another edit that this one does not
  * name. */
 int retex_edit_complete_lights(RetexEdit *edit, const RetexEdit *from, RetexError *err);
-/* What a key with a prefix names: the lamp of light:LAMP, the target of finish:TARGET, the key of picture:KEY. NULL: it is
- * another key. */
+/* What a key with a prefix names: the lamp of light:LAMP, the target of finish:TARGET, the key of picture:KEY. NULL: it
+ * is another key. */
 const char *retex_edit_key_name(const char *key);
 /* Whether a key is TARGET.OPTION. */
 int retex_edit_key_is_option(const char *key);
