@@ -133,7 +133,6 @@ static void parse(Cli *cli, Job *job)
     check(cli, retex_edit_complete_lights(job->lights, solo, &err), &err);
     retex_edit_close(&solo);
     set_picture_keys(cli, job->lights, values);
-    cli_reads(cli, "the preset", job->preset);
     cli_writes(cli, "--save-preset", job->save_preset);
     if (job->save_preset)
         check(cli, retex_file_write_check(job->save_preset, &err), &err);

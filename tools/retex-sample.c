@@ -26,7 +26,6 @@ static void add_preset(const Cli *cli, Job *job)
         return;
     if (retex_edit_create(&others, &err))
         cli_fail(cli, &err);
-    cli_reads(cli, "the preset", job->preset);
     texture_args_add_preset(cli, &job->textures, others, job->preset);
     retex_edit_close(&others);
 }

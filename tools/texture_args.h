@@ -64,6 +64,8 @@ static inline void texture_args_add_preset(const Cli *cli, TextureArgs *args, Re
 {
     RetexEdit *preset = NULL;
     RetexError err = {0};
+    cli_input(cli, path, "a preset, as of retex-combine --save-preset");
+    cli_reads(cli, "the preset", path);
     int code = retex_edit_create(&preset, &err);
     if (!code)
         code = retex_preset_read(preset, path, &err);

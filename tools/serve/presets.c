@@ -32,8 +32,7 @@ int presets_read(const Presets *presets, const char *name, RetexEdit *edit, Rete
     int descriptor = -1;
     if (!presets->folder || !serve_name_is_valid(name) ||
         (size_t)snprintf(path, sizeof path, "%s/%s.json", presets->folder, name) >= sizeof path ||
-        stat(path, &info) != 0 || !S_ISREG(info.st_mode) ||
-        retex_access_open(presets->access, path, &descriptor, NULL))
+        stat(path, &info) != 0 || !S_ISREG(info.st_mode) || retex_access_open(presets->access, path, &descriptor, NULL))
         return retex_fail(err, RETEX_ENOTFOUND, "there is no preset '%s'", name);
     char *data = malloc(RETEX_PRESET_BYTES_MAX + 1);
     const ssize_t bytes = data ? read_all(descriptor, data, RETEX_PRESET_BYTES_MAX + 1) : 0;

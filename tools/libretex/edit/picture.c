@@ -28,9 +28,8 @@ static int no_key(const char *name, RetexError *err)
     RetexNearest nearest = {name, NULL, 0};
     for (int i = 0; i < WORDS; i++)
         retex_nearest_try(&nearest, words[i]);
-    return retex_fail(err, RETEX_EPARSE,
-                      "`picture:%.80s`: expected exposure, white-balance, auto-exposure or view%s", name,
-                      retex_meant(nearest.best, meant));
+    return retex_fail(err, RETEX_EPARSE, "`picture:%.80s`: expected exposure, white-balance, auto-exposure or view%s",
+                      name, retex_meant(nearest.best, meant));
 }
 
 static int parse_number(RetexKeyed *statement, const char *text, double least, double most, const char *expected,

@@ -95,7 +95,7 @@ static int name_for_preset(char *name, size_t size, const Move *move, RetexError
     if ((size_t)snprintf(file, sizeof file, "%s%s%s", folder, folder[1] ? "/" : "", name + length) >= sizeof file)
         return retex_fail(err, RETEX_EINVAL, "the name of a file is too long: %.200s…", name);
     const char *real = move->real[1] ? move->real : ""; /* the root */
-    while (real[at] && real[at] == file[at]) /* the last slash that both have */
+    while (real[at] && real[at] == file[at])            /* the last slash that both have */
         same = file[at++] == '/' ? at : same;
     if (!real[at] && file[at] == '/')
         same = at + 1;

@@ -14,8 +14,7 @@
 /* From Rec.709 to CIE XYZ, and Bradford's matrix from XYZ to the responses of cones. */
 static const double rec709_to_xyz[3][3] = {
     {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
-static const double bradford[3][3] = {
-    {0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}};
+static const double bradford[3][3] = {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}};
 
 static void multiply(double product[3][3], const double a[3][3], const double b[3][3])
 {

@@ -41,7 +41,8 @@ int retex_image_read_check(const char *path, const RetexReadParams *params /* NU
 typedef struct RetexWriteParams {
     size_t size;            /* of this struct */
     const char *display;    /* OCIO display for 8- and 16-bit files; NULL = the config's default */
-    const char *view;       /* OCIO view; NULL = the display's default */
+    const char *view;       /* its view; NULL = the display's default. The built-in configuration has Standard, Filmic,
+                               Neutral and Raw, see retex-combine(1) */
     const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
     int quality;            /* of JPEG, 1..100; default 95 */
     int is_data;            /* 1: numbers that are no colours, which an EXR stores as they are and says so; other
