@@ -6,7 +6,7 @@ import json
 import threading
 import weakref
 from collections import OrderedDict
-from ctypes import byref, c_float, c_void_p, sizeof
+from ctypes import byref, c_float, c_int, c_void_p, sizeof
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, NoReturn, Optional, Sequence, Tuple, Type, Union
