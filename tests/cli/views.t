@@ -34,7 +34,7 @@ $ retex-combine -q set.exr --exposure 9 --exposure 1 --view Raw --view Filmic -o
 > retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would
 
 # What is refused.
-$ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '--view Filmic --colorspace sRGB' '--solve red --exposure 1' '--solve red --save-preset y.json' '--save-preset gone/x.json' '--preset gone.json' '--preset set.exr' '--save-preset x.png' '--preset moved --save-preset y.json'; do retex-combine set.exr $o -o x.png; done; test -e x.png
+$ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '--view Filmic --colorspace sRGB' '--solve red --exposure 1' '--solve red --save-preset y.json' '--save-preset gone/x.json' '--preset gone.json' '--preset set.exr' '--save-preset x.png' '--preset moved --save-preset y.json' '--texture picture:exposure=1'; do retex-combine set.exr $o -o x.png; done; test -e x.png
 ! retex-combine: error: exposure '31': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: exposure 'x': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: white-balance '500': expected kelvins, 1000 to 25000, as in 4000
@@ -47,6 +47,7 @@ $ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '
 ! retex-combine: error: set.exr:1:1: not a preset, which is JSON
 ! retex-combine: error: x.png: --save-preset and the output are the same file
 ! retex-combine: error: cannot read moved: Is a directory
+! retex-combine: error: texture 'picture:exposure': the name of a target cannot begin so
 = 1
 $ rm -f x.exr; for j in '{' '[]' '{"retex-preset": 2}' '{"retex-preset": "1", "edit": ""}' '{"retex-preset": 1}' '{"retex-preset": 1, "edit": "Floor"}' '{"retex-preset": 1, "edit": "Floor=red", "edit": ""}' '{"retex-preset": 1, "edit": "Flor=red"}' '{"retex-preset": 1, "edit": "Floor=gone.png"}' '{"retex-preset": 1, "edit": "picture:exposure=99"}'; do echo "$j" >moved/x.json; retex-combine set.exr --preset moved/x.json -o x.png; retex-sample -q set.exr --preset moved/x.json -o x.exr 2>/dev/null; done; head -c 2000000 /dev/zero | tr '\0' ' ' >x.json; retex-combine set.exr --preset x.json -o x.png; retex-combine set.exr --preset x.json --save-preset x.json -o x.png; test -e x.png -o -e x.exr
 ! retex-combine: error: moved/x.json:2: not a preset, which is JSON

@@ -285,11 +285,19 @@ static int parse_options(RetexTextureSpec *spec, int layer, const char *opts, Re
     return code;
 }
 
+/* A target that is called as a key with a prefix would be that in the text of the edit. */
+static int no_target(const char *name, RetexError *err)
+{
+    return retex_fail(err, RETEX_EPARSE, "texture '%.80s': the name of a target cannot begin so", name);
+}
+
 /* layer: of `target`, from 1; 0: the texture itself; -1: the next layer. */
 static int add_texture(RetexEdit *edit, const char *target, int layer, const char *opts, const char *image,
                        RetexError *err)
 {
     RetexEdit next = *edit;
+    if (retex_edit_key_name(target))
+        return no_target(target, err);
     int at, code = find_texture(&next, target, &at, err);
     layer = layer < 0 && !code ? 1 + next.specs[at].nlayers : layer;
     if (!code && layer > RETEX_LAYERS_MAX)
@@ -330,6 +338,8 @@ int retex_edit_add(RetexEdit *edit, const RetexTextureSpec *given, RetexError *e
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexEdit next = *edit;
     int at, code = RETEX_PARAMS_COPY(&spec, given, err);
+    if (!code && retex_edit_key_name(spec.target))
+        code = no_target(spec.target, err);
     if (!code)
         code = find_texture(&next, spec.target, &at, err);
     if (!code && (next.said[at] || next.specs[at].nlayers))
