@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/host/uv_stats.h>
 #include <retex/parallel.h>
 
+#include "base/uv_pool.h"
 #include "compact/uniform.h"
 #include "set/set.h"
 
-#define POOL 12                  /* most clusters while a block is gathered */
 #define SHARE_STEP (1.0 / 512)   /* quantizer step of weights */
 #define LEAST_SHARE (1.0 / 1024) /* clusters with a smaller share of their block's light are dropped */
 #define WHOLE_NOISE 0.3          /* with less noise to be removed, quadrants keep their light, as ellipses */
@@ -20,20 +19,15 @@
 #define UNKNOWN_SAMPLES 1024     /* samples of a pixel, if the set does not have their number */
 #define TEXEL (1.0 / (1 << 26))  /* UV variance of a texel of a texture 8192 wide */
 
-typedef struct Cluster {
-    RetexUvStats place;
-    RetexCompactClusterLight light;
-} Cluster;
-
 typedef struct Pool {
-    const int *periodic;
-    int sharp, count;
+    RetexUvPool uv;
     double noise;           /* RetexCompactLight's */
     double weight, squares; /* light gathered: sum, and sum of squares divided by the numbers of samples */
-    Cluster of[POOL + 1];
-    Cluster whole;                   /* the pixel, if it is a parallelogram; else without light */
-    const RetexFootprint *whole_as;  /* its UV and axes */
-    double cost[POOL + 1][POOL + 1]; /* of merging clusters i and j < i */
+    RetexCompactClusterLight light[RETEX_UV_POOL + 1]; /* by the clusters' numbers */
+    unsigned numbers;                                  /* bits of those that clusters have */
+    double whole;                          /* weight of the pixel, if it is a parallelogram */
+    RetexCompactClusterLight whole_light;
+    const RetexFootprint *whole_as; /* its UV and axes */
 } Pool;
 
 typedef struct ClustersWork {
@@ -43,31 +37,6 @@ typedef struct ClustersWork {
     int scale, first; /* first: the strip's first row of blocks */
 } ClustersWork;
 
-static double merging_cost(const Pool *pool, int i, int j)
-{
-    return pool->sharp ? retex_uv_stats_ward(&pool->of[i].place, &pool->of[j].place, pool->periodic)
-                       : retex_uv_stats_variation_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
-}
-
-static void find_costs(Pool *pool, int i)
-{
-    for (int j = 0; j < pool->count; j++)
-        if (j != i)
-            pool->cost[j < i ? i : j][j < i ? j : i] = merging_cost(pool, i, j);
-}
-
-/* Remove cluster j; the last cluster takes its index. */
-static void remove_cluster(Pool *pool, int j)
-{
-    const int last = --pool->count;
-    if (j == last)
-        return;
-    pool->of[j] = pool->of[last];
-    for (int k = 0; k < last; k++)
-        if (k != j)
-            pool->cost[k < j ? j : k][k < j ? k : j] = pool->cost[last][k];
-}
-
 static void add_light(RetexCompactClusterLight *to, const RetexCompactClusterLight *light)
 {
     for (int c = 0; c < 3; c++) {
@@ -76,31 +45,26 @@ static void add_light(RetexCompactClusterLight *to, const RetexCompactClusterLig
     }
 }
 
-static void merge_pair(Pool *pool, int i, int j)
+static const RetexCompactClusterLight *light_of(const Pool *pool, int i)
 {
-    Cluster *into = &pool->of[i];
-    retex_uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
-    add_light(&into->light, &pool->of[j].light);
-    remove_cluster(pool, j);
-    find_costs(pool, i);
+    return &pool->light[pool->uv.of[i].number];
 }
 
-static void merge_cheapest(Pool *pool)
+static void merge_light(void *context, int into, int from)
 {
-    int first = 1, second = 0;
-    for (int i = 1; i < pool->count; i++)
-        for (int j = 0; j < i; j++)
-            if (pool->cost[i][j] < pool->cost[first][second])
-                first = i, second = j;
-    merge_pair(pool, second, first);
+    Pool *pool = context;
+    add_light(&pool->light[into], &pool->light[from]);
+    pool->numbers &= ~(1u << from);
 }
 
-static void add_cluster(Pool *pool, const Cluster *cluster)
+static void add_cluster(Pool *pool, const RetexUvStats *place, const RetexCompactClusterLight *light)
 {
-    pool->of[pool->count++] = *cluster;
-    find_costs(pool, pool->count - 1);
-    if (pool->count > POOL)
-        merge_cheapest(pool);
+    int number = 0;
+    while (pool->numbers >> number & 1)
+        number++;
+    pool->numbers |= 1u << number;
+    pool->light[number] = *light;
+    retex_uv_pool_add(&pool->uv, place, number);
 }
 
 /* Second moments of a cluster, plus those of a texel, which are negligible. */
@@ -130,9 +94,9 @@ static int are_same(const Shape *each, const Shape *merged, double more)
 static int are_indistinguishable(const Pool *pool, int i, int j)
 {
     const double more = 1 + pool->noise * MORE_VARIANCE;
-    const RetexUvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
+    const RetexUvStats *const places[] = {&pool->uv.of[i].place, &pool->uv.of[j].place};
     RetexUvStats both = *places[0];
-    retex_uv_stats_merge(&both, places[1], pool->periodic);
+    retex_uv_stats_merge(&both, places[1], pool->uv.periodic);
     const Shape each[] = {shape_of(places[0]), shape_of(places[1])}, merged = shape_of(&both);
     for (int k = 0; k < 2; k++)
         if (each[k].uu > more * merged.uu || each[k].vv > more * merged.vv)
@@ -142,10 +106,10 @@ static int are_indistinguishable(const Pool *pool, int i, int j)
 
 static void merge_places(Pool *pool)
 {
-    for (int i = 1; i < pool->count; i++)
+    for (int i = 1; i < pool->uv.count; i++)
         for (int j = 0; j < i; j++)
             if (are_indistinguishable(pool, i, j)) {
-                merge_pair(pool, j, i);
+                retex_uv_pool_merge(&pool->uv, j, i);
                 i = 0;
                 break;
             }
@@ -157,40 +121,29 @@ static void merge_places(Pool *pool)
 static void merge_within_noise(Pool *pool)
 {
     const double most = pow(pool->noise, 6) * pool->squares;
-    while (pool->count > 1) {
+    while (pool->uv.count > 1) {
         int first = 1, second = 0;
         double least = INFINITY;
-        for (int i = 1; i < pool->count; i++)
+        for (int i = 1; i < pool->uv.count; i++)
             for (int j = 0; j < i; j++) {
-                const double error2 = retex_uv_stats_shape_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
+                const double error2 = retex_uv_stats_shape_gain(&pool->uv.of[i].place, &pool->uv.of[j].place, pool->uv.periodic);
                 if (error2 < least)
                     least = error2, first = i, second = j;
             }
         if (least > most)
             return;
-        merge_pair(pool, second, first);
+        retex_uv_pool_merge(&pool->uv, second, first);
     }
 }
 
 static void remove_faint(Pool *pool)
 {
-    double all = pool->whole.place.weight;
-    for (int i = 0; i < pool->count; i++)
-        all += pool->of[i].place.weight;
-    for (int i = pool->count - 1; i >= 0; i--)
-        if (pool->of[i].place.weight < pool->noise * LEAST_SHARE * all)
-            remove_cluster(pool, i);
-}
-
-static void sort_places(Pool *pool)
-{
-    for (int i = 1; i < pool->count; i++)
-        for (int j = i; j > 0; j--) {
-            Cluster *a = &pool->of[j - 1], *b = &pool->of[j], swapped = *a;
-            if (a->place.mean[0] + a->place.mean[1] <= b->place.mean[0] + b->place.mean[1])
-                break;
-            *a = *b, *b = swapped;
-        }
+    double all = pool->whole;
+    for (int i = 0; i < pool->uv.count; i++)
+        all += pool->uv.of[i].place.weight;
+    for (int i = pool->uv.count - 1; i >= 0; i--)
+        if (pool->uv.of[i].place.weight < pool->noise * LEAST_SHARE * all)
+            retex_uv_pool_remove(&pool->uv, i);
 }
 
 /* ---- blocks ---- */
@@ -216,17 +169,17 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     const double rgb[] = {light->single[0] + light->interreflected[0], light->single[1] + light->interreflected[1],
                           light->single[2] + light->interreflected[2]};
     const double weight = retex_compact_luminance(rgb);
-    Cluster cluster = {.light = *light};
+    RetexUvStats place;
     retex_footprint_ellipse(set, f, pixel, uv, spread);
     if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
         return;
     if (is_of_whole(work, f, pool)) {
         pool->whole_as = f;
-        pool->whole.place.weight += weight;
-        add_light(&pool->whole.light, light);
+        pool->whole += weight;
+        add_light(&pool->whole_light, light);
     } else {
-        retex_uv_stats_load(&cluster.place, weight, uv, spread);
-        add_cluster(pool, &cluster);
+        retex_uv_stats_load(&place, weight, uv, spread);
+        add_cluster(pool, &place, light);
     }
     pool->weight += weight;
     pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
@@ -300,11 +253,14 @@ static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool,
 /* The light that a weight is a share of. */
 typedef enum Part { PART_ALL, PART_SINGLE, PART_INTERREFLECTED } Part;
 
-static double part_of(const Cluster *cluster, Part part)
+/* That of cluster i; -1: of the whole pixel. */
+static double part_of(const Pool *pool, int i, Part part)
 {
-    return part == PART_SINGLE           ? retex_compact_luminance(cluster->light.single)
-           : part == PART_INTERREFLECTED ? retex_compact_luminance(cluster->light.interreflected)
-                                         : cluster->place.weight;
+    const RetexCompactClusterLight *light = i < 0 ? &pool->whole_light : light_of(pool, i);
+    return part == PART_SINGLE           ? retex_compact_luminance(light->single)
+           : part == PART_INTERREFLECTED ? retex_compact_luminance(light->interreflected)
+           : i < 0                       ? pool->whole
+                                         : pool->uv.of[i].place.weight;
 }
 
 /* A share as it is stored: positive ones never round to 0. */
@@ -318,15 +274,15 @@ static float rounded_share(double part, double all)
  * clusters have no such light, store their shares of all light instead. */
 static void store_weights(RetexImage *images, int whole, size_t block, const Pool *pool, Part part, double all)
 {
-    double own = part_of(&pool->whole, part);
-    for (int i = 0; i < pool->count; i++)
-        own += part_of(&pool->of[i], part);
+    double own = part_of(pool, -1, part);
+    for (int i = 0; i < pool->uv.count; i++)
+        own += part_of(pool, i, part);
     if (!(all > 0))
         all = own;
-    for (int i = 0; i < pool->count; i++)
-        images[i].pixels[block] = rounded_share(part_of(&pool->of[i], part), all);
+    for (int i = 0; i < pool->uv.count; i++)
+        images[i].pixels[block] = rounded_share(part_of(pool, i, part), all);
     if (whole >= 0)
-        images[whole].pixels[block] = rounded_share(part_of(&pool->whole, part), all);
+        images[whole].pixels[block] = rounded_share(part_of(pool, -1, part), all);
     if (!(all > 0) && part != PART_ALL)
         store_weights(images, whole, block, pool, PART_ALL, 0);
 }
@@ -346,10 +302,9 @@ static void store_whole(const ClustersWork *work, size_t block, const RetexFootp
 
 static void sum_light(const ClustersWork *work, int row, const Pool *pool)
 {
-    for (int i = -1; i < pool->count && work->clusters->split; i++) {
-        const Cluster *cluster = i < 0 ? &pool->whole : &pool->of[i];
-        work->clusters->further[row] += part_of(cluster, PART_INTERREFLECTED);
-        work->clusters->all[row] += part_of(cluster, PART_ALL);
+    for (int i = -1; i < pool->uv.count && work->clusters->split; i++) {
+        work->clusters->further[row] += part_of(pool, i, PART_INTERREFLECTED);
+        work->clusters->all[row] += part_of(pool, i, PART_ALL);
     }
 }
 
@@ -357,9 +312,9 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
 {
     RetexCompactClusters *clusters = work->clusters;
     double sum = 0, weights = 0;
-    for (int i = 0; i < pool->count; i++) {
+    for (int i = 0; i < pool->uv.count; i++) {
         float *uv = clusters->uv[i].pixels + 3 * block;
-        retex_uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
+        retex_uv_stats_store(&pool->uv.of[i].place, uv, clusters->spread[i].pixels + 3 * block);
         uv[2] = 1;
     }
     if (pool->whole_as)
@@ -386,11 +341,11 @@ static void store_pixel(const ClustersWork *work, size_t block, const Pool *pool
         *pixel = (RetexUniformPixel){{(double)uv[0], (double)uv[1]}, {0, 0, 0}, RETEX_UNIFORM_EXACT};
         return;
     }
-    if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
+    if (pool->uv.count == 0 || (pool->uv.count > 1 && work->clusters->count < 4))
         return;
-    RetexUvStats sum = pool->of[0].place;
-    for (int i = 1; i < pool->count; i++)
-        retex_uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
+    RetexUvStats sum = pool->uv.of[0].place;
+    for (int i = 1; i < pool->uv.count; i++)
+        retex_uv_stats_merge(&sum, &pool->uv.of[i].place, pool->uv.periodic);
     for (int k = 0; k < 2; k++)
         pixel->mean[k] = sum.mean[k];
     for (int k = 0; k < 3; k++)
@@ -405,23 +360,25 @@ static void blocks_job(void *context, int by, int thread)
     (void)thread;
     for (int bx = 0; bx < width; bx++) {
         const size_t block = (size_t)(work->first + by) * (size_t)width + (size_t)bx;
-        Pool pool = {.periodic = work->light->set->targets[work->kind->target].periodic,
-                     .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP,
-                     .noise = work->light->noise};
+        Pool pool = {.noise = work->light->noise};
+        pool.uv = (RetexUvPool){.periodic = work->light->set->targets[work->kind->target].periodic,
+                                .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP,
+                                .merged = merge_light,
+                                .context = &pool};
         Albedo albedo = {0};
         const double all = gather_block(work, bx, by, &pool, &albedo);
         remove_faint(&pool);
-        while (pool.count > work->kind->count)
-            merge_cheapest(&pool);
+        while (pool.uv.count > work->kind->count)
+            retex_uv_pool_merge_cheapest(&pool.uv);
         merge_places(&pool);
-        if (pool.sharp)
+        if (pool.uv.sharp)
             merge_within_noise(&pool);
-        sort_places(&pool);
+        retex_uv_pool_sort(&pool.uv);
         sum_light(work, work->first + by, &pool);
         store_block(work, block, &pool, all, &albedo);
         if (work->clusters->pixels)
             store_pixel(work, block, &pool);
-        work->clusters->lit[block] = pool.count > 0 || pool.whole_as;
+        work->clusters->lit[block] = pool.uv.count > 0 || pool.whole_as;
     }
 }
 
