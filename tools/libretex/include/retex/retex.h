@@ -25,6 +25,7 @@
 #include <retex/parallel.h>
 #include <retex/picture.h>
 #include <retex/preset.h>
+#include <retex/reduce.h>
 #include <retex/samples.h>
 #include <retex/set.h>
 #include <retex/set_file.h>
