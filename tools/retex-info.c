@@ -253,12 +253,22 @@ static void print_packed(FILE *out, const RetexSet *set)
             fprintf(out, "  %-12s %10llu\n", retex_pack_use_name(i), (unsigned long long)bytes[i]);
 }
 
+static void print_levels(FILE *out, const RetexSet *set)
+{
+    RetexPackLevel level = {.size = sizeof level};
+
+    for (int i = 0; set && retex_pack_level(&level, set, i); i++)
+        fprintf(out, "level 1/%d      %d x %d pixels, %llu bytes\n", level.scale, level.width, level.height,
+                (unsigned long long)level.bytes);
+}
+
 static void print_text(FILE *out, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
     if (set)
         print_set(out, set, sizes);
     if (samples)
         print_samples(out, samples);
+    print_levels(out, set);
     fprintf(out, "bytes\n");
     print_bytes(out, "radiance", sizes->radiance);
     print_bytes(out, "UV", sizes->uv);
@@ -299,6 +309,12 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
             fprintf(out, "%c\"%s\":%llu", i ? ',' : '{', retex_pack_use_name(i), (unsigned long long)bytes[i]);
         fprintf(out, "},");
     }
+    RetexPackLevel level = {.size = sizeof level};
+    for (int i = 0; set && retex_pack_level(&level, set, i); i++)
+        fprintf(out, "%s{\"scale\":%d,\"width\":%d,\"height\":%d,\"bytes\":%llu}", i ? "," : "\"levels\":[", level.scale,
+                level.width, level.height, (unsigned long long)level.bytes);
+    if (set && retex_pack_level(&level, set, 0))
+        fprintf(out, "],");
     fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
     free(manifest);
     return CLI_OK;

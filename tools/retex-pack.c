@@ -19,6 +19,8 @@ static const CliOption options[] = {
     {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by use and the loss in pictures; - is standard output", 0},
     {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"levels", 0, NULL, "keep smaller sets beside it, for small pictures", 0},
+    {"level", 0, "3..8", "with --unpack: write the set that is so many times smaller", 0},
     {"no-lamps", 0, NULL, "leave out the lamps, which then cannot be changed", 0},
     {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {"web", 0, "DIR", "write a folder with a page that shows the set in browsers", 0},
@@ -29,6 +31,7 @@ static const CliOption options[] = {
 typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given, no_lamps;
+    int level;       /* 0: not given */
     int web_lamps;   /* 0: not given */
     uint64_t memory; /* bytes */
     int threads;
@@ -53,6 +56,10 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
         } else if (strcmp(option->name, "stats") == 0) {
             job->stats = cli->value;
+        } else if (strcmp(option->name, "levels") == 0) {
+            job->params.levels = 1;
+        } else if (strcmp(option->name, "level") == 0) {
+            job->level = (int)cli_integer(cli, option, 2, 8);
         } else if (strcmp(option->name, "no-lamps") == 0) {
             job->no_lamps = 1;
         } else if (strcmp(option->name, "web") == 0) {
@@ -73,10 +80,16 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
     if (job->unpack && job->no_lamps)
         cli_die(cli, "--no-lamps is of packing");
+    if (job->unpack && job->params.levels)
+        cli_die(cli, "--levels is of packing; --unpack takes --level");
+    if (job->level && !job->unpack)
+        cli_die(cli, "--level is of --unpack");
+    if (job->level && strcmp(job->input, "-") == 0)
+        cli_die(cli, "--level reads the pack twice: it must be a file");
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
-    if (job->web && (job->unpack || job->params.lossless || job->stats || cli->output))
-        cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless nor --stats");
+    if (job->web && (job->unpack || job->params.lossless || job->params.levels || job->stats || cli->output))
+        cli_die(cli, "--web writes a folder: it takes neither -o, --unpack, --lossless, --levels nor --stats");
     if (job->web_lamps && (!job->web || job->no_lamps))
         cli_die(cli, "--web-lamps is of --web, and of sets that keep their lamps");
     job->threads = cli->threads;
@@ -181,12 +194,28 @@ static void remove_player(const char *folder, unsigned added)
     }
 }
 
+/* Read the smaller set of a pack that --level asks for. */
+static int read_level(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
+{
+    RetexPackLevel level = {.size = sizeof level};
+    int found = 0, code = retex_set_open(job->input, set, NULL, job->threads, err);
+    for (int i = 0; !code && !found && retex_pack_level(&level, *set, i); i++)
+        found = level.scale == job->level;
+    retex_set_close(set);
+    if (!code && !found)
+        cli_die(cli, "--level: %s has no set that is %d times smaller", job->input, job->level);
+    if (!code)
+        code = retex_set_open_size(job->input, level.width, level.height, set, job->threads, err);
+    return code ? code : retex_set_load(*set, job->threads, err);
+}
+
 /* Without its lamps a set is in memory. */
 static int open_set(Cli *cli, const Job *job, RetexSet **set, RetexError *err)
 {
     const int whole = job->unpack || job->params.lossless || job->no_lamps;
-    int code = whole ? retex_set_read(job->input, set, NULL, cli->threads, err)
-                     : cli_open_set(cli, set, job->input, job->memory, err);
+    int code = job->level ? read_level(cli, job, set, err)
+               : whole    ? retex_set_read(job->input, set, NULL, cli->threads, err)
+                          : cli_open_set(cli, set, job->input, job->memory, err);
     if (!code && job->no_lamps)
         code = retex_set_drop_lamps(*set, err);
     return code;

@@ -52,6 +52,16 @@ int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int
     return read_file(path, set, samples, 1, nthreads, err);
 }
 
+int retex_set_open_size(const char *path, int width, int height, RetexSet **set, int nthreads, RetexError *err)
+{
+    *set = NULL;
+    if (width < 1 || height < 1)
+        return retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is none", width, height);
+    int status = retex_set_open(path, set, NULL, nthreads, err);
+    const int level = status ? -1 : retex_pack_find_level(*set, width, height);
+    return level < 0 ? status : retex_pack_take_level(set, level, err);
+}
+
 int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;

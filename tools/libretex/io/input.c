@@ -28,6 +28,8 @@ struct RetexInput {
     unsigned char *data; /* NULL while the file is read by position */
     int data_borrowed;   /* 1: data belongs to the caller */
     uint64_t size;
+    const RetexInput *whole; /* of which it is a window, from this byte on; or NULL */
+    uint64_t begin;
     atomic_int failed; /* errno of a read that failed */
 };
 
@@ -231,6 +233,21 @@ int retex_input_borrow(RetexInput **result, const void *data, size_t bytes, cons
     return 0;
 }
 
+int retex_input_window(RetexInput **result, const RetexInput *whole, uint64_t offset, uint64_t bytes, const char *name,
+                       RetexError *err)
+{
+    RetexInput *input = *result = calloc(1, sizeof *input);
+
+    if (!input)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    input->descriptor = -1;
+    input->whole = whole;
+    input->begin = offset;
+    input->size = offset > whole->size ? 0 : bytes < whole->size - offset ? bytes : whole->size - offset;
+    snprintf(input->name, sizeof input->name, "%s", name);
+    return 0;
+}
+
 void retex_input_close(RetexInput **result)
 {
     RetexInput *input = result ? *result : NULL;
@@ -270,6 +287,8 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
         memcpy(buffer, input->data + offset, bytes);
         return (int64_t)bytes;
     }
+    if (input->whole)
+        return retex_input_read(input->whole, buffer, bytes, input->begin + offset);
     size_t done = 0;
     while (done < bytes) {
         const ssize_t got =
@@ -290,6 +309,8 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
 
 int retex_input_check(const RetexInput *input, int status, RetexError *err)
 {
+    while (input && input->whole)
+        input = input->whole;
     const int failed = input ? atomic_load(&input->failed) : 0;
 
     return failed && (status == RETEX_OK || status == RETEX_EFORMAT) ? fail_read(input, failed, err) : status;

@@ -19,6 +19,9 @@ int retex_input_open_allowed(RetexInput **input, const char *path, const RetexAc
 int retex_input_open_descriptor(RetexInput **input, int descriptor, const char *name, RetexError *err);
 /* Use bytes in memory as an input; they stay the caller's. name: for messages. */
 int retex_input_borrow(RetexInput **input, const void *data, size_t bytes, const char *name, RetexError *err);
+/* Use some bytes of an input as one of its own. The whole input stays the caller's, open until the window is closed. */
+int retex_input_window(RetexInput **window, const RetexInput *whole, uint64_t offset, uint64_t bytes, const char *name,
+                       RetexError *err);
 void retex_input_close(RetexInput **input); /* NULL and pointers to NULL are fine */
 
 const char *retex_input_name(const RetexInput *input); /* for messages: the path, or "standard input" */

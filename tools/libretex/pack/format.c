@@ -88,6 +88,11 @@ void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part
         snprintf(name, size, planes ? "planes/%s.blk" : "radiance/%s.jpg", set->parts[part].name);
 }
 
+void retex_pack_level_name(char *name, size_t size, int scale)
+{
+    snprintf(name, size, "level-%d.retex", scale);
+}
+
 int retex_pack_damaged(RetexError *err, const char *what, const char *name)
 {
     return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: %s '%s'", what, name);
@@ -163,7 +168,7 @@ static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart 
 }
 
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
-                          const RetexPackPromise *promise)
+                          const RetexPackPromise *promise, const RetexPackScales *levels)
 {
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
@@ -173,6 +178,12 @@ char *retex_pack_describe(const char *manifest, const RetexSet *set, const Retex
         retex_json_put(&pack, "quality", json_integer(promise->quality));
         retex_json_put(&pack, "promised", json_real(promise->promised));
         retex_json_put(&pack, "measured", json_real(promise->measured));
+    }
+    if (levels->count) {
+        json_t *scales = json_array();
+        for (int i = 0; i < levels->count; i++)
+            retex_json_add(&scales, json_integer(levels->of[i]));
+        retex_json_put(&pack, "levels", scales);
     }
     retex_json_put(&root, "pack", pack);
     char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
@@ -217,6 +228,22 @@ int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest)
                       get_positive(json_object_get(pack, "measured"), &promise->measured);
     json_decref(root);
     return sound;
+}
+
+int retex_pack_levels_of(RetexPackScales *levels, const char *manifest, RetexError *err)
+{
+    json_t *root = json_loads(manifest, 0, NULL);
+    const json_t *scales = json_object_get(json_object_get(root, "pack"), "levels");
+    const size_t count = json_array_size(scales);
+    int sound = !scales || (json_is_array(scales) && count > 0 && count <= RETEX_PACK_LEVELS_MAX), least = 2;
+    *levels = (RetexPackScales){0};
+    for (size_t i = 0; i < count && sound; i++) {
+        int *scale = &levels->of[levels->count++];
+        sound = get_integer(json_array_get(scales, i), least, RETEX_PACK_LEVEL_SCALE_MAX, scale);
+        least = *scale + 1;
+    }
+    json_decref(root);
+    return sound ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its list of smaller sets is not sound");
 }
 
 static int parse_map(RetexPackMap *map, const json_t *o)

@@ -12,6 +12,8 @@
 #define RETEX_PACK_INDEX_NAME "index"
 #define RETEX_PACK_PICTURE_NAME "picture.jpg"
 #define RETEX_PACK_MANIFEST_MAX (64u << 20) /* bytes */
+#define RETEX_PACK_LEVELS_MAX 8
+#define RETEX_PACK_LEVEL_SCALE_MAX 8
 enum {
     RETEX_PACK_CHANNELS_MAX = 8,
     RETEX_PACK_INDEX_ENTRY_BYTES = 8 /* bytes: size and CRC-32 of a slice, little-endian */
@@ -70,13 +72,22 @@ int retex_pack_damaged(RetexError *err, const char *what, const char *name);
 /* CRC-32 of a part's samples in their stored type: see RetexPart. */
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
 
+/* Smaller sets in a pack: how many times smaller they are, from the largest on, 2..RETEX_PACK_LEVEL_SCALE_MAX. */
+typedef struct RetexPackScales {
+    int count, of[RETEX_PACK_LEVELS_MAX];
+} RetexPackScales;
+/* The name of the ZIP entry with a smaller set, a pack. */
+void retex_pack_level_name(char *name, size_t size, int scale);
+
 /* Write packed[set->nparts] as the key "pack" into the manifest's text, and parse it. promise: figures of the loss, or
  * NULL. */
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
-                          const RetexPackPromise *promise);
+                          const RetexPackPromise *promise, const RetexPackScales *levels);
 int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err);
 /* Read the figures of the loss from the manifest. Returns 1, or 0 if they are missing or invalid. */
 int retex_pack_promise_of(RetexPackPromise *promise, const char *manifest);
+/* Read which smaller sets there are. */
+int retex_pack_levels_of(RetexPackScales *levels, const char *manifest, RetexError *err);
 /* The format's version by the manifest, or 0. */
 int retex_pack_version_of(const char *manifest);
 

@@ -8,6 +8,7 @@
 #include <retex/samples.h>
 #include <retex/set_file.h>
 
+#include "base/params.h"
 #include "io/checksum.h"
 #include "exr/io.h"
 #include "set/manifest.h"
@@ -23,6 +24,7 @@ void retex_pack_close(RetexPack **result)
     free(pack->parts);
     retex_zip_list_free(&pack->entries);
     retex_input_close(&pack->input);
+    retex_input_close(&pack->whole);
     free(pack);
     *result = NULL;
 }
@@ -76,6 +78,20 @@ static int place_slices(RetexPack *pack, int part, int planes, int first, int co
     return 0;
 }
 
+/* The entries of smaller sets. *used counts entries. */
+static int find_levels(RetexPack *pack, int *used, RetexError *err)
+{
+    for (int i = 0; i < pack->levels.count; i++) {
+        char name[RETEX_PACK_NAME_MAX];
+        retex_pack_level_name(name, sizeof name, pack->levels.of[i]);
+        pack->level_entries[i] = retex_zip_list_find(&pack->entries, name);
+        if (!pack->level_entries[i])
+            return retex_pack_damaged(err, "it lacks", name);
+        ++*used;
+    }
+    return 0;
+}
+
 static int read_index(RetexPack *pack, RetexError *err)
 {
     unsigned char *index;
@@ -103,6 +119,8 @@ static int read_index(RetexPack *pack, RetexError *err)
     free(index);
     if (!code && pack->parts[0].codec != RETEX_PACK_JPEG) /* a lossless pack's picture is for viewers only */
         used += retex_zip_list_find(&pack->entries, RETEX_PACK_PICTURE_NAME) != NULL;
+    if (!code)
+        code = find_levels(pack, &used, err);
     if (!code && used != pack->entries.count)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it has entries that its manifest does not know");
     return code;
@@ -166,6 +184,8 @@ static int open_pack(RetexPack *pack, RetexSet **set, RetexError *err)
         code = read_set(set, (char *)manifest, err);
     if (!code && version == 0)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
+    if (!code)
+        code = retex_pack_levels_of(&pack->levels, (char *)manifest, err);
     if (!code)
         code = open_parts(pack, *set, (char *)manifest, err);
     pack->has_promise = !code && retex_pack_promise_of(&pack->promise, (char *)manifest);
@@ -257,6 +277,74 @@ const char *retex_pack_part_codec(const RetexPack *pack, int part)
     return retex_pack_codec_names[pack->parts[part].codec];
 }
 
+/* --- smaller sets --- */
+
+int retex_pack_level(RetexPackLevel *level, const RetexSet *set, int index)
+{
+    const RetexPack *pack = retex_pack_of(set);
+    if (!pack || index < 0 || index >= pack->levels.count)
+        return 0;
+    const int scale = pack->levels.of[index];
+    const RetexPackLevel own = {.width = (set->width + scale - 1) / scale,
+                                .height = (set->height + scale - 1) / scale,
+                                .scale = scale,
+                                .bytes = pack->level_entries[index]->bytes};
+    (void)RETEX_PARAMS_RETURN(level, &own, NULL);
+    return 1;
+}
+
+int retex_pack_find_level(const RetexSet *set, int width, int height)
+{
+    RetexPackLevel level = {.size = sizeof level};
+    int found = -1;
+    for (int i = 0; retex_pack_level(&level, set, i); i++) {
+        const int same = level.width == width && level.height == height;
+        const int whole = level.width * level.scale == set->width && level.height * level.scale == set->height &&
+                          level.width % width == 0 && level.height % height == 0;
+        const int large = level.width / RETEX_PACK_LARGE >= width && level.height / RETEX_PACK_LARGE >= height;
+        if (same || whole || large)
+            found = i;
+    }
+    return found;
+}
+
+/* Open a smaller set as it lies in the pack's input, which is `whole`. */
+static int open_level(RetexSet **result, const RetexPack *pack, const RetexInput *whole, int index, RetexError *err)
+{
+    const RetexZipEntry *entry = pack->level_entries[index];
+    RetexPackLevel level = {.size = sizeof level};
+    RetexInput *window = NULL;
+    char name[512 + RETEX_PACK_NAME_MAX];
+    retex_pack_level(&level, pack->set, index);
+    snprintf(name, sizeof name, "%s: %s", retex_input_name(whole), entry->name);
+    int code = retex_input_window(&window, whole, entry->offset, entry->bytes, name, err);
+    if (!code)
+        code = retex_pack_open(result, &window, err);
+    retex_input_close(&window);
+    const RetexSet *set = *result;
+    if (!code && (set->width != level.width || set->height != level.height || set->id != pack->set->id ||
+                  set->ntargets != pack->set->ntargets || retex_pack_of(set)->levels.count))
+        code = retex_pack_damaged(err, "it has another set as", entry->name);
+    if (code)
+        retex_set_close(result);
+    return code;
+}
+
+int retex_pack_take_level(RetexSet **set, int index, RetexError *err)
+{
+    RetexPack *pack = retex_pack_of(*set);
+    RetexInput *whole = pack->input;
+    RetexSet *level = NULL;
+    const int code = open_level(&level, pack, whole, index, err);
+    if (!code) {
+        pack->input = NULL;
+        retex_pack_of(level)->whole = whole;
+    }
+    retex_set_close(set);
+    *set = level;
+    return code;
+}
+
 /* --- all of it --- */
 
 /* Every byte of every entry, whether the index knows it or not. */
@@ -285,6 +373,13 @@ int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err)
     RetexPack *pack = retex_pack_of(set);
     char *exact = malloc((size_t)set->nparts + 1);
     int code = exact ? verify_entries(pack, err) : retex_fail(err, RETEX_ENOMEM, "no memory to check a pack");
+    for (int i = 0; !code && i < pack->levels.count; i++) {
+        RetexSet *level = NULL;
+        code = open_level(&level, pack, pack->input, i, err);
+        if (!code)
+            code = retex_pack_verify(level, nthreads, err);
+        retex_set_close(&level);
+    }
     for (int i = 0; !code && i < set->nparts; i++)
         exact[i] = (char)keeps_bits(&pack->parts[i]);
     if (!code)

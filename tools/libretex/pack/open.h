@@ -14,6 +14,9 @@ struct RetexPack {
     RetexPackPart *parts;
     const RetexSet *set; /* that owns it */
     int nparts;
+    RetexPackScales levels;
+    const RetexZipEntry *level_entries[RETEX_PACK_LEVELS_MAX];
+    RetexInput *whole; /* of a smaller set: the pack that it is in; else NULL */
     int has_promise;
     RetexPackPromise promise;
 };

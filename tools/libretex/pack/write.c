@@ -4,9 +4,11 @@
 #include <retex/pack.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/reduce.h>
 #include <retex/set_file.h>
 
 #include "base/params.h"
@@ -35,7 +37,17 @@ static int no_memory(RetexError *err)
 
 /* --- the file --- */
 
-static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPackPromise *promise, RetexError *err)
+/* Smaller sets, each a pack of its own. */
+typedef struct Levels {
+    RetexPackScales scales;
+    void *data[RETEX_PACK_LEVELS_MAX];
+    size_t bytes[RETEX_PACK_LEVELS_MAX];
+} Levels;
+
+static const Levels no_levels;
+
+static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPackPromise *promise, const Levels *levels,
+                          RetexError *err)
 {
     RetexSet described = *w->set;
     char *json = NULL;
@@ -48,7 +60,7 @@ static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPac
     }
     int code = retex_set_manifest(&described, NULL, &json, err);
     free(described.parts);
-    if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, promise)))
+    if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, promise, &levels->scales)))
         code = no_memory(err);
     free(json);
     return code;
@@ -85,8 +97,21 @@ static int write_slices(RetexOutput *output, RetexZipList *list, const RetexPack
     return code;
 }
 
+static int write_levels(RetexOutput *output, RetexZipList *list, const Levels *levels, uint64_t *written,
+                        RetexError *err)
+{
+    int code = 0;
+    for (int i = 0; i < levels->scales.count && !code; i++) {
+        const void *data = levels->data[i];
+        char name[RETEX_PACK_NAME_MAX];
+        retex_pack_level_name(name, sizeof name, levels->scales.of[i]);
+        code = retex_zip_entry_write(output, list, name, &data, &levels->bytes[i], 1, written, err);
+    }
+    return code;
+}
+
 static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, const char *manifest,
-                         uint64_t *written, RetexError *err)
+                         const Levels *levels, uint64_t *written, RetexError *err)
 {
     size_t bytes;
     const void *text = manifest;
@@ -110,37 +135,23 @@ static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPac
                 code = write_slices(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nslices - jpeg : jpeg,
                                     written, err);
         }
+    if (!code)
+        code = write_levels(output, list, levels, written, err);
     return code ? code : retex_zip_directory_write(output, list, written, err);
 }
 
 /* promise: what the manifest says of the loss, or NULL. */
-static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackPromise *promise, uint64_t *written,
-                     RetexError *err)
+static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackPromise *promise,
+                     const Levels *levels, uint64_t *written, RetexError *err)
 {
     RetexZipList list = {0};
     char *manifest = NULL;
     *written = 0;
-    int code = write_manifest(&manifest, w, promise, err);
+    int code = write_manifest(&manifest, w, promise, levels, err);
     if (!code)
-        code = write_entries(output, &list, w, manifest, written, err);
+        code = write_entries(output, &list, w, manifest, levels, written, err);
     retex_zip_list_free(&list);
     free(manifest);
-    return code;
-}
-
-static int write_file(const RetexPackEncoded *w, const RetexPackPromise *promise, const char *path, size_t *bytes,
-                      RetexError *err)
-{
-    RetexOutput *output = NULL;
-    uint64_t written = 0;
-    int code = retex_output_open(&output, path, err);
-    if (!code)
-        code = write_all(output, w, promise, &written, err);
-    if (!code)
-        code = retex_output_commit(&output, err);
-    retex_output_abandon(&output);
-    if (!code && bytes)
-        *bytes = (size_t)written;
     return code;
 }
 
@@ -195,7 +206,7 @@ static int attempt_measure(double *worst, const Attempt *attempt, const RetexPac
     size_t bytes;
     int code = retex_output_open_memory(&output, err);
     if (!code)
-        code = write_all(output, &attempt->encoded, NULL, &written, err);
+        code = write_all(output, &attempt->encoded, NULL, &no_levels, &written, err);
     if (!code)
         code = retex_output_take(&output, &data, &bytes, err);
     if (!code)
@@ -251,31 +262,105 @@ static int is_comparable(const RetexSet *set, RetexError *err)
     return sound;
 }
 
+/* Write the set with its levels into an output. */
+static int write_pack(RetexOutput *output, const RetexSet *set, const RetexPackParams *params, const Levels *levels,
+                      uint64_t *written, int nthreads, RetexError *err)
+{
+    Attempt attempt = {0};
+    RetexPackReference reference = {0};
+    RetexPackPromise promise = {.quality = params->quality};
+    const int comparable = params->lossless ? 0 : is_comparable(set, err);
+    if (comparable < 0)
+        return comparable;
+    int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
+    promise.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
+    if (!code && params->lossless)
+        code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
+    else if (!code && comparable)
+        code = keep_promise(&attempt, &promise, set, &reference, params, nthreads, err);
+    else if (!code)
+        code = attempt_make(&attempt, set, params->quality, params, nthreads, err);
+    if (!code)
+        code = write_all(output, &attempt.encoded, comparable ? &promise : NULL, levels, written, err);
+    attempt_free(&attempt);
+    retex_pack_reference_close(&reference);
+    return code;
+}
+
+/* --- levels --- */
+
+/* Half of the size is left out: it would take more room than all others. */
+static const int LEVELS[] = {3, 4, 6, 8};
+enum { LEVEL_QUALITY = 90, LEVEL_LESS_QUALITY = 20 };
+
+static int make_level(void **data, size_t *bytes, const RetexSet *set, int scale, const RetexPackParams *params,
+                      int nthreads, RetexError *err)
+{
+    RetexPackParams own = RETEX_PACK_INIT;
+    RetexOutput *output = NULL;
+    RetexSet *reduced = NULL;
+    uint64_t written;
+    const int less = params->quality - LEVEL_LESS_QUALITY;
+    own.quality = params->lossless ? LEVEL_QUALITY : less > 1 ? less : 1;
+    int code = retex_set_reduce(&reduced, set, scale, nthreads, err);
+    if (!code)
+        code = retex_output_open_memory(&output, err);
+    if (!code)
+        code = write_pack(output, reduced, &own, &no_levels, &written, nthreads, err);
+    if (!code)
+        code = retex_output_take(&output, data, bytes, err);
+    retex_output_abandon(&output);
+    retex_set_close(&reduced);
+    return code;
+}
+
+static void free_levels(Levels *levels)
+{
+    for (int i = 0; i < levels->scales.count; i++)
+        free(levels->data[i]);
+}
+
+static int make_levels(Levels *levels, const RetexSet *set, const RetexPackParams *params, int nthreads,
+                       RetexError *err)
+{
+    int code = 0;
+    for (size_t i = 0; i < sizeof LEVELS / sizeof *LEVELS && !code && params->levels; i++) {
+        const int scale = LEVELS[i], k = levels->scales.count;
+        if ((set->width + scale - 1) / scale < RETEX_PACK_LEVEL_WIDTH)
+            break;
+        code = make_level(&levels->data[k], &levels->bytes[k], set, scale, params, nthreads, err);
+        levels->scales.of[levels->scales.count++] = scale;
+    }
+    if (!code && params->levels && !levels->scales.count && params->warn) {
+        char text[160];
+        snprintf(text, sizeof text, "the set has no levels: that of a third would be less than %d pixels wide",
+                 RETEX_PACK_LEVEL_WIDTH);
+        params->warn(params->warn_context, text);
+    }
+    return code;
+}
+
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *given, size_t *bytes, int nthreads,
                      RetexError *err)
 {
     RetexPackParams params = RETEX_PACK_INIT;
-    Attempt attempt = {0};
-    RetexPackReference reference = {0};
+    RetexOutput *output = NULL;
+    Levels levels = {0};
+    uint64_t written = 0;
     if (RETEX_PARAMS_COPY(&params, given, err))
         return RETEX_EINVAL;
     if (params.quality < 1 || params.quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params.quality);
-    RetexPackPromise promise = {.quality = params.quality};
-    const int comparable = params.lossless ? 0 : is_comparable(set, err);
-    if (comparable < 0)
-        return comparable;
-    int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    promise.promised = retex_pack_promised_psnr(params.quality, set->spp, reference.noise);
-    if (!code && params.lossless)
-        code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
-    else if (!code && comparable)
-        code = keep_promise(&attempt, &promise, set, &reference, &params, nthreads, err);
-    else if (!code)
-        code = attempt_make(&attempt, set, params.quality, &params, nthreads, err);
+    int code = make_levels(&levels, set, &params, nthreads, err);
     if (!code)
-        code = write_file(&attempt.encoded, comparable ? &promise : NULL, path, bytes, err);
-    attempt_free(&attempt);
-    retex_pack_reference_close(&reference);
+        code = retex_output_open(&output, path, err);
+    if (!code)
+        code = write_pack(output, set, &params, &levels, &written, nthreads, err);
+    if (!code)
+        code = retex_output_commit(&output, err);
+    retex_output_abandon(&output);
+    free_levels(&levels);
+    if (!code && bytes)
+        *bytes = (size_t)written;
     return code;
 }

@@ -17,8 +17,12 @@ typedef struct RetexPackParams {
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
     RetexWarn *warn; /* told, in the calling thread, why a set takes more room; default NULL = nobody */
     void *warn_context;
+    int levels; /* 1: smaller sets are beside it, for pictures that are smaller (see retex_set_open_size): of a third, a
+                   quarter, a sixth and an eighth of the size, but not less than RETEX_PACK_LEVEL_WIDTH pixels wide. They
+                   are made by retex_set_reduce and have a quality of 20 less, in a lossless pack 90. Default 0 */
 } RetexPackParams;
-#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL }
+#define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL, 0 }
+#define RETEX_PACK_LEVEL_WIDTH 160
 
 /* Write set as a pack; "-" is standard output. Unless lossless it is compacted, as retex-pack(5) describes, and is
  * without what only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ
@@ -42,6 +46,17 @@ const char *retex_pack_use_name(int use);
 /* Bytes of the pack's parts by their use, of the first nuses: RETEX_PACK_USES. A zip's directory, the manifest and the
  * like are not among them. RETEX_ENOTFOUND where the set is not that of a pack which retex_set_open opened. */
 int retex_pack_bytes(uint64_t *bytes, int nuses, const RetexSet *set, RetexError *err);
+
+/* A smaller set in a pack. A later version may add members at the end. */
+typedef struct RetexPackLevel {
+    size_t size;       /* sizeof(RetexPackLevel) */
+    int width, height; /* pixels */
+    int scale;         /* how many times smaller it is: 2 to 8 */
+    uint64_t bytes;    /* in the pack */
+} RetexPackLevel;
+/* Fill what level->size says that the caller knows of smaller set number `index`, the largest first. Returns 1, or 0
+ * where there is no such, or the set is not that of a pack which retex_set_open opened. */
+int retex_pack_level(RetexPackLevel *level, const RetexSet *set, int index);
 
 /* What a pack with losses says of them: quality, and of the worst picture of those of retex_pack_loss, when it was
  * packed, the PSNR that was promised and what it was. */
