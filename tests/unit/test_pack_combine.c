@@ -227,7 +227,7 @@ static void test_unsound_descriptions_are_refused(void **state)
         if (i == 4)
             set->parts[set->footprints[0].albedo].image.width = 20;
         test_must(retex_set_manifest(set, NULL, &manifest, &err), &err);
-        char *text = retex_pack_describe(manifest, set, packed, NULL);
+        char *text = retex_pack_describe(manifest, set, packed, NULL, NULL);
         assert_int_equal(retex_pack_parse(read, set, text, &err), i ? RETEX_EFORMAT : RETEX_OK);
         if (i)
             assert_non_null(strstr(err.message, "not sound"));

@@ -179,7 +179,7 @@ char *retex_pack_describe(const char *manifest, const RetexSet *set, const Retex
         retex_json_put(&pack, "promised", json_real(promise->promised));
         retex_json_put(&pack, "measured", json_real(promise->measured));
     }
-    if (levels->count) {
+    if (levels && levels->count) {
         json_t *scales = json_array();
         for (int i = 0; i < levels->count; i++)
             retex_json_add(&scales, json_integer(levels->of[i]));

@@ -80,7 +80,7 @@ typedef struct RetexPackScales {
 void retex_pack_level_name(char *name, size_t size, int scale);
 
 /* Write packed[set->nparts] as the key "pack" into the manifest's text, and parse it. promise: figures of the loss, or
- * NULL. */
+ * NULL. levels: NULL: there are none. */
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
                           const RetexPackPromise *promise, const RetexPackScales *levels);
 int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err);
