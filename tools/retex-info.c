@@ -311,8 +311,8 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
     }
     RetexPackLevel level = {.size = sizeof level};
     for (int i = 0; set && retex_pack_level(&level, set, i); i++)
-        fprintf(out, "%s{\"scale\":%d,\"width\":%d,\"height\":%d,\"bytes\":%llu}", i ? "," : "\"levels\":[", level.scale,
-                level.width, level.height, (unsigned long long)level.bytes);
+        fprintf(out, "%s{\"scale\":%d,\"width\":%d,\"height\":%d,\"bytes\":%llu}", i ? "," : "\"levels\":[",
+                level.scale, level.width, level.height, (unsigned long long)level.bytes);
     if (set && retex_pack_level(&level, set, 0))
         fprintf(out, "],");
     fprintf(out, "\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);

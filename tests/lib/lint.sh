@@ -130,7 +130,7 @@ done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
 $unprefixed"
 
 # Each room's files are named in its section of the README, x.h by x.c.
-for room in base io exr picture texture set edit precision retexture solve denoise metrics compact pack web files; do
+for room in base io exr picture texture set edit precision retexture solve denoise metrics compact reduce pack web files; do
     section=$(awk -v head="### $room" '/^##/ { inside = $0 == head } inside' tools/libretex/README.md)
     for file in tools/libretex/$room/*.[ch]; do
         name=${file##*/}

@@ -85,7 +85,7 @@ static void expect_averaged(const RetexSet *set, const RetexSet *small, int scal
     retex_image_free(&averaged);
 }
 
-static void one_colour_is_the_averaged_picture(void **state)
+static void one_color_is_the_averaged_picture(void **state)
 {
     (void)state;
     for (int s = 0; s < SCALES; s++)
@@ -119,8 +119,8 @@ static void moments_are_merged(void **state)
     const double u = 0.625, v = 0.3125; /* means */
     const double uu = (0.125 * 0.125 + 3 * 0.0625 * 0.0625) / 4 + (0.375 * 0.375 + 3 * 0.125 * 0.125) / 4;
     const double vv = (0.0625 * 0.0625 + 3 * 0.25 * 0.25) / 4 + (0.1875 * 0.1875 + 3 * 0.0625 * 0.0625) / 4;
-    const double covariance = (0.5 * 0.125 * 0.0625 - 3 * 0.25 * 0.0625 * 0.25) / 4 -
-                              (0.375 * 0.1875 + 3 * 0.125 * 0.0625) / 4;
+    const double covariance =
+        (0.5 * 0.125 * 0.0625 - 3 * 0.25 * 0.0625 * 0.25) / 4 - (0.375 * 0.1875 + 3 * 0.125 * 0.0625) / 4;
     assert_float_equal(uv[0], u, sqrt(uu) / 32);
     assert_float_equal(uv[1], v, sqrt(vv) / 32);
     assert_float_equal(uv[2], 1.5 / 4, 2e-3);
@@ -372,7 +372,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_stays_by_term),
-        cmocka_unit_test(one_colour_is_the_averaged_picture),
+        cmocka_unit_test(one_color_is_the_averaged_picture),
         cmocka_unit_test(moments_are_merged),
         cmocka_unit_test(light_goes_with_its_footprint),
         cmocka_unit_test(weights_follow_light),

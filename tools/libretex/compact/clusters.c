@@ -126,7 +126,8 @@ static void merge_within_noise(Pool *pool)
         double least = INFINITY;
         for (int i = 1; i < pool->uv.count; i++)
             for (int j = 0; j < i; j++) {
-                const double error2 = retex_uv_stats_shape_gain(&pool->uv.of[i].place, &pool->uv.of[j].place, pool->uv.periodic);
+                const double error2 =
+                    retex_uv_stats_shape_gain(&pool->uv.of[i].place, &pool->uv.of[j].place, pool->uv.periodic);
                 if (error2 < least)
                     least = error2, first = i, second = j;
             }

@@ -137,9 +137,9 @@ static void find_light(const RetexReduceBlock *block, const RetexReduceScratch *
         double of[3];
         column_of(block, scratch, column, source, of);
         for (int c = 0; c < 3; c++)
-            source->light[c] += column->weights < 0                     ? column->value[c] * of[c]
+            source->light[c] += column->weights < 0                   ? column->value[c] * of[c]
                                 : scratch->light[column->weights] > 0 ? of[c]
-                                                                        : 0;
+                                                                      : 0;
     }
 }
 
@@ -211,8 +211,8 @@ static Map find_map(const RetexReduceBlock *block, const RetexReduceKind *kind)
         steps_to(block, i, steps);
         for (int k = 0; k < 2; k++) {
             first[k] = map.pixels ? first[k] : (double)uv[k];
-            map.uv[k] += retex_uv_stats_difference((double)uv[k], first[k], periodic[k]) -
-                         steps[0] * (double)axes[k] - steps[1] * (double)axes[2 + k];
+            map.uv[k] += retex_uv_stats_difference((double)uv[k], first[k], periodic[k]) - steps[0] * (double)axes[k] -
+                         steps[1] * (double)axes[2 + k];
         }
         for (int k = 0; k < RETEX_AXES; k++)
             map.axes[k] += (double)axes[k];
@@ -350,8 +350,7 @@ static void store_column(const RetexReduceBlock *block, const RetexReduceScratch
     for (int k = 0; k < kind->count; k++)
         for (int c = 0; c < column->channels; c++) {
             const double sum = sums[k][c] / all;
-            made_pixel(block, column->to[k])[c] =
-                column->weights >= 0 && sum > 0 ? retex_round_share(sum) : (float)sum;
+            made_pixel(block, column->to[k])[c] = column->weights >= 0 && sum > 0 ? retex_round_share(sum) : (float)sum;
         }
 }
 

@@ -6,7 +6,7 @@
 
 #define RETEX_REDUCE_SIDE 8 /* pixels of a block's side, at most */
 
-typedef struct RetexReduceScratch RetexReduceScratch; /* one for each thread */
+typedef struct RetexReduceScratch RetexReduceScratch;  /* one for each thread */
 RetexReduceScratch *retex_reduce_scratch_create(void); /* NULL: no memory */
 
 /* A block: pixels of `rows`, some rows of the set, and the pixel of the reduced set that they become. */

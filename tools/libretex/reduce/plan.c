@@ -15,17 +15,16 @@
 
 #define SPP_MOST (1 << 30) /* of a set */
 /* AOVs that are averages over a pixel; all others are taken at its centre. */
-#define AVERAGED_AOVS                                                                                                  \
-    (RETEX_AOV_BIT(IRRADIANCE) | RETEX_AOV_BIT(ALBEDO_MEAN) | RETEX_AOV_BIT(NORMAL_MEAN))
+#define AVERAGED_AOVS (RETEX_AOV_BIT(IRRADIANCE) | RETEX_AOV_BIT(ALBEDO_MEAN) | RETEX_AOV_BIT(NORMAL_MEAN))
 
 /* Planning, with what only it needs. */
 typedef struct Planning {
     RetexReducePlan *plan;
     const RetexSet *set;
     int scale;
-    int *slots;           /* by part with light or weights: its kind and slot, as one number; else RETEX_REDUCE_NONE */
-    char *in_columns;     /* by term: its radiance is in a column */
-    const char *unknown;  /* what cannot be reduced, or NULL */
+    int *slots;          /* by part with light or weights: its kind and slot, as one number; else RETEX_REDUCE_NONE */
+    char *in_columns;    /* by term: its radiance is in a column */
+    const char *unknown; /* what cannot be reduced, or NULL */
 } Planning;
 
 static int no_memory(RetexError *err)
@@ -122,8 +121,8 @@ static RetexReduceColumn *add_column(RetexReduceKind *kind, int term, int mixtur
     }
     kind->columns = columns;
     columns += kind->ncolumns++;
-    *columns = (RetexReduceColumn){
-        .term = term, .mixture = mixture, .weights = RETEX_REDUCE_NONE, .channels = channels};
+    *columns =
+        (RetexReduceColumn){.term = term, .mixture = mixture, .weights = RETEX_REDUCE_NONE, .channels = channels};
     for (int k = 0; k < RETEX_SHARES_MAX; k++)
         columns->from[k] = columns->to[k] = RETEX_REDUCE_NONE;
     return columns;
@@ -430,8 +429,9 @@ static int add_mixture(Planning *p, int number, RetexError *err)
         for (int j = 0; j < kind->ncolumns; j++)
             for (int k = 0; k < kind->count && kind->columns[j].mixture == number; k++) {
                 if (mixture.nshares == RETEX_SHARES_MAX)
-                    return retex_fail(err, RETEX_EUNSUPPORTED, "the set cannot be reduced: a mixture would have more "
-                                                               "than %d shares",
+                    return retex_fail(err, RETEX_EUNSUPPORTED,
+                                      "the set cannot be reduced: a mixture would have more "
+                                      "than %d shares",
                                       RETEX_SHARES_MAX);
                 mixture.shares[mixture.nshares++] = (struct RetexShare){kind->to[k], kind->columns[j].to[k]};
             }

@@ -24,11 +24,11 @@ typedef struct RetexReduceLight {
 
 /* Light, or weights in mixtures, of each footprint of a kind. Merged footprints have the sum. */
 typedef struct RetexReduceColumn {
-    int term;        /* one of those whose radiance it is, or RETEX_REDUCE_NONE */
-    int mixture;     /* the mixture whose weights it has, or RETEX_REDUCE_NONE */
-    int weights;     /* of a mixture: which weights; RETEX_REDUCE_NONE: they are the radiance of terms */
+    int term;    /* one of those whose radiance it is, or RETEX_REDUCE_NONE */
+    int mixture; /* the mixture whose weights it has, or RETEX_REDUCE_NONE */
+    int weights; /* of a mixture: which weights; RETEX_REDUCE_NONE: they are the radiance of terms */
     int channels;
-    double value[3]; /* what it counts as light when footprints are merged */
+    double value[3];                                  /* what it counts as light when footprints are merged */
     int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* parts of the set and of the reduced one, by slot */
 } RetexReduceColumn;
 
@@ -39,10 +39,10 @@ typedef struct RetexReduceKind {
     int count;
     int from[RETEX_SHARES_MAX], to[RETEX_SHARES_MAX]; /* footprints, by slot */
     int albedo_of[RETEX_SHARES_MAX];                  /* the first slot that has the same albedo */
-    int nellipses, ellipses[RETEX_SHARES_MAX]; /* slots of merged footprints */
+    int nellipses, ellipses[RETEX_SHARES_MAX];        /* slots of merged footprints */
     int map[RETEX_QUADRANTS]; /* slots of a pixel that is a parallelogram, by its quarters; all the same where it has
                                  none; RETEX_REDUCE_NONE: there is no such */
-    int nlight; /* of a kind of one slot: the terms that have it as a factor */
+    int nlight;               /* of a kind of one slot: the terms that have it as a factor */
     RetexReduceLight *light;
     int ncolumns;
     RetexReduceColumn *columns;

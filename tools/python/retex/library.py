@@ -131,7 +131,8 @@ class RetexDenoisePictureParams(ctypes.Structure):
 
 
 class RetexPackParams(ctypes.Structure):
-    _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int), ("warn", WARN), ("warn_context", c_void_p)]
+    _fields_ = [("size", c_size_t), ("quality", c_int), ("lossless", c_int), ("warn", WARN), ("warn_context", c_void_p),
+                ("levels", c_int)]
 
 
 STRUCTURES = (RetexError, RetexImage, RetexRoi, RetexTextureSpec, RetexReadParams, RetexWriteParams, RetexDevelop,

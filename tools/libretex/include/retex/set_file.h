@@ -35,9 +35,8 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* Open a set for pictures of width x height pixels. Of a pack with levels (RetexPackParams) it is the smallest of its
- * sets that pictures of that size can be averaged from as from the whole set: that has a whole number of pixels for each
- * of theirs, or at least three times as many to each side. Of any other file it is the set, as retex_set_open opens
- * it. */
+ * sets from which such pictures can be averaged as from the whole set: that has a whole number of pixels for each of
+ * theirs, or at least three times as many to each side. Of any other file it is the set, as retex_set_open opens it. */
 int retex_set_open_size(const char *path, int width, int height, RetexSet **set, int nthreads, RetexError *err);
 
 /* Bring all parts of a set into memory, and close its band store or source. */
