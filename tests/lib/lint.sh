@@ -74,8 +74,8 @@ rooms() { # directory rank:room…
         !($1 in rank) { print "no room " $1; next }
         rank[$2] >= rank[$1] { $1 = $2 = ""; print }' | sort -u
 }
-back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7:precision 8:retexture 9:solve 9:denoise 9:metrics 9:compact \
-    10:pack 11:web 11:files)
+back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:edit 7:precision 8:retexture 9:solve 9:denoise 9:metrics 9:compact 10:reduce \
+    11:pack 12:web 12:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
 back=$(rooms renderer 1:base 2:function 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:medium 5:camera 6:accel 6:light 7:sdl/build \

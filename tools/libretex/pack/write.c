@@ -20,6 +20,7 @@
 #include "pack/encode.h"
 #include "pack/loss.h"
 #include "pack/zip.h"
+#include "reduce/plan.h"
 #include "set/set.h"
 
 /* dB by which compacting alone aims above the whole, because its errors and those of coding add up. The margin grows by
@@ -262,55 +263,121 @@ static int is_comparable(const RetexSet *set, RetexError *err)
     return sound;
 }
 
-/* Write the set with its levels into an output. */
-static int write_pack(RetexOutput *output, const RetexSet *set, const RetexPackParams *params, const Levels *levels,
-                      uint64_t *written, int nthreads, RetexError *err)
+/* A set encoded, and what its manifest says of the loss. */
+typedef struct Packed {
+    Attempt attempt;
+    RetexPackPromise promise;
+    int has_promise;
+} Packed;
+
+static int encode(Packed *packed, const RetexSet *set, const RetexPackParams *params, int nthreads, RetexError *err)
 {
-    Attempt attempt = {0};
     RetexPackReference reference = {0};
-    RetexPackPromise promise = {.quality = params->quality};
     const int comparable = params->lossless ? 0 : is_comparable(set, err);
+    *packed = (Packed){.promise = {.quality = params->quality}, .has_promise = comparable};
     if (comparable < 0)
         return comparable;
     int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    promise.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
+    packed->promise.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
     if (!code && params->lossless)
-        code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
+        code = retex_pack_encode(&packed->attempt.encoded, set, NULL, nthreads, err);
     else if (!code && comparable)
-        code = keep_promise(&attempt, &promise, set, &reference, params, nthreads, err);
+        code = keep_promise(&packed->attempt, &packed->promise, set, &reference, params, nthreads, err);
     else if (!code)
-        code = attempt_make(&attempt, set, params->quality, params, nthreads, err);
-    if (!code)
-        code = write_all(output, &attempt.encoded, comparable ? &promise : NULL, levels, written, err);
-    attempt_free(&attempt);
+        code = attempt_make(&packed->attempt, set, params->quality, params, nthreads, err);
     retex_pack_reference_close(&reference);
     return code;
 }
 
+static int write_packed(RetexOutput *output, const Packed *packed, const Levels *levels, uint64_t *written,
+                        RetexError *err)
+{
+    return write_all(output, &packed->attempt.encoded, packed->has_promise ? &packed->promise : NULL, levels, written,
+                     err);
+}
+
+static uint64_t bytes_of(const Packed *packed)
+{
+    const RetexPackEncoded *w = &packed->attempt.encoded;
+    uint64_t bytes = w->picture.bytes;
+    for (int i = 0; i < w->set->nparts; i++)
+        for (int k = 0; k < w->packed[i].nslices; k++)
+            bytes += w->packed[i].bytes[k];
+    return bytes;
+}
+
 /* --- levels --- */
 
-/* Half of the size is left out: it would take more room than all others. */
+/* Half of the size is left out: it would take more bytes than all others. */
 static const int LEVELS[] = {3, 4, 6, 8};
-enum { LEVEL_QUALITY = 90, LEVEL_LESS_QUALITY = 20 };
+enum {
+    LEVELS_COUNT = sizeof LEVELS / sizeof *LEVELS,
+    LEVEL_QUALITY = 90, /* of levels of a lossless pack */
+    LEVEL_QUALITIES = 3,
+    LEVEL_QUALITY_STEP = 10
+};
+#define LEVELS_SHARE (1 / 3.0) /* of the pack's bytes, that all levels may take */
 
-static int make_level(void **data, size_t *bytes, const RetexSet *set, int scale, const RetexPackParams *params,
-                      int nthreads, RetexError *err)
+static int pack_level(void **data, size_t *bytes, const RetexSet *reduced, int quality, int nthreads, RetexError *err)
 {
-    RetexPackParams own = RETEX_PACK_INIT;
+    RetexPackParams params = RETEX_PACK_INIT;
     RetexOutput *output = NULL;
-    RetexSet *reduced = NULL;
+    Packed packed;
     uint64_t written;
-    const int less = params->quality - LEVEL_LESS_QUALITY;
-    own.quality = params->lossless ? LEVEL_QUALITY : less > 1 ? less : 1;
-    int code = retex_set_reduce(&reduced, set, scale, nthreads, err);
+    params.quality = quality > 1 ? quality : 1;
+    int code = encode(&packed, reduced, &params, nthreads, err);
     if (!code)
         code = retex_output_open_memory(&output, err);
     if (!code)
-        code = write_pack(output, reduced, &own, &no_levels, &written, nthreads, err);
+        code = write_packed(output, &packed, &no_levels, &written, err);
     if (!code)
         code = retex_output_take(&output, data, bytes, err);
     retex_output_abandon(&output);
+    attempt_free(&packed.attempt);
+    return code;
+}
+
+/* Make a level of the highest quality at which it takes at most so many bytes; of the lowest if it never does. */
+static int make_level(void **data, size_t *bytes, const RetexSet *set, int scale, double most, int quality,
+                      int nthreads, RetexError *err)
+{
+    RetexSet *reduced = NULL;
+    int code = retex_set_reduce(&reduced, set, scale, nthreads, err);
+    for (int i = 0; i < LEVEL_QUALITIES && !code; i++) {
+        free(*data);
+        *data = NULL;
+        code = pack_level(data, bytes, reduced, quality - i * LEVEL_QUALITY_STEP, nthreads, err);
+        if ((double)*bytes <= most)
+            break;
+    }
     retex_set_close(&reduced);
+    return code;
+}
+
+/* Which levels a set has. */
+static RetexPackScales find_scales(const RetexSet *set)
+{
+    RetexPackScales scales = {0};
+    for (int i = 0; i < LEVELS_COUNT && (set->width + LEVELS[i] - 1) / LEVELS[i] >= RETEX_PACK_LEVEL_WIDTH; i++)
+        scales.of[scales.count++] = LEVELS[i];
+    return scales;
+}
+
+/* A level's part of the bytes is its part of the pixels of all that are not made yet, the smallest being first. */
+static int make_levels(Levels *levels, const RetexSet *set, double bytes, const RetexPackParams *params, int nthreads,
+                       RetexError *err)
+{
+    const int quality = params->lossless ? LEVEL_QUALITY : params->quality;
+    double most = LEVELS_SHARE * bytes, pixels = 0;
+    int code = 0;
+    for (int i = 0; i < levels->scales.count; i++)
+        pixels += pow(levels->scales.of[i], -2);
+    for (int i = levels->scales.count - 1; i >= 0 && !code; i--) {
+        const double own = pow(levels->scales.of[i], -2);
+        code = make_level(&levels->data[i], &levels->bytes[i], set, levels->scales.of[i], most * own / pixels, quality,
+                          nthreads, err);
+        most -= (double)levels->bytes[i], pixels -= own;
+    }
     return code;
 }
 
@@ -320,22 +387,23 @@ static void free_levels(Levels *levels)
         free(levels->data[i]);
 }
 
-static int make_levels(Levels *levels, const RetexSet *set, const RetexPackParams *params, int nthreads,
-                       RetexError *err)
+/* Whether the set can be reduced is known before all work. */
+static int begin_levels(Levels *levels, const RetexSet *set, const RetexPackParams *params, RetexError *err)
 {
-    int code = 0;
-    for (size_t i = 0; i < sizeof LEVELS / sizeof *LEVELS && !code && params->levels; i++) {
-        const int scale = LEVELS[i], k = levels->scales.count;
-        if ((set->width + scale - 1) / scale < RETEX_PACK_LEVEL_WIDTH)
-            break;
-        code = make_level(&levels->data[k], &levels->bytes[k], set, scale, params, nthreads, err);
-        levels->scales.of[levels->scales.count++] = scale;
-    }
-    if (!code && params->levels && !levels->scales.count && params->warn) {
+    RetexReducePlan plan;
+    if (!params->levels)
+        return RETEX_OK;
+    levels->scales = find_scales(set);
+    if (!levels->scales.count && params->warn) {
         char text[160];
         snprintf(text, sizeof text, "the set has no levels: that of a third would be less than %d pixels wide",
                  RETEX_PACK_LEVEL_WIDTH);
         params->warn(params->warn_context, text);
+    }
+    const int code = retex_reduce_plan_open(&plan, set, RETEX_PACK_LEVEL_SCALE_MAX, err);
+    if (!code) {
+        retex_set_close(&plan.reduced);
+        retex_reduce_plan_close(&plan);
     }
     return code;
 }
@@ -346,19 +414,25 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     RetexPackParams params = RETEX_PACK_INIT;
     RetexOutput *output = NULL;
     Levels levels = {0};
+    Packed packed = {0};
     uint64_t written = 0;
     if (RETEX_PARAMS_COPY(&params, given, err))
         return RETEX_EINVAL;
     if (params.quality < 1 || params.quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params.quality);
-    int code = make_levels(&levels, set, &params, nthreads, err);
+    int code = begin_levels(&levels, set, &params, err);
+    if (!code)
+        code = encode(&packed, set, &params, nthreads, err);
+    if (!code)
+        code = make_levels(&levels, set, (double)bytes_of(&packed), &params, nthreads, err);
     if (!code)
         code = retex_output_open(&output, path, err);
     if (!code)
-        code = write_pack(output, set, &params, &levels, &written, nthreads, err);
+        code = write_packed(output, &packed, &levels, &written, err);
     if (!code)
         code = retex_output_commit(&output, err);
     retex_output_abandon(&output);
+    attempt_free(&packed.attempt);
     free_levels(&levels);
     if (!code && bytes)
         *bytes = (size_t)written;
