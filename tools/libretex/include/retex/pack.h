@@ -18,9 +18,9 @@ typedef struct RetexPackParams {
     RetexWarn *warn; /* told, in the calling thread, why a set takes more room; default NULL = nobody */
     void *warn_context;
     int levels; /* 1: smaller sets are beside it, for smaller pictures (see retex_set_open_size): of a third, a
-                   quarter, a sixth and an eighth of the size, but not less than RETEX_PACK_LEVEL_WIDTH pixels wide. They
-                   are made by retex_set_reduce and have the quality of the pack, of a lossless one 90, or up to 20 less, so that
-                   they take at most a third of its bytes. Default 0 */
+                   quarter, a sixth and an eighth of the size, but not less than RETEX_PACK_LEVEL_WIDTH pixels
+                   wide. They are made by retex_set_reduce and have the quality of the pack, of a lossless one 90,
+                   or up to 20 less, so that they take at most a third of its bytes. Default 0 */
 } RetexPackParams;
 #define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, NULL, NULL, 0 }
 #define RETEX_PACK_LEVEL_WIDTH 160
