@@ -52,3 +52,16 @@ $ retex-pack --unpack - --level 3 -o y.exr <l.retex
 
 # A damaged level: told by --check, and where it is read; the whole set stays readable.
 $ for what in byte other none; do python3 "$TESTS/levels.py" $what d.retex; retex-info --check d.retex; echo $?; retex-pack -q --unpack d.retex --level 3 -o d.exr; echo $?; done; test -e d.exr
+> 1
+> 2
+> 1
+> 2
+> 1
+> 2
+! retex-info: error: the pack is damaged: the checksum is wrong of 'level-3.retex'
+! retex-pack: error: d.retex: level-3.retex: the pack is damaged: the checksum is wrong of part 'gain_Left_broad_a3'
+! retex-info: error: the pack is damaged: it has another set as 'level-3.retex'
+! retex-pack: error: the pack is damaged: it has another set as 'level-3.retex'
+! retex-info: error: d.retex: the pack is damaged: it lacks 'level-3.retex'
+! retex-pack: error: d.retex: the pack is damaged: it lacks 'level-3.retex'
+= 1
