@@ -106,7 +106,7 @@ function translate(text) {
       return `for (${begin}; ${condition}; ${step}) ${statement()}`;
     }
     if (accept(";")) return ";";
-    const text = accept("continue") ? "continue" : accept("return") ? `return ${expression()}` : simple();
+    const text = accept("continue") ? "continue" : accept("discard") ? "return $result = null" : accept("return") ? `return ${expression()}` : simple();
     take(";");
     return `${text};`;
   }
@@ -179,13 +179,13 @@ const BUILT_IN = {
   clamp: (x, low, high) => each((a, l, h) => (a < l ? l : a > h ? h : a), x, low, high),
   min: (a, b) => each((x, y) => (y < x ? y : x), a, b), max: (a, b) => each((x, y) => (y > x ? y : x), a, b),
   pow: (a, b) => each(Math.pow, a, b), atan: (y, x) => Math.atan2(y, x), exp2: (x) => each((a) => 2 ** a, x), fract: (x) => each((a) => a - Math.floor(a), x),
-  length: (x) => Math.hypot(...x), any: (x) => x.some(Boolean),
+  length: (x) => Math.hypot(...x), dot: (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0), any: (x) => x.some(Boolean),
   lessThan: (a, b) => each((x, y) => x < y, a, b), greaterThan: (a, b) => each((x, y) => x > y, a, b),
   uintBitsToFloat: (x) => each((b) => (bits.setUint32(0, Number(b)), bits.getFloat32(0)), x),
   texelFetch: (sampler, place) => sampler.texel(...place.map(Number)),
   textureSize: (sampler) => (sampler.layers ? [sampler.width, sampler.height, sampler.layers] : [sampler.width, sampler.height]).map(BigInt),
   texture: (sampler, place) => sampler.lookUp(place, 0), textureLod: (sampler, place, lod) => sampler.lookUp(place, lod),
-  ...Object.fromEntries("exp floor ceil sqrt cos sin abs log2".split(" ").map((name) => [name, (x) => each(Math[name], x)])),
+  ...Object.fromEntries("exp floor ceil sqrt cos sin abs log2 sign".split(" ").map((name) => [name, (x) => each(Math[name], x)])),
 };
 
 /* Compiles a fragment shader: its uniforms, and a function of their values, by name, that returns one of a place on the

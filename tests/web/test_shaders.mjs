@@ -29,7 +29,7 @@ const document = { createElement: () => {
   let shown;
   return { getContext: () => ({ drawImage: (image) => (shown = image), getImageData: () => ({ data: shown.rgba }) }) };
 } };
-const { Renderer, RetexRoom, plainTexture, placing, decodeClass, checkManifest, isRelit, readFolder } = player({ WebGLTexture, document });
+const { Renderer, RetexRoom, plainTexture, decodeClass, checkManifest, isRelit, readFolder } = player({ WebGLTexture, document });
 
 function open(name, { classes = () => true, lit = true } = {}) {
   const room = JSON.parse(readFileSync(`${folder}/${name}/room.json`, "utf8"));
@@ -42,12 +42,15 @@ function open(name, { classes = () => true, lit = true } = {}) {
   lights.forEach((light, i) => renderer.putLight(i, light));
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
   const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
-    const all = room.targets.map((t, i) => {
-      const { image = null, map = null, channel = null, ...options } = textures[t.name] || {}, texture = { ...plainTexture(), ...placing(plainTexture(), options), image, map, put: { shifted: "" } };
-      renderer.putTexture(i, image, map && { image: map, wrap: RetexRoom.prototype.wrapOf(texture), channel });
-      return texture;
-    });
-    const settings = Object.assign(Object.create(RetexRoom.prototype), { textures: all, room, finishes }).settings();
+    const none = plainTexture(), element = Object.assign(Object.create(RetexRoom.prototype), { room, finishes, renderer, refresh: () => {}, update: () => {} });
+    element.textures = room.targets.map(() => ({ ...plainTexture(), put: {} }));
+    for (const [name, { image = null, map = null, channel = null, tileImages = [], tiles = "", ...options }] of Object.entries(textures)) {
+      const { index, layer } = element.placeOf(name), texture = { ...none, image, map, channel, tileImages, tiles };
+      if (layer) element.putLayer(name, index, layer, texture, options);
+      else element.change(name, index, element.textures[index], texture, options);
+    }
+    element.textures.forEach((_, i) => element.put(i));
+    const settings = element.settings();
     renderer.render(settings, split, lamp, colors);
     return canvas.picture;
   };

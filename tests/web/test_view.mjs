@@ -229,7 +229,7 @@ test("links have the state of this room beside others, and the state comes back"
     textures: [{ ...plainTexture(), source: "tan", image: [1, 0, 0] }] });
   same(new URL(colored.link).hash.split("&").at(-1), "b=Sofa=tan"); // a colour has no proportions
   const state = room.getState();
-  same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: 2, rotate: 10, offset: [0, 0], tint: "#ffffff", flip: "u", wrap: "repeat", repeat: "straight" } },
+  same(state, { textures: { Floor: { source: "oak & ash.jpg", scale: 2, rotate: 10, offset: [0, 0], flip: "u", wrap: "repeat", repeat: "straight" } },
     light: { exposure: 1, warmth: -0.5 }, lamps: {}, finishes: {} });
   const restored = [];
   Object.assign(room, { renderer: {}, hasAttribute: () => false, setState: async (all) => restored.push(all) });

@@ -51,7 +51,10 @@ export class WebGLTexture {
   }
 
   makeLevels() {
-    const images = this.images[0];
+    this.images.forEach((images) => this.makeLevelsOf(images));
+  }
+
+  makeLevelsOf(images) {
     images.length = 1;
     for (let last; (last = images.at(-1)), Math.max(last.width, last.height) > 1; ) {
       const next = this.empty(Math.max(last.width >> 1, 1), Math.max(last.height >> 1, 1));
@@ -67,7 +70,7 @@ export class WebGLTexture {
 }
 
 const decode = (x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
-const KINDS = { sampler2D: "SAMPLER_2D", usampler2D: "UNSIGNED_INT_SAMPLER_2D", mat2: "FLOAT_MAT2", vec2: "FLOAT_VEC2", vec3: "FLOAT_VEC3", vec4: "FLOAT_VEC4", float: "FLOAT" };
+const KINDS = { sampler2D: "SAMPLER_2D", usampler2D: "UNSIGNED_INT_SAMPLER_2D", mat2: "FLOAT_MAT2", vec2: "FLOAT_VEC2", vec3: "FLOAT_VEC3", vec4: "FLOAT_VEC4", float: "FLOAT", ivec2: "INT_VEC2" };
 const chunks = (list, size) => Array.from({ length: list.length / size }, (_, i) => [...list].slice(i * size, (i + 1) * size));
 
 /* A context for a canvas, whose picture comes into canvas.values: four numbers of each pixel, rows from the bottom. */
@@ -103,9 +106,10 @@ export function context(canvas) {
     bindFramebuffer: (_, framebuffer) => (frame = framebuffer),
     framebufferTextureLayer: (_, attachment, texture, level, layer) => Object.assign(frame, { texture, layer }),
     framebufferTexture2D: (_, attachment, kind, texture) => Object.assign(frame, { texture, layer: 0 }),
-    viewport: (x, y, width, height) => (view = [width, height]),
+    viewport: (...box) => (view = box),
     uniformMatrix2fv: (at, _, value) => gl.set(at, chunks(value, 4).map(([a, b, c, d]) => [[a, b], [c, d]])),
     uniform2fv: (at, value) => gl.set(at, chunks(value, 2)), uniform3fv: (at, value) => gl.set(at, chunks(value, 3)), uniform4fv: (at, value) => gl.set(at, chunks(value, 4)),
+    uniform2iv: (at, value) => gl.set(at, chunks(value, 2).map((pair) => pair.map(BigInt))),
     uniform1f: (at, value) => gl.set(at, [value]), uniform1i: (at, value) => gl.uniform1iv(at, [value]),
     uniform1iv: (at, value) => gl.set(at, at.type === "bool" ? value.map(Boolean) : at.type === "int" ? value.map((x) => BigInt(x)) : value),
     set: (at, list) => (used.values[at.name] = at.isList ? list : list[0]),
@@ -113,10 +117,11 @@ export function context(canvas) {
       const values = { ...used.values };
       for (const { type, name } of used.uniforms)
         if (/sampler/.test(type)) values[name] = units[values[name]]?.[/Array/.test(type) ? "TEXTURE_2D_ARRAY" : "TEXTURE_2D"];
-      const shade = used.run(values), [width, height] = view;
+      const shade = used.run(values), [left, low, width, height] = view;
       const to = frame ? frame.texture.images[frame.layer][0] : (canvas.picture = { width, height, values: new Float64Array(4 * width * height) });
-      for (let y = 0; y < height; y++)
-        for (let x = 0; x < width; x++) shade([x + 0.5, y + 0.5, 0, 1]).forEach((v, k) => { to.values[4 * (y * to.width + x) + k] = v; });
+      for (let y = Math.max(low, 0); y < Math.min(low + height, to.height); y++)
+        for (let x = Math.max(left, 0); x < Math.min(left + width, to.width); x++)
+          shade([x + 0.5, y + 0.5, 0, 1])?.forEach((v, k) => { to.values[4 * (y * to.width + x) + k] = v; });
     },
   };
   return new Proxy(gl, { get: (o, key) => (key in o ? o[key] : typeof key === "string" && key === key.toUpperCase() ? key : () => {}) });

@@ -31,7 +31,6 @@ function parseColor(text) {
 }
 
 const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
-/* What the tools lay besides; this page does not. */
 const BONDS = ["herringbone", "basket", "hexagon"], VARY = ["turn", "flip", "shift"];
 const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
 
@@ -121,6 +120,17 @@ function byTargetAndLayer(a, b) {
   return x < y ? -1 : x > y ? 1 : i - j;
 }
 
+const hasGrout = ({ grout }) => parseFloat(grout) > 0;
+
+/* What options of laying need, and what they exclude. of: who has them, for messages. */
+function checkLaying(of, said) {
+  const bond = BONDS.includes(said.repeat), laid = hasGrout(said) ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
+  const what = bond || isShifted(said.repeat) ? `repeat ${said.repeat}` : laid;
+  if (what && (said.wrap || "repeat").split(",").some((mode) => mode !== "repeat")) throw new Error(`${of} ${what} needs wrap repeat.`);
+  if (what && said.repeat === "mirror") throw new Error(`${of} ${what} cannot be used with repeat mirror.`);
+  if ((bond || hasGrout(said)) && !said.width) throw new Error(`${of} ${what} needs width.`);
+}
+
 /* The option that a key ends with. */
 const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
 
@@ -165,11 +175,7 @@ function parseEdit(text) {
   }
   for (const [target, said] of Object.entries(textures)) {
     if (!said.source) throw new Error(`${target} has options, but no texture.`);
-    const bond = BONDS.includes(said.repeat), laid = parseFloat(said.grout) > 0 ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
-    const what = bond || isShifted(said.repeat) ? `repeat ${said.repeat}` : laid;
-    if (what && (said.wrap || "repeat") !== "repeat") throw new Error(`${target}: ${what} needs wrap repeat.`);
-    if (what && said.repeat === "mirror") throw new Error(`${target}: ${what} cannot be used with repeat mirror.`);
-    if ((bond || parseFloat(said.grout) > 0) && !said.width) throw new Error(`${target}: ${what} needs width.`);
+    checkLaying(`${target}:`, said);
     if ("finish" in said && "normal" in said) throw new Error(`${target}: finish and normal exclude each other.`);
     if (said.finish || !parseColor(said.source)) said.scale ||= [1, 1];
   }
@@ -185,10 +191,11 @@ function numberText(x, single) {
   return `${fraction.replace(/\.?0+$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
 }
 
+const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
+
 /* The text of an edit that says what a state does. */
 function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
-  const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
   const statements = [];
   for (const target of Object.keys(textures).sort(byTargetAndLayer)) {
     const name = encode(target), option = optionOf(name);

@@ -100,7 +100,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
 
   /* Where maps say which finish is where, light of all finishes is needed. */
   mapColors() {
-    return this.textures.some((t) => t.map) ? this.colorsWith(this.finishes.map((f, t) => (this.textures[t].map ? null : f))) : this.colors;
+    return this.textures.some(mapOn) ? this.colorsWith(this.finishes.map((f, t) => (mapOn(this.textures[t]) ? null : f))) : this.colors;
   }
 
   /* The finishes of a target that can be chosen: those for normal maps cannot. */
@@ -121,10 +121,13 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
   }
 
   getState() {
-    const textures = {};
+    const textures = {}, said = ({ source, scale, rotate, offset, flip, wrap, repeat, adjust, ...t }, layer) => {
+      const others = [...LAYING, "tiles", "finish", "normal"].filter((key) => t[key]).map((key) => [key, t[key]]);
+      return { source, scale, rotate, offset, flip, ...(layer ? {} : { wrap, repeat }), ...Object.fromEntries(others), ...adjust };
+    };
     this.textures.forEach((t, i) => {
-      const { source, scale, rotate, offset, tint, flip, wrap, repeat, finish, normal } = t;
-      if (source) textures[this.targets[i]] = { source, scale, rotate, offset, tint, flip, wrap, repeat, ...(finish ? { finish } : {}), ...(normal ? { normal } : {}) };
+      if (t.source) textures[this.targets[i]] = said(t);
+      t.overs.filter((o) => o.source).forEach((o, k) => (textures[layerKey(this.targets[i], k + 1)] = said(o, true)));
     });
     const lamps = Object.fromEntries(this.lamps.filter((l) => l.value).map((l) => [l.name, l.value]));
     const finishes = {}, rendered = finishesAsRendered(this.room || {});
@@ -149,9 +152,14 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     }
     this.recolor();
     await this.setLamps(values).catch((error) => (failed = error));
+    for (const t of this.textures) t.overs = [];
     for (const name of this.targets) {
       const { source = null, ...options } = state.textures?.[name] || {};
       await this.setTexture(name, source, options).catch((error) => (failed ||= error));
+      for (let k = 1; k <= OVERS_MOST; k++) {
+        const { source: over, ...how } = state.textures?.[layerKey(name, k)] || {}, on = this.textures[this.indexOf(name)];
+        if (over) await this.setTexture(layerKey(name, on.overs.length + 1), over, how).catch((error) => (failed ||= error));
+      }
     }
     if (failed) throw failed;
   }
@@ -165,9 +173,12 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
   get link() {
     const url = new URL(location.href), others = url.hash.slice(1).split("&").filter((part) => part.includes("=") && !part.startsWith(this.key));
     const state = this.getState();
-    this.targets.forEach((name, i) => {
-      const said = state.textures[name];
-      if (said) said.scale = Array.isArray(this.textures[i].image) && !this.textures[i].map ? undefined : this.scaleOf(i); // a colour has none
+    this.textures.forEach((own, i) => {
+      const isColor = Array.isArray(own.image) && !own.map && !(own.grout > 0); // it has none
+      [own, ...own.overs.filter((o) => o.source)].forEach((t, k) => {
+        const said = state.textures[k ? layerKey(this.targets[i], k) : this.targets[i]];
+        if (said) said.scale = isColor && !k ? undefined : this.scaleOf(i, t);
+      });
     });
     const text = encodeURIComponent(editText(state)).replace(/%(3B|3D|2C|2F|3A)/g, decodeURIComponent);
     url.hash = [...others, this.key + text].join("&");
@@ -217,7 +228,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     }
     if (signal.aborted) return;
     this.room = room;
-    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: { image: null, shifted: "", map: null, wrap: [] } }));
+    this.textures = room.targets.map((_, i) => ({ ...(kept?.[i] || plainTexture()), put: {} }));
     if (!kept) this.said = lampsOf(room).map(() => null), this.finishes = finishesAsRendered(room);
     this.recolor();
     if (!kept) this.selected = room.targets.reduce((best, t, i) => (t.share > room.targets[best].share ? i : best), 0);
@@ -412,14 +423,14 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     show("rotate", texture.rotate, `${Math.round(texture.rotate)}°`);
     show("right", texture.offset[0], texture.offset[0].toFixed(2));
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
-    show("tint", texture.tint, "");
+    show("tint", texture.adjust.tint || "#ffffff", "");
     show("repeat", texture.repeat, "");
     this.refreshFinishes();
     this.refreshLamps();
     show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
     show("warmth", this.light.warmth, (this.light.warmth > 0 ? "+" : "") + this.light.warmth.toFixed(2));
     const lamps = this.lamps.filter((l) => l.value).map((l) => `${l.name}: ${isBlack(l.color) ? "off" : "changed"}`);
-    this.$("canvas").setAttribute("aria-label", `The room. ${[...this.targets.map((n, i) => `${n}: ${this.textures[i].label}${this.finishName(i) ? ` (${this.finishName(i)})` : ""}`), ...lamps].join(", ")}.`);
+    this.$("canvas").setAttribute("aria-label", `The room. ${[...this.targets.map((n, i) => `${n}: ${[this.textures[i], ...this.textures[i].overs].map((t) => t.label).join(" + ")}${this.finishName(i) ? ` (${this.finishName(i)})` : ""}`), ...lamps].join(", ")}.`);
   }
 
   /* The finishes of the target that the controls change. */
@@ -538,8 +549,8 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       case "rotate": return this.place(name, { rotate: value });
       case "right": return this.place(name, { offset: [value, texture.offset[1]] });
       case "up": return this.place(name, { offset: [texture.offset[0], value] });
-      case "tint":
-      case "repeat": return this.try(() => this.place(name, { [input.dataset.set]: input.value }));
+      case "tint": return this.try(() => this.place(name, { tint: input.value }));
+      case "repeat": return this.try(() => this.place(name, { repeat: input.value, ...(BONDS.includes(input.value) ? this.measured(this.selected) : {}) }));
       case "gain": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { gain: Number((2 ** value).toPrecision(3)) });
       case "mired": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { color: kelvinColor(kelvinOf(value)) });
       default: return this.setLight({ [input.dataset.set]: value });
@@ -559,7 +570,10 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       case "in": return this.zoomBy(1.5);
       case "out": return this.zoomBy(1 / 1.5);
       case "full": return document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen();
-      case "original": return this.setTexture(this.targets[this.selected], null);
+      case "original": {
+        this.textures[this.selected].overs = [];
+        return this.setTexture(this.targets[this.selected], null);
+      }
       case "unmap": {
         const done = this.setMap(this.targets[this.selected], null);
         this.$("[data-set=map]").focus(); // the button cannot be used any more
@@ -571,7 +585,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
         return done;
       }
       case "link": {
-        const local = this.textures.some((t) => t.local || (t.map && !t.finish));
+        const local = this.textures.some((t) => [t, ...t.overs].some((x) => x.local) || (t.map && !t.finish));
         let where = "Link copied.";
         history.replaceState(null, "", this.link);
         try {

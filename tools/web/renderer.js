@@ -113,12 +113,13 @@ function checkManifest(room) {
 /* Whether the terms of all light do not have lamps of these colours: those of single lamps take their place. */
 const isRelit = ({ lamps, parameters }, colors) => !!lamps && colors.some((c, i) => c.some((x, k) => x !== parameters[i].kept[k]));
 
-class Renderer {
+class Renderer extends Images {
   constructor(canvas, room) {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL 2");
     if (!gl.getExtension("EXT_color_buffer_float") && !gl.getExtension("EXT_color_buffer_half_float")) throw new Error("no WebGL 2");
-    Object.assign(this, { gl, room, loaded: new Set(), lights: new Set(), most: gl.getParameter(gl.MAX_TEXTURE_SIZE) });
+    super(gl, room);
+    Object.assign(this, { loaded: new Set(), lights: new Set() });
     if (Math.max(room.width, room.height) > this.most) throw new Error("The room is too large for this device.");
     canvas.width = room.width;
     canvas.height = room.height;
@@ -145,39 +146,8 @@ class Renderer {
     this.none = this.texture(gl.TEXTURE_2D, gl.RGBA8, 1, 1, 0, gl.NEAREST);
     this.checkMemory();
     this.frame = gl.createFramebuffer();
-    this.programs = [mixtureShader(room), factorShader(room), pictureShader(room), PREMULTIPLY].map((text) => this.program(text));
+    for (const [make, ...how] of [[mixtureShader, false], [factorShader], [pictureShader, false, false]]) this.programOf(make, ...how);
     for (const target of room.targets) target.image = this.none, (target.hasImage = false);
-  }
-
-  texture(kind, format, width, height, layers, filter, levels = 1) {
-    const { gl } = this, texture = gl.createTexture();
-    gl.bindTexture(kind, texture);
-    if (layers) gl.texStorage3D(kind, levels, format, width, height, layers);
-    else gl.texStorage2D(kind, levels, format, width, height);
-    for (const [key, value] of [["MIN_FILTER", filter], ["MAG_FILTER", filter], ["WRAP_S", gl.CLAMP_TO_EDGE], ["WRAP_T", gl.CLAMP_TO_EDGE]])
-      gl.texParameteri(kind, gl[`TEXTURE_${key}`], value);
-    return texture;
-  }
-
-  program(fragment) {
-    const { gl } = this, program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, fragment]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
-        throw new Error(`The room's shader does not compile: ${gl.getShaderInfoLog(shader)}`);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-      throw new Error(`The room's shader does not link: ${gl.getProgramInfoLog(program)}`);
-    const uniforms = new Map();
-    for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
-      const { name, type } = gl.getActiveUniform(program, i);
-      uniforms.set(name.replace("[0]", ""), { at: gl.getUniformLocation(program, name), type });
-    }
-    return { program, uniforms };
   }
 
   putClass(info, { heads, records, rows }) {
@@ -189,14 +159,6 @@ class Renderer {
     gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, info.layer, info.width, info.height, 1, gl.RED_INTEGER, gl.UNSIGNED_INT, heads);
     this.loaded.add(info);
     if (info.scale === 1) info.heads = heads; // for pointing at targets
-  }
-
-  /* Codes of images are numbers here: the browser must not convert them. */
-  exactly(upload) {
-    const { gl } = this;
-    gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
-    upload();
-    gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.BROWSER_DEFAULT_WEBGL);
   }
 
   putLight(index, image) {
@@ -235,7 +197,7 @@ class Renderer {
     });
     this.lampTerms = this.texture(gl.TEXTURE_2D, gl.RGBA32F, columns, terms.length, 0, gl.NEAREST);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, columns, terms.length, gl.RGBA, gl.FLOAT, data);
-    this.lampProgram = this.program(lampShader(room));
+    this.programOf(lampShader);
     const tiles = this.texture(gl.TEXTURE_2D, gl.RGBA8, image.naturalWidth, image.naturalHeight, 0, gl.NEAREST);
     this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
     this.checkMemory();
@@ -254,126 +216,6 @@ class Renderer {
     return { texture: this[key], size, grid: [...size, finest] };
   }
 
-  /* A new texture: an image, or a linear colour; null: the original. map: an image of its finishes, and how both are
-   * wrapped; or null. */
-  putTexture(index, source, map = null) {
-    const { gl } = this, target = this.room.targets[index];
-    for (const texture of [target.image, target.weights, ...(target.products ?? [])]) if (texture && texture !== this.none) gl.deleteTexture(texture);
-    Object.assign(target, { image: this.none, weights: null, products: null, hasImage: !!source });
-    if (!source) return;
-    this.putImage(target, source);
-    if (map) this.putMap(target, source, map);
-  }
-
-  putImage(target, source) {
-    const { gl } = this;
-    const width = source.naturalWidth || source.width || 1, height = source.naturalHeight || source.height || 1;
-    if (Array.isArray(source)) {
-      target.image = this.texture(gl.TEXTURE_2D, gl.RGBA16F, 1, 1, 0, gl.NEAREST);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 1, 1, gl.RGBA, gl.FLOAT, new Float32Array([...source, 1]));
-      return;
-    }
-    const levels = Math.floor(Math.log2(Math.max(width, height))) + 1;
-    target.image = this.texture(gl.TEXTURE_2D, gl.SRGB8_ALPHA8, width, height, 0, gl.LINEAR, levels);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, source);
-    if (isClear(source)) this.premultiply(target, width, height, levels);
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    this.checkMemory();
-  }
-
-  /* Draw a texture with one program, and its levels. */
-  drawTexture(format, [width, height], program, values, levels = 1 + Math.floor(Math.log2(Math.max(width, height)))) {
-    const { gl } = this, texture = this.texture(gl.TEXTURE_2D, format, width, height, 0, gl.LINEAR, levels);
-    this.intoImage(texture, width, height);
-    this.draw(program, values);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    if (levels > 1) {
-      gl.generateMipmap(gl.TEXTURE_2D);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    }
-    return texture;
-  }
-
-  wrap(texture, modes) {
-    const { gl } = this;
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    modes.forEach((mode, k) => gl.texParameteri(gl.TEXTURE_2D, k ? gl.TEXTURE_WRAP_T : gl.TEXTURE_WRAP_S,
-      { repeat: gl.REPEAT, mirror: gl.MIRRORED_REPEAT }[mode] || gl.CLAMP_TO_EDGE));
-  }
-
-  /* The texture where it has each finish, and the weights of these: the larger size of both counts. */
-  putMap(target, source, { image, wrap, channel }) {
-    const { gl } = this, sizeOf = (x) => [x.naturalWidth || x.width || 1, x.naturalHeight || x.height || 1], own = sizeOf(image), count = target.finishes.length;
-    this.mapPrograms ||= [WEIGH, PRODUCT, smallGateShader(this.room), gateShader(this.room), pictureShader(this.room, true)].map((text) => this.program(text));
-    const codes = this.texture(gl.TEXTURE_2D, gl.RGBA8, ...own, 0, gl.NEAREST);
-    this.exactly(() => gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, image));
-    const weights = this.drawTexture(gl.RGBA16F, own, this.mapPrograms[0], {
-      codes, count, grey: !channel && isGrey(image) ? 1 : 0, rough: channel ? 1 : 0, channel: channel || [0, 0, 0, 0],
-      roughness: [0, 1, 2, 3].map((k) => target.finish_roughness?.[k] ?? -1),
-    }, 1);
-    for (const texture of [weights, target.image]) this.wrap(texture, wrap);
-    const size = sizeOf(source).map((x, k) => Math.max(x, own[k])), format = Array.isArray(source) ? gl.RGBA16F : gl.SRGB8_ALPHA8;
-    const product = (finish) => this.drawTexture(finish ? format : gl.RGBA8, size, this.mapPrograms[1], { image: target.image, weights, size, finish });
-    target.products = target.finishes.map((_, k) => product(k + 1));
-    target.weights = product(0);
-    for (const texture of [codes, weights]) gl.deleteTexture(texture);
-    this.checkMemory();
-  }
-
-  /* Colours are averaged by how much they cover. */
-  premultiply(target, width, height, levels) {
-    const { gl } = this, straight = target.image;
-    target.image = this.texture(gl.TEXTURE_2D, gl.SRGB8_ALPHA8, width, height, 0, gl.LINEAR, levels);
-    this.intoImage(target.image, width, height);
-    this.draw(this.programs[3], { straight });
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
-    gl.deleteTexture(straight);
-    gl.bindTexture(gl.TEXTURE_2D, target.image);
-  }
-
-  checkMemory() {
-    if (this.gl.getError() === this.gl.OUT_OF_MEMORY) throw new Error("The graphics card has not enough memory for this room.");
-  }
-
-  /* Draw with one program; values by name: numbers, arrays, or [kind, texture]. */
-  draw({ program, uniforms }, values) {
-    const { gl } = this;
-    gl.useProgram(program);
-    let unit = 0;
-    for (const [name, { at, type }] of uniforms) {
-      const value = values[name];
-      if (value instanceof WebGLTexture) {
-        gl.activeTexture(gl.TEXTURE0 + unit);
-        gl.bindTexture(type === gl.SAMPLER_2D || type === gl.UNSIGNED_INT_SAMPLER_2D ? gl.TEXTURE_2D : gl.TEXTURE_2D_ARRAY, value);
-        gl.uniform1i(at, unit++);
-      } else if (type === gl.FLOAT_MAT2) gl.uniformMatrix2fv(at, false, value);
-      else if (type === gl.FLOAT_VEC2) gl.uniform2fv(at, value);
-      else if (type === gl.FLOAT_VEC3) gl.uniform3fv(at, value);
-      else if (type === gl.FLOAT_VEC4) gl.uniform4fv(at, value);
-      else if (type === gl.FLOAT) gl.uniform1f(at, value);
-      else if (Array.isArray(value)) gl.uniform1iv(at, value);
-      else gl.uniform1i(at, value);
-    }
-    gl.activeTexture(gl.TEXTURE0);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-
-  into(texture, layer, width, height) {
-    const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
-    gl.framebufferTextureLayer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, texture, 0, layer);
-    gl.viewport(0, 0, width, height);
-  }
-
-  intoImage(texture, width, height) {
-    const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.imageFrame ||= gl.createFramebuffer());
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-    gl.viewport(0, 0, width, height);
-  }
-
   /* What is smaller than the picture: mixtures, then factors of groups. values.first: what else holds where the mixture is a
    * path's first hit. */
   drawFactors(original, values) {
@@ -383,17 +225,17 @@ class Renderer {
       const c = room.classes[m[0][0]];
       if (c.scale === 1) return;
       this.into(this.mixtures, room.mixtureLayers[mixture], c.width, c.height);
-      this.draw(this.programs[0], { ...values, ...(firstHit(room, mixture) >= 0 ? values.first : {}), heads: this.smallHeads, mixture, original: original ? 1 : 0 });
+      this.draw(this.programOf(mixtureShader, !!this.overs), { ...values, ...(firstHit(room, mixture) >= 0 ? values.first : {}), heads: this.smallHeads, mixture, original: original ? 1 : 0 });
     });
     room.groups.forEach(({ parameters }, group) => {
       this.into(to.texture, group, ...to.size);
       if (relit) {
         const of = room.lamps.terms, first = of.findIndex((t) => t.group === group), count = of.filter((t) => t.group === group).length;
-        this.draw(this.lampProgram, { mixtures: this.mixtures, tiles: this.lampTiles, terms: this.lampTerms, first, end: first + count, colors: colors.flat() });
+        this.draw(this.programOf(lampShader), { mixtures: this.mixtures, tiles: this.lampTiles, terms: this.lampTerms, first, end: first + count, colors: colors.flat() });
         return;
       }
       const color = (parameters ?? []).reduce((product, p) => product.map((x, k) => x * colors[p][k]), [1, 1, 1]);
-      this.draw(this.programs[1], { mixtures: this.mixtures, reduced: this.reduced, group, color });
+      this.draw(this.programOf(factorShader), { mixtures: this.mixtures, reduced: this.reduced, group, color });
     });
     return to;
   }
@@ -428,25 +270,21 @@ class Renderer {
     return this.isSeen(target) && this.room.groups.every((g, i) => g.target !== target || this.isReady(i));
   }
 
-  /* settings: by target how its texture lies, scale and tint as numbers; wrap: modes in u and v; share: of the image that
-   * one repeat takes; finish: the number of the one that is chosen; split: pixels from the left that stay as they were; colors: of the parameters, of a
-   * target with a map with all its finishes. */
+  /* settings: by target how its texture lies, a matrix by columns and an offset; wrap: modes in u and v; overs: how its layers
+   * lie; finish: the number of the one that is chosen; split: pixels from the left that stay as they were; colors: of the
+   * parameters, of a target with a map with all its finishes. */
   render(settings, split, lamp, colors) {
-    const { gl, room } = this, count = room.targets.length;
-    const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: [], offset: [], tint: [], edge: [], edited: [], keeps: [] };
-    for (let t = 0; t < count; t++) {
-      const s = settings[t], angle = s.rotate * Math.PI / 180, [c, d] = [Math.cos(angle), Math.sin(angle)];
-      const [u, v] = s.share.map((share, k) => (s.flip.includes("uv"[k]) ? -share : share));
-      values.turn.push(c * s.scale[0] * u, d * s.scale[0] * v, -d * s.scale[1] * u, c * s.scale[1] * v);
-      values.offset.push(...[u, v].map((share, k) => (share < 0 ? share * (s.offset[k] - 1) : share * s.offset[k])));
-      values.edge.push(...s.wrap.map((mode) => ({ black: 1, clamp: -1 })[mode] || 0));
+    const { gl, room, overs, overEnd } = this, lie = (list, key) => list.flatMap((s) => s[key]), layers = settings.flatMap((s) => s.overs);
+    const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: lie(settings, "turn"), offset: lie(settings, "offset"), edge: [], edited: [], keeps: [],
+      overs, overEnd, overTurn: lie(layers, "turn"), overOffset: lie(layers, "offset") };
+    settings.forEach((s, t) => {
       const { image, hasImage, weights, products } = room.targets[t];
+      values.edge.push(...s.wrap.map((mode) => ({ black: 1, clamp: -1 })[mode] || 0));
       for (const texture of hasImage ? [image, ...(products ? [weights, ...products] : [])] : []) this.wrap(texture, s.wrap);
       values.keeps.push(1);
-      values.tint.push(...s.tint);
-      values.edited.push(room.targets[t].hasImage ? 1 : 0);
-      values[`image${t}`] = room.targets[t].image;
-    }
+      values.edited.push(hasImage || s.overs.length ? 1 : 0);
+      values[`image${t}`] = image;
+    });
     const shown = settings.map((s) => s.finish), mapped = room.targets.map((t) => !!t.products);
     const isMapped = mapped.includes(true) && !!this.lampTiles, passes = isMapped ? passesOf(room, mapped) : [shown];
     if (isMapped) this.drawGates(values, shown, mapped);
@@ -465,11 +303,11 @@ class Renderer {
       } else {
         this.intoImage(this.sums[i % 2], room.width, room.height);
       }
-      this.draw(isMapped ? this.mapPrograms[4] : this.programs[2], {
+      this.draw(this.programOf(pictureShader, isMapped, !!this.overs), {
         ...values, ...first, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
-        originalGrid: originals.grid, still: this.still, loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)),
+        originalGrid: originals.grid, loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)),
         ready, partial: partial && !i ? 1 : 0, split, lamp, gates: this.gates, finish: pass, more: i ? 1 : 0, last: last ? 1 : 0,
-        before: this.sums?.[(i + 1) % 2],
+        below: i ? this.sums[(i + 1) % 2] : this.still,
       });
     });
   }
@@ -491,17 +329,17 @@ class Renderer {
       this.sums = [0, 1].map(() => this.texture(gl.TEXTURE_2D, gl.RGBA16F, ...size, 0, gl.NEAREST));
       this.checkMemory();
     }
-    const own = { ...values, original: 0, tint: targets.flatMap(() => [1, 1, 1]), shown: shown.flatMap((f) => [2, 3, 4].map((k) => (f === k ? 1 : 0))) };
+    const own = { ...values, original: 0, shown: shown.flatMap((f) => [2, 3, 4].map((k) => (f === k ? 1 : 0))) };
     targets.forEach((t, i) => (mapped[i] ? (own[`image${i}`] = t.weights) : 0));
     this.small.forEach((c, layer) => {
       if (!mapped[c.target]) return;
       this.into(this.smallGates, layer, c.width, c.height);
-      this.draw(this.mapPrograms[2], { ...own, heads: this.smallHeads, which: layer });
+      this.draw(this.programOf(smallGateShader), { ...own, heads: this.smallHeads, which: layer });
     });
     layers.forEach((t, layer) => {
       if (!mapped[t]) return;
       this.into(this.gates, layer, ...size);
-      this.draw(this.mapPrograms[3], { ...own, heads: this.heads, sums: this.smallGates, which: t });
+      this.draw(this.programOf(gateShader), { ...own, heads: this.heads, sums: this.smallGates, which: t });
     });
   }
 }

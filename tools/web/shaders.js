@@ -11,14 +11,14 @@ precision highp sampler2DArray;
 precision highp usampler2D;
 precision highp usampler2DArray;
 vec3 linear(vec3 y) { return mix(y / 12.92, pow((max(y, 0.04045) + 0.055) / 1.055, vec3(2.4)), greaterThan(y, vec3(0.04045))); }
+vec3 encoded(vec3 y) { return mix(12.92 * y, 1.055 * pow(max(y, 0.0031308), vec3(1.0 / 2.4)) - 0.055, greaterThan(y, vec3(0.0031308))); }
 vec3 light(vec3 code, float white, float levels) {
   vec3 y = code * (255.0 / levels);
   return white * mix(linear(y), exp((max(y, 1.0) - 1.0) * (255.0 / 48.0)), greaterThan(y, vec3(1.0)));
 }
 `;
 
-const PREMULTIPLY = `#version 300 es
-precision highp float;
+const PREMULTIPLY = `${HEAD}
 uniform sampler2D straight;
 out vec4 result;
 void main() {
@@ -26,7 +26,7 @@ void main() {
   result.rgb *= result.a;
 }`;
 
-/* Colours of textures are multiplied by what they cover; keeps: what they do not cover shows the original. ends: in u and v 1 if nothing lies beyond the image, -1 if its
+/* Texels are multiplied by what they cover; keeps: what they do not cover shows the original. ends: in u and v 1 if nothing lies beyond the image, -1 if its
  * border continues, so that the finest level has it.
  *
  * The mean of a texture over a footprint: over an evenly filled ellipse of two standard deviations (disc) or a bell.
@@ -35,14 +35,7 @@ void main() {
  *
  * Over a parallelogram (evenly): cells along its two sides, each a look-up of the size of a cell. Cells are drawn together
  * where a look-up cannot be as small as they are. */
-const FILTER = `
-uniform usampler2D records;
-uniform mat2 turn[TARGETS];
-uniform vec2 offset[TARGETS];
-uniform vec3 tint[TARGETS];
-uniform vec2 edge[TARGETS];
-uniform bool edited[TARGETS];
-uniform bool keeps[TARGETS];
+const LOOK_UPS = `
 vec4 look(sampler2D image, vec2 size, vec2 place, float lod, vec2 ends) {
   vec2 beyond = clamp((abs(place - 0.5) - 0.5) * max(size * exp2(-lod), 1.0) + 0.5, 0.0, 1.0);
   vec2 inside = 1.0 - beyond * max(ends, 0.0);
@@ -109,21 +102,47 @@ vec4 evenly(sampler2D image, mat2 turned, vec2 moved, vec2 ends, uvec4 record, m
       sum += look(image, size, turned * uv + moved + sides * ((vec2(i, j) / counts - 0.5) * drawn) / size, lod, ends);
   return sum / (counts.x * counts.y);
 }
+`;
+
+const FILTER = `
+uniform usampler2D records;
+uniform mat2 turn[TARGETS];
+uniform vec2 offset[TARGETS];
+uniform vec2 edge[TARGETS];
+uniform bool edited[TARGETS];
+uniform bool keeps[TARGETS];
+${LOOK_UPS}
 vec2 shares(uvec4 r) { return vec2(float((r.w >> 8) & 4095u), float(r.w >> 20)); }
 uvec4 recordAt(int at) { return texelFetch(records, ivec2(at & ${RECORD_COLUMNS - 1}, at / ${RECORD_COLUMNS}), 0); }
 mat2 axesAt(int at) { vec4 a = uintBitsToFloat(recordAt(at)); return mat2(a.x, a.y, a.z, a.w); }
 `;
 
+/* Layers, which lie on textures and are images of one size: the same look-ups, and what there is of them. overEnd:
+ * after those of a target. */
+const OVERS = `
+uniform sampler2DArray overs;
+uniform mat2 overTurn[OVERS];
+uniform vec2 overOffset[OVERS];
+uniform int overEnd[TARGETS];
+${LOOK_UPS.replace(/\b(look|filtered|evenly)\(/g, "$1Over(").replace(/sampler2D image/g, "sampler2DArray image,float layer").replace(/Over\(image/g, "Over(image,layer")
+  .replace(/vec2\((place\.x, ?1\.0 ?- ?place\.y)\)/, "vec3($1,layer)")}
+`;
+
 const number = (x) => (/[.e]/.test(String(x)) ? String(x) : `${x}.0`);
 
 /* Adds the colours of class c's records in pixel p to sum and total, weighted by w. */
-function classCode(room, c, albedo, add) {
+function classCode(room, c, albedo, add, hasOvers) {
   const info = room.classes[c], t = info.target, target = room.targets[t];
-  const axes = info.spreads === 4, where = `image${t}, turn[${t}], offset[${t}], edge[${t}]`;
+  const axes = info.spreads === 4;
   const disc = info.kind === "sharp" && room.filter === "box";
   const bound = (value, k, far) => number(target.periodic[k] ? far : value[k]);
   const bounds = `vec4(${bound(target.uv_min, 0, -1e30)}, ${bound(target.uv_min, 1, -1e30)}, ` +
     `${bound(target.uv_max, 0, 1e30)}, ${bound(target.uv_max, 1, 1e30)})`;
+  const look = (over, where) => (axes ? `evenly${over}(${where}, r, axesAt(first + i + 1))` : `filtered${over}(${where}, ${bounds}, r, ${disc})`);
+  const layers = `for (int k = ${t ? `overEnd[${t - 1}]` : "0"}; k < overEnd[${t}]; k++) {
+          vec4 over = ${look("Over", "overs, float(k), overTurn[k], overOffset[k], vec2(1.0)")};
+          found = over + found * (1.0 - over.a);
+        }`;
   return `{
     uint head = texelFetch(heads, ivec3(p, ${info.layer}), 0).r;
     int count = int(head & 31u), first = int(head >> 5);
@@ -133,8 +152,9 @@ function classCode(room, c, albedo, add) {
       vec2 w = shares(r);
       vec3 color = own;
       if (edited[${t}] && !original) {
-        vec4 found = ${axes ? `evenly(${where}, r, axesAt(first + i + 1))` : `filtered(${where}, ${bounds}, r, ${disc})`};
-        color = (keeps[${t}] ? own * (1.0 - found.a) : vec3(0.0)) + found.rgb * tint[${t}];
+        vec4 found = ${look("", `image${t}, turn[${t}], offset[${t}], edge[${t}]`)};
+        ${hasOvers ? layers : ""}
+        color = (keeps[${t}] ? own * (1.0 - found.a) : vec3(0.0)) + found.rgb;
       }
       ${add}
     }
@@ -145,7 +165,8 @@ const lightCode = (room, l) => `light(texelFetch(lights, ivec3(p, ${l}), 0).rgb,
 
 const imageUniforms = (room) => room.targets.map((_, t) => `uniform sampler2D image${t};`).join("\n");
 
-const withTargets = (room, text) => text.replace(/TARGETS/g, room.targets.length);
+const OVERS_MOST = 4; // on a target
+const withTargets = (room, text) => text.replace(/TARGETS/g, room.targets.length).replace(/OVERS/g, OVERS_MOST * room.targets.length);
 
 /* An image of the atlas at pixel p of the size that is `finest` times smaller than the picture. */
 function tileCode(room, index, finest) {
@@ -169,16 +190,16 @@ function tileFunction(room, index, finest) {
 
 /* First step: mixtures that are smaller than the picture, one layer each. Those of quantity `further` are S(a) by S of
  * the original, with S(a) = 1 + q a + ... + (q a)^n: light that meets the texture more often than terms have hits. */
-function mixtureShader(room) {
+function mixtureShader(room, hasOvers) {
   const { hits = 0, ratio = [0, 0, 0] } = room.further ?? {};
   const cases = room.mixtures.map((m, index) => {
     if (room.classes[m[0][0]].scale === 1) return "";
     const code = m.map(([c, slot]) => classCode(room, c, tileCode(room, room.classes[c].albedo, room.classes[c].scale),
-      `sum += w[${slot}] * color; before += w[${slot}] * own; total += w[${slot}];`));
+      `sum += w[${slot}] * color; before += w[${slot}] * own; total += w[${slot}];`, hasOvers));
     if (room.further?.mixtures.includes(index)) code.push("sum = min(total * series(sum / total) / series(before / total), 65504.0);");
     return `if (mixture == ${index}) { ${code.join("\n")} }`;
   });
-  return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
+  return HEAD + withTargets(room, FILTER + (hasOvers ? OVERS : "")) + imageUniforms(room) + `
 uniform usampler2DArray heads;
 uniform sampler2D reduced;
 uniform int mixture;
@@ -278,21 +299,20 @@ float share(vec3 w, int finish) {
 
 const MAPPED = `
 uniform sampler2DArray gates;
-uniform sampler2D before;
 uniform bool more, last;
 uniform int finish[TARGETS];
 ${SHARE}`;
 
 /* Last step: the picture, with the original textures left of `split`. While not everything is loaded it is the still plus
- * what new textures change. hasMaps: the picture is a sum of several: `more`, that of those before is in `before`; of the
- * last it is encoded. Light of a finish is multiplied by its gate, but for that whose first hit is on the target. */
-function pictureShader(room, hasMaps) {
+ * what new textures change; `below` has the still. hasMaps: the picture is a sum of several: `more`, that of those before is in
+ * `below`; of the last it is encoded. Light of a finish is multiplied by its gate, but for that whose first hit is on the target. */
+function pictureShader(room, hasMaps, hasOvers) {
   const full = room.mixtures.map((m, i) => [m, i]).filter(([m]) => room.classes[m[0][0]].scale === 1);
   const byClass = new Map();
   for (const [m, i] of full) for (const [c, slot] of m) byClass.set(c, [...(byClass.get(c) || []), [i, slot]]);
   const mixtures = [...byClass].map(([c, list]) => `
   if (loaded[${c}]) ${classCode(room, c, lightCode(room, room.classes[c].albedo),
-    list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}]; own${i} += w[${slot}] * own;`).join(" "))}`);
+    list.map(([i, slot]) => `sum${i} += w[${slot}] * color; total${i} += w[${slot}]; own${i} += w[${slot}] * own;`).join(" "), hasOvers)}`);
   const mappable = hasMaps ? room.targets.map((_, t) => t).filter((t) => room.targets[t].finishes) : [];
   const gatesOf = (own) => mappable.filter((t) => t !== own).map((t) => ` * gate${t}`).join("");
   const groups = room.groups.map((g, i) => {
@@ -306,10 +326,10 @@ function pictureShader(room, hasMaps) {
     if (partial) color -= d * factor(originals, originalGrid, ${i})${before};
   }`;
   });
-  return HEAD + withTargets(room, FILTER) + imageUniforms(room) + `
+  return HEAD + withTargets(room, FILTER + (hasOvers ? OVERS : "")) + imageUniforms(room) + `
 uniform usampler2DArray heads;
 uniform sampler2DArray lights, factors, originals;
-uniform sampler2D still;
+uniform sampler2D below;
 uniform bool loaded[${room.classes.length}];
 uniform bool ready[${room.groups.length}];
 uniform bool partial;
@@ -325,8 +345,8 @@ vec3 mean(vec3 sum, float total) { return total > 0.0 ? sum / total : vec3(0.0);
 void main() {
   ivec2 p = ivec2(int(gl_FragCoord.x), ${room.height - 1} - int(gl_FragCoord.y));
   bool original = gl_FragCoord.x < split;
-  vec3 color = partial ? linear(texelFetch(still, p, 0).rgb) : vec3(0.0);
-  ${hasMaps ? "if (more) color = texelFetch(before, ivec2(gl_FragCoord.xy), 0).rgb;" : ""}
+  vec3 color = partial ? linear(texelFetch(below, p, 0).rgb) : vec3(0.0);
+  ${hasMaps ? "if (more) color = texelFetch(below, ivec2(gl_FragCoord.xy), 0).rgb;" : ""}
   if (${hasMaps ? "more ? !original : " : ""}!partial || !original) {
     ${mappable.map((t, layer) => `float gate${t} = finish[${t}] > 0 ? share(texelFetch(gates, ivec3(p, ${layer}), 0).rgb, finish[${t}]) : 1.0;`).join("\n")}
     ${full.map(([, i]) => `vec3 sum${i} = vec3(0.0), own${i} = vec3(0.0); float total${i} = 0.0;`).join("\n")}
@@ -334,7 +354,7 @@ void main() {
     ${groups.join("")}
   }
   vec3 y = clamp(color * lamp, 0.0, 1.0);
-  result = vec4(mix(12.92 * y, 1.055 * pow(max(y, 0.0031308), vec3(1.0 / 2.4)) - 0.055, greaterThan(y, vec3(0.0031308))), 1.0);
+  result = vec4(encoded(y), 1.0);
   ${hasMaps ? "if (!last) result = vec4(min(color, 65504.0), 1.0);" : ""}
 }`;
 }

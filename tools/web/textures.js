@@ -1,14 +1,5 @@
 // ---- what lies on targets: textures, and how they lie ----
 
-/* Two repeats as one picture: side by side, the right one moved down, or one above the other, the upper one moved right. */
-function shiftedRepeats(image, repeat) {
-  const w = image.naturalWidth || image.width, h = image.naturalHeight || image.height, across = repeat === "half-drop";
-  const context = drawingContext(across ? 2 * w : w, across ? h : 2 * h);
-  for (const [x, y] of across ? [[0, 0], [w, h >> 1], [w, (h >> 1) - h]] : [[0, h], [w >> 1, 0], [(w >> 1) - w, 0]])
-    context.drawImage(image, x, y);
-  return context.canvas;
-}
-
 /* Whether a picture may show what lies below it. */
 function isClear(image) {
   const context = drawingContext(64, 64);
@@ -16,7 +7,7 @@ function isClear(image) {
   return context.getImageData(0, 0, 64, 64).data.some((x, i) => i % 4 === 3 && x < 255);
 }
 
-const DRAWING = "image/svg+xml";
+const DRAWING = "image/svg+xml", MOST_SIDE = 4096;
 
 /* A visitor's picture. Drawings may have no size of their own. A JPEG file has no transparent parts, but if its end is
  * missing the browser leaves some. */
@@ -40,19 +31,24 @@ const mapOf = (map, from, channel = null) => ({
   map, channel: map && channel, finish: map && !(from instanceof Blob) ? String(from) : "", mapLabel: map ? (from instanceof Blob ? from.name || "Picture" : nameOf(String(from))) : "",
 });
 
+/* Where a map counts: that of a folder does not below layers. */
+const mapOn = ({ map, channel, overs }) => (channel && overs.length ? null : map);
+
 /* What an element does with textures. */
 const withTextures = (Base) => class extends Base {
-  /* Put a texture on a target: a File or Blob, a list of the Files of one texture, the URL of a picture, a colour as in
-   * retex-edit(5), or null for the original. options: scale (a number keeps the picture's proportions, a pair is as of
-   * retex-combine), rotate in degrees, offset [u, v], tint "#rrggbb", label; flip, wrap and repeat as of retex-combine; finish:
-   * a File, Blob or URL of a picture that says which finish is where, or "none". Resolves when it is drawn. */
+  /* Put a texture on a target, or as a layer on it, "over:Floor", "over2:Floor": a File or Blob, a list of the Files of one
+   * texture, the URL of a picture, a colour as in retex-edit(5), or null for the original or no layer. options: scale (a number
+   * keeps the picture's proportions, a pair is as of retex-combine), rotate in degrees, offset [u, v], label; finish: a File,
+   * Blob or URL of a picture that says which finish is where, or "none"; the others as of retex-edit(5). Resolves when it is
+   * drawn. */
   async setTexture(name, source, options = {}) {
-    const index = this.indexOf(name), order = (this.textures[index].order = (this.textures[index].order || 0) + 1);
+    const { index, layer } = this.placeOf(name), target = this.textures[index], orders = (target.orders ||= []), order = (orders[layer] = (orders[layer] || 0) + 1);
     let image = null, label = "Original", kept = null, rough = null, channel = null;
+    const tiles = source ? textOf(options.tiles ?? "") : "";
     if (Array.isArray(source)) {
       const folder = source.length > 1 ? readFolder(source) : { color: source[0] };
       source = folder.color;
-      if (folder.rough && !options.finish && hasRoughness(this.room.targets[index])) ({ rough, channel } = folder);
+      if (folder.rough && !options.finish && !tiles && !layer && hasRoughness(this.room.targets[index])) ({ rough, channel } = folder);
     }
     if (source instanceof Blob) {
       label = source.name || "Picture";
@@ -66,23 +62,27 @@ const withTextures = (Base) => class extends Base {
         image = await this.fetchPicture(kept);
       }
     }
-    const chosen = options.finish || rough, map = image && chosen && chosen !== "none" ? await this.getMap(index, chosen) : null;
+    const chosen = options.finish || rough, hasMap = image && chosen && chosen !== "none";
+    if (layer && Array.isArray(image)) throw new Error(`${name} must be an image, not a colour.`);
+    if (hasMap && tiles) throw new Error("finish cannot be used with tiles, which have no map of their own.");
+    readOption("tiles", tiles);
+    const map = hasMap ? await this.getMap(index, chosen) : null;
+    const tileImages = await Promise.all(tiles ? tiles.split(",").map((tile) => this.fetchPicture(tile)) : []);
     const normal = image && options.normal !== "none" && String(options.normal ?? ""); // it stays in states, for the tools
-    if (order !== this.textures[index].order) return; // another one has been chosen since
-    placing(plainTexture(), options);
-    Object.assign(this.textures[index], plainTexture(), { source: kept, label, image, local: source instanceof Blob, order, normal: normal || "", ...mapOf(map, chosen, channel) });
-    this.place(name, options);
-    this.say(`${name}: ${this.textures[index].label}${normal ? "; a page does not show normal maps" : ""}`);
+    if (order !== orders[layer]) return; // another one has been chosen since
+    const texture = { ...plainTexture(), source: kept, label, image, local: source instanceof Blob, normal: normal || "", tiles, tileImages, ...mapOf(map, chosen, channel) };
+    if (layer) this.putLayer(name, index, layer, image && texture, options);
+    else this.change(name, index, target, { ...texture, overs: target.overs, orders }, options);
+    this.say(`${name}: ${image || !layer ? label : "no layer"}${normal ? "; a page does not show normal maps" : ""}`);
   }
 
   /* Another map, or null, on what lies on a target already. */
   async setMap(name, map) {
-    const index = this.indexOf(name), texture = this.textures[index], order = (texture.order = (texture.order || 0) + 1);
+    const index = this.indexOf(name), texture = this.textures[index], orders = (texture.orders ||= []), order = (orders[0] = (orders[0] || 0) + 1);
     if (map && !texture.image) throw new Error(`A map of finishes needs a new texture on ${name}.`);
     const image = map && (await this.getMap(index, map));
-    if (order !== texture.order) return;
-    Object.assign(texture, mapOf(image, map));
-    this.place(name, {});
+    if (order !== orders[0]) return;
+    this.change(name, index, texture, mapOf(image, map), {});
     this.say(map ? `${name}: map of finishes ${texture.mapLabel}` : `${name}: no map of finishes`);
   }
 
@@ -97,44 +97,115 @@ const withTextures = (Base) => class extends Base {
     return map instanceof Blob ? decodePicture(map, map.name || "Picture") : this.fetchPicture(String(map));
   }
 
-  /* Change how a target's texture lies: the options of setTexture, but finish. */
+  /* Change how a texture or a layer lies and looks: the options of setTexture, but finish and tiles. */
   place(name, options) {
-    const index = this.indexOf(name), texture = this.textures[index];
-    Object.assign(texture, placing(texture, options));
-    this.put(index);
+    const { index, layer } = this.placeOf(name), target = this.textures[index];
+    if (layer > target.overs.length) throw new Error(`There is no ${name}.`);
+    if (layer) this.putLayer(name, index, layer, target.overs[layer - 1], options);
+    else this.change(name, index, target, {}, options);
+  }
+
+  /* The target that a name means, and the layer on it, from 1; 0: the texture itself. */
+  placeOf(name) {
+    const [target, layer] = this.targets.includes(name) ? [name, 0] : layerOf(name);
+    return { index: this.indexOf(target), layer };
+  }
+
+  /* Change a texture; what cannot be leaves all as it was. */
+  change(name, index, texture, changes, options) {
+    const before = { ...texture };
+    try {
+      Object.assign(texture, changes);
+      Object.assign(texture, placing(texture, options));
+      this.checkTexture(name, index, texture);
+      this.put(index);
+    } catch (error) {
+      Object.assign(texture, before, { put: texture.put });
+      this.put(index);
+      throw error;
+    }
     this.update();
   }
 
-  /* Give the renderer a target's texture, if it has another one. */
+  checkTexture(name, index, { image, map, channel, tiles, grout, width, overs }) {
+    const { uv_scale: unit } = this.room.targets[index];
+    if (width && (!Array.isArray(image) || grout > 0) && !(unit[0] > 0 && unit[1] > 0)) throw new Error(`The size of ${name} is not known: width cannot be used on it, only scale.`);
+    if (map && tiles) throw new Error(`${name}: finish cannot be used with tiles, which have no map of their own.`);
+    if (map && !channel && overs.length) throw new Error(`${name}: finish cannot be used below layers.`);
+  }
+
+  /* The layer of that number, null to take it away; the ones above move down. */
+  putLayer(name, index, layer, texture, options) {
+    const { overs } = this.textures[index], other = NOT_OF_LAYERS.find((key) => options[key] && !["none", "repeat", "straight"].includes(options[key]));
+    if (layer > overs.length + 1) throw new Error(`${name}: there is no layer below it.`);
+    if (other) throw new Error(`${name} lies there once: it has no ${other}.`);
+    const own = texture && { ...texture, wrap: "black", ...placing({ ...texture, wrap: "black" }, { ...options, wrap: "black", repeat: null, finish: null }) };
+    if (own) this.checkTexture(name, index, own);
+    this.change(name, index, this.textures[index], { overs: [...overs.slice(0, layer - 1), ...(own ? [own] : []), ...overs.slice(layer)] }, {});
+  }
+
+  /* Give the renderer a target's texture and layers, if they are others. */
   put(index) {
-    const { renderer } = this, texture = this.textures[index], { image, repeat, put, map } = texture;
-    const shifted = image && (map || !Array.isArray(image)) && isShifted(repeat) ? repeat : "", wrap = map ? this.wrapOf(texture) : [];
-    if (!renderer || (put.image === image && put.shifted === shifted && put.map === map && String(put.wrap) === String(wrap))) return;
-    texture.put = { image, shifted, map, wrap };
-    const most = Math.min(renderer.most, 4096) / (shifted ? 2 : 1);
-    const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > most ? smaller(x, most) : x);
-    const arranged = (x) => (shifted && !Array.isArray(x) ? shiftedRepeats(fit(x), repeat) : fit(x));
-    renderer.putTexture(index, arranged(image), map && { image: arranged(map), wrap, channel: texture.channel });
+    const { renderer } = this, texture = this.textures[index], { image, tileImages, groutcolor } = texture, map = mapOn(texture), wrap = this.wrapOf(texture);
+    if (!renderer) return;
+    const laid = { ...texture, width: this.widthsOf(texture), grout: texture.grout || 0 }, isImage = image && (map || !Array.isArray(image) || texture.grout > 0), adjust = Object.entries(texture.adjust);
+    const layout = isImage && isLaid(texture) ? layoutOf(laid, this.finestOf([image, ...tileImages, ...(map ? [map] : [])]), Math.min(renderer.most, MOST_SIDE)) : null;
+    const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > Math.min(renderer.most, MOST_SIDE) ? smaller(x, Math.min(renderer.most, MOST_SIDE)) : x);
+    const how = JSON.stringify([adjust, layout && [layout, groutcolor, texture.vary, laid.width], map || adjust.length ? wrap : 0]);
+    const isSame = (made, key) => made && made.length === key.length && made.every((x, k) => x === key[k]), key = [image, map, ...tileImages, how];
+    if (!isSame(texture.put.key, key))
+      renderer.putTexture(index, fit(image), { tiles: tileImages.map(fit), adjust, laid, layout, wrap, map: fit(map), channel: texture.channel });
+    texture.put = { key, period: layout?.period };
+    const overs = this.textures.flatMap((t, i) => t.overs.flatMap((o) => [i, o.image, JSON.stringify(Object.entries(o.adjust))]));
+    if (!isSame(renderer.overKey || [], overs))
+      renderer.putOvers(this.textures.map((t) => t.overs.map((o) => ({ image: fit(o.image), adjust: Object.entries(o.adjust) }))));
+    renderer.overKey = overs;
   }
 
-  /* A target's scale as a pair, by which the tools go. */
-  scaleOf(index) {
-    const { uv_scale: unit } = this.room.targets[index], { image: own, map, scale } = this.textures[index];
+  /* The texels of the repeats of a texture of several images: the finest of these decides, in the first one's shape. */
+  finestOf([first, ...others]) {
+    return others.reduce((most, other) => {
+      const finer = Math.max(...sizeOf(other).map((x, k) => x / most[k]));
+      return finer > 1 ? most.map((x) => Math.ceil(x * finer)) : most;
+    }, sizeOf(first));
+  }
+
+  /* The width as a pair, the second one 0 if the image's proportions say it. */
+  widthsOf({ width }) {
+    return width ? [width, 0].flat().slice(0, 2) : null;
+  }
+
+  /* A texture's size: of its image or, of a colour without joints, of its map. */
+  sizeOf(texture) {
+    return sizeOf(Array.isArray(texture.image) && !(texture.grout > 0) ? mapOn(texture) || texture.image : texture.image || {});
+  }
+
+  /* A texture's scale as a pair, by which the tools go. */
+  scaleOf(index, texture = this.textures[index]) {
+    const { uv_scale: unit } = this.room.targets[index], { scale, width } = texture, [wide, high] = this.sizeOf(texture);
     if (Array.isArray(scale)) return scale;
-    const image = Array.isArray(own) ? map : own, wide = image ? (image.naturalWidth || image.width) / (image.naturalHeight || image.height) : 1;
-    return [scale, scale * wide * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
+    return [scale, width ? scale : scale * (wide / high) * (unit[0] > 0 && unit[1] > 0 ? unit[1] / unit[0] : 1)];
   }
 
-  wrapOf({ image, map, wrap, repeat }) {
-    const modes = (Array.isArray(image) && !map ? "repeat" : wrap).split(",");
+  /* As it lies, by the width that options of laying need. */
+  measured(index) {
+    const { uv_scale: unit } = this.room.targets[index], scale = this.scaleOf(index);
+    return this.textures[index].width || !(unit[0] > 0 && unit[1] > 0) ? {} : { width: scale.map((x, k) => unit[k] / Math.abs(x)), scale: scale.map(Math.sign) };
+  }
+
+  wrapOf(texture) {
+    const { image, wrap, repeat, grout } = texture, modes = (Array.isArray(image) && !mapOn(texture) && !(grout > 0) ? "repeat" : wrap).split(",");
     return [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && repeat === "mirror" ? "mirror" : m));
   }
 
+  /* How textures and layers lie, as the renderer draws them. */
   settings() {
-    return this.textures.map((t, i) => {
-      const scale = this.scaleOf(i), wrap = this.wrapOf(t);
-      const share = [t.put.shifted === "half-drop" ? 0.5 : 1, t.put.shifted === "brick" ? 0.5 : 1];
-      return { ...t, scale, wrap, share, tint: parseColor(t.tint), finish: this.finishes?.[i] ?? 0 };
+    return this.textures.map((texture, i) => {
+      const lies = (t) => {
+        const wrap = this.wrapOf(t), isColor = Array.isArray(t.image) && !(t.grout > 0);
+        return { wrap, ...lie({ ...t, scale: this.scaleOf(i, t), width: isColor && !mapOn(t) ? null : this.widthsOf(t) }, this.room.targets[i], wrap, this.sizeOf(t), t.put?.period || [1, 1]) };
+      };
+      return { ...lies(texture), overs: texture.overs.map(lies), finish: this.finishes?.[i] ?? 0 };
     });
   }
 };
