@@ -344,6 +344,82 @@ def check_finishes(page):
     result(said == "Floor has no finishes to choose from.", f"a map needs finishes: {said}")
 
 
+FLAT = """#version 3.7; global_settings {{ assumed_gamma 1 }} #default {{ finish {{ diffuse 1 ambient 0 }} }} camera {{ {} angle 60 }}
+light_source {{ <0, 1e5, 0> 1 parallel point_at 0 }} #declare Floor = texture {{ pigment {{ checker rgb <.7, .5, .3> rgb .3 scale .4 }} }}
+plane {{ y, 0 texture {{ Floor }} }}"""
+EDITS = [f"Floor=textures/brick.jpg;Floor.width=.8;Floor.{word}" for word in (
+    "hue=120", "saturation=1.8", "gain=.5,1.5,1", "gamma=1.8", "contrast=1.7", "blur=.02", "blur=.2", "invert=yes", "tint=#80c0ff", "colorize=#2060a0",
+    "saturation=.5;Floor.blur=.01;Floor.contrast=1.4;Floor.colorize=#a06020;Floor.invert=yes;Floor.gamma=1.3;Floor.gain=.9,.8,1")] + [
+    f"Floor=textures/travertine.jpg;Floor.{words}" for words in (
+        "width=.4,.2;Floor.grout=.03;Floor.groutcolor=#202020", "width=.4,.2;Floor.repeat=brick;Floor.grout=.02;Floor.vary=turn,flip,shift,5",
+        "width=.6,.15;Floor.repeat=herringbone;Floor.grout=.01;Floor.vary=flip,shift;Floor.rotate=20", "width=.6,.2;Floor.repeat=basket;Floor.grout=.01;Floor.vary=turn,9",
+        "width=.4;Floor.repeat=hexagon;Floor.grout=.02;Floor.vary=turn,flip",
+        "width=.4;Floor.grout=.01;Floor.tiles=textures/brick.jpg,textures/fans.jpg;Floor.vary=turn,2", "width=.8;Floor.at=.3,.2;Floor.rotate=30")] + [
+    "over:Floor=glass.png;over:Floor.at=.3,.2;over:Floor.width=.8;over:Floor.rotate=30;over2:Floor=corners.png;over2:Floor.at=-.3,.4;over2:Floor.width=1.2;"
+    "over2:Floor.saturation=0;over2:Floor.flip=u;over3:Floor=glass.png;over3:Floor.at=0,0;over3:Floor.width=.5,.3;over3:Floor.hue=90;over3:Floor.gain=.8,.9,.7",
+    "Floor=textures/fans.jpg;Floor.width=.5;Floor.repeat=brick;over:Floor=glass.png;over:Floor.at=.3,.2;over:Floor.width=.8;over:Floor.rotate=30;over:Floor.blur=.02"]
+
+
+def tool_options(text):
+    """The options of retex-combine for an edit of Floor and its layers, in their order."""
+    options = {}
+    for statement in text.split(";"):
+        key, value = statement.split("=", 1)
+        target, _, word = key.partition(".")
+        said = options.setdefault(target, ["--texture" + (":over" if ":" in target else ""), ""])
+        if word:
+            said[0] += f":{word}={value}"
+        else:
+            said[1] = f"Floor={value}"
+    return [x for said in options.values() for x in said]
+
+
+def check_edits(page):
+    """What links say about a texture's colours, repeats and layers, on a floor from above and along it; and what cannot be."""
+    for view, camera in (("above", "location <0, 2.4, -.01> look_at 0"), ("along", "location <0, .5, -2.4> look_at <0, 0, 1>")):
+        with open(f"{work}/{view}.pov", "w", encoding="utf-8") as file:
+            file.write(FLAT.format(camera))
+        subprocess.run(["retex-render", "-q", "--size", "320x180", "--spp", "16", "--denoise", "-t", "Floor", f"{work}/{view}.pov", "-o", f"{work}/{view}.exr"], check=True)
+        subprocess.run(["retex-pack", "-q", f"{work}/{view}.exr", "--web", f"{work}/{view}"], check=True)
+        with open(f"{work}/page.html", encoding="utf-8") as file:
+            text = file.read().replace('src="room/"', f'src="{view}/"')
+        with open(f"{work}/{view}.html", "w", encoding="utf-8") as file:
+            file.write(text)
+        page.open(url + f"{view}.html")
+        page.room("complete")
+        for text in EDITS:
+            page.run(f"history.replaceState(null, '', {json.dumps('#room=' + urllib.parse.quote(text, safe=';=,:./'))}); {ROOM}.restore()")
+            page.save(f"{work}/canvas.png")
+            subprocess.run(["retex-combine", "-q", f"{work}/{view}.exr", *tool_options(text), "-o", f"{work}/combined.png"], check=True, cwd=work)
+            decibels = psnr(f"{work}/combined.png", f"{work}/canvas.png")
+            result(decibels >= 42 and not page.message(), f"canvas and retex-combine, {view}: {text}: {decibels:.2f} dB {page.message()}")
+            if text.startswith("over:"):
+                page.shot(f"layers-{view}")
+    state, link = page.state(), page.room("link")
+    page.save(f"{work}/before.png")
+    page.room("setState({})")
+    page.open(link)
+    page.save(f"{work}/after.png")
+    result(page.state() == state and psnr(f"{work}/before.png", f"{work}/after.png") > 60, f"a link restores layers: {link}")
+    said = page.room("setState({textures: {'over:Floor': {source: 'gone.png'}, 'over2:Floor': {source: 'glass.png'}}}).then(() => '', (e) => e.message)")
+    result("gone.png is missing" in said and list(page.state()["textures"]) == ["over:Floor"], f"a layer whose file is missing: {said}")
+    page.room("setTexture('over:Floor', null)")
+    for options in ("{width: 1e-300}", "{width: 1e300}", "{width: [1e-9, 1e9], rotate: 30}", "{scale: 1e300, at: [1e300, 1]}", "{width: 1, at: [-1e200, 0]}"):
+        page.room(f"setTexture('Floor', 'textures/brick.jpg', {options})")
+        page.room("toBlob().then(() => 1)")
+        result(page.run(f"{ROOM}.renderer.gl.getError()") == 0 and not page.message(), f"absurd: {options}")
+    page.room("setTexture('Floor', 'textures/brick.jpg', {width: .4})")
+    state = page.state()
+    for options in ("{grout: .5}", "{repeat: 'herringbone', width: [300, .5]}", "{vary: 'turn', wrap: 'clamp'}", "{grout: .1, width: null}"):
+        said = page.run(f"(() => {{ try {{ {ROOM}.place('Floor', {options}); return ''; }} catch (e) {{ return e.message; }} }})()")
+        result(said and page.state() == state, f"refused, and nothing changes: {options}: {said}")
+    subprocess.run(["oiiotool", "--pattern", "checker:width=900:height=700:color1=.8,.3,.1:color2=.2,.4,.5", "8192x8192", "3", "-d", "uint8", "-o", f"{work}/huge.png"], check=True)
+    page.room("setTexture('Floor', 'huge.png', {width: 2, grout: .1, vary: 'turn'})")
+    page.room("toBlob().then(() => 1)")
+    result(page.run(f"{ROOM}.renderer.gl.getError()") == 0, "an image of 64 megapixels, laid")
+    page.open(url + "page.html")
+
+
 def set_slider(page, name, touch, end=0.75):
     """Drag a slider from its middle, or tap on it."""
     page.run(f"{PART}('[data-set={name}]').scrollIntoView({{block: 'nearest'}})")
@@ -374,9 +450,16 @@ def check_controls(page, touch):
         before = page.state()["textures"]["Floor"][key]
         set_slider(page, name, touch)
         result(page.state()["textures"]["Floor"][key] != before, f"{how}: {name}")
+    set_slider(page, "grout", touch)
+    result(page.state()["textures"]["Floor"].get("grout", 0) > 0, f"{how}: grout")
+    page.room("place('Floor', {grout: 0})")
     for name, value in (("repeat", "mirror"), ("tint", "#ff8040"), ("color", "#406080")):  # their pop-ups are the system's
         page.run(f"(e => {{ e.value = '{value}'; e.dispatchEvent(new Event('input', {{bubbles: true}})); }})"
                  f"({PART}('[data-set={name}]'))")
+        if name == "tint":
+            for slider, word in (("saturation", "saturation"), ("lightness", "gain")):
+                set_slider(page, slider, touch)
+                result(page.until(f"!!{ROOM}.getState().textures.Floor.{word}"), f"{how}: {slider}")
         key = "source" if name == "color" else name
         result(page.until(f"{ROOM}.getState().textures.Floor.{key} === '{value}'"), f"{how}: {name}")
     for name in ("exposure", "warmth"):
@@ -451,7 +534,7 @@ def check_keyboard(page):
         page.key("Tab", 9)
         seen.append(page.run(f"(e => e.dataset.do || e.dataset.set || e.className || e.textContent)({focused})"))
     wanted = {"stage", "compare", "out", "in", "full", "download", "link", "panel", "Floor", "Wall", "swatch", "file", "color",
-              "original", "size", "rotate", "right", "up", "repeat", "tint", "exposure", "warmth"}
+              "original", "size", "rotate", "right", "up", "repeat", "grout", "saturation", "lightness", "tint", "exposure", "warmth"}
     result(wanted <= set(seen), f"keyboard: Tab reaches every control{' but ' if wanted - set(seen) else ''}"
            f"{', '.join(sorted(wanted - set(seen)))}")
 
@@ -465,10 +548,11 @@ def check_keyboard(page):
     result(page.room("selected") == 1, "keyboard: a surface is chosen")
     on(".swatch:nth-child(3)", space)
     result(page.until(f"!!{ROOM}.getState().textures.Wall"), "keyboard: an offered texture is put on it")
-    for name in ("size", "rotate", "right", "up", "exposure", "warmth"):
+    for name in ("size", "rotate", "right", "up", "grout", "saturation", "lightness", "exposure", "warmth"):
         before = json.dumps(page.state())
         on(f"[data-set={name}]", right, right)
         result(json.dumps(page.state()) != before, f"keyboard: {name}")
+    page.room("place('Wall', {grout: 0})")
     on("[data-set=repeat]", ("ArrowDown", 40))
     result(page.state()["textures"]["Wall"]["repeat"] == "mirror", "keyboard: repeats")
     on("[data-do=in]", enter)
@@ -688,6 +772,7 @@ def main():
         check_parameters(page)
         check_lamps(page)
         check_finishes(page)
+        check_edits(page)
         page.shot("desktop")
         check_controls(page, False)
         check_keyboard(page)

@@ -207,6 +207,9 @@ slider Turn
 slider Shift right
 slider Shift up
 combobox Repeats
+slider Grout
+slider Saturation
+slider Lightness
 ColorWell Tint
 heading Light
 slider Brightness
@@ -249,7 +252,7 @@ def check_access(page):
     wanted = [line.split(" ", 1)[1] for line in TREE if line.split()[0] not in ("image", "heading") and line not in
               ("group View", "group Surface", "group Texture", "group Colours")]
     sets = {"Your photo…": "file", "Size": "size", "Turn": "rotate", "Shift right": "right", "Shift up": "up", "Repeats": "repeat",
-            "Tint": "tint", "Brightness": "exposure", "Warmth": "warmth"}
+            "Grout": "grout", "Saturation": "saturation", "Lightness": "lightness", "Tint": "tint", "Brightness": "exposure", "Warmth": "warmth"}
     wanted = [sets.get(w, w) for w in wanted]
     result(order == wanted, f"Tab goes through all {len(wanted)} in this order {'' if order == wanted else order}")
     for scheme in ("light", "dark"):

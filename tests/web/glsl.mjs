@@ -161,7 +161,7 @@ const G = {
     return each(SIGNS[sign], a, b);
   },
   swizzle: (x, name) => (name.length === 1 ? x[places(name)[0]] : places(name).map((k) => x[k])),
-  store: (x, name, value) => places(name).forEach((k, i) => { x[k] = value[i]; }),
+  store: (x, name, value) => places(name).forEach((k, i) => { x[k] = name.length === 1 ? value : value[i]; }),
 };
 
 const floats = (x) => Number(x), wholes = (x) => BigInt(Math.trunc(Number(x)));

@@ -6,8 +6,10 @@ import sys
 import numpy as np
 import OpenImageIO as oiio
 
+straight = oiio.ImageSpec()
+straight.attribute("oiio:UnassociatedAlpha", 1)  # colours are not multiplied by it
 for picture, output in zip(sys.argv[1::2], sys.argv[2::2]):
-    source = oiio.ImageInput.open(picture)
+    source = oiio.ImageInput.open(picture, straight)
     data = source.read_image(oiio.UINT8)
     source.close()
     if data.shape[2] < 3:

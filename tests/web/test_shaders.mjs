@@ -1,75 +1,13 @@
 /* The player's whole picture, shaders included: a room that retex-pack wrote, drawn by the Renderer on webgl.mjs, against
  * retex-combine's pictures of its set. */
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { inflateSync } from "node:zlib";
+import { readdirSync, writeFileSync } from "node:fs";
 import { near, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 import { compile } from "./glsl.mjs";
-import { context, WebGLTexture } from "./webgl.mjs";
+import { folder, images, least, open, psnr, run, scenes, tool } from "./room.mjs";
+import { WebGLTexture } from "./webgl.mjs";
 
-const here = new URL(".", import.meta.url).pathname, scenes = `${here}/../../scenes`;
-const folder = mkdtempSync(`${tmpdir()}/player-`), bin = `${process.env.BUILD || "build"}/bin`;
-const run = (program, ...args) => execFileSync(program, args, { cwd: folder, maxBuffer: 1 << 28 });
-const tool = (name, ...args) => run(name.startsWith("/") ? name : new URL(`../../${bin}/${name}`, import.meta.url).pathname, ...args);
-process.on("exit", () => rmSync(folder, { recursive: true }));
-
-/* Pictures as images of a page: rows of red, green, blue and alpha. */
-function images(names) {
-  run("/usr/bin/python3", "-B", `${here}/pixels.py`, ...names.flatMap((name, i) => [name, `pixels-${i}`]));
-  return names.map((_, i) => {
-    const data = readFileSync(`${folder}/pixels-${i}`);
-    return { naturalWidth: data.readUInt32LE(0), naturalHeight: data.readUInt32LE(4), rgba: data.subarray(8) };
-  });
-}
-
-/* What isClear does with a canvas. */
-const document = { createElement: () => {
-  let shown;
-  return { getContext: () => ({ drawImage: (image) => (shown = image), getImageData: () => ({ data: shown.rgba }) }) };
-} };
-const { Renderer, RetexRoom, plainTexture, decodeClass, checkManifest, isRelit, readFolder } = player({ WebGLTexture, document });
-
-function open(name, { classes = () => true, lit = true } = {}) {
-  const room = JSON.parse(readFileSync(`${folder}/${name}/room.json`, "utf8"));
-  checkManifest(room);
-  const canvas = {}, gl = context(canvas), renderer = new Renderer({ getContext: () => gl }, room);
-  const [still, reduced, ...lights] = images([room.picture, room.reduced, ...room.lights].map((entry) => `${name}/${entry.file}`));
-  renderer.putStill(still);
-  renderer.putReduced(reduced);
-  if (room.lamps && lit) renderer.putLamps(images([`${name}/${room.lamps.file}`])[0]);
-  lights.forEach((light, i) => renderer.putLight(i, light));
-  for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
-  const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
-    const none = plainTexture(), element = Object.assign(Object.create(RetexRoom.prototype), { room, finishes, renderer, refresh: () => {}, update: () => {} });
-    element.textures = room.targets.map(() => ({ ...plainTexture(), put: {} }));
-    for (const [name, { image = null, map = null, channel = null, tileImages = [], tiles = "", ...options }] of Object.entries(textures)) {
-      const { index, layer } = element.placeOf(name), texture = { ...none, image, map, channel, tileImages, tiles };
-      if (layer) element.putLayer(name, index, layer, texture, options);
-      else element.change(name, index, element.textures[index], texture, options);
-    }
-    element.textures.forEach((_, i) => element.put(i));
-    const settings = element.settings();
-    renderer.render(settings, split, lamp, colors);
-    return canvas.picture;
-  };
-  return { room, draw, renderer };
-}
-
-/* PSNR of the canvas against a picture: both are encoded in sRGB. */
-function psnr(picture, image, columns = [0, image.naturalWidth]) {
-  const { naturalWidth: width, naturalHeight: height, rgba } = image;
-  let sum = 0, count = 0;
-  for (let y = 0; y < height; y++)
-    for (let x = columns[0]; x < columns[1]; x++)
-      for (let k = 0; k < 3; k++, count++) sum += (picture.values[4 * ((height - 1 - y) * width + x) + k] - rgba[4 * (y * width + x) + k] / 255) ** 2;
-  return -10 * Math.log10(sum / count);
-}
-function least(found, decibels, what) {
-  console.log(`# ${what}: ${found.toFixed(1)} dB`);
-  if (!(found >= decibels)) throw new Error(`${what}: ${found} dB, less than ${decibels}`);
-}
+const { isRelit, readFolder } = player();
 
 const TEXTURES = `${scenes}/textures`;
 let whole;
@@ -160,6 +98,7 @@ for folder, last in ("rough", 0), ("gloss", 0), ("arm", 1):
   for (const [what, edits, decibels, chosen = {}, split = 0] of [
     ["a grey map, right of the split", { Floor: ["wood.png", "grey.png"] }, 34, {}, 8],
     ["two maps", { Floor: ["wood.png", "colors.png", "scale=2:rotate=20:offset=0.1,0.3", { scale: [2, 2], rotate: 20, offset: [0.1, 0.3] }], Wall: [[0.3, 0.5, 0.8], "grey.png"] }, 34],
+    ["laid repeats", { Floor: ["wood.png", "grey.png", "width=2,1.5:repeat=brick:grout=.3:saturation=.4", { width: [2, 1.5], repeat: "brick", grout: 0.3, saturation: 0.4 }] }, 34],
     ["a folder with roughness", { Floor: ["rough"] }, 34],
     ["a folder with gloss", { Floor: ["gloss"] }, 34],
     ["a folder with roughness in green", { Floor: ["arm"] }, 34],

@@ -250,6 +250,88 @@ test("links have the state of this room beside others, and the state comes back"
   same([room.light, put.at(-1)], [{ exposure: 0, warmth: 0 }, "Wall"]); // the others are put all the same
 });
 
+/* ---- textures that are made ---- */
+
+/* A floor and a rug of unknown size, with what the renderer is given. */
+function withTextures() {
+  const { RetexRoom, plainTexture } = player(), made = [], overs = [];
+  const targets = [{ name: "Floor", uv_scale: [2, 3], periodic: [0, 0], finishes: ["a", "b"], finish: 1, finish_roughness: [0.1, 0.5] }, { name: "Rug", uv_scale: [0, 0], periodic: [0, 0] }];
+  const renderer = { most: 4096, putTexture: (index, image, how) => made.push([index, image?.name ?? image, how]), putOvers: (lists) => overs.push(lists.map((list) => list.map((o) => [o.image.name, ...o.adjust]))) };
+  const room = element(RetexRoom, {}, { room: { targets }, renderer, finishes: [1, 0], said: [], colors: [], light: {}, textures: targets.map(() => ({ ...plainTexture(), put: {} })),
+    update: () => {}, say: () => {}, fetchPicture: async (name) => { if (name.startsWith("gone")) throw new Error(`${name} is missing.`); return { name, width: 200, height: 100 }; } });
+  return { room, made, overs };
+}
+
+test("layers lie on each other, move down when one is taken away, and come back from states", async () => {
+  const { room, overs } = withTextures(), names = () => Object.entries(room.getState().textures).map(([key, { source }]) => `${key} ${source}`);
+  await fails(() => room.setTexture("over2:Floor", "b.png"), "over2:Floor: there is no layer below it.");
+  await room.setTexture("over:Floor", "a.png", { at: [1, 2], width: 0.5, hue: 20, gain: [1, 0.5, 1] });
+  await room.setTexture("over2:Floor", "b.png", { flip: "u" });
+  await room.setTexture("over3:Floor", "c.png");
+  await room.setTexture("Floor", "wood.png");
+  const state = room.getState();
+  same(state.textures["over:Floor"], { source: "a.png", scale: 1, rotate: 0, offset: [0, 0], flip: "", width: 0.5, at: [1, 2], hue: 20, gain: [1, 0.5, 1] });
+  await room.setTexture("over:Floor", "d.png");
+  room.place("over2:Floor", { rotate: 30, saturation: 0 });
+  await room.setTexture("over:Floor", null);
+  same(names(), ["Floor wood.png", "over:Floor b.png", "over2:Floor c.png"]);
+  same([room.textures[0].overs.map((o) => [o.flip, o.rotate, o.wrap]), overs.at(-1)], [[["u", 30, "black"], ["", 0, "black"]], [[["b.png", ["saturation", 0]], ["c.png"]], []]]);
+  for (const [action, message] of [
+    [() => room.setTexture("over:Floor", "tan"), "over:Floor must be an image, not a colour."],
+    [() => room.setTexture("over:Floor", "e.png", { repeat: "brick" }), "over:Floor lies there once: it has no repeat."],
+    [() => room.setTexture("over:Floor", "e.png", { grout: 0.1, width: 1 }), "over:Floor lies there once: it has no grout."],
+    [() => room.setTexture("over:Rug", "e.png", { width: 1 }), "The size of over:Rug is not known: width cannot be used on it, only scale."],
+    [() => room.setTexture("Floor", "e.png", { finish: "map.png" }), "Floor: finish cannot be used below layers."],
+    [async () => room.place("over3:Floor", {}), "There is no over3:Floor."], [() => room.setTexture("over:Roof", "e.png"), "The room has no 'Roof'."]]) {
+    const before = room.getState();
+    await fails(action, message);
+    same(room.getState(), before, message);
+  }
+  await room.setState(state);
+  same(room.getState().textures, state.textures);
+  await fails(() => room.setState({ textures: { "over:Floor": { source: "gone.png" }, "over2:Floor": { source: "b.png" }, Rug: { source: "tan" } } }), "gone.png is missing.");
+  same(names(), ["over:Floor b.png", "Rug tan"]);
+  room.selected = 0;
+  await room.command("original");
+  same(names(), ["Rug tan"]);
+});
+
+test("a texture is made again when its texels change, and not when it is placed", async () => {
+  const { room, made, overs } = withTextures(), count = async (action) => { const before = [made.length, overs.length]; await action(); return [made.length - before[0], overs.length - before[1]]; };
+  same(await count(() => room.setTexture("Floor", "wood.png", { tiles: ["x.png", "y.png"], vary: "turn" })), [1, 0]);
+  same([made.at(-1)[2].tiles.map((t) => t.name), made.at(-1)[2].layout.blocks.length > 100], [["x.png", "y.png"], true]);
+  for (const options of [{ rotate: 20 }, { scale: 3 }, { offset: [1, 2] }, { flip: "u" }, { at: [1, 1] }]) same(await count(() => room.place("Floor", options)), [0, 0], JSON.stringify(options));
+  for (const options of [{ saturation: 0.5 }, { vary: "turn,3" }, { width: 0.5 }, { grout: 0.1 }, { groutcolor: "red" }, { repeat: "brick" }, { blur: 0.1 }]) same(await count(() => room.place("Floor", options)), [1, 0], JSON.stringify(options));
+  same(made.at(-1)[2].adjust, [["saturation", 0.5], ["blur", 0.1]]);
+  same(await count(() => room.setTexture("over:Floor", "logo.png")), [0, 1]);
+  same(await count(() => room.place("over:Floor", { at: [0, 1], rotate: 5 })), [0, 0]);
+  same(await count(() => room.place("over:Floor", { invert: true })), [0, 1]);
+  const before = room.getState();
+  for (const options of [{ grout: 3 }, { repeat: "herringbone", width: [300, 0.5] }, { wrap: "clamp" }, { width: null }]) {
+    same(await count(() => fails(async () => room.place("Floor", options), /./)), [0, 0], JSON.stringify(options));
+    same(room.getState(), before);
+  }
+  await fails(() => room.setTexture("Floor", "wood.png", { tiles: "x.png", finish: "map.png" }), "finish cannot be used with tiles, which have no map of their own.");
+  await fails(() => room.setTexture("Floor", "wood.png", { tiles: "x.png,gone.png" }), "gone.png is missing.");
+  same(room.getState(), before);
+});
+
+test("grout needs a width, which the control measures", async () => {
+  const { room } = withTextures(), control = (set, value) => room.setControl({ dataset: { set }, value });
+  Object.assign(room, { selected: 0, fail: () => {} });
+  await room.setTexture("Floor", "wood.png", { scale: [4, -6] });
+  await control("grout", "0.1");
+  const { width, scale, grout } = room.getState().textures.Floor;
+  same([width, scale, grout], [[0.5, 0.5], [1, -1], 0.05]);
+  await control("lightness", "1");
+  await control("saturation", "0.5");
+  await control("tint", "#ff0000");
+  await control("lightness", "0");
+  await control("repeat", "basket");
+  const { repeat, ...others } = room.getState().textures.Floor;
+  same([repeat, Object.entries(others).slice(-2)], ["basket", [["saturation", 0.5], ["tint", "#ff0000"]]]);
+});
+
 /* ---- loading ---- */
 
 const FILES = { // bytes of images are their width and height here

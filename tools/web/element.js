@@ -425,6 +425,11 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
     show("tint", texture.adjust.tint || "#ffffff", "");
     show("repeat", texture.repeat, "");
+    const { uv_scale: unit } = room.targets[this.selected], { saturation = 1, gain = [1] } = texture.adjust, grout = texture.grout > 0 ? texture.grout / [texture.width].flat()[0] : 0;
+    show("grout", grout, `${Math.round(100 * grout)} %`);
+    show("saturation", saturation, `${saturation}×`);
+    show("lightness", Math.log2(gain[0]), `${Number(gain[0].toFixed(2))}×`);
+    this.$("[data-set=grout]").disabled = !(unit[0] > 0 && unit[1] > 0) || texture.repeat === "mirror" || texture.wrap !== "repeat";
     this.refreshFinishes();
     this.refreshLamps();
     show("exposure", this.light.exposure, (this.light.exposure > 0 ? "+" : "") + this.light.exposure.toFixed(2));
@@ -549,7 +554,13 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       case "rotate": return this.place(name, { rotate: value });
       case "right": return this.place(name, { offset: [value, texture.offset[1]] });
       case "up": return this.place(name, { offset: [texture.offset[0], value] });
-      case "tint": return this.try(() => this.place(name, { tint: input.value }));
+      case "tint":
+      case "saturation": return this.try(() => this.place(name, { [input.dataset.set]: input.value }));
+      case "lightness": return this.try(() => this.place(name, { gain: Number((2 ** value).toPrecision(3)) }));
+      case "grout": {
+        const measured = this.measured(this.selected), [width] = [measured.width || texture.width].flat();
+        return this.try(() => this.place(name, { ...measured, grout: value * width }));
+      }
       case "repeat": return this.try(() => this.place(name, { repeat: input.value, ...(BONDS.includes(input.value) ? this.measured(this.selected) : {}) }));
       case "gain": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { gain: Number((2 ** value).toPrecision(3)) });
       case "mired": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { color: kelvinColor(kelvinOf(value)) });

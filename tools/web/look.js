@@ -208,6 +208,7 @@ ${TOOLS}
       ${slider("size", "Size", -3, 3, 0.01)}${slider("rotate", "Turn", -180, 180, 1)}
       ${slider("right", "Shift right", -1, 1, 0.01)}${slider("up", "Shift up", -1, 1, 0.01)}
       <label class="slider"><span>Repeats</span><select data-set="repeat">${[...REPEATS, ...BONDS].map((x) => `<option value="${x}">${x[0].toUpperCase() + x.slice(1)}</option>`).join("")}</select></label>
+      ${slider("grout", "Grout", 0, 0.2, 0.005)}${slider("saturation", "Saturation", 0, 2, 0.05)}${slider("lightness", "Lightness", -2, 2, 0.05)}
       <label class="slider"><span>Tint</span><input type="color" data-set="tint"></label>
     </div>
     <h2>Light</h2>

@@ -5,19 +5,41 @@ export interface RetexPlacing {
   /** Degrees. */
   rotate?: number;
   offset?: [number, number];
-  /** A colour: "#rrggbb", "tomato", "rgb(0.8,0.1,0.1)" with linear numbers. */
-  tint?: string;
-  repeat?: "straight" | "mirror" | "brick" | "half-drop";
+  repeat?: "straight" | "mirror" | "brick" | "half-drop" | "herringbone" | "basket" | "hexagon";
   /** "repeat", "mirror", "clamp" or "black", or two for u and v: "clamp,repeat". */
   wrap?: string;
   flip?: "" | "u" | "v" | "uv";
   label?: string;
+  /** Of a repeat, in scene units; a pair is width and height. "" or null: none, and so for those below. */
+  width?: number | [number, number] | "" | null;
+  /** Where the middle of the image lies, in scene units with a width, else in UV. */
+  at?: [number, number] | "" | null;
+  /** The width of joints, in scene units. */
+  grout?: number | "" | null;
+  groutcolor?: string | null;
+  /** "turn", "flip", "shift" and a number that picks others: "turn,flip,3". */
+  vary?: string | null;
+  /** Adjustments of colours, which are made in the order in which they are first given. Degrees. */
+  hue?: number | null;
+  saturation?: number | null;
+  /** Linear; one number for all three. */
+  gain?: number | [number, number, number] | null;
+  gamma?: number | null;
+  contrast?: number | null;
+  /** A part of the picture's width, to 0.25. */
+  blur?: number | null;
+  invert?: boolean | "yes" | null;
+  /** A colour: "#rrggbb", "tomato", "rgb(0.8,0.1,0.1)" with linear numbers. */
+  tint?: string | null;
+  colorize?: string | null;
 }
 
 export interface RetexTextureOptions extends RetexPlacing {
   /** A picture that says which of the target's finishes is where: grey through the list of finishes, or red, green and
    * blue for the second, third and fourth; or "none". */
   finish?: Blob | string;
+  /** URLs of more pictures for the repeats, a list or divided by commas. */
+  tiles?: string | string[];
   /** A normal map. Pages do not show it; it stays in states and links, for the tools. */
   normal?: string;
 }
@@ -39,7 +61,8 @@ export interface RetexLamp {
 }
 
 export interface RetexState {
-  textures: Record<string, RetexPlacing & { source: string; finish?: string; normal?: string }>;
+  /** By target; layers are "over:Floor" to "over4:Floor". */
+  textures: Record<string, RetexTextureOptions & { source: string }>;
   light: RetexLight;
   /** Values of lamps by name; "*" is all that are not named. */
   lamps?: Record<string, string>;
@@ -64,7 +87,8 @@ export class RetexRoom extends HTMLElement {
   readonly lamps: RetexLamp[];
   readonly complete: Promise<void>;
   readonly link: string;
-  /** A list is the files of one texture: the base colour and the roughness, by their names. */
+  /** A list is the files of one texture: the base colour and the roughness, by their names. A target "over:Floor" is a layer
+   * on Floor, "over2:Floor" to "over4:Floor" are those on it. */
   setTexture(target: string, source: Blob | File[] | string | null, options?: RetexTextureOptions): Promise<void>;
   /** Another map of finishes on the texture that lies there; null: none. */
   setMap(target: string, map: Blob | string | null): Promise<void>;
