@@ -102,6 +102,7 @@ export function context(canvas) {
     },
     texSubImage3D: (kind, level, x, y, layer, width, height, depth, format, type, data) =>
       bound[kind].put(layer, x, y, width, height, data.rgba || data, format === "RED_INTEGER" ? 1 : 4, converter(bound[kind].format)),
+    copyTexSubImage2D: (kind, level) => { bound[kind].images[0][level] = { ...frame.texture.images[frame.layer][0] }; },
     generateMipmap: (kind) => bound[kind].makeLevels(),
     bindFramebuffer: (_, framebuffer) => (frame = framebuffer),
     framebufferTextureLayer: (_, attachment, texture, level, layer) => Object.assign(frame, { texture, layer }),

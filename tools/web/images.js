@@ -122,11 +122,20 @@ class Images {
     for (const image of images) if (image) this.gl.deleteTexture(image.texture);
   }
 
-  /* Make an image's levels, with which it is filtered. */
+  /* Make an image's levels, with which it is filtered. Of odd sizes browsers leave texels out. */
   withLevels(image) {
-    const { gl } = this;
+    const { gl } = this, isOdd = image.size.some((x) => x & (x - 1));
+    for (let from = image, level = 1; isOdd && Math.max(...from.size) > 1; level++) {
+      const next = this.drawn(image.format, from.size.map((x) => Math.max(x >> 1, 1)), HALVE, { image: from.texture });
+      this.intoImage(next.texture, ...next.size);
+      gl.bindTexture(gl.TEXTURE_2D, image.texture);
+      gl.copyTexSubImage2D(gl.TEXTURE_2D, level, 0, 0, 0, 0, ...next.size);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, null, 0);
+      this.free(from !== image && from, Math.max(...next.size) === 1 && next);
+      from = next;
+    }
     gl.bindTexture(gl.TEXTURE_2D, image.texture);
-    gl.generateMipmap(gl.TEXTURE_2D);
+    if (!isOdd) gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     this.checkMemory();
     return image;
@@ -248,14 +257,14 @@ class Images {
     return parts;
   }
 
-  /* Layers of all targets, lists of { image, adjust }: layers of one texture, as large as the largest of them. */
+  /* Layers of all targets, lists of { image, adjust }: layers of one texture, as large as the largest of them, in powers of two. */
   putOvers(lists) {
     const { gl } = this, all = lists.flat(), end = lists.map((_, t) => lists.slice(0, t + 1).flat().length);
     gl.deleteTexture(this.overs);
     Object.assign(this, { overs: null, overEnd: end });
     if (!all.length) return;
-    const most = [0, 1].map((k) => Math.max(...all.map(({ image }) => sizeOf(image)[k])));
-    const times = Math.min(1, this.most / Math.max(...most), Math.sqrt(MOST_LAID / (all.length * most[0] * most[1]))), size = most.map((x) => Math.max(1, Math.floor(x * times)));
+    const size = [0, 1].map((k) => 2 ** Math.ceil(Math.log2(Math.max(...all.map(({ image }) => sizeOf(image)[k])))));
+    while (Math.max(...size) > this.most || all.length * size[0] * size[1] > MOST_LAID) size[size[1] > size[0] ? 1 : 0] /= 2;
     const overs = this.texture(gl.TEXTURE_2D_ARRAY, gl.SRGB8_ALPHA8, ...size, all.length, gl.LINEAR, Math.floor(Math.log2(Math.max(...size))) + 1);
     all.forEach(({ image, adjust }, k) => {
       const made = this.adjusted(this.upload(image), adjust, ["black", "black"]), values = copyOf(made, size);

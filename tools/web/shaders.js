@@ -26,6 +26,25 @@ void main() {
   result.rgb *= result.a;
 }`;
 
+/* The next level: means of what its texels take, two of an even size and a little more of an odd one. */
+const HALVE = `${HEAD}
+uniform sampler2D image;
+out vec4 result;
+void main() {
+  ivec2 size = textureSize(image, 0);
+  vec2 share = vec2(size) / vec2(max(size / 2, ivec2(1))), low = (gl_FragCoord.xy - 0.5) * share, high = low + share;
+  ivec2 first = ivec2(low), end = min(ivec2(ceil(high)), size);
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int y = first.y; y < end.y; y++)
+    for (int x = first.x; x < end.x; x++) {
+      vec2 part = max(min(high, vec2(x, y) + 1.0) - max(low, vec2(x, y)), 0.0);
+      sum += part.x * part.y * texelFetch(image, ivec2(x, y), 0);
+      total += part.x * part.y;
+    }
+  result = sum / total;
+}`;
+
 /* Texels are multiplied by what they cover; keeps: what they do not cover shows the original. ends: in u and v 1 if nothing lies beyond the image, -1 if its
  * border continues, so that the finest level has it.
  *
