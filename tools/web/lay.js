@@ -85,8 +85,8 @@ function copiesOf({ size, blocks }) {
 }
 
 /* The image of a texture whose repeats have so many texels: its size, and where each repeat lies, as the tools lay them. An
- * image that is too large for a page is coarser. */
-function layoutOf(laid, [width, height], most) {
+ * image that is too large for a page, with a longer side or more texels than these, is coarser. */
+function layoutOf(laid, [width, height], most, texels) {
   const size = laid.width ? [laid.width[0], laid.width[1] || laid.width[0] * height / width] : [1, 1], short = Math.min(...size), turned = BONDS.includes(laid.repeat);
   if (turned && Math.max(...size) > 256 * short) throw new Error("A repeat that turns is at most 256 times as long as wide.");
   if (laid.grout > short) throw new Error("The grout is wider than a repeat.");
@@ -98,7 +98,7 @@ function layoutOf(laid, [width, height], most) {
   if (turned && share < 1) layout = plan((block = [width, height].map((x) => Math.max(1, Math.trunc(x * share)))));
   const counts = laid.vary || laid.tiles ? copiesOf(layout) : [1, 1];
   for (;;) {
-    const whole = layout.size.map((s, k) => s * counts[k]), times = Math.min(...whole.map((s) => most / s), Math.sqrt(MOST_LAID / (whole[0] * whole[1])));
+    const whole = layout.size.map((s, k) => s * counts[k]), times = Math.min(...whole.map((s) => most / s), Math.sqrt(texels / (whole[0] * whole[1])));
     if (times >= 1) break;
     if (Math.max(...block) === 1) throw new Error("A texture that is laid so is too large for this device.");
     layout = plan((block = block.map((b) => Math.max(1, Math.floor(b * times)))));

@@ -146,15 +146,18 @@ const withTextures = (Base) => class extends Base {
 
   /* Give the renderer a target's texture and layers, if they are others. */
   put(index) {
-    const { renderer } = this, texture = this.textures[index], { image, tileImages, groutcolor } = texture, map = mapOn(texture), wrap = this.wrapOf(texture);
+    const { renderer } = this, texture = this.textures[index], { image, tileImages, groutcolor, vary } = texture, map = mapOn(texture), wrap = this.wrapOf(texture);
+    const most = Math.min(renderer?.most || MOST_SIDE, MOST_SIDE), laid = { ...texture, width: this.widthsOf(texture), grout: texture.grout || 0 };
+    const isLaidImage = image && (map || !Array.isArray(image) || laid.grout > 0) && isLaid(laid), all = [image, ...tileImages, ...(map ? [map] : [])];
+    const layout = isLaidImage ? layoutOf(laid, this.finestOf(all), most, map ? MOST_LAID / 4 : MOST_LAID) : null; // with a map there are several
     if (!renderer) return;
-    const laid = { ...texture, width: this.widthsOf(texture), grout: texture.grout || 0 }, isImage = image && (map || !Array.isArray(image) || texture.grout > 0), adjust = Object.entries(texture.adjust);
-    const layout = isImage && isLaid(texture) ? layoutOf(laid, this.finestOf([image, ...tileImages, ...(map ? [map] : [])]), Math.min(renderer.most, MOST_SIDE)) : null;
-    const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > Math.min(renderer.most, MOST_SIDE) ? smaller(x, Math.min(renderer.most, MOST_SIDE)) : x);
-    const how = JSON.stringify([adjust, layout && [layout, groutcolor, texture.vary, laid.width], map || adjust.length ? wrap : 0]);
-    const isSame = (made, key) => made && made.length === key.length && made.every((x, k) => x === key[k]), key = [image, map, ...tileImages, how];
-    if (!isSame(texture.put.key, key))
+    const adjust = Object.entries(texture.adjust), how = JSON.stringify([adjust, layout && [layout, groutcolor, vary, laid.width], map || adjust.length ? wrap : 0]);
+    const isSame = (made, of) => made && made.length === of.length && made.every((x, k) => x === of[k]), key = [...all, !!map, how];
+    const fit = (x) => (x?.naturalWidth && Math.max(x.naturalWidth, x.naturalHeight) > most ? smaller(x, most) : x);
+    if (!isSame(texture.put.key, key)) {
+      texture.put = {};
       renderer.putTexture(index, fit(image), { tiles: tileImages.map(fit), adjust, laid, layout, wrap, map: fit(map), channel: texture.channel });
+    }
     texture.put = { key, period: layout?.period };
     const overs = this.textures.flatMap((t, i) => t.overs.flatMap((o) => [i, o.image, JSON.stringify(Object.entries(o.adjust))]));
     if (!isSame(renderer.overKey || [], overs))
