@@ -598,9 +598,8 @@ def check_keyboard(page):
 
 
 def check_files(page):
-    node = page.call("Runtime.evaluate", expression=f"{PART}('input[type=file]')")["result"]["objectId"]
     page.room("select('Floor')")
-    page.call("DOM.setFileInputFiles", files=[f"{work}/textures/damask.jpg"], objectId=node)
+    choose(page, "file", "textures/damask.jpg")
     result(page.until(f"{ROOM}.textures[0].label === 'damask.jpg'"), "a picture of one's own, chosen")
     page.run(f"""(async () => {{
         const data = new DataTransfer(), r = {PART}('canvas').getBoundingClientRect();
