@@ -316,6 +316,18 @@ test("a texture is made again when its texels change, and not when it is placed"
   same(room.getState(), before);
 });
 
+test("lengths with units are those of scene units", async () => {
+  const { room, made } = withTextures(), lies = () => room.settings()[0].turn.map((x) => Math.round(1e9 * x) / 1e9 + 0);
+  room.room.unit = 0.01; // a scene unit is a centimetre
+  await room.setTexture("Floor", "wood.png", { width: "50mm,1 in", grout: "5mm", at: "1m,2m" });
+  const [layout, turn] = [made.at(-1)[2].layout, lies()], { width, grout, at } = room.getState().textures.Floor;
+  same([width, grout, at], ["0.05m,0.0254m", "0.005m", "1m,2m"]);
+  room.place("Floor", { width: [5, 2.54], grout: 0.5, at: [100, 200] });
+  same([made.at(-1)[2].layout, lies()], [layout, turn]);
+  for (const [options, message] of [[{ grout: "5mm" }, "A texture's lengths all have a unit, or none has."], [{ width: null, grout: null, at: "1m,2m" }, "A texture's at with lengths needs width."]])
+    await fails(async () => room.place("Floor", options), message);
+});
+
 test("grout needs a width, which the control measures", async () => {
   const { room } = withTextures(), control = (set, value) => room.setControl({ dataset: { set }, value });
   Object.assign(room, { selected: 0, fail: () => {} });

@@ -174,7 +174,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     const url = new URL(location.href), others = url.hash.slice(1).split("&").filter((part) => part.includes("=") && !part.startsWith(this.key));
     const state = this.getState();
     this.textures.forEach((own, i) => {
-      const isColor = Array.isArray(own.image) && !own.map && !(own.grout > 0); // it has none
+      const isColor = Array.isArray(own.image) && !own.map && !hasGrout(own); // it has none
       [own, ...own.overs.filter((o) => o.source)].forEach((t, k) => {
         const said = state.textures[k ? layerKey(this.targets[i], k) : this.targets[i]];
         if (said) said.scale = isColor && !k ? undefined : this.scaleOf(i, t);
@@ -425,7 +425,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     show("up", texture.offset[1], texture.offset[1].toFixed(2));
     show("tint", texture.adjust.tint || "#ffffff", "");
     show("repeat", texture.repeat, "");
-    const { uv_scale: unit } = room.targets[this.selected], { saturation = 1, gain = [1] } = texture.adjust, grout = texture.grout > 0 ? texture.grout / [texture.width].flat()[0] : 0;
+    const { uv_scale: unit } = room.targets[this.selected], { saturation = 1, gain = [1] } = texture.adjust, lies = this.measures(texture), grout = lies.grout ? lies.grout / lies.width[0] : 0;
     show("grout", grout, `${Math.round(100 * grout)} %`);
     show("saturation", saturation, `${saturation}×`);
     show("lightness", Math.log2(gain[0]), `${Number(gain[0].toFixed(2))}×`);
@@ -558,8 +558,8 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
       case "saturation": return this.try(() => this.place(name, { [input.dataset.set]: input.value }));
       case "lightness": return this.try(() => this.place(name, { gain: Number((2 ** value).toPrecision(3)) }));
       case "grout": {
-        const measured = this.measured(this.selected), [width] = [measured.width || texture.width].flat();
-        return this.try(() => this.place(name, { ...measured, grout: value * width }));
+        const { width, at } = this.measures(texture), measured = { width, at, ...this.measured(this.selected) };
+        return this.try(() => this.place(name, { ...measured, grout: value * measured.width[0] }));
       }
       case "repeat": return this.try(() => this.place(name, { repeat: input.value, ...(BONDS.includes(input.value) ? this.measured(this.selected) : {}) }));
       case "gain": return this.changeLamp(Number(input.closest("[data-lamp]").dataset.lamp), { gain: Number((2 ** value).toPrecision(3)) });

@@ -44,6 +44,8 @@ function placing(texture, options) {
     else placed.adjust[key] = said;
   }
   checkLaying("A texture's", { ...placed, tiles: texture.tiles });
+  if (mixesUnits([placed.width, placed.grout, placed.at])) throw new Error("A texture's lengths all have a unit, or none has.");
+  if (typeof placed.at === "string" && placed.at && !placed.width) throw new Error("A texture's at with lengths needs width.");
   if (options.colorspace && options.colorspace !== "sRGB") throw new Error("A texture's colorspace is for the tools, not for this page.");
   return placed;
 }

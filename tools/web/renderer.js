@@ -26,6 +26,7 @@ function checkManifest(room) {
   if (room.retex_web !== 1) throw new Error("room.json is of another version, or no room.");
   whole(room.width, 1, 32768);
   whole(room.height, 1, 32768);
+  if (room.unit !== undefined) number(room.unit, 1e-30);
   check([1, 2, 4, 8].includes(room.finest));
   file(room.picture);
   list(room.targets, 8, (t) => {

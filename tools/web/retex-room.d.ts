@@ -10,12 +10,12 @@ export interface RetexPlacing {
   wrap?: string;
   flip?: "" | "u" | "v" | "uv";
   label?: string;
-  /** Of a repeat, in scene units; a pair is width and height. "" or null: none, and so for those below. */
-  width?: number | [number, number] | "" | null;
+  /** Of a repeat, in scene units, or with units, "60cm"; a pair is width and height. "" or null: none, and so for those below. */
+  width?: number | [number, number] | string | null;
   /** Where the middle of the image lies, in scene units with a width, else in UV. */
-  at?: [number, number] | "" | null;
+  at?: [number, number] | string | null;
   /** The width of joints, in scene units. */
-  grout?: number | "" | null;
+  grout?: number | string | null;
   groutcolor?: string | null;
   /** "turn", "flip", "shift" and a number that picks others: "turn,flip,3". */
   vary?: string | null;

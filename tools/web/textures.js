@@ -129,7 +129,7 @@ const withTextures = (Base) => class extends Base {
 
   checkTexture(name, index, { image, map, channel, tiles, grout, width, overs }) {
     const { uv_scale: unit } = this.room.targets[index];
-    if (width && (!Array.isArray(image) || grout > 0) && !(unit[0] > 0 && unit[1] > 0)) throw new Error(`The size of ${name} is not known: width cannot be used on it, only scale.`);
+    if (width && (!Array.isArray(image) || parseFloat(grout) > 0) && !(unit[0] > 0 && unit[1] > 0)) throw new Error(`The size of ${name} is not known: width cannot be used on it, only scale.`);
     if (map && tiles) throw new Error(`${name}: finish cannot be used with tiles, which have no map of their own.`);
     if (map && !channel && overs.length) throw new Error(`${name}: finish cannot be used below layers.`);
   }
@@ -147,7 +147,7 @@ const withTextures = (Base) => class extends Base {
   /* Give the renderer a target's texture and layers, if they are others. */
   put(index) {
     const { renderer } = this, texture = this.textures[index], { image, tileImages, groutcolor, vary } = texture, map = mapOn(texture), wrap = this.wrapOf(texture);
-    const most = Math.min(renderer?.most || MOST_SIDE, MOST_SIDE), laid = { ...texture, width: this.widthsOf(texture), grout: texture.grout || 0 };
+    const most = Math.min(renderer?.most || MOST_SIDE, MOST_SIDE), laid = this.measures(texture);
     const isLaidImage = image && (map || !Array.isArray(image) || laid.grout > 0) && isLaid(laid), all = [image, ...tileImages, ...(map ? [map] : [])];
     const layout = isLaidImage ? layoutOf(laid, this.finestOf(all), most, map ? MOST_LAID / 4 : MOST_LAID) : null; // with a map there are several
     if (!renderer) return;
@@ -173,14 +173,16 @@ const withTextures = (Base) => class extends Base {
     }, sizeOf(first));
   }
 
-  /* The width as a pair, the second one 0 if the image's proportions say it. */
-  widthsOf({ width }) {
-    return width ? [width, 0].flat().slice(0, 2) : null;
+  /* A texture with its lengths as scene units; the width as a pair, the second one 0 if the image's proportions say it. */
+  measures(texture) {
+    const { unit = 1 } = this.room, lengths = (value) => (typeof value === "string" ? value.split(",").map((text) => parseFloat(text) / unit) : [value].flat());
+    const { width, grout, at } = texture;
+    return { ...texture, width: width ? [...lengths(width), 0].slice(0, 2) : null, grout: grout ? lengths(grout)[0] : 0, at: at && lengths(at) };
   }
 
   /* A texture's size: of its image or, of a colour without joints, of its map. */
   sizeOf(texture) {
-    return sizeOf(Array.isArray(texture.image) && !(texture.grout > 0) ? mapOn(texture) || texture.image : texture.image || {});
+    return sizeOf(Array.isArray(texture.image) && !hasGrout(texture) ? mapOn(texture) || texture.image : texture.image || {});
   }
 
   /* A texture's scale as a pair, by which the tools go. */
@@ -197,7 +199,7 @@ const withTextures = (Base) => class extends Base {
   }
 
   wrapOf(texture) {
-    const { image, wrap, repeat, grout } = texture, modes = (Array.isArray(image) && !mapOn(texture) && !(grout > 0) ? "repeat" : wrap).split(",");
+    const { image, wrap, repeat } = texture, modes = (Array.isArray(image) && !mapOn(texture) && !hasGrout(texture) ? "repeat" : wrap).split(",");
     return [modes[0], modes[1] || modes[0]].map((m) => (m === "repeat" && repeat === "mirror" ? "mirror" : m));
   }
 
@@ -205,8 +207,8 @@ const withTextures = (Base) => class extends Base {
   settings() {
     return this.textures.map((texture, i) => {
       const lies = (t) => {
-        const wrap = this.wrapOf(t), isColor = Array.isArray(t.image) && !(t.grout > 0);
-        return { wrap, ...lie({ ...t, scale: this.scaleOf(i, t), width: isColor && !mapOn(t) ? null : this.widthsOf(t) }, this.room.targets[i], wrap, this.sizeOf(t), t.put?.period || [1, 1]) };
+        const wrap = this.wrapOf(t), isColor = Array.isArray(t.image) && !hasGrout(t);
+        return { wrap, ...lie({ ...this.measures(t), scale: this.scaleOf(i, t), ...(isColor && !mapOn(t) ? { width: null } : {}) }, this.room.targets[i], wrap, this.sizeOf(t), t.put?.period || [1, 1]) };
       };
       return { ...lies(texture), overs: texture.overs.map(lies), finish: this.finishes?.[i] ?? 0 };
     });
