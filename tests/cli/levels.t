@@ -18,6 +18,17 @@ $ retex-pack -q --unpack l.retex --level 3 -o u.exr; retex-pack -q --unpack l3.r
 # Pictures of it are those of the whole set, averaged: with textures, with one lamp, and with colours.
 $ printf '%s\n' '--texture Floor=textures/brick.jpg' '--texture:scale=3 Floor=tiles.jpg --texture Left=textures/damask.jpg' '--texture Floor=tiles.jpg --solo light1' '--texture Left=red' '' | while read -r t; do retex-combine -q l.retex $t -o a.exr; retex-combine -q l3.retex $t -o b.exr; oiiotool a.exr --resize:filter=box 162x20 -o c.exr; retex-diff -q c.exr b.exr --fail-psnr 45; done
 
+# Small pictures and parts of them are made of the smallest set that serves, and the server makes the same.
+$ printf 'exec retex-combine -v l.retex --texture Floor=tan "$@"' >c; for o in '--size 162x' '--size 81x10 --crop 0,0,243,30' '--size 40x' '--size 161x' '--size 80x10 --crop 1,0,240,30' ''; do echo "$o: $(sh c $o -o a.exr 2>&1 | grep 'made of')"; done; retex-pack -q --unpack l.retex --level 3 -o u.exr; retex-combine -q u.exr --texture Floor=tan -o a.exr; sh c --size 162x -o b.exr 2>log; retex-diff -q a.exr b.exr --fail-psnr 55
+> --size 162x: retex-combine: made of the level of 162 x 20 pixels
+> --size 81x10 --crop 0,0,243,30: retex-combine: made of the level of 162 x 20 pixels
+> --size 40x: retex-combine: made of the level of 162 x 20 pixels
+> --size 161x:
+> --size 80x10 --crop 1,0,240,30:
+> :
+$ mkdir rooms; cp l.retex rooms; python3 "$TESTS/serve.py" levels
+> levels
+
 # A lossless pack has levels of quality 90.
 $ retex-pack -q s.exr --lossless --levels -o x.retex; retex-pack -q --unpack x.retex -o back.exr; cmp s.exr back.exr; retex-info --check x.retex; unzip -qp x.retex level-3.retex >x3.retex; unzip -qp x3.retex manifest.json | grep -o '"quality":[0-9]*'
 > x.retex: ok

@@ -58,7 +58,7 @@ $ for o in t target replace map variants input set samples spp width jobs force 
 ! retex-combine: error: unknown option --set; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
 ! retex-combine: error: unknown option --samples; what it reads is named without an option: retex-combine SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE
 ! retex-combine: error: unknown option --spp; retex-render decides this when it renders
-! retex-combine: error: unknown option --width; retex-render decides this when it renders
+! retex-combine: error: unknown option --width; is --size WxH meant?
 ! retex-combine: error: unknown option --jobs; is --threads meant?
 ! retex-combine: error: unknown option --force; a file that exists is replaced when the new one is complete
 ! retex-combine: error: unknown option --format; the format follows the ending of the output's name

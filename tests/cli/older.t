@@ -57,6 +57,7 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_set_describe: ok
 > retex_set_describe: older
 > retex_set_write: ok
+> retex_pack_level: 0
 > retex_pack_write: ok
 > retex_web_write: this set cannot be written for browsers: its layout is not footprints
 > retex_denoise: the set lacks the part guide_normal: it was rendered or packed without what denoising needs, or is denoised already

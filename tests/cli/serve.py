@@ -888,6 +888,15 @@ def end(server):
     expect('keys', list(lines[0])[:8], ['time', 'client', 'method', 'path', 'status', 'bytes', 'seconds', 'cache'])
 
 
+def levels(server):
+    """Small pictures of a pack with levels, and parts: as retex-combine makes them."""
+    for size, crop in (('162x20', ''), ('40x', ''), ('486x60', ''), ('81x10', '0,0,243,30'), ('80x10', '1,0,240,30')):
+        combine('x.png', 'rooms/l.retex', '--texture', 'Floor=tan', '--size', size, *(['--crop', crop] if crop else []))
+        for _ in range(2):
+            answer = ask(server, f'/v1/l/Floor=tan/{size}.png' + (f'?crop={crop}' if crop else ''))
+            expect(size, (answer.status, answer.body == open('x.png', 'rb').read()), (200, True))
+
+
 OPTIONS = {'uploads': ['--uploads', 'uploads', '--upload-size', '1', '--upload-count', '2', '--upload-pixels', '1100000',
                        '--upload-age', '3600'],
            'decoders': ['--uploads', 'strange', '--upload-time', '2'],

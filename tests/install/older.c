@@ -199,6 +199,7 @@ static void call_sets(RetexSet *set, const char *folder)
     snprintf(path, sizeof path, "%s/set.exr", folder);
     CALL(retex_set_write, set, NULL, path, OLDER(RetexStoreParams, RETEX_STORE_INIT), 1);
     snprintf(path, sizeof path, "%s/set.retex", folder);
+    printf("retex_pack_level: %d\n", retex_pack_level(OLDER(RetexPackLevel, {.size = sizeof(RetexPackLevel)}), set, 0));
     CALL(retex_pack_write, set, path, OLDER(RetexPackParams, RETEX_PACK_INIT), NULL, 1);
     CALL(retex_web_write, set, folder, OLDER(RetexWebParams, RETEX_WEB_INIT), NULL, 1);
     CALL(retex_denoise, set, OLDER(RetexDenoiseParams, RETEX_DENOISE_INIT), NULL, 1);

@@ -154,8 +154,10 @@ def test_size():
                               room.combine({"Floor": OAK}, size=(50, 35)))
         error = room.error({"Floor": OAK}).reshape(35, 4, 50, 4, 3).mean((1, 3))
         assert np.allclose(room.error({"Floor": OAK}, size=(50, None)), error, atol=1e-5)
-        for size in ((0, 5), (-1, None), (None, None), (201, None), (50, 141)):
-            lib.fails((ValueError, retex.Error), room.combine, size=size)
+        for size in ((0, 5), (-1, None), (None, None)):
+            lib.fails(ValueError, room.combine, size=size)
+        for size in ((201, None), (50, 141)):
+            lib.fails(retex.Error, room.combine, size=size)
         lib.fails(ValueError, room.combine, size=(50, 35), out=np.zeros((35, 50, 3), np.float32))
 
 

@@ -7,6 +7,8 @@
 
 #include "combine/job.h"
 
+enum { MUCH = 3, LARGE = 1 << 20 }; /* times smaller to each side, and of at least so many pixels, is told */
+
 /* The samples cannot be read. The message asks whether -o or --texture is missing before the name. */
 static int fail_samples(const Cli *cli, const Job *job, const RetexError *why, RetexError *err)
 {
@@ -61,6 +63,26 @@ static int load_samples(const Cli *cli, Job *job, RetexError *err)
     return code ? fail_samples(cli, job, &why, err) : retex_samples_check(job->samples, job->set, err);
 }
 
+/* A picture that is much smaller than the set is made of a level, if the set has one that serves. */
+static int take_level(const Cli *cli, Job *job, RetexError *err)
+{
+    const RetexSetInfo info = retex_set_info(job->set);
+    const RetexCut whole = job->cut;
+    const int level = retex_set_find_level(job->set, &whole, &job->cut);
+    if (level >= 0) {
+        const int code = retex_set_take_level(&job->set, level, err);
+        if (!code)
+            cli_detail(cli, "made of the level of %d x %d pixels", retex_set_info(job->set).width,
+                       retex_set_info(job->set).height);
+        return code;
+    }
+    if ((long)info.width * info.height >= LARGE && whole.width / MUCH >= whole.scaled_width &&
+        whole.height / MUCH >= whole.scaled_height)
+        cli_info(cli, "%s: made of all %d x %d pixels: no level of it serves, see retex-pack --levels", job->set_path,
+                 info.width, info.height);
+    return RETEX_OK;
+}
+
 int job_open(const Cli *cli, Job *job, RetexError *err)
 {
     cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
@@ -72,6 +94,10 @@ int job_open(const Cli *cli, Job *job, RetexError *err)
     cli_check_pixels(cli, job->set, job->set_path);
     const RetexSetInfo info = retex_set_info(job->set);
     code = retex_cut_fit(&job->cut, info.width, info.height, job->crop, job->scaled[0], job->scaled[1], err);
+    if (code)
+        return code;
+    if (!job->samples && !job->samples_path)
+        code = take_level(cli, job, err);
     if (code)
         return code;
     job->combine.x0 = job->cut.x, job->combine.x1 = job->cut.x + job->cut.width;

@@ -20,7 +20,7 @@ static const char *const endings[] = {"retex", "exr", NULL};
 typedef struct OpenRoom {
     Kept kept;
     Room room;
-    char name[SERVE_NAME_MAX + 1];
+    char name[SERVE_NAME_MAX + 8]; /* of a level with its number, behind a line end */
     RetexSet *set;
     /* of the parts in memory; protected by the lock of the list */
     int is_decoded, decoded[RETEX_MAX_TARGETS]; /* as far as there was memory; the corrections of a target too */
@@ -106,7 +106,7 @@ int rooms_list(const Rooms *rooms, void (*tell)(void *context, const char *name)
 /* ---- opening ---- */
 
 /* The set of an open file: by its name, the file might be another one than was read for the digest. */
-static int open_set(Rooms *rooms, OpenRoom *room, int file, RetexError *err)
+static int open_set(Rooms *rooms, OpenRoom *room, int file, int level, RetexError *err)
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
@@ -117,18 +117,20 @@ static int open_set(Rooms *rooms, OpenRoom *room, int file, RetexError *err)
     if ((long)info.width * info.height > rooms->params.pixels)
         code =
             retex_fail(err, RETEX_EFORMAT, "room %s is too large: %d x %d pixels", room->name, info.width, info.height);
+    if (!code && level >= 0)
+        code = retex_set_take_level(&room->set, level, err);
     room->room.set = room->set;
     return code;
 }
 
-static int open_file(Rooms *rooms, OpenRoom *room, const char *path, RetexError *err)
+static int open_file(Rooms *rooms, OpenRoom *room, const char *path, int level, RetexError *err)
 {
     ContentReading reading = {.contents = rooms->contents, .most = 1};
     const int file = open(path, O_RDONLY | O_CLOEXEC);
     int code = file < 0 ? retex_fail(err, RETEX_EIO, "cannot read it: %s", strerror(errno))
                         : content_read(&reading, file, err);
     if (!code)
-        code = open_set(rooms, room, file, err);
+        code = open_set(rooms, room, file, level, err);
     if (!code)
         code = content_end(&reading, err);
     else
@@ -141,23 +143,35 @@ static int open_file(Rooms *rooms, OpenRoom *room, const char *path, RetexError 
     return code;
 }
 
-int rooms_take(Rooms *rooms, const char *name, const Room **result, RetexError *err)
+/* level: its number, or -1: the whole set. */
+static int take(Rooms *rooms, const char *name, int level, const Room **result, RetexError *err)
 {
-    char path[PATH_MAX];
+    char path[PATH_MAX], key[SERVE_NAME_MAX + 8];
     FileId id;
     int is_new;
     *result = NULL;
+    snprintf(key, sizeof key, level < 0 ? "%s" : "%s\n%d", name, level);
     if (rooms_find(rooms, name, path, &id))
         return retex_fail(err, RETEX_ENOTFOUND, "there is no room '%s'", name);
-    OpenRoom *room = (OpenRoom *)(void *)kept_take(&rooms->list, name, &id, &is_new);
+    OpenRoom *room = (OpenRoom *)(void *)kept_take(&rooms->list, key, &id, &is_new);
     if (!room)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a room");
-    int code = is_new ? open_file(rooms, room, path, err) : RETEX_OK;
+    int code = is_new ? open_file(rooms, room, path, level, err) : RETEX_OK;
     if (is_new)
         kept_opened(&rooms->list, &room->kept, code, &room->room.content, 0);
     if (!code)
         *result = &room->room;
     return code;
+}
+
+int rooms_take(Rooms *rooms, const char *name, const Room **result, RetexError *err)
+{
+    return take(rooms, name, -1, result, err);
+}
+
+int rooms_take_level(Rooms *rooms, const Room *whole, int level, const Room **result, RetexError *err)
+{
+    return take(rooms, open_room_of(whole)->name, level, result, err);
 }
 
 const Room *rooms_peek(Rooms *rooms, const char *name, const FileId *id)

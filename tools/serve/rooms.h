@@ -31,6 +31,8 @@ int rooms_find(const Rooms *rooms, const char *name, char path[PATH_MAX], FileId
 /* Open a room, or wait until another thread has: its size and targets are then known. To be returned by
  * rooms_return. */
 int rooms_take(Rooms *rooms, const char *name, const Room **room, RetexError *err);
+/* A level of a room that is open, by its number, which is returned likewise. */
+int rooms_take_level(Rooms *rooms, const Room *whole, int level, const Room **room, RetexError *err);
 /* The room if its file, of this identity, is open; or NULL. Never waits. */
 const Room *rooms_peek(Rooms *rooms, const char *name, const FileId *id);
 void rooms_return(Rooms *rooms, const Room *room); /* NULL is fine */

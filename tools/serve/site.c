@@ -331,15 +331,16 @@ static int is_of_key(const Site *site, const WorkItem *item, const Room *room,
     return are_settled && strcmp(key, item->key) == 0;
 }
 
-static Answer *make_picture_of(const Site *site, const WorkItem *item, const Room *room, PicturePlan *plan,
-                               Textures *textures, int nthreads)
+/* room: the whole one; used: what plan->set is of, it or a level of it. place: of the whole. */
+static Answer *make_picture_of(const Site *site, const WorkItem *item, const Room *room, const Room *used,
+                               const RetexCut *place, PicturePlan *plan, Textures *textures, int nthreads)
 {
     const ServeRequest *request = &item->request;
     SiteContents contents = {0};
     RetexError err = {0};
     void *data = NULL;
     size_t bytes = 0;
-    if (make_file(site, request, plan, room, textures, nthreads, &data, &bytes, &err))
+    if (make_file(site, request, plan, used, textures, nthreads, &data, &bytes, &err))
         return answer_of_error(&err);
     Answer *answer = answer_new(200, serve_format_type(request->format), data, bytes);
     if (!answer)
@@ -348,7 +349,7 @@ static Answer *make_picture_of(const Site *site, const WorkItem *item, const Roo
         for (int number = 0; number < RETEX_TEXTURE_FILES; number++)
             contents.images[i][number] = textures->images[i] ? images_contents(textures->images[i])[number]
                                                              : (Content){.is_settled = 1};
-    make_etag(site, request, &plan->place, room, &contents, answer->etag);
+    make_etag(site, request, place, room, &contents, answer->etag);
     const RetexSetInfo info = retex_set_info(room->set);
     answer->width = info.width;
     answer->height = info.height;
@@ -360,8 +361,7 @@ static Answer *make_picture_of(const Site *site, const WorkItem *item, const Roo
 static Answer *make_picture(const Site *site, const WorkItem *item, const Room *room, int nthreads)
 {
     ServeRequest request = item->request;
-    PicturePlan plan = {.set = room->set,
-                        .quarter_turns = request.quarter_turns,
+    PicturePlan plan = {.quarter_turns = request.quarter_turns,
                         .mirror = request.mirror,
                         .gray = request.gray,
                         .format = request.format,
@@ -369,12 +369,25 @@ static Answer *make_picture(const Site *site, const WorkItem *item, const Room *
                         .deadline = item->deadline};
     Textures textures = {0};
     RetexError err = {0};
-    if (find_place(&request, room, &plan.place))
+    RetexCut place;
+    if (find_place(&request, room, &place))
         return answer_error(request.status, "%s", request.reason);
-    Answer *answer = take_images(site, &request, room->set, item->deadline, &textures, &err)
-                         ? answer_of_error(&err)
-                         : make_picture_of(site, item, room, &plan, &textures, nthreads);
+    const Room *small = NULL;
+    const int level = retex_set_find_level(room->set, &place, &plan.place);
+    int code = level < 0 ? RETEX_OK : rooms_take_level(site->rooms, room, level, &small, &err);
+    if (small && !file_id_is_same(&small->content.id, &room->content.id)) { /* the file has been replaced meanwhile */
+        rooms_return(site->rooms, small);
+        small = NULL;
+        plan.place = place;
+    }
+    const Room *used = small ? small : room;
+    plan.set = used->set;
+    if (!code)
+        code = take_images(site, &request, used->set, item->deadline, &textures, &err);
+    Answer *answer = code ? answer_of_error(&err)
+                          : make_picture_of(site, item, room, used, &place, &plan, &textures, nthreads);
     return_images(site, &textures);
+    rooms_return(site->rooms, small);
     return answer;
 }
 

@@ -58,8 +58,12 @@ int retex_set_open_size(const char *path, int width, int height, RetexSet **set,
     if (width < 1 || height < 1)
         return retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is none", width, height);
     int status = retex_set_open(path, set, NULL, nthreads, err);
-    const int level = status ? -1 : retex_pack_find_level(*set, width, height);
-    return level < 0 ? status : retex_pack_take_level(set, level, err);
+    RetexCut own;
+    const int level = status ? -1
+                             : retex_set_find_level(*set,
+                                                    &(RetexCut){0, 0, (*set)->width, (*set)->height, width, height},
+                                                    &own);
+    return level < 0 ? status : retex_set_take_level(set, level, err);
 }
 
 int retex_set_check(const char *path, int nthreads, RetexError *err)

@@ -293,17 +293,36 @@ int retex_pack_level(RetexPackLevel *level, const RetexSet *set, int index)
     return 1;
 }
 
-int retex_pack_find_level(const RetexSet *set, int width, int height)
+/* A span in pixels of a level that is `scale` times smaller: 0 where it begins or ends within one of them. */
+static int reduce_span(int *begin, int *length, int whole, int scale)
+{
+    const int end = *begin + *length;
+    if (*begin % scale || (end % scale && end != whole))
+        return 0;
+    *begin /= scale;
+    *length = (end + scale - 1) / scale - *begin;
+    return 1;
+}
+
+#define RETEX_PACK_LARGE 3 /* times as many pixels to a side, from which any picture can be averaged */
+
+int retex_set_find_level(const RetexSet *set, const RetexCut *cut, RetexCut *own)
 {
     RetexPackLevel level = {.size = sizeof level};
     int found = -1;
+    *own = *cut;
     for (int i = 0; retex_pack_level(&level, set, i); i++) {
-        const int same = level.width == width && level.height == height;
-        const int whole = level.width * level.scale == set->width && level.height * level.scale == set->height &&
-                          level.width % width == 0 && level.height % height == 0;
-        const int large = level.width / RETEX_PACK_LARGE >= width && level.height / RETEX_PACK_LARGE >= height;
+        RetexCut at = *cut;
+        if (!reduce_span(&at.x, &at.width, set->width, level.scale) ||
+            !reduce_span(&at.y, &at.height, set->height, level.scale))
+            continue;
+        const int same = at.width == cut->scaled_width && at.height == cut->scaled_height;
+        const int whole = at.width * level.scale == cut->width && at.height * level.scale == cut->height &&
+                          at.width % cut->scaled_width == 0 && at.height % cut->scaled_height == 0;
+        const int large = at.width / RETEX_PACK_LARGE >= cut->scaled_width &&
+                          at.height / RETEX_PACK_LARGE >= cut->scaled_height;
         if (same || whole || large)
-            found = i;
+            found = i, *own = at;
     }
     return found;
 }
@@ -330,8 +349,13 @@ static int open_level(RetexSet **result, const RetexPack *pack, const RetexInput
     return code;
 }
 
-int retex_pack_take_level(RetexSet **set, int index, RetexError *err)
+int retex_set_take_level(RetexSet **set, int index, RetexError *err)
 {
+    RetexPackLevel known = {.size = sizeof known};
+    if (!retex_pack_level(&known, *set, index)) {
+        retex_set_close(set);
+        return retex_fail(err, RETEX_EINVAL, "the set has no level of number %d", index);
+    }
     RetexPack *pack = retex_pack_of(*set);
     RetexInput *whole = pack->input;
     RetexSet *level = NULL;

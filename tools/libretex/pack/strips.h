@@ -29,13 +29,6 @@ int retex_pack_row(RetexPackScratch *scratch, int part, int y, const float **row
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);
 const char *retex_pack_part_codec(const RetexPack *pack, int part);
 
-/* Which of a pack's smaller sets pictures of so many pixels are made of: the smallest that has a whole number of pixels
- * for each of theirs, or at least RETEX_PACK_LARGE times as many to each side; -1: none, but the set itself. */
-int retex_pack_find_level(const RetexSet *set, int width, int height);
-#define RETEX_PACK_LARGE 3
-/* Turn the set, which is that of an open pack, into one of the pack's smaller sets. */
-int retex_pack_take_level(RetexSet **set, int index, RetexError *err);
-
 /* Compare all checksums, those of smaller sets too; the set was opened from it. */
 int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err);
 

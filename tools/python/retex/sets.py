@@ -315,7 +315,7 @@ class Set:
         x, y, width, height = crop or (0, 0, self.width, self.height)
         if x < 0 or y < 0 or width < 1 or height < 1 or x + width > self.width or y + height > self.height:
             raise ValueError(f"crop: {crop} is not within the picture's {self.width}x{self.height} pixels")
-        if size and (min(side or 1 for side in size) < 1 or not any(size)):
+        if size and (any(side is not None and side < 1 for side in size) or not any(size)):
             raise ValueError(f"size: {size} has no pixels")
         cut = RetexCut()
         call("retex_cut_fit", byref(cut), self.width, self.height, (c_int * 4)(x, y, width, height),

@@ -4,6 +4,7 @@
 #define RETEX_SET_FILE_H
 
 #include <retex/samples.h>
+#include <retex/shrink.h>
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -34,9 +35,14 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
  * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
-/* Open a set for pictures of width x height pixels. Of a pack with levels (RetexPackParams) it is the smallest of its
- * sets from which such pictures can be averaged as from the whole set: that has a whole number of pixels for each of
- * theirs, or at least three times as many to each side. Of any other file it is the set, as retex_set_open opens it. */
+/* Which level (retex_pack_level) of an open pack is the smallest from which a cut of the picture can be averaged as
+ * from the whole set: that has a whole number of pixels for each of the cut's, or at least three times as many to each
+ * side. *own is the cut in pixels of that level. -1: there is none, and *own is the cut. */
+int retex_set_find_level(const RetexSet *set, const RetexCut *cut, RetexCut *own);
+/* The open set becomes that level of it; after a failure it is closed. */
+int retex_set_take_level(RetexSet **set, int level, RetexError *err);
+/* Open a set for pictures of width x height pixels: the level of it, or where it has none that serves, the whole set,
+ * as retex_set_open opens it. */
 int retex_set_open_size(const char *path, int width, int height, RetexSet **set, int nthreads, RetexError *err);
 
 /* Bring all parts of a set into memory, and close its band store or source. */
