@@ -141,7 +141,7 @@ $ make_set other.exr 64 48; retex-pack other.exr --web other
 $ test -e other || echo nothing
 > nothing
 $ retex-pack s.exr --web w -o x.retex
-! retex-pack: error: --web writes a folder: it takes neither -o, --unpack, --lossless nor --stats
+! retex-pack: error: --web writes a folder: it takes neither -o, --unpack, --lossless, --levels nor --stats
 = 2
 $ retex-pack s.exr --web s.exr 
 ! retex-pack: error: cannot write s.exr/index.html: Not a directory
