@@ -257,6 +257,20 @@ PICTURES = [
 ]
 
 
+SIZES = r"""## Sizes, views, presets
+
+`--size 320x180` makes a smaller picture, every pixel the mean of what it covers, and `--crop` a part. A pack with levels,
+`retex-pack --levels`, makes thumbnails in a tenth to a fifth of the time. `--exposure`, `--auto-exposure` and
+`--white-balance` develop the picture, `--view Filmic` and `--view Neutral` keep highlights that the plain view burns out.
+`--save-preset` writes textures, lamps, finishes and these to a small JSON file, which other rooms take, and
+retex-serve:
+
+    retex-combine room.exr --texture:width=60cm,10cm:repeat=herringbone:grout=3mm Floor=plank.png --exposure 0.7 \
+        --view Filmic --save-preset planks.json -o planks.jpg
+    retex-combine kitchen.exr --preset planks.json --size 640x -o kitchen.jpg
+"""
+
+
 def psnr(a, b):
     x, y = (pictures.encoded(pictures.colours(path)) for path in (a, b))
     return -10 * np.log10(max(((x - y) ** 2).mean(), 1e-12))
@@ -285,6 +299,7 @@ they are the same in all tools, in tables, URLs, Python, the plugin, pages, and 
         print(f"![{text}](pictures/edits-{name}.jpg)\n")
     with open(f"{work}/cases.txt") as file:
         cases = [line.split(maxsplit=2) for line in file]
+    print(SIZES)
     print(f"""## Compared with the same made beforehand
 
 A floor of even light, {int(height) * 16 // 9} x {height} pixels, seen from above and at a grazing angle. PSNR of the edit
