@@ -82,7 +82,7 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 
 # The player of --web is one script: its parts one after the other, made small by esbuild, which keeps the names that the
 # parts share. A comment that begins with /*! stays. Shaders are texts, whose blanks esbuild would leave.
-PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit lamps shaders maps adjust lay images renderer look folders textures element)
+PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit lamps shaders develop maps adjust lay images renderer look folders textures element)
 # The names of colours are those of the library; it has each grey by both spellings.
 $(BUILD)/gen/colors.js: tools/libretex/base/color_text.c tools/rules.mk
 	@mkdir -p $(@D)
@@ -90,7 +90,7 @@ $(BUILD)/gen/colors.js: tools/libretex/base/color_text.c tools/rules.mk
 	    sed 's/{"\(.*\)", 0x\(.*\)}/\1\U\2/' | tr -d '\n'; echo '";'; } >$@
 $(BUILD)/gen/retex-room.js: $(PLAYER_PARTS) tools/rules.mk
 	@mkdir -p $(@D)
-	$(SAY)for part in $(PLAYER_PARTS); do case $$part in *shaders.js|*maps.js|*adjust.js|*lay.js) \
+	$(SAY)for part in $(PLAYER_PARTS); do case $$part in *shaders.js|*develop.js|*maps.js|*adjust.js|*lay.js) \
 	    sed -E 's/ ?([-=*+<>?:\/]|&&|\|\||[<>=!]=|[-+*]=) /\1/g; s/([,;]) /\1/g; s/^ *//' $$part;; \
 	    *) sed 's/^ *//' $$part;; esac; done | esbuild --loader=js --minify --charset=utf8 --legal-comments=inline \
 	    --log-level=warning --footer='export { RetexRoom };' >$@

@@ -40,7 +40,7 @@ export function open(name, { classes = () => true, lit = true } = {}) {
   if (room.lamps && lit) renderer.putLamps(images([`${name}/${room.lamps.file}`])[0]);
   lights.forEach((light, i) => renderer.putLight(i, light));
   for (const c of room.classes.filter(classes)) renderer.putClass(c, decodeClass(c, inflateSync(readFileSync(`${folder}/${name}/${c.file}`)), c.base, room.targets[c.target].periodic));
-  const draw = (textures, { split = 0, lamp = [1, 1, 1], colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
+  const draw = (textures, { split = 0, light = {}, colors = room.parameters?.map((p) => p.value), finishes = [] } = {}) => {
     const none = plainTexture(), element = Object.assign(Object.create(RetexRoom.prototype), { room, finishes, renderer, refresh: () => {}, update: () => {} });
     element.textures = room.targets.map(() => ({ ...plainTexture(), put: {} }));
     for (const [name, { image = null, map = null, channel = null, tileImages = [], tiles = "", ...options }] of Object.entries(textures)) {
@@ -50,7 +50,7 @@ export function open(name, { classes = () => true, lit = true } = {}) {
     }
     element.textures.forEach((_, i) => element.put(i));
     const settings = element.settings();
-    renderer.render(settings, split, lamp, colors);
+    renderer.render(settings, split, { exposure: 0, warmth: 0, ...light }, colors);
     return canvas.picture;
   };
   return { room, draw, renderer };

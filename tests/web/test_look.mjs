@@ -110,11 +110,12 @@ test("wraps and mirrored repeats, on each axis", () => {
 });
 
 test("the light: stops and warmth as factors", () => {
-  const at = (exposure, warmth) => drawn([texture({})], [target], { exposure, warmth }).values;
-  same(at(0, 0).lamp, [1, 1, 1]);
-  near(at(2, 0).lamp, [4, 4, 4], 1e-12);
-  near(at(-1, 1).lamp, [0.5 * 2 ** 0.4, 0.5, 0.5 / 2 ** 0.4], 1e-12);
-  near(at(0, -0.5).lamp, [2 ** -0.2, 1, 2 ** 0.2], 1e-12);
+  const at = (exposure, warmth) => drawn([texture({})], [target], { exposure, warmth }).values.develop;
+  const factors = (r, g, b) => [r, 0, 0, 0, g, 0, 0, 0, b];
+  same(at(0, 0), factors(1, 1, 1));
+  near(at(2, 0), factors(4, 4, 4), 1e-12);
+  near(at(-1, 1), factors(0.5 * 2 ** 0.4, 0.5, 0.5 / 2 ** 0.4), 1e-12);
+  near(at(0, -0.5), factors(2 ** -0.2, 1, 2 ** 0.2), 1e-12);
 });
 
 /* By retex-edit(5): R (S a u, T b v), divided by the width, plus the offset; `at` is where the middle of the image is. */

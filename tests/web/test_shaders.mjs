@@ -4,7 +4,7 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { near, same, test } from "./tap.mjs";
 import { player } from "./player.mjs";
 import { compile } from "./glsl.mjs";
-import { folder, images, least, open, psnr, run, scenes, tool } from "./room.mjs";
+import { folder, images, least, open, psnr, run, scenes, tool, write } from "./room.mjs";
 import { WebGLTexture } from "./webgl.mjs";
 
 const { isRelit, readFolder } = player();
@@ -51,9 +51,30 @@ test("tints and the light multiply linear colours", () => {
   const white = whole.draw({ Floor: { image: [0.5, 0.4, 0.3], tint: "#bc80ff" } }), direct = whole.draw({ Floor: { image: [0.5, 0.4, 0.3].map((x, k) =>
     x * [((188 / 255 + 0.055) / 1.055) ** 2.4, ((128 / 255 + 0.055) / 1.055) ** 2.4, 1][k]) } });
   near([...white.values], [...direct.values], 1e-6, "tint");
-  const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4), lamp = [0.5, 0.25, 0.125];
-  const plain = whole.draw({}), dim = whole.draw({}, { lamp });
+  const linear = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4), lamp = [2 ** -1.4, 0.5, 2 ** -0.6];
+  const plain = whole.draw({}), dim = whole.draw({}, { light: { exposure: -1, warmth: -1 } });
   plain.values.forEach((y, i) => i % 4 < 3 && y < 0.999 && near(linear(dim.values[i]), linear(y) * lamp[i % 4], 1e-6, `value ${i}`));
+});
+
+/* A room whose light is as fine as JPEG files have it, so that what is developed shows. */
+let fine;
+for (const [text, decibels] of [["picture:exposure=1", 42], ["picture:white-balance=3000", 42], ["picture:white-balance=12000;picture:exposure=-2", 42], ["picture:view=Filmic", 42],
+  ["picture:view=Filmic;picture:exposure=2", 42], ["picture:view=Neutral", 42], ["picture:view=Neutral;picture:exposure=1", 42], ["picture:view=raw", 42],
+  ["picture:auto-exposure=yes", 42], ["picture:auto-exposure=yes;picture:exposure=-1;picture:white-balance=4000;picture:view=Filmic", 42]])
+  test(`developed as retex-combine does: ${text}`, () => {
+    if (!fine) tool("retex-pack", "-q", "--quality", "100", "s.exr", "--web", "fine");
+    fine ||= open("fine");
+    const { parseEdit, checkedLight } = player();
+    write("p.json", JSON.stringify({ "retex-preset": 1, edit: text }));
+    tool("retex-combine", "-q", "s.exr", "--preset", "p.json", "-o", "expected.png");
+    const expected = images(["expected.png"])[0], light = checkedLight(parseEdit(text).light);
+    least(psnr(fine.draw({}, { light }), expected), decibels, text);
+  });
+
+test("the automatic exposure is that of the new picture, also of what the split hides", () => {
+  tool("retex-combine", "-q", "s.exr", "--auto-exposure", "--texture", "Floor=rgb(0.02,0.02,0.02)", "-o", "expected.png");
+  const picture = fine.draw({ Floor: { image: [0.02, 0.02, 0.02] } }, { light: { autoExposure: true }, split: 30 });
+  least(psnr(picture, images(["expected.png"])[0], [30, 48]), 40, "right of the split");
 });
 
 test("lamps have their own light: the picture is that of the set with the lamp in that colour", () => {

@@ -224,7 +224,7 @@ test("links have the state of this room beside others, and the state comes back"
   same(parts.slice(0, 2), ["room=%7B%7D", "other%3D=1"]);
   same(parts.length, 3);
   if (!parts[2].startsWith("a%20b%3D=")) throw new Error(parts[2]);
-  same(parts[2].slice("a%20b%3D=".length), "Floor=oak%20%2526%20ash.jpg;Floor.scale=2,6;Floor.rotate=10;Floor.flip=u;exposure=1;warmth=-0.5");
+  same(parts[2].slice("a%20b%3D=".length), "Floor=oak%20%2526%20ash.jpg;Floor.scale=2,6;Floor.rotate=10;Floor.flip=u;picture:exposure=1;warmth=-0.5");
   const colored = element(RetexRoom, {}, { id: "b", room: { targets: [{ name: "Sofa", uv_scale: [2, 3] }] }, light: {}, said: [], colors: [],
     textures: [{ ...plainTexture(), source: "tan", image: [1, 0, 0] }] });
   same(new URL(colored.link).hash.split("&").at(-1), "b=Sofa=tan"); // a colour has no proportions
@@ -244,10 +244,21 @@ test("links have the state of this room beside others, and the state comes back"
   Object.assign(room, { setTexture: async (...all) => put.push(all), update: () => {}, light: {} });
   await room.setState(state);
   same(put, [["Floor", "oak & ash.jpg", (({ source, ...rest }) => rest)(state.textures.Floor)], ["Wall", null, {}]]);
-  same(room.light, { exposure: 1, warmth: -0.5 });
+  same(room.getState().light, { exposure: 1, warmth: -0.5 });
   room.setTexture = async (name) => { if (name === "Floor") throw new Error("away"); put.push(name); };
   await fails(() => room.setState({ light: { exposure: "x" } }), "away");
-  same([room.light, put.at(-1)], [{ exposure: 0, warmth: 0 }, "Wall"]); // the others are put all the same
+  same([room.getState().light, put.at(-1)], [{ exposure: 0, warmth: 0 }, "Wall"]); // the others are put all the same
+  const light = { exposure: 0.5, warmth: 0, view: "Filmic", whiteBalance: 4000, autoExposure: true };
+  room.setTexture = async () => {};
+  await room.setState({ light: { ...light, view: "FILMIC" } });
+  same(room.getState().light, light);
+  same(new URL(room.link).hash.split("=").slice(1).join("=").replace(/^.*flip=u;/, ""), "picture:auto-exposure=yes;picture:exposure=0.5;picture:view=Filmic;picture:white-balance=4000");
+  await fails(() => room.setState({ light: { exposure: 1, view: "Punchy" } }), "Pages have no view 'Punchy': expected Standard, Filmic, Neutral or Raw.");
+  same(room.getState().light, { exposure: 1, warmth: 0 }); // and the others are put all the same
+  for (const [key, value] of [["exposure", 31], ["exposure", "x"], ["whiteBalance", 999], ["autoExposure", 1], ["warmth", NaN]])
+    await fails(() => room.setLight({ [key]: value }), `The light's ${key} cannot be ${JSON.stringify(value)}.`, key);
+  await room.setLight({ view: "raw", exposure: null });
+  same(room.getState().light, { exposure: 0, warmth: 0, view: "Raw" });
 });
 
 /* ---- textures that are made ---- */

@@ -107,6 +107,10 @@ export function context(canvas) {
     bindFramebuffer: (_, framebuffer) => (frame = framebuffer),
     framebufferTextureLayer: (_, attachment, texture, level, layer) => Object.assign(frame, { texture, layer }),
     framebufferTexture2D: (_, attachment, kind, texture) => Object.assign(frame, { texture, layer: 0 }),
+    readPixels: (x, y, width, height, format, type, data) => {
+      const from = frame.texture.images[frame.layer][0];
+      for (let row = 0; row < height; row++) data.set(from.values.subarray(4 * ((y + row) * from.width + x), 4 * ((y + row) * from.width + x + width)), 4 * row * width);
+    },
     viewport: (...box) => (view = box),
     uniformMatrix2fv: (at, _, value) => gl.set(at, chunks(value, 4).map(([a, b, c, d]) => [[a, b], [c, d]])),
     uniform2fv: (at, value) => gl.set(at, chunks(value, 2)), uniform3fv: (at, value) => gl.set(at, chunks(value, 3)), uniform4fv: (at, value) => gl.set(at, chunks(value, 4)),

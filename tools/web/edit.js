@@ -109,7 +109,35 @@ const OPTIONS = {
   at: [(text) => (text.includes(",") ? lengthsOf(text, () => true) : undefined), ""],
   ...ADJUSTMENTS,
 };
-const LIGHT = ["exposure", "warmth"], LAMP = "light:", FINISH = "finish:";
+/* Statements about the light of the whole picture, in the order of the canonical text: what a state calls it, what reads a
+ * value, and what null means. A view of the tools may be one that pages do not have. */
+const PICTURE = "picture:", VIEWS = ["Standard", "Filmic", "Neutral", "Raw"];
+const LIGHT = {
+  [PICTURE + "auto-exposure"]: ["autoExposure", (text) => ({ yes: true, no: false })[text.toLowerCase()], false],
+  [PICTURE + "exposure"]: ["exposure", numberIn(-30, 30), 0],
+  [PICTURE + "view"]: ["view", (text) => (new TextEncoder().encode(text).length < 128 ? text : undefined), null],
+  [PICTURE + "white-balance"]: ["whiteBalance", numberIn(1000, 25000), null],
+  warmth: ["warmth", numberIn(-Infinity, Infinity), 0],
+};
+const lightText = (value) => (typeof value === "boolean" ? (value ? "yes" : "no") : textOf(value));
+/* What the light of a room is said to be, of what is said: undefined where nothing is. */
+function checkedLight(said) {
+  const light = {};
+  for (const [name, read, none] of Object.values(LIGHT)) {
+    if (said[name] === undefined) continue;
+    const value = said[name] === null ? none : read(typeof said[name] === "boolean" ? lightText(said[name]) : String(said[name]));
+    if (value === undefined) throw new Error(`The light's ${name} cannot be ${JSON.stringify(said[name])}.`);
+    light[name] = value;
+  }
+  if (light.view) {
+    const view = light.view;
+    light.view = VIEWS.find((name) => name.toLowerCase() === view.toLowerCase());
+    if (!light.view) throw new Error(`Pages have no view '${view}': expected ${VIEWS.slice(0, -1).join(", ")} or ${VIEWS.at(-1)}.`);
+  }
+  return light;
+}
+
+const LAMP = "light:", FINISH = "finish:";
 
 /* Layers: over:TARGET, over2:TARGET and so on. The target and the number, from 1; 0: it is no layer. */
 const layerOf = (key) => { const [, number, target] = /^over([2-4]?):(.*)$/s.exec(key) || []; return target === undefined ? [key, 0] : [target, Number(number || 1)]; };
@@ -141,7 +169,7 @@ function parseEdit(text) {
   for (const statement of text ? text.split(/[;&]/) : []) {
     const equals = statement.indexOf("="), key = statement.slice(0, Math.max(equals, 0)), word = optionOf(key);
     const target = decode(word ? key.slice(0, -word.length - 1) : key), value = decode(statement.slice(equals + 1));
-    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE, TARGET.OPTION=VALUE, light:LAMP=VALUE or finish:TARGET=NAME.`);
+    if (!target || !value) throw new Error(`'${statement}': expected TARGET=IMAGE, TARGET.OPTION=VALUE, light:LAMP=VALUE, finish:TARGET=NAME or picture:KEY=VALUE.`);
     if (key.startsWith(LAMP)) {
       const lamp = decode(key.slice(LAMP.length));
       if (!lamp) throw new Error(`'${statement}': expected the name of a lamp.`);
@@ -156,11 +184,17 @@ function parseEdit(text) {
       finishes[finished] = value;
       continue;
     }
-    const isLight = LIGHT.includes(key) && isFinite(numberOf(value)), said = isLight ? light : (textures[target] ||= {});
-    const name = isLight ? key : word || "source";
+    if (key.startsWith(PICTURE) || (["exposure", "warmth"].includes(key) && isFinite(numberOf(value)))) {
+      const [name, read] = LIGHT[key === "exposure" ? PICTURE + key : key] || []; // links said exposure=STOPS once
+      if (!name) throw new Error(`'${statement}': expected picture: and exposure, white-balance, auto-exposure or view.`);
+      if (name in light) throw new Error(`${key} is given twice.`);
+      if ((light[name] = read(value)) === undefined) throw new Error(`${key} cannot be '${value}'.`);
+      continue;
+    }
+    const said = (textures[target] ||= {}), name = word || "source";
     if (name in said) throw new Error(`${key} is given twice.`);
     if (name === "source") readColor(value);
-    said[name] = isLight ? numberOf(value) : word ? OPTIONS[word][0](value) : value;
+    said[name] = word ? OPTIONS[word][0](value) : value;
     if (said[name] === undefined) throw new Error(`${key} cannot be '${value}'.`);
   }
   for (const [key, said] of Object.entries(textures)) {
@@ -208,5 +242,6 @@ function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   }
   for (const lamp of Object.keys(lamps).sort()) statements.push(`${LAMP}${encode(lamp)}=${lamps[lamp]}`);
   for (const target of Object.keys(finishes).sort()) statements.push(`${FINISH}${encode(target)}=${encode(finishes[target])}`);
-  return [...statements, ...LIGHT.filter((key) => light[key]).map((key) => `${key}=${numberText(light[key])}`)].join(";");
+  for (const [key, [name]] of Object.entries(LIGHT)) if (light[name] != null) statements.push(`${key}=${encode(lightText(light[name]))}`);
+  return statements.join(";");
 }

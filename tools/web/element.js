@@ -53,11 +53,11 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     return this.whenComplete;
   }
 
-  /* Brightness in stops, warmth from -1 to 1. Or, by name, the value of a lamp, as "1.5*3000K", "#ffd0a0", 0; null: as
-   * rendered. Resolves when it is drawn. */
+  /* Exposure in stops, warmth from -1 to 1, whiteBalance in kelvins, autoExposure, and the view by its name; null takes one
+   * away. Or, by name, the value of a lamp, as "1.5*3000K", "#ffd0a0", 0; null: as rendered. Resolves when it is drawn. */
   async setLight(light, value = null) {
     if (typeof light === "string") return this.setLamps({ [light]: value });
-    Object.assign(this.light, light);
+    Object.assign(this.light, checkedLight(light));
     this.update();
   }
 
@@ -134,12 +134,13 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     this.targets.forEach((name, i) => {
       if (this.finishName(i) && this.finishes[i] !== rendered[i]) finishes[name] = this.finishName(i);
     });
-    return { textures, light: { ...this.light }, lamps, finishes };
+    return { textures, light: Object.fromEntries(Object.entries(this.light).filter(([, value]) => value !== null && value !== false)), lamps, finishes };
   }
 
   async setState(state) {
-    this.setLight({ exposure: Number(state.light?.exposure) || 0, warmth: Number(state.light?.warmth) || 0 });
     let failed;
+    const { light } = state, plain = { exposure: Number(light?.exposure) || 0, warmth: Number(light?.warmth) || 0, autoExposure: null, view: null, whiteBalance: null };
+    for (const said of [plain, { ...light, exposure: undefined, warmth: undefined }]) await this.setLight(said).catch((error) => (failed ||= error));
     const lamps = state.lamps || {}, others = lamps["*"] ?? null, values = Object.fromEntries(this.lamps.map((l) => [l.name, others]));
     for (const name of Object.keys(lamps)) {
       const index = indexNamed(this.lamps, name);
@@ -180,6 +181,7 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
         if (said) said.scale = isColor && !k ? undefined : this.scaleOf(i, t);
       });
     });
+    for (const key of ["exposure", "warmth"]) state.light[key] ||= null;
     const text = encodeURIComponent(editText(state)).replace(/%(3B|3D|2C|2F|3A)/g, decodeURIComponent);
     url.hash = [...others, this.key + text].join("&");
     return url.href;
@@ -336,9 +338,9 @@ class RetexRoom extends withTextures(globalThis.HTMLElement || Object) {
     }
     cancelAnimationFrame(this.frame);
     this.frame = 0;
-    const begin = performance.now(), { exposure, warmth } = this.light, most = 2 ** exposure;
+    const begin = performance.now();
     const split = this.comparing ? (this.$(".split").value / 100) * this.room.width : 0;
-    this.renderer.render(this.settings(), split, [most * 2 ** (0.4 * warmth), most, most * 2 ** (-0.4 * warmth)], this.mapColors());
+    this.renderer.render(this.settings(), split, this.light, this.mapColors());
     this.emit("retex-draw", { milliseconds: performance.now() - begin });
   }
 

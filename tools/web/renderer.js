@@ -272,9 +272,9 @@ class Renderer extends Images {
   }
 
   /* settings: by target how its texture lies, a matrix by columns and an offset; wrap: modes in u and v; overs: how its layers
-   * lie; finish: the number of the one that is chosen; split: pixels from the left that stay as they were; colors: of the
-   * parameters, of a target with a map with all its finishes. */
-  render(settings, split, lamp, colors) {
+   * lie; finish: the number of the one that is chosen; split: pixels from the left that stay as they were; light: how
+   * the picture is developed; colors: of the parameters, of a target with a map with all its finishes. */
+  render(settings, split, light, colors) {
     const { gl, room, overs, overEnd } = this, lie = (list, key) => list.flatMap((s) => s[key]), layers = settings.flatMap((s) => s.overs);
     const values = { colors, records: this.records, reduced: this.reduced || this.none, turn: lie(settings, "turn"), offset: lie(settings, "offset"), edge: [], edited: [], keeps: [],
       overs, overEnd, overTurn: lie(layers, "turn"), overOffset: lie(layers, "offset") };
@@ -290,27 +290,45 @@ class Renderer extends Images {
     const isMapped = mapped.includes(true) && !!this.lampTiles, passes = isMapped ? passesOf(room, mapped) : [shown];
     if (isMapped) this.drawGates(values, shown, mapped);
     else if (mapped.includes(true)) values.colors = chosenColors(room, shown, colors);
-    const partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
+    const size = [room.width, room.height], partial = !this.complete, ready = room.groups.map((_, g) => (this.isReady(g) ? 1 : 0));
     let originals = this.layers(true, false), factors = this.layers(false, false);
     if (ready.includes(1)) {
       if (partial || split > 0) originals = this.drawFactors(true, values);
     }
-    passes.forEach((pass, i) => {
-      const last = i === passes.length - 1, first = isMapped ? this.inPass(mapped, pass, shown) : {};
-      if (ready.includes(1)) factors = this.drawFactors(false, { ...values, colors: isMapped ? passColors(room, mapped, pass, colors) : values.colors, first });
-      if (last) {
-        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-        gl.viewport(0, 0, room.width, room.height);
-      } else {
-        this.intoImage(this.sums[i % 2], room.width, room.height);
-      }
-      this.draw(this.programOf(pictureShader, isMapped, !!this.overs), {
-        ...values, ...first, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
-        originalGrid: originals.grid, loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)),
-        ready, partial: partial && !i ? 1 : 0, split, lamp, gates: this.gates, finish: pass, more: i ? 1 : 0, last: last ? 1 : 0,
-        below: i ? this.sums[(i + 1) % 2] : this.still,
+    let develop = developMatrix(light);
+    for (const isMeasured of light.autoExposure ? [true, false] : [false]) {
+      passes.forEach((pass, i) => {
+        const last = i === passes.length - 1, first = isMapped ? this.inPass(mapped, pass, shown) : {};
+        if (ready.includes(1) && (isMapped || isMeasured || !light.autoExposure))
+          factors = this.drawFactors(false, { ...values, colors: isMapped ? passColors(room, mapped, pass, colors) : values.colors, first });
+        if (!last) {
+          this.intoImage(this.sums[i % 2], ...size);
+        } else if (isMeasured) {
+          this.intoImage(this.measured ||= this.texture(gl.TEXTURE_2D, gl.RGBA16F, ...size, 0, gl.NEAREST), ...size);
+        } else {
+          gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+          gl.viewport(0, 0, ...size);
+        }
+        this.draw(this.programOf(pictureShader, isMapped, !!this.overs), {
+          ...values, ...first, heads: this.heads, lights: this.light, factors: factors.texture, grid: factors.grid, originals: originals.texture,
+          originalGrid: originals.grid, loaded: room.classes.map((c) => (this.loaded.has(c) && c.scale === 1 ? 1 : 0)),
+          ready, partial: partial && !i ? 1 : 0, split: isMeasured ? 0 : split, gates: this.gates, finish: pass, more: i ? 1 : 0,
+          last: last && !isMeasured ? 1 : 0, develop, view: Math.max(VIEWS.indexOf(light.view), 0), below: i ? this.sums[(i + 1) % 2] : this.still,
+        });
       });
-    });
+      if (isMeasured) develop = developMatrix(light, this.measure());
+    }
+  }
+
+  /* The stops that bring the log-average of the luminance of `measured`, of pixels that are not black, to 0.18. */
+  measure() {
+    const { gl, room } = this, size = [room.width, room.height].map((x) => Math.ceil(x / METER_BLOCK)), blocks = new Float32Array(4 * size[0] * size[1]);
+    this.intoImage(this.blocks ||= this.texture(gl.TEXTURE_2D, gl.RGBA16F, ...size, 0, gl.NEAREST), ...size);
+    this.draw(this.programOf(METER), { picture: this.measured });
+    gl.readPixels(0, 0, ...size, gl.RGBA, gl.FLOAT, blocks);
+    let sum = 0, count = 0;
+    for (let i = 0; i < blocks.length; i += 4) sum += blocks[i], count += blocks[i + 1];
+    return count ? clamp(Math.log2(0.18) - sum / count, -30, 30) : 0;
   }
 
   /* What differs in a pass: the textures of first hits, and which original they keep where they are clear. */

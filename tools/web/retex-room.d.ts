@@ -45,10 +45,16 @@ export interface RetexTextureOptions extends RetexPlacing {
 }
 
 export interface RetexLight {
-  /** Stops. */
+  /** Stops, -30 to 30. */
   exposure: number;
   /** -1 to 1. */
   warmth: number;
+  /** Kelvins of the light that becomes white, 1000 to 25000. */
+  whiteBalance?: number | null;
+  /** Whether the log-average of the picture's luminance is brought to 0.18 before `exposure`. */
+  autoExposure?: boolean | null;
+  /** How linear colours are shown. */
+  view?: "Standard" | "Filmic" | "Neutral" | "Raw" | null;
 }
 
 /** A lamp whose light the set keeps apart. */

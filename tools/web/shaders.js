@@ -318,13 +318,13 @@ float share(vec3 w, int finish) {
 
 const MAPPED = `
 uniform sampler2DArray gates;
-uniform bool more, last;
+uniform bool more;
 uniform int finish[TARGETS];
 ${SHARE}`;
 
 /* Last step: the picture, with the original textures left of `split`. While not everything is loaded it is the still plus
  * what new textures change; `below` has the still. hasMaps: the picture is a sum of several: `more`, that of those before is in
- * `below`; of the last it is encoded. Light of a finish is multiplied by its gate, but for that whose first hit is on the target. */
+ * `below`. The last is developed, unless it is measured. Light of a finish is multiplied by its gate, but for that whose first hit is on the target. */
 function pictureShader(room, hasMaps, hasOvers) {
   const full = room.mixtures.map((m, i) => [m, i]).filter(([m]) => room.classes[m[0][0]].scale === 1);
   const byClass = new Map();
@@ -354,8 +354,10 @@ uniform bool ready[${room.groups.length}];
 uniform bool partial;
 uniform float split;
 ${hasMaps ? withTargets(room, MAPPED) : ""}
-uniform vec3 lamp, grid, originalGrid;
+uniform vec3 grid, originalGrid;
+uniform bool last;
 out vec4 result;
+${SHOWN}
 vec3 factor(sampler2DArray from, vec3 grid, int layer) {
   vec2 at = clamp((vec2(gl_FragCoord.x, ${number(room.height)} - gl_FragCoord.y)) / grid.z, vec2(0.5), grid.xy - 0.5);
   return texture(from, vec3(at / vec2(textureSize(from, 0).xy), layer)).rgb;
@@ -372,9 +374,7 @@ void main() {
     ${mixtures.join("")}
     ${groups.join("")}
   }
-  vec3 y = clamp(color * lamp, 0.0, 1.0);
-  result = vec4(encoded(y), 1.0);
-  ${hasMaps ? "if (!last) result = vec4(min(color, 65504.0), 1.0);" : ""}
+  result = vec4(last ? shown(color) : min(color, 65504.0), 1.0);
 }`;
 }
 
