@@ -24,6 +24,7 @@ enum {
     OPT_LIGHT,
     OPT_SOLO,
     OPT_REPLACE,
+    OPT_PRESET,
     OPT_VARIANTS,
     OPT_CONTROL,
     OPT_CONTROL_MODE,
@@ -99,6 +100,7 @@ static const CliOption options[] = {
     [OPT_REPLACE] =
         {"replace", 0, "NAME=IMAGE",
          "put IMAGE on a target and render: the reference for a retexture; opts as in retex-sample --texture", 1},
+    [OPT_PRESET] = {"preset", 0, "FILE", "the same with a preset's textures, as of retex-combine; options go first", 0},
     [OPT_VARIANTS] = {"variants", 0, "FILE.csv",
                       "render one --replace picture per row of a table, as retex-combine --batch; up to 16 share paths",
                       0},
@@ -188,6 +190,14 @@ static void parse_replace(Arguments *a)
         cli_die(a->cli, "--replace: %s", err.message);
 }
 
+/* The textures of a preset for targets without --replace. */
+static void add_preset(Arguments *a)
+{
+    if (a->preset && texture_args_add_preset_textures(a->cli, a->replacements, &a->nreplacements, a->preset))
+        cli_warn(a->cli, "only textures of --preset are rendered: what it says of lamps, finishes and the picture is "
+                         "left out");
+}
+
 /* The index of the option's value among names; an error if it is none of them. */
 static int choose(const Cli *cli, const CliOption *o, int count, const char *const *names)
 {
@@ -246,6 +256,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_REPLACE:
         parse_replace(a);
+        break;
+    case OPT_PRESET:
+        a->preset = cli->value;
         break;
     case OPT_CONTROL:
         a->control = cli->value;
@@ -493,6 +506,7 @@ void parse_arguments(Arguments *a)
             a->scene = cli->value;
     }
     take_ini_options(a);
+    add_preset(a);
     if (!a->scene)
         cli_die(cli, "no scene given; try --help");
     if (a->render.paper && a->render.sharp)

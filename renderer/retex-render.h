@@ -29,6 +29,7 @@ typedef struct Arguments {
     const char *finishes[LIST_MAX], *shown[LIST_MAX];
     int nfinishes, nshown, list_finishes;
     const char *lights[LIST_MAX], *solo; /* values of lamps, as arguments of --light */
+    const char *preset;
     int nlights, lamps_by_light; /* 1: they name the lamps, too */
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];

@@ -137,7 +137,7 @@ static void parse(Cli *cli, Job *job)
     if (job->save_preset)
         check(cli, retex_file_write_check(job->save_preset, &err), &err);
     if (job->preset)
-        texture_args_add_preset(cli, &job->textures, job->lights, job->preset);
+        texture_args_add_preset(cli, job->textures.specs, &job->textures.count, job->lights, job->preset);
     check(cli, job_develop(job, job->lights, &err), &err);
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");

@@ -17,19 +17,6 @@ typedef struct Job {
     int keep_going;
 } Job;
 
-/* Of a preset the textures count: lamps and what is said of the picture are for retex-combine. */
-static void add_preset(const Cli *cli, Job *job)
-{
-    RetexEdit *others = NULL;
-    RetexError err = {0};
-    if (!job->preset)
-        return;
-    if (retex_edit_create(&others, &err))
-        cli_fail(cli, &err);
-    texture_args_add_preset(cli, &job->textures, others, job->preset);
-    retex_edit_close(&others);
-}
-
 static void parse(Cli *cli, Job *job)
 {
     for (const CliOption *option; (option = cli_next(cli));) {
@@ -48,7 +35,8 @@ static void parse(Cli *cli, Job *job)
     }
     if (!job->set)
         cli_die(cli, "no set given; - is standard input");
-    add_preset(cli, job);
+    if (job->preset) /* what it says of lamps and the picture is for retex-combine */
+        texture_args_add_preset_textures(cli, job->textures.specs, &job->textures.count, job->preset);
     if (!job->textures.count)
         cli_die(cli, "no texture given; expected --texture NAME=IMAGE");
     if (job->keep_going && !job->frames.step)

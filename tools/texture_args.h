@@ -60,7 +60,8 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
 }
 
 /* Add the textures of a preset for targets that have none, and what else it says to `edit`, if that does not. */
-static inline void texture_args_add_preset(const Cli *cli, TextureArgs *args, RetexEdit *edit, const char *path)
+static inline void texture_args_add_preset(const Cli *cli, RetexTextureSpec *specs, int *count, RetexEdit *edit,
+                                           const char *path)
 {
     RetexEdit *preset = NULL;
     RetexError err = {0};
@@ -74,18 +75,36 @@ static inline void texture_args_add_preset(const Cli *cli, TextureArgs *args, Re
     for (int i = 0; !code && i < retex_edit_count(preset); i++) {
         const RetexTextureSpec *spec = retex_edit_texture(preset, i);
         int at = 0;
-        while (at < args->count && strcasecmp(args->specs[at].target, spec->target) != 0)
+        while (at < *count && strcasecmp(specs[at].target, spec->target) != 0)
             at++;
-        if (at < args->count)
+        if (at < *count)
             continue;
-        if (args->count == RETEX_MAX_TARGETS)
+        if (*count == RETEX_MAX_TARGETS)
             cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
-        args->specs[args->count++] = *spec;
-        texture_args_read_by(cli, &args->specs[at]);
+        specs[(*count)++] = *spec;
+        texture_args_read_by(cli, &specs[at]);
     }
     retex_edit_close(&preset);
     if (code)
         cli_fail(cli, &err);
+}
+
+/* The textures alone; 1: it says more. */
+static inline int texture_args_add_preset_textures(const Cli *cli, RetexTextureSpec *specs, int *count,
+                                                   const char *path)
+{
+    RetexEdit *others = NULL;
+    RetexError err = {0};
+    char *more = NULL;
+    if (retex_edit_create(&others, &err))
+        cli_fail(cli, &err);
+    texture_args_add_preset(cli, specs, count, others, path);
+    if (retex_edit_text(others, ';', &more, &err))
+        cli_fail(cli, &err);
+    const int says_more = more[0] != '\0';
+    free(more);
+    retex_edit_close(&others);
+    return says_more;
 }
 
 /* Write textures, and what `lights` has, as a preset. */

@@ -29,6 +29,12 @@ $ printf 'ocio_profile_version: 2\nroles: {default: lin, scene_linear: lin}\nfil
 ! retex-combine: error: x.png: display One has no view 'Neutral'; there are Plain, Filmic
 = 1
 
+# retex-render puts the textures of a preset on targets without --replace.
+$ retex-combine -q set.exr --texture:scale=2 Floor=brick.jpg --texture Wall=tan -o a.png --save-preset r.json; sh r --spp 2 --preset r.json -o a.exr; sh r --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=tan -o b.exr; cmp a.exr b.exr; sh r --spp 2 --preset r.json --replace Wall=red -o a.exr; sh r --spp 2 --replace:scale=2 Floor=brick.jpg --replace Wall=red -o b.exr; cmp a.exr b.exr; retex-combine -q set.exr --texture Floor=tan --exposure 1 -o a.png --save-preset r.json; sh r --spp 1 --preset r.json -o a.exr; sh r --preset gone.json -o gone.exr; test -e gone.exr
+! retex-render: warning: only textures of --preset are rendered: what it says of lamps, finishes and the picture is left out
+! retex-render: error: cannot read gone.json: No such file or directory
+= 1
+
 # Of options the last counts, of others a preset has each once. A view does nothing to floats.
 $ retex-combine -q set.exr --exposure 9 --exposure 1 --view Raw --view Filmic -o a.png; retex-combine -q set.exr --exposure 1 --view Filmic -o b.png; cmp a.png b.png; retex-combine -q set.exr -o a.exr; retex-combine set.exr --view Filmic -o b.exr 2>&1 | grep warning; cmp a.exr b.exr
 > retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would
