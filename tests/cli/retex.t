@@ -117,8 +117,21 @@ $ bin=$(dirname "$(command -v retex)"); PATH=/nonexistent; "$bin/retex" help com
 >       --finish TARGET=NAME    give TARGET another of the finishes that the set
 >                               has for it
 >       --solo NAME             turn off all lamps but NAME, and those of --light
+>       --size WxH              a smaller picture: of WxH pixels, or Wx or xH to
+>                               keep the aspect
+>       --crop X,Y,W,H          only this rectangle of the picture
+>       --preset FILE           what --save-preset wrote: textures, lamps,
+>                               finishes, exposure, view; options go first
+>       --save-preset FILE      write these options to a file, for --preset
+>       --exposure STOPS        make the picture brighter, by 2^STOPS; -30 to 30
+>       --auto-exposure         bring the picture's mean brightness to a middle
+>                               grey, before --exposure
+>       --white-balance KELVINS
+>                               make light of so many kelvins white, 1000 to
+>                               25000
 >       --display NAME          OCIO display for the picture
->       --view NAME             OCIO view of that display
+>       --view NAME             view of that display: Standard, Filmic, Neutral,
+>                               Raw, or one of $OCIO
 >       --colorspace NAME       write in this OCIO colour space instead
 >       --quality N             quality of a JPEG, 1 to 100; default 95
 >       --depth 8|16            bits of a PNG, TIFF or other file of integers;

@@ -49,7 +49,7 @@ $ retex-sample -q s.exr --texture:repeat=brick:wrap=repeat,clamp floor=brick.jpg
 ! retex-sample: error: texture options: repeat=brick needs wrap=repeat, the default, on both axes
 = 2
 $ retex-sample -q s.exr --texture:width=1.2,0 floor=brick.jpg -o x.exr
-! retex-sample: error: texture option width='1.2,0': expected one or two lengths above 0, as in width=1.2 or width=1.2,0.2
+! retex-sample: error: texture option width='1.2,0': expected one or two lengths above 0, as in width=1.2 or width=60cm,9cm
 = 2
 $ retex-sample -q s.exr --texture floor=brick.jpg --texture Floor=brick.jpg -o x.exr
 ! retex-sample: error: target Floor is given two textures

@@ -117,7 +117,7 @@ static void test_mistakes(void **state)
         {"wrap=mirror:repeat=half-drop", "a=b", "repeat=half-drop needs wrap=repeat"},
         {"width=0", "a=b", "lengths above 0"},
         {"width=1,-2", "a=b", "lengths above 0"},
-        {"width=1m", "a=b", "lengths above 0"},
+        {"width=1km", "a=b", "lengths above 0"},
         {"width=1,2,3", "a=b", "lengths above 0"},
         {"width=1,0", "a=b", "lengths above 0"},
         {"colorspace=", "a=b", "colour space"},
