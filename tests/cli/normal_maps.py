@@ -40,6 +40,8 @@ def main():
     write("other", rows(lambda r, c: (127, 128, 255)))
     steep = math.radians(30)  # every texel the other way than its neighbour: flat on average
     write("ridges", rows(lambda r, c: encoded(((-1) ** c * math.sin(steep), 0, math.cos(steep)))))
+    steep = math.radians(75)  # so steep that the sum of three normals is below 0
+    write("steep", rows(lambda r, c: encoded(((-1) ** (r // 16 + c // 16) * math.sin(steep), 0, math.cos(steep)))))
     write("color", rows(color))
 
     def down(r, c):
