@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Asks POV-Ray for colours of layers and maps of textures, as data for unit/test_layers.c:
+"""Asks POV-Ray for colours of layers and maps of textures, as data for unit/test_povray_layers.c:
 
     tests/lib/povray_layers.py >tests/data/layers.txt
 
