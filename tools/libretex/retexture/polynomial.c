@@ -43,7 +43,8 @@ static void find_edited(RetexPolynomial *p, const RetexCombineParams *params)
         }
     }
     const int original = !params->terms_only && corrected && !count;
-    p->picture = original && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE);
+    p->picture = set->nterms ? original && !changed && retex_set_has_role(set, RETEX_ROLE_PICTURE)
+                             : set->nparts > 0 && set->parts[0].image.channels == 3; /* a plain picture */
     p->lamp_pictures = original && p->relit && retex_set_has_role(set, RETEX_ROLE_LAMP_PICTURE);
 }
 
