@@ -1,47 +1,19 @@
 #!/bin/sh
-# Runs the commands of docs/tutorial.md: blocks of ```sh in order, in one shell; a block ```output after one is what it
-# must print. The picture is smaller than the tutorial's, unless TUTORIAL_AS_WRITTEN=1. TUTORIAL_FOLDER=DIR works in
-# DIR, which must be empty, and keeps it; with TUTORIAL_INSTALLED=DIR the tools are those in PATH, and the scenes are in DIR.
+# Runs the commands of docs/tutorial.md. The picture is smaller than the tutorial's, unless TUTORIAL_AS_WRITTEN=1.
+# TUTORIAL_FOLDER=DIR works in DIR, which must be empty, and keeps it; with TUTORIAL_INSTALLED=DIR the tools are those in
+# PATH, and the scenes are in DIR.
 set -u
 . tests/lib/tap.sh
+. tests/lib/page_blocks.sh
 page=$here/docs/tutorial.md
 [ -z "${TUTORIAL_INSTALLED:-}" ] || PATH=${PATH#"$BUILD/bin:$BUILD/tests/bin:"}
 smaller='s/--size 480x270/--size 160x90/g'
 [ -z "${TUTORIAL_AS_WRITTEN:-}" ] || smaller=
 
-# The N-th block goes to blocks/N, its server to blocks/N.server, what it prints to blocks/N.output.
-mkdir "$work/blocks"
-awk -v out="$work/blocks" '
-    /^```sh$/ { file = sprintf("%s/%02d", out, ++n); next }
-    /^```sh server$/ { file = sprintf("%s/%02d.server", out, ++n); next }
-    /^```output$/ { file = sprintf("%s/%02d.output", out, n); next }
-    /^```/ { file = ""; next }
-    file { print > file }' "$page"
-
 folder=${TUTORIAL_FOLDER:-$work/folder}
+scenes=${TUTORIAL_INSTALLED:-$here/scenes}
 mkdir -p "$folder"
-
-# One shell runs all blocks, as a reader's terminal does. It writes what each prints to N.out.
-{
-    echo 'set -e'
-    for block in "$work"/blocks/??; do
-        echo "exec >'$block.out' 2>'$block.err'"
-        sed "$smaller" "$block"
-        echo ": >'$block.done'"
-    done
-} >"$work/all"
-(cd "$folder" && scenes=${TUTORIAL_INSTALLED:-$here/scenes} sh "$work/all" </dev/null)
-
-for block in "$work"/blocks/??; do
-    title=$(head -n 1 "$block")
-    good=$([ -e "$block.done" ] && echo 1)
-    if [ -n "$good" ] && [ -e "$block.output" ] && ! cmp -s "$block.output" "$block.out"; then
-        good=
-        diff "$block.output" "$block.out" | sed 's/^/# /'
-    fi
-    [ -n "$good" ] || sed 's/^/# /' "$block.err" 2>/dev/null
-    result "${good:-0}" "$title"
-done
+run_blocks "$page" "$folder" "$smaller"
 
 # The server: on a free port, and until its page and what the page asks for first have been read.
 for server in "$work"/blocks/??.server; do

@@ -82,7 +82,7 @@ inside sh -c "cd /packages && $install" >"$work/log" 2>&1
 judge "apt installs what the tutorial says"
 mkdir -p "$root/check/tests/docs" "$root/check/tests/lib"
 cp tests/docs/tutorial.sh "$root/check/tests/docs"
-cp tests/lib/tap.sh "$root/check/tests/lib"
+cp tests/lib/tap.sh tests/lib/page_blocks.sh "$root/check/tests/lib"
 ln -s /usr/share/doc/retex-doc/docs "$root/check/docs"
 student "cd /check && BUILD=/none TUTORIAL_INSTALLED=$examples TUTORIAL_AS_WRITTEN=${TUTORIAL_AS_WRITTEN-1} \
     TUTORIAL_FOLDER=\$HOME/tutorial sh tests/docs/tutorial.sh" >"$work/tutorial" 2>&1
