@@ -60,7 +60,6 @@ warning: object 'Plane': it is no shadow catcher but an ordinary surface
 warning: object 'Plane': its hair 'grass' is left out
 warning: object 'Plane': its particles 'dust' are left out
 warning: object 'Plane': mirrors see it too
-warning: object 'blob': it is a metaball: it is left out
 warning: object 'cloud': it is a volume: it is left out
 warning: the exposure of the film is left out
 warning: the transparency of the film is left out

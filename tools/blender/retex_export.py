@@ -83,7 +83,7 @@ def show_as_rendered(stack, objects):
                 set_for_now(stack, modifier, "levels", modifier.render_levels)
 
 
-NO_MESH = {"META": "a metaball", "VOLUME": "a volume", "CURVES": "hair", "HAIR": "hair", "POINTCLOUD": "a point cloud",
+NO_MESH = {"VOLUME": "a volume", "CURVES": "hair", "HAIR": "hair", "POINTCLOUD": "a point cloud",
            "GPENCIL": "a grease pencil", "GREASEPENCIL": "a grease pencil"}
 RAYS = {"visible_camera": "the camera", "visible_diffuse": "diffuse light", "visible_glossy": "mirrors",
         "visible_transmission": "transmission", "visible_shadow": "shadows", "visible_volume_scatter": "volumes"}
@@ -114,12 +114,79 @@ def tell_object(obj, warn):
             tell(f"it is no {what} but an ordinary surface")
 
 
-def tell_instances(depsgraph, warn):
-    """Instances that geometry nodes make are no objects of the file."""
-    made = {i.parent.original for i in depsgraph.object_instances if i.is_instance and i.parent}
-    for obj in sorted(made, key=lambda o: o.name):
-        if any(m.type == "NODES" and m.show_render for m in obj.modifiers):
-            warn(f"object '{obj.name}': its instances by geometry nodes are left out")
+MOST_INSTANCES = 100000
+
+
+def has_instances(obj):
+    return any(m.type == "NODES" and m.show_render for m in obj.modifiers)
+
+
+def add_for_now(stack, scene, mesh, like, matrix):
+    """An object with that mesh in the scene, until the stack ends."""
+    made = bpy.data.objects.new(like.name, mesh)
+    scene.collection.objects.link(made)
+    made.matrix_world = matrix
+    for slot, its in zip(made.material_slots, like.material_slots):
+        if its.link == "OBJECT":
+            slot.link, slot.material = "OBJECT", its.material
+    stack.callback(bpy.data.objects.remove, made)
+
+
+def realize(stack, context, objects, warn):
+    """What the exporter has no objects for becomes some: instances by geometry nodes, and metaballs."""
+    for obj in objects:
+        if obj.type == "META":
+            set_for_now(stack, obj.data, "resolution", obj.data.render_resolution)
+    graph = context.evaluated_depsgraph_get()
+    graph.update()
+    wanted, counts = [], {}
+    for instance in graph.object_instances:
+        parent = instance.parent.original if instance.is_instance and instance.parent else None
+        if parent in objects and has_instances(parent) and instance.object.type == "MESH":
+            counts[parent] = counts.get(parent, 0) + 1
+            if counts[parent] <= MOST_INSTANCES:
+                wanted.append((instance.object.data.name, instance.object.original, parent,
+                               instance.matrix_world.copy()))
+    meshes = {}
+    for instance in graph.object_instances:  # meshes of generated objects live as long as the loop's step
+        if instance.is_instance and instance.object.type == "MESH" and instance.parent and \
+                instance.parent.original in counts and instance.object.data.name not in meshes:
+            meshes[instance.object.data.name] = instance.object.data.copy()
+    balls = [(obj, bpy.data.meshes.new_from_object(obj.evaluated_get(graph))) for obj in objects if obj.type == "META"]
+    for mesh in [*meshes.values(), *(mesh for _, mesh in balls)]:
+        stack.callback(bpy.data.meshes.remove, mesh)
+    for name, like, parent, matrix in wanted:
+        if counts[parent] <= MOST_INSTANCES:
+            add_for_now(stack, context.scene, meshes[name], like, matrix)
+    for obj, mesh in balls:
+        if mesh.polygons:  # of several that melt together, the first has them
+            add_for_now(stack, context.scene, mesh, obj, obj.matrix_world)
+    for parent, count in counts.items():
+        if count > MOST_INSTANCES:
+            warn(f"object '{parent.name}': its {count} instances by geometry nodes are left out: they are too many")
+
+
+def mend_colors_of_corners(stack):
+    """Blender 3.4's exporter takes colours of corners by the numbers of vertices."""
+    import numpy as np
+    try:
+        from io_scene_gltf2.blender.exp import gltf2_blender_gather_primitives_extract as extract
+        creator, name = extract.PrimitiveCreator, "_PrimitiveCreator__get_color_attribute"
+        exporters = getattr(creator, name)
+    except (ImportError, AttributeError):
+        return
+
+    def get_color_attribute(self, attribute):
+        exporters(self, attribute)
+        if attribute["blender_domain"] != "CORNER":
+            return
+        layers = self.blender_mesh.color_attributes
+        colors = np.empty(4 * len(self.blender_mesh.loops), np.float32)
+        layers[layers.render_color_index].data.foreach_get("color", colors)
+        for k in range(4):
+            self.dots[attribute["gltf_attribute_name"] + str(k)] = colors[k::4]
+
+    set_for_now(stack, creator, name, get_color_attribute)
 
 
 def tell_scene(scene, warn):
@@ -772,7 +839,6 @@ class Export:
         materials = used_materials(objects)
         with contextlib.ExitStack() as stack:
             tell_scene(self.scene, self.warn)
-            tell_instances(self.context.evaluated_depsgraph_get(), self.warn)
             for obj in sorted(objects, key=lambda o: o.name):
                 tell_object(obj, self.warn)
             for obj in self.scene.objects:
@@ -783,6 +849,8 @@ class Export:
             for material in materials.values():
                 tell_material(material, self.warn)
                 prepare_material(stack, material, self.warn)
+            realize(stack, self.context, objects, self.warn)
+            mend_colors_of_corners(stack)
             with self.quiet():
                 export_gltf(path, export_colors=uses_vertex_colors(materials.values()))
         known = material_identifiers(path)
