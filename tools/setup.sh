@@ -12,8 +12,9 @@ set -eu
 # Each line: the kind of check, what is looked for, the Debian package that has it.
 # libjpeg-dev reads and writes DCT coefficients of JPEG files in packs, libblosc-dev compresses planes in packs, jansson
 # reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
-# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libmicrohttpd-dev
-# HTTP and nettle-dev the names of uploads for retex-serve. esbuild makes the player for web pages small.
+# fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libdraco-dev and
+# libmeshoptimizer-dev meshes of glTF that are compressed, libmicrohttpd-dev HTTP and nettle-dev the names of uploads for
+# retex-serve. esbuild makes the player for web pages small.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential
@@ -36,6 +37,8 @@ pkg freetype2 libfreetype-dev
 pkg libpng libpng-dev
 header gif_lib.h libgif-dev
 pkg assimp libassimp-dev
+pkg draco libdraco-dev
+header meshoptimizer.h libmeshoptimizer-dev
 pkg libmicrohttpd libmicrohttpd-dev
 pkg nettle nettle-dev
 command esbuild esbuild
@@ -173,7 +176,7 @@ config() {
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR lcms2 libtiff-4 libdeflate)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO lcms2 libtiff-4 libdeflate)"
     echo "IMPORT_CFLAGS := $(cflags assimp)"
-    echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp)"
+    echo "IMPORT_LIBS := $("$PKG_CONFIG" --libs assimp draco) -lmeshoptimizer -lstdc++"
     echo "SERVE_CFLAGS := $(cflags libmicrohttpd nettle)"
     echo "SERVE_LIBS := $("$PKG_CONFIG" --libs libmicrohttpd nettle)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z) $(cflags freetype2 libpng)"

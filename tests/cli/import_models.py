@@ -292,11 +292,6 @@ write('velvet.gltf', json.dumps(dict(gltf({
     extensionsUsed=['KHR_materials_sheen', 'KHR_materials_specular', 'KHR_materials_iridescence',
                     'EXT_mesh_gpu_instancing', 'X\u001b[31m', 7])))
 
-packed = gltf(MATERIAL)
-packed['extensionsUsed'] = packed['extensionsRequired'] = ['EXT_meshopt_compression']
-del packed['buffers'][0]['uri']
-write('packed.gltf', json.dumps(packed))
-
 # ---- what glTF files may have, and Assimp would misread ----
 
 
@@ -404,23 +399,6 @@ write('red.webp', base64.b64decode(
 for name, extension, image in (('webp', 'EXT_texture_webp', 'red.webp'), ('ktx', 'KHR_texture_basisu', 'wood.ktx2')):
     write(name + '.gltf', json.dumps(with_extension(
         extension, True, images=[{'uri': image}], textures=[{'extensions': {extension: {'source': 0}}}])))
-# Meshes compressed by Draco (by its own encoder), damaged, and by meshopt.
-DRACO = base64.b64decode(
-    'RFJBQ08CAgEBAAAABAIBAgAAAR//ARH/AREC/wAAAAAAAQAJAwAAAgEDCQIAAQIBAQEAAwMBMAEQAwAogpgAAAAAAP8/AAAAAAAA'
-    'AAAAAAAAAAAAAIA/DgEBAQADAwEgASADAPCDpgAAAAAA/w8AAAAAAAAAAAAAAACAPww=')
-for name, blob in (('draco', DRACO), ('draco_torn', DRACO[:60])):
-    scene = with_extension('KHR_draco_mesh_compression', True)
-    first = with_views(scene, buffer, blob)
-    for accessor in scene['accessors'][:3]:
-        del accessor['bufferView']
-    scene['meshes'][0]['primitives'][0]['extensions'] = {'KHR_draco_mesh_compression': {
-        'bufferView': first, 'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}}}
-    write(name + '.gltf', json.dumps(scene))
-scene = with_extension('EXT_meshopt_compression', False)
-for view in scene['bufferViews']:
-    view.update(buffer=1, extensions={'EXT_meshopt_compression': dict(view, count=4, byteStride=4, mode='ATTRIBUTES')})
-scene['buffers'].append({'byteLength': 92, 'extensions': {'EXT_meshopt_compression': {'fallback': True}}})
-write('meshopt.gltf', json.dumps(scene))
 # The image on the eighth set of UV, and the ninth; one on the second where there is one, or none; three sets at once.
 for name, sets, image in (('eighth', 8, 7), ('ninth', 9, 8), ('lacking', 1, 1), ('without', 0, 0)):
     scene = gltf(dict(MATERIAL, pbrMetallicRoughness={

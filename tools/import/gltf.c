@@ -143,6 +143,7 @@ static void note_specular_images(Import *import, const json_t *json)
 static void note_extensions(Import *import, const json_t *json)
 {
     static const char *const taken[] = {
+        "EXT_meshopt_compression",
         "EXT_texture_webp",
         "KHR_draco_mesh_compression",
         "KHR_lights_punctual",
@@ -191,31 +192,14 @@ static GltfText load_model(const Import *import)
     return text;
 }
 
-/* Draco may be known to Assimp; then it is not what is wrong unless it says so. */
-static int names_compression(const json_t *extensions, char plain[NAME_SIZE])
-{
-    for (size_t i = 0; i < json_array_size(extensions); i++) {
-        const char *name = json_string_value(json_array_get(extensions, i));
-        if (name && ((strstr(name, "draco_mesh") && strstr(aiGetErrorString(), "raco")) || strstr(name, "meshopt"))) {
-            import_plain(name, plain);
-            return 1;
-        }
-    }
-    return 0;
-}
-
 int gltf_explain(const Import *import, RetexError *err)
 {
+    if (import->gltf_refused[0])
+        return retex_fail(err, RETEX_EFORMAT, "%s: %s", import->options->model, import->gltf_refused);
     const GltfText text = load_model(import);
-    char plain[NAME_SIZE];
-    int code = RETEX_OK;
-    if (!text.json && text.why[0])
-        code = retex_fail(err, RETEX_EFORMAT, "%s: its JSON text: %s", import->options->model, text.why);
-    else if (names_compression(json_object_get(text.json, "extensionsRequired"), plain) ||
-             names_compression(json_object_get(text.json, "extensionsUsed"), plain))
-        code = retex_fail(err, RETEX_EFORMAT,
-                          "%s: its meshes are compressed by %s, and cannot be read; export it without compression",
-                          import->options->model, plain);
+    const int code = !text.json && text.why[0]
+                         ? retex_fail(err, RETEX_EFORMAT, "%s: its JSON text: %s", import->options->model, text.why)
+                         : RETEX_OK;
     json_decref(text.json);
     return code;
 }
@@ -225,8 +209,6 @@ int gltf_read(Import *import, RetexError *err)
     const GltfText text = load_model(import);
     if (!text.json && text.why[0])
         return gltf_explain(import, err);
-    if (import->gltf_refused[0])
-        return retex_fail(err, RETEX_EFORMAT, "%s: %s", import->options->model, import->gltf_refused);
     take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
     note_extensions(import, text.json);

@@ -1,9 +1,49 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "import/gltf_buffers.h"
+
+unsigned char *gltf_extend(Bytes *data, size_t size, size_t *at)
+{
+    const size_t begin = (data->size + 3) / 4 * 4;
+    unsigned char *bytes = size < SIZE_MAX - begin ? realloc(data->bytes, begin + size + 1) : NULL;
+    if (!bytes)
+        return NULL;
+    memset(bytes + data->size, 0, begin - data->size);
+    data->bytes = bytes;
+    data->size = begin + size;
+    *at = begin;
+    return bytes + begin;
+}
+
+json_int_t gltf_add_view(json_t *json, size_t buffer, size_t at, size_t size)
+{
+    json_t *views = json_object_get(json, "bufferViews");
+    if (!json_is_array(views)) {
+        views = json_array();
+        json_object_set_new(json, "bufferViews", views);
+    }
+    const json_int_t index = (json_int_t)json_array_size(views);
+    const int code = json_array_append_new(views, json_pack("{s:I,s:I,s:I}", "buffer", (json_int_t)buffer, "byteOffset",
+                                                            (json_int_t)at, "byteLength", (json_int_t)size));
+    return code == 0 ? index : -1;
+}
+
+int gltf_get_size(const json_t *object, const char *key, size_t otherwise, size_t *size)
+{
+    const json_t *value = json_object_get(object, key);
+    const double x = json_number_value(value);
+    *size = otherwise;
+    if (!value)
+        return 1;
+    if (!json_is_number(value) || x != floor(x) || x < 0 || x > UINT32_MAX)
+        return 0;
+    *size = (size_t)x;
+    return 1;
+}
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -82,6 +122,8 @@ const Bytes *gltf_buffer(GltfBuffers *b, size_t index)
 {
     const json_t *buffers = json_object_get(b->json, "buffers");
     const char *uri = json_string_value(json_object_get(json_array_get(buffers, index), "uri")), *comma;
+    if (b->decoded.bytes && index == b->decoded_index)
+        return &b->decoded;
     if (index >= json_array_size(buffers))
         return NULL;
     if (!uri) {
@@ -101,10 +143,17 @@ const Bytes *gltf_buffer(GltfBuffers *b, size_t index)
     return data && data->bytes ? data : NULL;
 }
 
+const unsigned char *gltf_bytes(GltfBuffers *b, size_t index, size_t at, size_t size)
+{
+    const Bytes *buffer = gltf_buffer(b, index);
+    return buffer && at <= buffer->size && size <= buffer->size - at ? buffer->bytes + at : NULL;
+}
+
 void gltf_buffers_free(GltfBuffers *b)
 {
     for (size_t i = 0; i < b->count && b->named; i++)
         free(b->named[i].bytes);
     free(b->named);
     free(b->inside.bytes);
+    free(b->decoded.bytes);
 }

@@ -23,20 +23,6 @@ typedef struct Numbers {
     int is_normalized;
 } Numbers;
 
-/* Not negative, or `otherwise` where it is not there. 0 where it is no such number. */
-static int get_size(const json_t *object, const char *key, size_t otherwise, size_t *size)
-{
-    const json_t *value = json_object_get(object, key);
-    const double x = json_number_value(value);
-    *size = otherwise;
-    if (!value)
-        return 1;
-    if (!json_is_number(value) || x != floor(x) || x < 0 || x > UINT32_MAX)
-        return 0;
-    *size = (size_t)x;
-    return 1;
-}
-
 static size_t size_of(size_t type)
 {
     return type == BYTE || type == UNSIGNED_BYTE ? 1 : type == SHORT || type == UNSIGNED_SHORT ? 2 : 4;
@@ -77,11 +63,11 @@ static void put_element(unsigned char *to, const unsigned char *from, const Numb
 static int find_view(GltfFloats *f, const json_t *of, size_t element, size_t count, View *view)
 {
     size_t view_index, buffer_index, at, view_at, size;
-    if (!get_size(of, "bufferView", SIZE_MAX, &view_index) || !get_size(of, "byteOffset", 0, &at))
+    if (!gltf_get_size(of, "bufferView", SIZE_MAX, &view_index) || !gltf_get_size(of, "byteOffset", 0, &at))
         return 0;
     const json_t *json = json_array_get(json_object_get(f->json, "bufferViews"), view_index);
-    if (!get_size(json, "buffer", SIZE_MAX, &buffer_index) || !get_size(json, "byteOffset", 0, &view_at) ||
-        !get_size(json, "byteStride", 0, &view->stride) || !get_size(json, "byteLength", 0, &size))
+    if (!gltf_get_size(json, "buffer", SIZE_MAX, &buffer_index) || !gltf_get_size(json, "byteOffset", 0, &view_at) ||
+        !gltf_get_size(json, "byteStride", 0, &view->stride) || !gltf_get_size(json, "byteLength", 0, &size))
         return 0;
     if (view->stride == 0) /* as Assimp reads it, though glTF has no such stride */
         view->stride = element;
@@ -99,7 +85,7 @@ static int put_sparse(GltfFloats *f, const json_t *sparse, const Numbers *number
     const json_t *indices = json_object_get(sparse, "indices");
     size_t count, type;
     View places, values;
-    if (!get_size(sparse, "count", 0, &count) || !get_size(indices, "componentType", 0, &type))
+    if (!gltf_get_size(sparse, "count", 0, &count) || !gltf_get_size(indices, "componentType", 0, &type))
         return 0;
     if (count == 0)
         return 1;
@@ -117,7 +103,7 @@ static int put_sparse(GltfFloats *f, const json_t *sparse, const Numbers *number
 }
 
 /* The elements as floats behind those that there are. Without a view they are 0, but for sparse ones. */
-static int append_floats(GltfFloats *f, const json_t *accessor, const Numbers *numbers)
+static int append_floats(GltfFloats *f, const json_t *accessor, const Numbers *numbers, size_t *at)
 {
     const json_t *sparse = json_object_get(accessor, "sparse");
     const size_t element = numbers->width * sizeof(float), size = numbers->count * element;
@@ -125,40 +111,34 @@ static int append_floats(GltfFloats *f, const json_t *accessor, const Numbers *n
     if (json_object_get(accessor, "bufferView") &&
         !find_view(f, accessor, numbers->width * size_of(numbers->type), numbers->count, &view))
         return 0;
-    unsigned char *bytes = realloc(f->floats.bytes, f->floats.size + size), *to = bytes + f->floats.size;
-    if (!bytes)
+    unsigned char *to = gltf_extend(&f->floats, size, at);
+    if (!to)
         return 0;
-    f->floats.bytes = bytes;
     if (view.bytes)
         for (size_t i = 0; i < numbers->count; i++)
             put_element(to + i * element, view.bytes + i * view.stride, numbers);
     else
         memset(to, 0, size);
-    if (sparse && !put_sparse(f, sparse, numbers, to))
-        return 0;
-    f->floats.size += size;
-    return 1;
+    return !sparse || put_sparse(f, sparse, numbers, to);
 }
 
 static Change convert(GltfFloats *f, json_t *accessor)
 {
     static const char *const obsolete[] = {"normalized", "min", "max", "sparse"};
     const char *kind = json_string_value(json_object_get(accessor, "type"));
-    json_t *views = json_object_get(f->json, "bufferViews");
     Numbers numbers = {.is_normalized = json_is_true(json_object_get(accessor, "normalized"))};
     if (kind && strncmp(kind, "VEC", 3) == 0 && kind[3] >= '2' && kind[3] <= '4')
         numbers.width = (size_t)(kind[3] - '0');
-    if (!accessor || !get_size(accessor, "componentType", 0, &numbers.type) || numbers.type == FLOAT)
+    if (!accessor || !gltf_get_size(accessor, "componentType", 0, &numbers.type) || numbers.type == FLOAT)
         return KEPT;
-    const size_t begin = f->floats.size;
+    size_t begin;
     if (!numbers.width || numbers.type < BYTE || numbers.type > UNSIGNED_SHORT ||
-        !get_size(accessor, "count", 0, &numbers.count) || numbers.count == 0 || !json_is_array(views) ||
-        !append_floats(f, accessor, &numbers))
+        !gltf_get_size(accessor, "count", 0, &numbers.count) || numbers.count == 0 ||
+        !append_floats(f, accessor, &numbers, &begin))
         return REFUSED;
-    json_array_append_new(
-        views, json_pack("{s:I,s:I,s:I}", "buffer", (json_int_t)json_array_size(json_object_get(f->json, "buffers")),
-                         "byteOffset", (json_int_t)begin, "byteLength", (json_int_t)(f->floats.size - begin)));
-    json_object_set_new(accessor, "bufferView", json_integer((json_int_t)json_array_size(views) - 1));
+    const json_int_t view =
+        gltf_add_view(f->json, json_array_size(json_object_get(f->json, "buffers")), begin, f->floats.size - begin);
+    json_object_set_new(accessor, "bufferView", json_integer(view));
     json_object_set_new(accessor, "byteOffset", json_integer(0));
     json_object_set_new(accessor, "componentType", json_integer(FLOAT));
     for (size_t i = 0; i < sizeof obsolete / sizeof *obsolete; i++)
@@ -199,8 +179,6 @@ void gltf_floats_convert(GltfFloats *f)
         const json_t *primitives = json_object_get(json_array_get(meshes, i), "primitives");
         for (size_t k = 0; k < json_array_size(primitives); k++) {
             const json_t *primitive = json_array_get(primitives, k), *targets = json_object_get(primitive, "targets");
-            if (gltf_extension(primitive, "KHR_draco_mesh_compression"))
-                continue;
             convert_attributes(f, json_object_get(primitive, "attributes"), 1);
             for (size_t t = 0; t < json_array_size(targets); t++)
                 convert_attributes(f, json_array_get(targets, t), 0);

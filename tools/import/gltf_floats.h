@@ -8,7 +8,7 @@ typedef struct GltfFloats {
     GltfBuffers buffers;
     Bytes floats;      /* of a new buffer, the last one */
     int any;           /* accessors were changed */
-    char refused[200]; /* why the model is not what the file means, or "" */
+    char refused[GLTF_REFUSED_SIZE]; /* why the model is not what the file means, or "" */
 } GltfFloats;
 
 /* Make floats of the accessors of meshes that have integers. */

@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "import/gltf_decode.h"
 #include "import/gltf_floats.h"
 
 /* Images in formats that only an extension may name, where there is no other image in its place. Returns 1 if there
@@ -73,28 +74,53 @@ static void put_word(FILE *out, size_t word)
         fputc((int)(word >> 8 * byte & 255), out);
 }
 
-static int add_buffer(const GltfFloats *f)
+/* A buffer of the file, its bytes as text of it. */
+static int fill_buffer(json_t *buffer, const Bytes *data)
 {
-    if (!f->any)
-        return 1;
-    char *uri = gltf_encode_base64(&f->floats, "data:application/octet-stream;base64,");
-    json_t *buffers = json_object_get(f->json, "buffers");
-    if (!buffers) { /* all of them are sparse */
-        buffers = json_array();
-        json_object_set_new(f->json, "buffers", buffers);
-    }
-    const int code = uri ? json_array_append_new(
-                               buffers, json_pack("{s:I,s:s}", "byteLength", (json_int_t)f->floats.size, "uri", uri))
+    char *uri = gltf_encode_base64(data, "data:application/octet-stream;base64,");
+    const int code = uri ? json_object_set_new(buffer, "byteLength", json_integer((json_int_t)data->size)) |
+                               json_object_set_new(buffer, "uri", json_string_nocheck(uri))
                          : -1;
     free(uri);
     return code == 0;
+}
+
+static json_t *add_buffer(json_t *json)
+{
+    json_t *buffers = json_object_get(json, "buffers"), *buffer = json_object();
+    if (!json_is_array(buffers)) { /* all accessors are sparse */
+        buffers = json_array();
+        json_object_set_new(json, "buffers", buffers);
+    }
+    return json_array_append_new(buffers, buffer) == 0 ? buffer : NULL;
+}
+
+/* What is compressed goes into a buffer of its own, which other changes then read. Returns 1 if there is any. */
+static int decode_all(GltfFloats *f)
+{
+    GltfDecode d = {.json = f->json, .buffers = &f->buffers};
+    f->buffers.decoded_index = json_array_size(json_object_get(f->json, "buffers"));
+    gltf_decode_views(&d);
+    gltf_decode_meshes(&d);
+    memcpy(f->refused, d.refused, sizeof f->refused);
+    if (d.any && !add_buffer(f->json))
+        snprintf(f->refused, sizeof f->refused, GLTF_NO_MEMORY);
+    return d.any;
+}
+
+static int fill_buffers(const GltfFloats *f)
+{
+    const Bytes *decoded = &f->buffers.decoded;
+    json_t *buffers = json_object_get(f->json, "buffers");
+    return (!decoded->bytes || fill_buffer(json_array_get(buffers, f->buffers.decoded_index), decoded)) &&
+           (!f->any || fill_buffer(add_buffer(f->json), &f->floats));
 }
 
 /* Written as the file was: Assimp goes by the ending of its name. */
 static int write_file(const GltfFloats *f, FILE *out)
 {
     const Bytes *inside = &f->buffers.inside;
-    char *text = add_buffer(f) ? json_dumps(f->json, JSON_COMPACT) : NULL;
+    char *text = fill_buffers(f) ? json_dumps(f->json, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0, padded = (length + 3) / 4 * 4, rest = (inside->size + 3) / 4 * 4;
     if (f->buffers.is_binary) {
         put_word(out, GLTF_MAGIC), put_word(out, 2), put_word(out, 12 + 8 + padded + (rest ? 8 + rest : 0));
@@ -131,10 +157,12 @@ static FILE *write_prepared(Import *import, FILE *in)
                     .buffers = {.import = import, .json = text.json, .in = in, .is_binary = text.is_binary}};
     FILE *out = NULL;
     if (text.json) {
-        gltf_floats_convert(&f);
+        const int is_decoded = decode_all(&f);
+        if (!f.refused[0])
+            gltf_floats_convert(&f);
         const int is_changed =
-            take_images(text.json) | take_weights(text.json) | drop_cameras_and_lights(text.json) | f.any;
-        if (is_changed || text.is_repaired)
+            is_decoded | take_images(text.json) | take_weights(text.json) | drop_cameras_and_lights(text.json) | f.any;
+        if ((is_changed || text.is_repaired) && !f.refused[0])
             out = open_in_memory();
         if (out) {
             gltf_buffers_read_inside(&f.buffers);
@@ -144,7 +172,7 @@ static FILE *write_prepared(Import *import, FILE *in)
             }
         }
         if (!out && is_changed && !f.refused[0])
-            snprintf(f.refused, sizeof f.refused, "not enough memory");
+            snprintf(f.refused, sizeof f.refused, GLTF_NO_MEMORY);
         memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     }
     gltf_buffers_free(&f.buffers);
@@ -161,9 +189,11 @@ FILE *gltf_prepare(Import *import, FILE *in)
         import->gltf_prepared = write_prepared(import, in);
         rewind(in);
     }
-    if (!import->gltf_prepared)
+    if (!import->gltf_prepared && !import->gltf_refused[0])
         return in;
     fclose(in);
+    if (!import->gltf_prepared)
+        return NULL;
     snprintf(path, sizeof path, "/proc/self/fd/%d", fileno(import->gltf_prepared));
     return fopen(path, "rb");
 }

@@ -125,6 +125,8 @@ static int read_model(Import *import, RetexError *err)
                           "%s: the model names the file `%s`, which is outside of its folder; "
                           "-I DIR adds folders that may be read",
                           options->model, import->denied);
+    if (import->gltf_refused[0])
+        return gltf_explain(import, err);
     if (!import->scene && (strstr(aiGetErrorString(), "bad_alloc") || !*aiGetErrorString()))
         return retex_fail(err, RETEX_ENOMEM, "%s: out of memory: reading it takes more than --max-memory",
                           options->model);

@@ -16,6 +16,7 @@
 
 #define PI 3.14159265358979323846
 
+enum { GLTF_REFUSED_SIZE = 256 };
 enum { NAME_MAX_LENGTH = 48, NAME_SIZE = 64, TEXT_SIZE = sizeof((struct aiString *)NULL)->data }; /* of Assimp */
 
 /* ---- names.c: identifiers that are legal, unique whatever the case, and no keywords ---- */
@@ -134,7 +135,7 @@ struct Import {
     Gltf gltf;
     int gltf_is_prepared;
     FILE *gltf_prepared;    /* of gltf_prepare, or NULL */
-    char gltf_refused[200]; /* what it cannot say in other words, or "" */
+    char gltf_refused[GLTF_REFUSED_SIZE]; /* what it cannot say in other words, or "" */
     Names names, files; /* identifiers; names of files */
     Affine world;       /* from the model's space: axes and scale, before z is mirrored */
     ImportPlace *light_places, *camera_places; /* of Assimp's lights and cameras */
@@ -192,7 +193,7 @@ typedef struct GltfText {
 GltfText gltf_load(FILE *in);
 /* What Assimp leaves out, into import->gltf. */
 int gltf_read(Import *import, RetexError *err);
-/* Fail where the file itself says better than Assimp why that cannot read it. */
+/* Fail where this tool, or the file itself, says better than Assimp why it cannot be read. */
 int gltf_explain(const Import *import, RetexError *err);
 void gltf_free(Gltf *gltf);
 double gltf_number(const json_t *object, const char *key, double otherwise);
@@ -202,7 +203,8 @@ const json_t *gltf_extension(const json_t *of, const char *name);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);
 /* gltf_prepare.c */
-/* The file, or in its place one that says the same in words that Assimp reads well. NULL: it cannot be opened again. */
+/* The file, or in its place one that says the same in words that Assimp reads well. NULL: it is refused (see
+ * gltf_explain), or cannot be opened again. */
 FILE *gltf_prepare(Import *import, FILE *in);
 /* morphs.c: into Assimp's meshes */
 int morphs_apply(Import *import, RetexError *err);
