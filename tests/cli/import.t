@@ -298,8 +298,7 @@ $ retex-import -q prism.gltf -o prism; grep -o 'interior.*' prism/prism.pov; ret
 > interior { ior 1.6 dispersion 1.0198 }
 > sheen rgb 0.5 sheen_roughness 0.348 } #end
 ! retex-import: warning: images of the reflectance are left out
-! retex-import: warning: the extension KHR_materials_iridescence is left out
-! retex-import: warning: the extension EXT_mesh_gpu_instancing is left out
+! retex-import: warning: the material `velvet`: its iridescence is left out
 ! retex-import: warning: the extension X?[31m is left out
 ! retex-import: warning: of images of the roughness of sheen, the mean is taken
 ! retex-import: no light in the model: a soft sky lights it

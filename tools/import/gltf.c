@@ -139,10 +139,21 @@ static void note_specular_images(Import *import, const json_t *json)
     }
 }
 
-/* A line for each that changes what a picture shows and is not taken. */
-static void note_extensions(Import *import, const json_t *json)
+/* Extensions of materials that change nothing where a factor is 0, as it is unless the material says so. */
+typedef struct MaterialExtension {
+    const char *extension, *what, *factor;
+} MaterialExtension;
+static const MaterialExtension of_materials[] = {
+    {"KHR_materials_anisotropy", "anisotropy", "anisotropyStrength"},
+    {"KHR_materials_iridescence", "iridescence", "iridescenceFactor"},
+    {"KHR_materials_diffuse_transmission", "diffuse transmission", "diffuseTransmissionFactor"},
+};
+enum { OF_MATERIALS = sizeof of_materials / sizeof *of_materials };
+
+static int is_taken(const char *name)
 {
     static const char *const taken[] = {
+        "EXT_mesh_gpu_instancing",
         "EXT_meshopt_compression",
         "EXT_texture_webp",
         "KHR_draco_mesh_compression",
@@ -158,20 +169,76 @@ static void note_extensions(Import *import, const json_t *json)
         "KHR_materials_unlit",
         "KHR_materials_volume",
         "KHR_mesh_quantization",
+        "KHR_node_visibility",
         "KHR_texture_transform",
         "KHR_xmp",
         "KHR_xmp_json_ld",
         "MSFT_texture_dds",
     };
-    enum { TAKEN = sizeof taken / sizeof *taken, MOST = 16 };
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+        if (strcmp(name, taken[k]) == 0)
+            return 1;
+    return 0;
+}
+
+/* What a material does without: its name for people, in `plain`; or NULL where it shows nothing. */
+static const char *left_of_material(const char *extension, const json_t *json, char plain[NAME_SIZE])
+{
+    for (size_t k = 0; k < OF_MATERIALS; k++)
+        if (strcmp(extension, of_materials[k].extension) == 0)
+            return gltf_number(json, of_materials[k].factor, 0) != 0 ? of_materials[k].what : NULL;
+    char name[NAME_SIZE];
+    if (is_taken(extension))
+        return NULL;
+    snprintf(plain, NAME_SIZE, "extension %.40s", import_plain(extension, name));
+    return plain;
+}
+
+const char *gltf_material_name(const json_t *json, size_t index, char plain[NAME_SIZE])
+{
+    const char *name =
+        json_string_value(json_object_get(json_array_get(json_object_get(json, "materials"), index), "name"));
+    char number[32];
+    snprintf(number, sizeof number, "materials[%zu]", index);
+    return import_plain(name && *name ? name : number, plain);
+}
+
+/* A line for each material and what it does without. `told` gets the names of the extensions. */
+static void note_materials(Import *import, const json_t *json, json_t *told)
+{
+    enum { MOST = 16 };
+    const json_t *materials = json_object_get(json, "materials");
+    int lines = 0;
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        const char *extension;
+        json_t *own;
+        json_object_foreach(json_object_get(json_array_get(materials, i), "extensions"), extension, own)
+        {
+            char name[NAME_SIZE], plain[NAME_SIZE];
+            const char *what = left_of_material(extension, own, plain);
+            json_object_set_new(told, extension, json_true());
+            if (what && lines++ < MOST)
+                import_tell(import, IMPORT_WARNING, "the material `%s`: its %s is left out",
+                            gltf_material_name(json, i, name), what);
+        }
+    }
+    if (lines > MOST)
+        import_tell(import, IMPORT_WARNING, "the like is left out %d more time%s", lines - MOST,
+                    lines == MOST + 1 ? "" : "s");
+}
+
+/* A line for each that changes what a picture shows and is not taken. */
+static void note_extensions(Import *import, const json_t *json, const json_t *told)
+{
+    enum { MOST = 16 };
     const json_t *used = json_object_get(json, "extensionsUsed");
     for (size_t i = 0; i < json_array_size(used) && i < MOST; i++) {
         const char *name = json_string_value(json_array_get(used, i));
         char plain[NAME_SIZE];
-        int k = 0;
-        while (name && k < TAKEN && strcmp(name, taken[k]) != 0)
+        size_t k = 0;
+        while (name && k < OF_MATERIALS && strcmp(name, of_materials[k].extension) != 0)
             k++;
-        if (name && k == TAKEN)
+        if (name && k == OF_MATERIALS && !is_taken(name) && !json_object_get(told, name))
             import_tell(import, IMPORT_WARNING, "the extension %s is left out", import_plain(name, plain));
     }
 }
@@ -211,7 +278,10 @@ int gltf_read(Import *import, RetexError *err)
         return gltf_explain(import, err);
     take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
-    note_extensions(import, text.json);
+    json_t *told = json_object();
+    note_materials(import, text.json, told);
+    note_extensions(import, text.json, told);
+    json_decref(told);
     const int done = gltf_take_cameras(import, text.json) && gltf_take_lights(import, text.json);
     json_decref(text.json);
     return done ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");

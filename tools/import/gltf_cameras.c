@@ -16,8 +16,10 @@ static void take_lens(const json_t *node, GltfCamera *to)
     to->focus_distance = fmax(gltf_number(extras, "focus_distance", 0), 0);
 }
 
-static int take_camera(Import *import, const json_t *json, const json_t *node, const Affine *place, void *context)
+/* Hidden ones too: what is hidden is not seen, but may see. */
+static int take_camera(Import *import, const json_t *json, const GltfNode *at, void *context)
 {
+    const json_t *node = at->json;
     Gltf *gltf = &import->gltf;
     size_t *capacity = context;
     const json_t *index = json_object_get(node, "camera"), *cameras = json_object_get(json, "cameras");
@@ -34,7 +36,7 @@ static int take_camera(Import *import, const json_t *json, const json_t *node, c
         *capacity = 2 * *capacity + 4;
     }
     GltfCamera *to = &gltf->cameras[gltf->ncameras++];
-    *to = (GltfCamera){.place = *place};
+    *to = (GltfCamera){.place = at->place};
     gltf_node_name(json, node, camera, to->name);
     to->angle = gltf_number(perspective, "yfov", 0);
     to->aspect = gltf_number(perspective, "aspectRatio", 0);

@@ -41,6 +41,8 @@ static uint32_t number_at(const unsigned char *at, const Numbers *numbers)
 {
     const size_t type = numbers->type;
     const uint32_t word = word_at(at, size_of(type));
+    if (type == FLOAT)
+        return word;
     const int value = type == BYTE ? (int8_t)word : type == SHORT ? (int16_t)word : (int)word;
     const float most = type == BYTE ? 127 : type == UNSIGNED_BYTE ? 255 : type == SHORT ? 32767 : 65535;
     const float x = numbers->is_normalized ? fmaxf((float)value / most, -1) : (float)value;
@@ -102,39 +104,75 @@ static int put_sparse(GltfFloats *f, const json_t *sparse, const Numbers *number
     return 1;
 }
 
-/* The elements as floats behind those that there are. Without a view they are 0, but for sparse ones. */
-static int append_floats(GltfFloats *f, const json_t *accessor, const Numbers *numbers, size_t *at)
+/* Where the elements are: bytes are NULL where they are 0, but for sparse ones. */
+static int find_elements(GltfFloats *f, const json_t *accessor, const Numbers *numbers, View *view)
+{
+    *view = (View){NULL, 0};
+    return !json_object_get(accessor, "bufferView") ||
+           find_view(f, accessor, numbers->width * size_of(numbers->type), numbers->count, view);
+}
+
+static int put_elements(GltfFloats *f, const json_t *accessor, const Numbers *numbers, const View *view,
+                        unsigned char *to)
 {
     const json_t *sparse = json_object_get(accessor, "sparse");
-    const size_t element = numbers->width * sizeof(float), size = numbers->count * element;
-    View view = {NULL, 0};
-    if (json_object_get(accessor, "bufferView") &&
-        !find_view(f, accessor, numbers->width * size_of(numbers->type), numbers->count, &view))
-        return 0;
-    unsigned char *to = gltf_extend(&f->floats, size, at);
-    if (!to)
-        return 0;
-    if (view.bytes)
+    const size_t element = numbers->width * sizeof(float);
+    if (view->bytes)
         for (size_t i = 0; i < numbers->count; i++)
-            put_element(to + i * element, view.bytes + i * view.stride, numbers);
+            put_element(to + i * element, view->bytes + i * view->stride, numbers);
     else
-        memset(to, 0, size);
+        memset(to, 0, numbers->count * element);
     return !sparse || put_sparse(f, sparse, numbers, to);
+}
+
+/* The elements as floats behind those that there are. */
+static int append_floats(GltfFloats *f, const json_t *accessor, const Numbers *numbers, size_t *at)
+{
+    View view;
+    if (!find_elements(f, accessor, numbers, &view))
+        return 0;
+    unsigned char *to = gltf_extend(&f->floats, numbers->count * numbers->width * sizeof(float), at);
+    return to && put_elements(f, accessor, numbers, &view, to);
+}
+
+/* Whether it is a vector of numbers whose type and count glTF knows. */
+static int read_numbers(const json_t *accessor, Numbers *numbers)
+{
+    const char *kind = json_string_value(json_object_get(accessor, "type"));
+    *numbers = (Numbers){.is_normalized = json_is_true(json_object_get(accessor, "normalized"))};
+    if (kind && strncmp(kind, "VEC", 3) == 0 && kind[3] >= '2' && kind[3] <= '4')
+        numbers->width = (size_t)(kind[3] - '0');
+    return gltf_get_size(accessor, "componentType", 0, &numbers->type) && numbers->width && numbers->type >= BYTE &&
+           (numbers->type <= UNSIGNED_SHORT || numbers->type == FLOAT) &&
+           gltf_get_size(accessor, "count", 0, &numbers->count) && numbers->count > 0;
+}
+
+float *gltf_floats_read(GltfFloats *f, const json_t *index, size_t width, size_t most, size_t *count)
+{
+    const size_t place = json_is_integer(index) ? (size_t)json_integer_value(index) : SIZE_MAX;
+    const json_t *accessor = json_array_get(json_object_get(f->json, "accessors"), place);
+    Numbers numbers;
+    View view;
+    if (!read_numbers(accessor, &numbers) || numbers.width != width || numbers.count > most ||
+        !find_elements(f, accessor, &numbers, &view))
+        return NULL;
+    float *floats = calloc(numbers.count, width * sizeof *floats);
+    if (floats && !put_elements(f, accessor, &numbers, &view, (unsigned char *)floats)) {
+        free(floats);
+        return NULL;
+    }
+    *count = numbers.count;
+    return floats;
 }
 
 static Change convert(GltfFloats *f, json_t *accessor)
 {
     static const char *const obsolete[] = {"normalized", "min", "max", "sparse"};
-    const char *kind = json_string_value(json_object_get(accessor, "type"));
-    Numbers numbers = {.is_normalized = json_is_true(json_object_get(accessor, "normalized"))};
-    if (kind && strncmp(kind, "VEC", 3) == 0 && kind[3] >= '2' && kind[3] <= '4')
-        numbers.width = (size_t)(kind[3] - '0');
-    if (!accessor || !gltf_get_size(accessor, "componentType", 0, &numbers.type) || numbers.type == FLOAT)
-        return KEPT;
+    Numbers numbers;
     size_t begin;
-    if (!numbers.width || numbers.type < BYTE || numbers.type > UNSIGNED_SHORT ||
-        !gltf_get_size(accessor, "count", 0, &numbers.count) || numbers.count == 0 ||
-        !append_floats(f, accessor, &numbers, &begin))
+    if (!accessor || json_number_value(json_object_get(accessor, "componentType")) == FLOAT)
+        return KEPT;
+    if (!read_numbers(accessor, &numbers) || !append_floats(f, accessor, &numbers, &begin))
         return REFUSED;
     const json_int_t view =
         gltf_add_view(f->json, json_array_size(json_object_get(f->json, "buffers")), begin, f->floats.size - begin);

@@ -69,13 +69,14 @@ static int take_area(const json_t *node, GltfLight *to)
     return to->width > 0 && to->height > 0 && isfinite(to->width + to->height);
 }
 
-static int take_light(Import *import, const json_t *json, const json_t *node, const Affine *place, void *context)
+static int take_light(Import *import, const json_t *json, const GltfNode *at, void *context)
 {
+    const json_t *node = at->json;
     Gltf *gltf = &import->gltf;
     size_t *capacity = context;
     const json_t *punctual = punctual_of(json, node);
-    GltfLight light = {.place = *place};
-    if (!take_punctual(json, node, punctual, &light) && !take_area(node, &light))
+    GltfLight light = {.place = at->place};
+    if (!at->is_shown || (!take_punctual(json, node, punctual, &light) && !take_area(node, &light)))
         return 1;
     if ((size_t)gltf->nlights == *capacity) {
         GltfLight *more = realloc(gltf->lights, (2 * *capacity + 4) * sizeof *more);

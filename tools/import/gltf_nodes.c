@@ -43,6 +43,7 @@ static json_t *referred(const json_t *array, const json_t *index)
 typedef struct NodePlace {
     const json_t *node;
     Affine above;
+    int is_shown; /* no node above it is hidden */
 } NodePlace;
 
 typedef struct NodeStack {
@@ -51,7 +52,7 @@ typedef struct NodeStack {
 } NodeStack;
 
 /* In their order from the top of the stack. */
-static int push(NodeStack *stack, const json_t *nodes, const json_t *indices, const Affine *above)
+static int push(NodeStack *stack, const json_t *nodes, const json_t *indices, const Affine *above, int is_shown)
 {
     const size_t more = json_array_size(indices);
     if (stack->count + more > stack->capacity) {
@@ -65,9 +66,14 @@ static int push(NodeStack *stack, const json_t *nodes, const json_t *indices, co
     for (size_t i = more; i-- > 0;) {
         const json_t *node = referred(nodes, json_array_get(indices, i));
         if (node)
-            stack->places[stack->count++] = (NodePlace){node, *above};
+            stack->places[stack->count++] = (NodePlace){node, *above, is_shown};
     }
     return 1;
+}
+
+int gltf_is_hidden(const json_t *node)
+{
+    return json_is_false(json_object_get(gltf_extension(node, "KHR_node_visibility"), "visible"));
 }
 
 /* Without recursion, for files may nest deeply. There are no cycles: Assimp has refused them. */
@@ -77,12 +83,13 @@ int gltf_visit_nodes(Import *import, const json_t *json, GltfVisit *visit, void 
     const json_t *scenes = json_object_get(json, "scenes");
     const json_t *scene = shown ? referred(scenes, shown) : json_array_get(scenes, 0);
     NodeStack stack = {0};
-    int goes_on = push(&stack, nodes, json_object_get(scene, "nodes"), &import->world);
+    int goes_on = push(&stack, nodes, json_object_get(scene, "nodes"), &import->world, 1);
     while (goes_on && stack.count) {
         const NodePlace place = stack.places[--stack.count];
         const Affine own = own_transform(place.node), world = affine_multiply(&place.above, &own);
-        goes_on = visit(import, json, place.node, &world, context) &&
-                  push(&stack, nodes, json_object_get(place.node, "children"), &world);
+        const int is_shown = place.is_shown && !gltf_is_hidden(place.node);
+        goes_on = visit(import, json, &(GltfNode){place.node, world, is_shown}, context) &&
+                  push(&stack, nodes, json_object_get(place.node, "children"), &world, is_shown);
     }
     free(stack.places);
     return goes_on;

@@ -68,6 +68,47 @@ static int drop_cameras_and_lights(json_t *json)
     return any;
 }
 
+/* Nodes that are hidden: marks for each, and those whose children are still to be marked. */
+typedef struct Hidden {
+    char *marks;
+    size_t *open, nopen, count;
+} Hidden;
+
+/* Files may say that a node is below itself: each is marked once. */
+static void mark_hidden(Hidden *hidden, size_t index)
+{
+    if (index >= hidden->count || hidden->marks[index])
+        return;
+    hidden->marks[index] = 1;
+    hidden->open[hidden->nopen++] = index;
+}
+
+/* The meshes of nodes that are hidden, and of those below them. Returns 1 if there were any. */
+static int drop_hidden(json_t *json)
+{
+    const json_t *nodes = json_object_get(json, "nodes");
+    Hidden hidden = {.count = json_array_size(nodes)};
+    int any = 0;
+    hidden.open = malloc((hidden.count + 1) * sizeof *hidden.open);
+    hidden.marks = calloc(hidden.count + 1, 1);
+    for (size_t i = 0; hidden.open && hidden.marks && i < hidden.count; i++)
+        if (gltf_is_hidden(json_array_get(nodes, i)))
+            mark_hidden(&hidden, i);
+    while (hidden.nopen) {
+        json_t *node = json_array_get(nodes, hidden.open[--hidden.nopen]);
+        const json_t *children = json_object_get(node, "children");
+        any |= without(node, "mesh");
+        for (size_t k = 0; k < json_array_size(children); k++) {
+            const json_t *child = json_array_get(children, k);
+            if (json_is_integer(child))
+                mark_hidden(&hidden, (size_t)json_integer_value(child));
+        }
+    }
+    free(hidden.open);
+    free(hidden.marks);
+    return any;
+}
+
 static void put_word(FILE *out, size_t word)
 {
     for (int byte = 0; byte < 4; byte++)
@@ -157,11 +198,14 @@ static FILE *write_prepared(Import *import, FILE *in)
                     .buffers = {.import = import, .json = text.json, .in = in, .is_binary = text.is_binary}};
     FILE *out = NULL;
     if (text.json) {
-        const int is_decoded = decode_all(&f);
+        int is_changed = decode_all(&f);
+        is_changed |= drop_hidden(text.json) | take_images(text.json) | take_weights(text.json) |
+                      drop_cameras_and_lights(text.json);
+        if (!f.refused[0])
+            is_changed |= gltf_place_instances(&f);
         if (!f.refused[0])
             gltf_floats_convert(&f);
-        const int is_changed =
-            is_decoded | take_images(text.json) | take_weights(text.json) | drop_cameras_and_lights(text.json) | f.any;
+        is_changed |= f.any;
         if ((is_changed || text.is_repaired) && !f.refused[0])
             out = open_in_memory();
         if (out) {

@@ -200,6 +200,8 @@ double gltf_number(const json_t *object, const char *key, double otherwise);
 /* Whether something is so: Blender writes 1 for true. */
 int gltf_flag(const json_t *object, const char *key);
 const json_t *gltf_extension(const json_t *of, const char *name);
+/* A material's name, or its place in the file. */
+const char *gltf_material_name(const json_t *json, size_t index, char plain[NAME_SIZE]);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);
 /* gltf_prepare.c */
@@ -211,8 +213,16 @@ int morphs_apply(Import *import, RetexError *err);
 /* tds.c: into Assimp's cameras */
 void tds_read(Import *import);
 /* gltf_nodes.c */
-/* A node of the scene that the file shows, with its transform, z not mirrored. Returns 0 to stop. */
-typedef int GltfVisit(Import *import, const json_t *json, const json_t *node, const Affine *place, void *context);
+/* A node of the scene that the file shows. */
+typedef struct GltfNode {
+    const json_t *json;
+    Affine place; /* z not mirrored */
+    int is_shown; /* neither it nor a node above it is hidden by KHR_node_visibility */
+} GltfNode;
+/* Returns 0 to stop. */
+typedef int GltfVisit(Import *import, const json_t *json, const GltfNode *node, void *context);
+/* Whether the node says that it and all below it are hidden. */
+int gltf_is_hidden(const json_t *node);
 /* Returns 0 without memory, or where a visit stopped. */
 int gltf_visit_nodes(Import *import, const json_t *json, GltfVisit *visit, void *context);
 /* Its name, else that of the camera or light that it has, else its number. */

@@ -1,0 +1,53 @@
+# retex-import: instances, hidden nodes, and what materials of glTF files do without.
+$ /usr/bin/python3 $TESTS/import_nodes.py && cp $TESTS/import_reference.pov reference.pov && grep '^camera' reference.pov >camera.inc
+$ retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv reference.pov -o reference.exr
+$ printf '%s\n' 'retex-import -q "$@" -o scene || exit' 'cat camera.inc >>scene/scene.pov' 'retex-render -q --plain --spp 1 --size 96x72 --aov depth,albedo,normal,uv scene/scene.pov -o ${1%.*}.exr' 'rm -r scene' >look
+$ printf '%s\n' 'for part in albedo depth uv; do retex-diff -q --part $part --allow-inf --fail-abs 0.0005 $1 $2 || echo $part differs; done' >same
+
+# Each instance is an object: rotations of floats, of words, of bytes, and of words that are compressed.
+$ for m in instances instances_words instances_bytes instances_packed; do sh look $m.gltf && sh same $m.exr reference.exr; done
+$ retex-import instances.gltf -o instances && grep -c '^object' instances/instances.pov
+> 2
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote instances/instances.pov
+$ for m in uneven beyond many sum nan; do retex-import -q instances_$m.gltf -o odd; echo $?; done; ls -d odd*
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-import: error: instances_uneven.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: their attributes are not equally many
+! retex-import: error: instances_beyond.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: they are more than 250000, or their numbers do not lie within their buffer
+! retex-import: error: instances_many.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: they are more than 250000, or their numbers do not lie within their buffer
+! retex-import: error: instances_sum.gltf: the instances of nodes[1], by EXT_mesh_gpu_instancing: they are more than 250000
+! retex-import: error: instances_nan.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: their places are no numbers
+! ls: cannot access 'odd*': No such file or directory
+= 2
+
+# What is hidden is not there, nor what is below it; its light is off. Its camera is there.
+$ sh look hidden.gltf && sh same hidden.exr reference.exr
+$ retex-import hidden.gltf -o hidden && grep -c '^light_source' hidden/hidden.pov && grep '^camera' hidden/hidden.pov && retex-import -q --camera watchman hidden.gltf -o seen && grep '^camera' seen/seen.pov
+> 1
+> camera { Camera_nodes_2 }
+> camera { Camera_watchman }
+! retex-import: camera 1 of 2 is used, Camera_nodes_2; --camera takes another one
+! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
+! retex-import: wrote hidden/hidden.pov
+$ for m in circle all; do retex-import -q hidden_$m.gltf -o odd; echo $?; done
+> 2
+> 2
+! retex-import: error: hidden_circle.gltf: GLTF: Object at index 3 in array "nodes" has recursive reference to itself
+! retex-import: error: hidden_all.gltf: there are no surfaces in it
+
+# A line for each material and what it does without, if that shows; not without end.
+$ retex-import -q without.gltf -o without
+! retex-import: warning: the material `pan`: its anisotropy is left out
+! retex-import: warning: the material `soap`: its iridescence is left out
+! retex-import: warning: the material `soap`: its diffuse transmission is left out
+! retex-import: warning: the material `materials[3]`: its extension EXT_materials_?fur is left out
+! retex-import: warning: the extension KHR_materials_variants is left out
+$ retex-import -q without_many.gltf -o many 2>&1 | tail -n 3
+> retex-import: warning: the material `pan 15`: its anisotropy is left out
+> retex-import: warning: the like is left out 4 more times
+> retex-import: warning: the extension KHR_materials_variants is left out
