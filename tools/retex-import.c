@@ -37,6 +37,7 @@ static const CliOption options[] = {
     {"lights", 0, "F", "multiply the light of all light sources", 0},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
     {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0},
+    {"partial", 0, NULL, "make the scene although images, objects or lights are lost", 0},
     {"layer", 0, "NAME", "of a picture with light groups: the layer of all light; default: Combined", 0},
     {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0},
     {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0},
@@ -343,6 +344,8 @@ static void parse(Cli *cli, ImportOptions *import, Request *r)
             if (import->nalso == MOST_FOLDERS)
                 cli_die(cli, "-I: more than %d folders", MOST_FOLDERS);
             r->also[import->nalso++] = cli->value;
+        } else if (strcmp(option->name, "partial") == 0) {
+            import->partial = 1;
         } else {
             r->force = 1;
         }

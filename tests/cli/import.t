@@ -182,8 +182,15 @@ $ retex-import names.obj -o names && grep declare names/names.pov
 ! retex-import: 4 materials, 4 meshes, 4 objects, 4 triangles
 ! retex-import: wrote names/names.pov
 
-# Missing images are told; files outside of the model's folder are not read.
-$ retex-import below/missing.gltf -o missing
+# Missing images are told, and the scene is made without them where that is asked for; files outside of the model's folder
+# are not read.
+$ retex-import below/missing.gltf -o missing; ls -d missing*
+! retex-import: warning: there is no image `http://example.org/wood.png`
+! retex-import: no light in the model: a soft sky lights it
+! retex-import: error: below/missing.gltf: 1 image is lost, see above; --partial makes the scene without it
+! ls: cannot access 'missing*': No such file or directory
+= 2
+$ retex-import --partial below/missing.gltf -o missing
 ! retex-import: warning: there is no image `http://example.org/wood.png`
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
@@ -201,8 +208,24 @@ $ retex-import below/buffer.gltf -o buffer
 ! retex-import: error: below/buffer.gltf: the model names the file `below/../F.png`, which is outside of its folder; -I DIR adds folders that may be read
 = 2
 
+# A light that is lost. One that is black is none.
+$ for m in ambient black; do retex-import -q $m.dae -o $m; echo $?; done
+> 2
+> 0
+! retex-import: warning: ambient lights are left out
+! retex-import: error: ambient.dae: objects, cameras or lights are lost, see above; --partial makes the scene without them
+# Images of opacity may be lost as others.
+$ retex-import -q holes.obj -o holes
+! retex-import: warning: there is no image `gone.png`
+! retex-import: error: holes.obj: 1 image is lost, see above; --partial makes the scene without it
+= 2
+$ for m in holes holes_torn; do retex-import -q --partial $m.obj -o $m 2>&1 | grep -c '`.*`'; grep -c image_map $m/$m.pov; done
+> 1
+> 1
+> 1
+> 1
 # Damaged images are left out.
-$ for m in torn no_image; do retex-import -q $m.gltf -o $m 2>err; echo $?; grep -c 'warning: the image .* cannot be read' err; grep -c image_map $m/$m.pov; ls $m; done
+$ for m in torn no_image; do retex-import -q --partial $m.gltf -o $m 2>err; echo $?; grep -c 'warning: the image .* cannot be read' err; grep -c image_map $m/$m.pov; ls $m; done
 > 0
 > 1
 > 0
@@ -323,11 +346,26 @@ $ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_betwe
 ! retex-import: error: chunk_before.glb: No suitable reader found for the file format of file "chunk_before.glb".
 ! ls: cannot access 'odd*': No such file or directory
 = 2
-# Images that an extension names: WebP is read, a line tells of KTX2.
-$ for m in ktx webp; do retex-import -q $m.gltf -o $m; grep -c image_map $m/$m.pov; done
+# Images that an extension names: WebP and AVIF are read, a line tells of those of KTX2 that are used and have no other in
+# their place. What is lost is not told without end.
+$ for m in ktx webp; do retex-import -q --partial $m.gltf -o $m; grep -c image_map $m/$m.pov; done
 > 0
 > 1
-! retex-import: warning: the extension KHR_texture_basisu is left out
+! retex-import: warning: the image `wood.ktx2` of the material `wood` is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
+$ sh look avif.gltf; retex-diff -q --part albedo --fail-abs 0.02 avif.exr reference.exr
+$ retex-import -q --safe avif.gltf -o odd
+! retex-import: warning: the image `F.avif` cannot be read: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-import: error: avif.gltf: 1 image is lost, see above; --partial makes the scene without it
+= 2
+$ retex-import -q ktx_some.gltf -o odd
+! retex-import: warning: the image `a.ktx2` of the materials `bumps`, `materials[2]`, `oak 0`, `oak 1` and 3 more is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
+! retex-import: warning: the image `images[3]` of the material `coat` is lost: KTX2 is not read; `npx @gltf-transform/cli ktxdecompress OLD NEW` converts the model
+! retex-import: error: ktx_some.gltf: 2 images are lost, see above; --partial makes the scene without them
+= 2
+$ retex-import -q gone.gltf -o odd 2>&1 | tail -n 3
+> retex-import: warning: there is no image `gone 15.png`
+> retex-import: warning: 4 more images are lost
+> retex-import: error: gone.gltf: 20 images are lost, see above; --partial makes the scene without them
 $ retex-render -q --plain --spp 1 --size 96x72 --crop 40,36,1,1 --aov albedo webp/webp.pov -o red.exr && oiiotool -q red.exr --subimage albedo -o red.exr && make_values red.exr 0,0 | awk '{ print ($1 > .9 && $2 < .05 && $3 < .05) }'
 > 1
 # UV that are not there, and a third set of them: a line each.

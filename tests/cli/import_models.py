@@ -170,6 +170,19 @@ write('card.dae', '''<?xml version="1.0"?>
                '</node>\n' % n for n in (('a', '1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1'),
                                          ('b', '0 0 1 1.25 0 1 0 0 -1 0 0 -0.25 0 0 0 1')))))
 
+# An image of opacity that is missing, and one that is no image.
+for name, image in (('holes', 'gone.png'), ('holes_torn', 'card.mtl')):
+    write(name + '.obj', obj.replace('card.mtl', name + '.mtl'))
+    write(name + '.mtl', 'newmtl wood\nKd 1 1 1\nmap_Kd F.png\nmap_d %s\n' % image)
+
+# An ambient light that shines, and one that is black.
+with open('card.dae', encoding='utf-8') as dae:
+    card_dae = dae.read()
+for name, color in ('ambient', '.2 .1 0'), ('black', '0 0 0'):
+    write(name + '.dae', card_dae.replace('<library_visual_scenes>', (
+        '<library_lights><light id="l"><technique_common><ambient><color>%s</color></ambient></technique_common></light>'
+        '</library_lights><library_visual_scenes>') % color).replace(
+            '</visual_scene>', '<node id="n"><instance_light url="#l"/></node></visual_scene>'))
 
 
 def tds(kind, *inside):
@@ -393,12 +406,33 @@ more = struct.pack('<II', 4, 0x12345678) + b'more'
 for name, body in (('after', binary[12:] + more), ('between', binary[12:end] + more + binary[end:]),
                    ('before', binary[end:] + binary[12:end])):
     write('chunk_%s.glb' % name, struct.pack('<III', 0x46546c67, 2, 12 + len(body)) + body)
-# Images that extensions name: of WebP, a picture of one colour; of KTX2.
+# Images that extensions name: of WebP, a picture of one colour; of AVIF, the letter without loss; of KTX2, which is not
+# read, for a material or several, beside one that is read, for none.
+write('F.avif', base64.b64decode(
+    'AAAAHGZ0eXBhdmlmAAAAAG1pZjFhdmlmbWlhZgAAAOptZXRhAAAAAAAAACFoZGxyAAAAAAAAAABwaWN0AAAAAAAAAAAAAAAAAAAAACJpbG9j'
+    'AAAAAERAAAEAAQAAAAABDgABAAAAAAAAAEEAAAAjaWluZgAAAAAAAQAAABVpbmZlAgAAAAABAABhdjAxAAAAAA5waXRtAAAAAAABAAAAamlw'
+    'cnAAAABLaXBjbwAAAAxhdjFDgSACAAAAABNjb2xybmNseAABAA0AAIAAAAAUaXNwZQAAAAAAAAAQAAAAEAAAABBwaXhpAAAAAAMICAgAAAAX'
+    'aXBtYQAAAAAAAAABAAEEgQIDBAAAAEltZGF0EgAKCDgM/9hAQ0AIMjNEAACG10i9LtBog9S1c3cWLCPpQlijU6HcC9ntl2Z0tiUGQNddAJMV'
+    'EE0mYREss639XYA='))
 write('red.webp', base64.b64decode(
     'UklGRkQAAABXRUJQVlA4IDgAAABQAgCdASoIAAgAAAAAJaACdLoB+AH6AfwAB5AA/v9vVv/8sPx/Unn/yxD//xPTm8RU8r/+JkAAAA=='))
-for name, extension, image in (('webp', 'EXT_texture_webp', 'red.webp'), ('ktx', 'KHR_texture_basisu', 'wood.ktx2')):
+for name, extension, image in (('webp', 'EXT_texture_webp', 'red.webp'), ('avif', 'EXT_texture_avif', 'F.avif'),
+                               ('ktx', 'KHR_texture_basisu', 'wood.ktx2')):
     write(name + '.gltf', json.dumps(with_extension(
         extension, True, images=[{'uri': image}], textures=[{'extensions': {extension: {'source': 0}}}])))
+scene = with_extension('KHR_texture_basisu', True, images=[{'uri': 'F.png'}, {'uri': 'a.ktx2'}, {'uri': 'b.ktx2'}, {}])
+scene['textures'] = [{'source': 0, 'extensions': {'KHR_texture_basisu': {'source': 1}}},
+                     *({'extensions': {'KHR_texture_basisu': {'source': k}}} for k in (1, 2, 3))]
+scene['materials'] = [MATERIAL, {'name': 'bumps', 'normalTexture': {'index': 1}}, {'emissiveTexture': {'index': 1}},
+                      {'name': 'coat', 'extensions': {'KHR_materials_clearcoat': {'clearcoatTexture': {'index': 3}}}},
+                      *({'name': 'oak %d' % k, 'normalTexture': {'index': 1}} for k in range(5))]
+write('ktx_some.gltf', json.dumps(scene))
+scene = gltf(MATERIAL)
+scene['images'] = [{'uri': 'gone %d.png' % k} for k in range(20)]
+scene['textures'] = [{'source': k} for k in range(20)]
+scene['materials'] = [{'normalTexture': {'index': k}} for k in range(20)]
+scene['meshes'][0]['primitives'] = [dict(scene['meshes'][0]['primitives'][0], material=k) for k in range(20)]
+write('gone.gltf', json.dumps(scene))
 # The image on the eighth set of UV, and the ninth; one on the second where there is one, or none; three sets at once.
 for name, sets, image in (('eighth', 8, 7), ('ninth', 9, 8), ('lacking', 1, 1), ('without', 0, 0)):
     scene = gltf(dict(MATERIAL, pbrMetallicRoughness={

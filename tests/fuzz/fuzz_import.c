@@ -194,7 +194,7 @@ static int run(const unsigned char *bytes, size_t size)
         fwrite(bytes + (line ? head + 1 : 0), 1, size - (line ? head + 1 : 0), out);
         fclose(out);
     }
-    const char *const import[] = {name, "-q", "-o", "out", "--max-memory", "1G", "--max-time", "8", NULL};
+    const char *const import[] = {name, "-q", "--partial", "-o", "out", "--max-memory", "1G", "--max-time", "8", NULL};
     const char *const render[] = {"-q",      "--plain",     "--spp",        "1",  "--size", "4x3", "-o",
                                   "out.exr", "out/out.pov", "--max-memory", "1G", NULL};
     const int status = run_tool("retex-import", import, "said");

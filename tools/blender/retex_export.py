@@ -865,7 +865,7 @@ class Export:
         with tempfile.TemporaryDirectory(prefix="retex-") as work:
             glb, sky = os.path.join(work, self.name + ".glb"), os.path.join(work, self.name + "-world.exr")
             self.write_gltf(glb)
-            command = [importer, "--force", "-o", self.folder, glb]
+            command = [importer, "--force", "--partial", "-o", self.folder, glb]
             if self.scene.camera:
                 command += ["--camera", self.scene.camera.name]
             if not world_is_black(self.scene.world):

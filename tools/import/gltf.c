@@ -155,6 +155,7 @@ static int is_taken(const char *name)
     static const char *const taken[] = {
         "EXT_mesh_gpu_instancing",
         "EXT_meshopt_compression",
+        "EXT_texture_avif",
         "EXT_texture_webp",
         "KHR_draco_mesh_compression",
         "KHR_lights_punctual",
@@ -170,6 +171,7 @@ static int is_taken(const char *name)
         "KHR_materials_volume",
         "KHR_mesh_quantization",
         "KHR_node_visibility",
+        "KHR_texture_basisu",
         "KHR_texture_transform",
         "KHR_xmp",
         "KHR_xmp_json_ld",
@@ -278,6 +280,7 @@ int gltf_read(Import *import, RetexError *err)
         return gltf_explain(import, err);
     take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
+    gltf_note_images(import, text.json);
     json_t *told = json_object();
     note_materials(import, text.json, told);
     note_extensions(import, text.json, told);

@@ -12,7 +12,7 @@
  * are any. */
 static int take_images(json_t *json)
 {
-    static const char *const extensions[] = {"EXT_texture_webp", "MSFT_texture_dds"};
+    static const char *const extensions[] = {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"};
     const json_t *textures = json_object_get(json, "textures");
     int any = 0;
     for (size_t i = 0; i < json_array_size(textures); i++) {

@@ -191,6 +191,34 @@ static int may_have_alpha(const Bytes *bytes, const Format *format)
     return 0;
 }
 
+/* An image that cannot be read is told, and the scene does without if it may. */
+static void tell_missing(Import *import, const char *source, const RetexError *why)
+{
+    char plain[NAME_SIZE];
+    const struct aiTexture *texture = embedded(import, source);
+    if (!losses_of_image(import, source))
+        return;
+    import_plain(texture && texture->mFilename.length ? texture->mFilename.data : source, plain);
+    if (why)
+        import_tell(import, IMPORT_WARNING, "the image `%s` cannot be read: %s", plain, why->message);
+    else
+        import_tell(import, IMPORT_WARNING, "there is no image `%s`", plain);
+}
+
+static int is_missing(Import *import, ImageFile *image, const char *source, const RetexError *why)
+{
+    image->missing = 1;
+    image->file[0] = '\0';
+    tell_missing(import, source, why);
+    return RETEX_OK;
+}
+
+static int is_fatal(int code)
+{
+    return code == RETEX_ENOMEM || code == RETEX_ELIMIT || code == RETEX_ESTOPPED || code == RETEX_EACCESS ||
+           code == RETEX_EIO;
+}
+
 /* ---- pixels ---- */
 
 static int texels_to_image(const struct aiTexture *texture, int is_data, RetexImage *image, RetexError *err)
@@ -250,14 +278,23 @@ static int take_opacity(Import *import, const char *source, RetexImage *image, R
 {
     Bytes bytes;
     RetexImage mask = {0};
+    RetexError why = {0};
     int found, has_alpha = 0;
     int code = get_bytes(import, source, &bytes, &found, err);
+    if (!code && !found)
+        tell_missing(import, source, NULL);
     if (code || !found)
         return code;
-    code = decode(import, &bytes, 1, &mask, err);
+    code = decode(import, &bytes, 1, &mask, &why);
     release(&bytes);
-    if (code)
+    if (code && is_fatal(code)) {
+        *err = why;
         return code;
+    }
+    if (code) {
+        tell_missing(import, source, &why);
+        return RETEX_OK;
+    }
     for (size_t i = 0; i < (size_t)mask.width * (size_t)mask.height; i++)
         has_alpha |= mask.pixels[4 * i + 3] < 1;
     for (int y = 0; y < image->height; y++)
@@ -324,27 +361,6 @@ static int name_file(Import *import, const char *source, const char *ending, cha
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
     snprintf(file, NAME_SIZE + 32, "textures/%s%s%s", name, strchr(ending, '.') ? "_" : ".", ending);
     return RETEX_OK;
-}
-
-/* An image that cannot be read is told, and the scene does without. */
-static int is_missing(Import *import, ImageFile *image, const char *source, const RetexError *why)
-{
-    char plain[NAME_SIZE];
-    const struct aiTexture *texture = embedded(import, source);
-    image->missing = 1;
-    image->file[0] = '\0';
-    import_plain(texture && texture->mFilename.length ? texture->mFilename.data : source, plain);
-    if (why)
-        import_tell(import, IMPORT_WARNING, "the image `%s` cannot be read: %s", plain, why->message);
-    else
-        import_tell(import, IMPORT_WARNING, "there is no image `%s`", plain);
-    return RETEX_OK;
-}
-
-static int is_fatal(int code)
-{
-    return code == RETEX_ENOMEM || code == RETEX_ELIMIT || code == RETEX_ESTOPPED || code == RETEX_EACCESS ||
-           code == RETEX_EIO;
 }
 
 static int make_image(Import *import, const ImageUse *use, ImageFile *image, Bytes *bytes, RetexError *err)

@@ -381,14 +381,17 @@ int import_model(const ImportOptions *options, RetexError *err)
         code = write_scene(&import, err);
     if (!code) {
         note_left_out(&import);
-        tell_summary(&import);
+        code = losses_check(&import, err);
     }
+    if (!code)
+        tell_summary(&import);
     rmdir(folder); /* where no image is in it */
     /* the process ends now, and with it what Assimp has */
     images_free(&import);
     gltf_free(&import.gltf);
     names_free(&import.names);
     names_free(&import.files);
+    names_free(&import.lost_images);
     free(import.light_places);
     free(import.camera_places);
     free(import.materials);

@@ -23,6 +23,7 @@ typedef struct ImportOptions {
     double scale;  /* of all lengths */
     double lights; /* factor of all light sources */
     double smooth; /* degrees: edges that are flatter become smooth where a mesh has no normals; 0: none */
+    int partial; /* 1: the scene is made although images, objects or lights are lost, which is told */
     int safe;           /* as of RetexAccess */
     int accept_damaged; /* 1: damaged pictures are read as far as possible, with a warning */
     long max_pixels;

@@ -147,6 +147,8 @@ struct Import {
     struct ImageFile *images;
     int nimages, image_capacity;
     unsigned long left_out; /* bits of LeftOut */
+    Names lost_images;      /* each once */
+    int nlost_images;
 };
 
 /* Features that a scene cannot say yet: told once each. */
@@ -170,6 +172,12 @@ typedef enum LeftOut {
 
 void import_leave_out(Import *import, LeftOut what);
 void import_tell(const Import *import, char kind, const char *fmt, ...) RETEX_PRINTF(3, 4);
+
+/* losses.c */
+/* An image that is lost. Returns 1 if that is to be told: each is once, and not without end. */
+int losses_of_image(Import *import, const char *source);
+/* At the end: fails where something is lost, unless a scene without it was asked for. */
+int losses_check(Import *import, RetexError *err);
 
 /* files.c */
 int files_begin(Import *import, RetexError *err);
@@ -229,6 +237,8 @@ int gltf_visit_nodes(Import *import, const json_t *json, GltfVisit *visit, void 
 void gltf_node_name(const json_t *json, const json_t *node, const json_t *has, char name[TEXT_SIZE]);
 /* gltf_cameras.c. Returns 0 without memory. */
 int gltf_take_cameras(Import *import, const json_t *json);
+/* gltf_images.c: tell of images that are lost. */
+void gltf_note_images(Import *import, const json_t *json);
 /* gltf_lights.c. Returns 0 without memory. */
 int gltf_take_lights(Import *import, const json_t *json);
 /* Returns 1 if there are any. */

@@ -148,6 +148,12 @@ static int write_sky(Import *import, FILE *out, int has_light, RetexError *err)
     return RETEX_OK;
 }
 
+/* Programs write ambient lights that are black. */
+static int is_bright(const struct aiColor3D *color)
+{
+    return color->r > 0 || color->g > 0 || color->b > 0;
+}
+
 static int write_lights(Import *import, FILE *out)
 {
     const struct aiScene *scene = import->scene;
@@ -158,7 +164,8 @@ static int write_lights(Import *import, FILE *out)
     for (unsigned i = 0; i < scene->mNumLights; i++) {
         const struct aiLight *light = scene->mLights[i];
         if (is_left_out(light)) {
-            import_leave_out(import, LEFT_AMBIENT_LIGHT);
+            if (is_bright(&light->mColorAmbient) || is_bright(&light->mColorDiffuse))
+                import_leave_out(import, LEFT_AMBIENT_LIGHT);
             continue;
         }
         if (!import->light_places[i].is_known)

@@ -30,7 +30,7 @@ import() { # NAME MODEL OPTIONS…
     room=$1 model=$2
     shift 2
     [ ! -e "$from/$room-world.exr" ] || set -- "$@" --sky "$from/$room-world.exr"
-    retex-import -q --force "$@" -o "$work/$room" "$from/$model"
+    retex-import -q --force --partial "$@" -o "$work/$room" "$from/$model"
     [ ! -e "$from/$room-camera.inc" ] || cat "$from/$room-camera.inc" >>"$work/$room/$room.pov"
 }
 
