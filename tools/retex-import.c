@@ -143,7 +143,7 @@ static int explain(const Cli *cli, const char *model, int status, RetexError *er
     if (number == SIGKILL)
         return retex_fail(err, RETEX_ELIMIT, "%s: the process that reads it was killed", model);
     return retex_fail(err, RETEX_EFORMAT,
-                      "%s: Assimp ended while it read the file (%s): it is damaged, or needs more than the %.0f MB of "
+                      "%s: the process that reads it ended (%s): it is damaged, or needs more than the %.0f MB of "
                       "--max-memory",
                       model, number ? strsignal(number) : "without a word",
                       (double)retex_budget_memory(cli->budget) / (1 << 20));

@@ -3,6 +3,7 @@ import base64
 import copy
 import ctypes
 import json
+import os
 import struct
 import sys
 
@@ -158,6 +159,22 @@ mixed = copy.deepcopy(scene)
 mixed['buffers'][1].update(uri=gltf(MATERIAL)['buffers'][0]['uri'], byteLength=92)
 mixed['bufferViews'][1] = {'buffer': 1, 'byteOffset': 48, 'byteLength': 32}
 write('meshopt_mixed.glb', glb(mixed, data))
+
+# Each of these has some bytes of its binary chunk changed, at places that are the same each time.
+whole = draco(DRACO['integers'], UINT, [('POSITION', SHORT, 3, True), ('TEXCOORD_0', UBYTE, 2, True),
+                                        ('NORMAL', BYTE, 3, True)])
+of_draco = base64.b64decode(DRACO['integers'])
+whole['bufferViews'], whole['buffers'] = [{'buffer': 0, 'byteLength': len(of_draco)}], [{'byteLength': len(of_draco)}]
+whole['meshes'][0]['primitives'][0]['extensions']['KHR_draco_mesh_compression']['bufferView'] = 0
+os.makedirs('flips', exist_ok=True)
+state = 1
+for name, file, size in (('draco', glb(whole, of_draco), len(of_draco)), ('meshopt', glb(scene, data), len(data))):
+    for number in range(40):
+        damaged = bytearray(file)
+        for _ in range(1 + number % 3):
+            state = state * 1103515245 + 12345 & 0x7fffffff
+            damaged[len(file) - 1 - state // 256 % size] ^= 1 << state // 8 % 8
+        write('flips/%s_%d.glb' % (name, number), bytes(damaged))
 
 # Damaged.
 write('meshopt_newer.glb', glb(*meshopt(raw, extension='KHR_meshopt_compression')))

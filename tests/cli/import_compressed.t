@@ -53,6 +53,12 @@ $ for m in newer version short huge stride wide mode filter third inverse buffer
 ! ls: cannot access 'odd*': No such file or directory
 = 2
 
+# Changed bytes: a scene, or one line of error and no folder.
+$ printf '%s\n' 'retex-import -q $1 -o flip 2>said; case $?.$(grep -c error: said).$(ls -d flip 2>/dev/null) in 0.0.flip) echo a scene ;; 2.1.) echo an error ;; *) cat said ;; esac; rm -rf flip' >try
+$ for m in flips/*.glb; do sh try $m; done | sort | uniq -c | awk '{ print $2, $3, ($1 > 9) }'
+> a scene 1
+> an error 1
+
 # meshoptimizer: floats, integers, both kinds of indices, views that are not compressed beside others.
 $ for m in meshopt meshopt_sequence meshopt_exponential meshopt_integers meshopt_mixed; do sh look $m.glb && sh same $m.exr reference.exr; done
 

@@ -45,6 +45,7 @@ whole = instanced(b''.join(struct.pack('<4f', *q) for q in TURNS), FLOAT)
 changed('instances_uneven.gltf', whole, 'accessors', 5, count=1)
 changed('instances_beyond.gltf', whole, 'accessors', 5, count=9)
 changed('instances_many.gltf', whole, 'accessors', 4, count=300000)
+changed('instances_child.gltf', whole, 'nodes', 1, children=[3])  # what would be the first instance
 many = json.loads(json.dumps(whole))
 many['accessors'] += [{'componentType': FLOAT, 'count': 200000, 'type': 'VEC3'}]  # zeros take no bytes
 many['nodes'][0]['extensions']['EXT_mesh_gpu_instancing']['attributes'] = {'TRANSLATION': 7}

@@ -11,7 +11,8 @@ $ retex-import instances.gltf -o instances && grep -c '^object' instances/instan
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 2 objects, 2 triangles
 ! retex-import: wrote instances/instances.pov
-$ for m in uneven beyond many sum nan; do retex-import -q instances_$m.gltf -o odd; echo $?; done; ls -d odd*
+$ for m in uneven beyond many sum nan child; do retex-import -q instances_$m.gltf -o odd; echo $?; done; ls -d odd*
+> 2
 > 2
 > 2
 > 2
@@ -22,6 +23,7 @@ $ for m in uneven beyond many sum nan; do retex-import -q instances_$m.gltf -o o
 ! retex-import: error: instances_many.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: they are more than 250000, or their numbers do not lie within their buffer
 ! retex-import: error: instances_sum.gltf: the instances of nodes[1], by EXT_mesh_gpu_instancing: they are more than 250000
 ! retex-import: error: instances_nan.gltf: the instances of nodes[0], by EXT_mesh_gpu_instancing: their places are no numbers
+! retex-import: error: instances_child.gltf: it refers to nodes[3], but has 3 of them
 ! ls: cannot access 'odd*': No such file or directory
 = 2
 

@@ -8,7 +8,7 @@ RETEX_OIDN=$BUILD/tests/oidn/libOpenImageDenoise.so.2
 export RETEX_OIDN
 mkdir -p "$work/run/out" "$work/run/log" "$work/run/tmp"
 cp tests/faults/good.pov tests/faults/image.pov tests/faults/t.png tests/faults/model.gltf \
-    tests/data/lamp.ies "$work/run"
+    tests/faults/compressed.gltf tests/data/lamp.ies "$work/run"
 most=3 libraries=0
 [ "${RETEX_FAULTS:-}" != all ] || { most=2000 libraries=500; }
 (

@@ -126,9 +126,9 @@ static int fill_buffer(json_t *buffer, const Bytes *data)
     return code == 0;
 }
 
-static json_t *add_buffer(json_t *json)
+static json_t *add_buffer(json_t *json, const char *name)
 {
-    json_t *buffers = json_object_get(json, "buffers"), *buffer = json_object();
+    json_t *buffers = json_object_get(json, "buffers"), *buffer = json_pack("{s:s}", "name", name);
     if (!json_is_array(buffers)) { /* all accessors are sparse */
         buffers = json_array();
         json_object_set_new(json, "buffers", buffers);
@@ -144,7 +144,7 @@ static int decode_all(GltfFloats *f)
     gltf_decode_views(&d);
     gltf_decode_meshes(&d);
     memcpy(f->refused, d.refused, sizeof f->refused);
-    if (d.any && !add_buffer(f->json))
+    if (d.any && !add_buffer(f->json, "decoded"))
         snprintf(f->refused, sizeof f->refused, GLTF_NO_MEMORY);
     return d.any;
 }
@@ -154,7 +154,7 @@ static int fill_buffers(const GltfFloats *f)
     const Bytes *decoded = &f->buffers.decoded;
     json_t *buffers = json_object_get(f->json, "buffers");
     return (!decoded->bytes || fill_buffer(json_array_get(buffers, f->buffers.decoded_index), decoded)) &&
-           (!f->any || fill_buffer(add_buffer(f->json), &f->floats));
+           (!f->any || fill_buffer(add_buffer(f->json, "floats"), &f->floats));
 }
 
 /* Written as the file was: Assimp goes by the ending of its name. */
@@ -190,35 +190,43 @@ static FILE *open_in_memory(void)
     return file;
 }
 
-/* NULL: the file will do as it is. */
+/* Each change, in an order in which it finds what it reads. Returns 1 where there was any. */
+static int change(GltfFloats *f)
+{
+    int any = 0;
+    gltf_check_indices(f->json, f->refused);
+    if (!f->refused[0])
+        any |= decode_all(f);
+    if (!f->refused[0]) {
+        any |= drop_hidden(f->json);
+        any |= take_images(f->json);
+        any |= take_weights(f->json);
+        any |= drop_cameras_and_lights(f->json);
+        any |= gltf_place_instances(f);
+    }
+    if (!f->refused[0])
+        gltf_floats_convert(f);
+    return any | f->any;
+}
+
+/* NULL: the file will do as it is, or is refused. */
 static FILE *write_prepared(Import *import, FILE *in)
 {
     GltfText text = gltf_load(in);
     GltfFloats f = {.json = text.json,
                     .buffers = {.import = import, .json = text.json, .in = in, .is_binary = text.is_binary}};
     FILE *out = NULL;
-    if (text.json) {
-        int is_changed = decode_all(&f);
-        is_changed |= drop_hidden(text.json) | take_images(text.json) | take_weights(text.json) |
-                      drop_cameras_and_lights(text.json);
-        if (!f.refused[0])
-            is_changed |= gltf_place_instances(&f);
-        if (!f.refused[0])
-            gltf_floats_convert(&f);
-        is_changed |= f.any;
-        if ((is_changed || text.is_repaired) && !f.refused[0])
-            out = open_in_memory();
-        if (out) {
-            gltf_buffers_read_inside(&f.buffers);
-            if (!write_file(&f, out)) {
-                fclose(out);
-                out = NULL;
-            }
+    if (text.json && (change(&f) || text.is_repaired) && !f.refused[0]) {
+        out = open_in_memory();
+        gltf_buffers_read_inside(&f.buffers);
+        if (out && !write_file(&f, out)) {
+            fclose(out);
+            out = NULL;
         }
-        if (!out && is_changed && !f.refused[0])
+        if (!out)
             snprintf(f.refused, sizeof f.refused, GLTF_NO_MEMORY);
-        memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     }
+    memcpy(import->gltf_refused, f.refused, sizeof f.refused);
     gltf_buffers_free(&f.buffers);
     free(f.floats.bytes);
     json_decref(text.json);

@@ -212,6 +212,8 @@ const json_t *gltf_extension(const json_t *of, const char *name);
 const char *gltf_material_name(const json_t *json, size_t index, char plain[NAME_SIZE]);
 /* What extras of a node say for this tool, or NULL. */
 const json_t *gltf_extras(const json_t *node);
+/* gltf_indices.c: why the file cannot be read, which may not refer to more than it has; or nothing. */
+void gltf_check_indices(const json_t *json, char why[GLTF_REFUSED_SIZE]);
 /* gltf_prepare.c */
 /* The file, or in its place one that says the same in words that Assimp reads well. NULL: it is refused (see
  * gltf_explain), or cannot be opened again. */
