@@ -72,13 +72,20 @@ write('hidden.gltf', json.dumps(scene))
 changed('hidden_circle.gltf', scene, 'nodes', 4, children=[3])
 changed('hidden_all.gltf', dict(scene, scenes=[{'nodes': [3]}]), 'nodes', 3)
 
+# ---- points and lines ----
+
+changed('points.gltf', gltf(MATERIAL), 'meshes', 0, 'primitives', 0, mode=0)
+scene = gltf(MATERIAL)
+scene['meshes'][0]['primitives'] += [dict(scene['meshes'][0]['primitives'][0], mode=1)]
+write('lines.gltf', json.dumps(scene))
+
 # ---- what materials do without ----
 
 
 def with_materials(name, materials):
     scene = gltf(materials[0])
     scene['materials'] = [dict(material, pbrMetallicRoughness={'metallicFactor': 0}) for material in materials]
-    scene['extensionsUsed'] = sorted({e for m in materials for e in m['extensions']}) + ['KHR_materials_variants']
+    scene['extensionsUsed'] = sorted({e for m in materials for e in m['extensions']}) + ['EXT_mesh_features']
     write(name + '.gltf', json.dumps(scene))
 
 

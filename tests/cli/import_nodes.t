@@ -42,14 +42,21 @@ $ for m in circle all; do retex-import -q hidden_$m.gltf -o odd; echo $?; done
 ! retex-import: error: hidden_circle.gltf: GLTF: Object at index 3 in array "nodes" has recursive reference to itself
 ! retex-import: error: hidden_all.gltf: there are no surfaces in it
 
+# Points and lines are told, also where there is nothing else.
+$ retex-import -q lines.gltf -o lines; grep -c '^object' lines/lines.pov; retex-import -q points.gltf -o points
+> 2
+! retex-import: warning: points and lines are left out
+! retex-import: error: points.gltf: there are no surfaces in it
+= 2
+
 # A line for each material and what it does without, if that shows; not without end.
 $ retex-import -q without.gltf -o without
 ! retex-import: warning: the material `pan`: its anisotropy is left out
 ! retex-import: warning: the material `soap`: its iridescence is left out
 ! retex-import: warning: the material `soap`: its diffuse transmission is left out
 ! retex-import: warning: the material `materials[3]`: its extension EXT_materials_?fur is left out
-! retex-import: warning: the extension KHR_materials_variants is left out
+! retex-import: warning: the extension EXT_mesh_features is left out
 $ retex-import -q without_many.gltf -o many 2>&1 | tail -n 3
 > retex-import: warning: the material `pan 15`: its anisotropy is left out
 > retex-import: warning: the like is left out 4 more times
-> retex-import: warning: the extension KHR_materials_variants is left out
+> retex-import: warning: the extension EXT_mesh_features is left out

@@ -139,6 +139,23 @@ static void note_specular_images(Import *import, const json_t *json)
     }
 }
 
+/* Assimp drops them without a word. */
+static void note_lines(Import *import, const json_t *json)
+{
+    enum { TRIANGLES = 4 };
+    const json_t *meshes = json_object_get(json, "meshes"), *mesh, *primitive;
+    size_t i, k;
+    json_array_foreach(meshes, i, mesh)
+    {
+        const json_t *primitives = json_object_get(mesh, "primitives");
+        json_array_foreach(primitives, k, primitive)
+        {
+            if (gltf_number(primitive, "mode", TRIANGLES) < TRIANGLES)
+                import_leave_out(import, LEFT_LINES);
+        }
+    }
+}
+
 /* Extensions of materials that change nothing where a factor is 0, as it is unless the material says so. */
 typedef struct MaterialExtension {
     const char *extension, *what, *factor;
@@ -280,6 +297,7 @@ int gltf_read(Import *import, RetexError *err)
         return gltf_explain(import, err);
     take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
+    note_lines(import, text.json);
     gltf_note_images(import, text.json);
     json_t *told = json_object();
     note_materials(import, text.json, told);

@@ -133,6 +133,8 @@ static int read_model(Import *import, RetexError *err)
     const int code = !import->scene && import->is_gltf ? gltf_explain(import, err) : RETEX_OK;
     if (code)
         return code;
+    if (!import->scene && strstr(aiGetErrorString(), "No meshes remaining")) /* of those that are no points and lines */
+        return retex_fail(err, RETEX_EFORMAT, "%s: there are no surfaces in it", options->model);
     if (!import->scene)
         return retex_fail(err, RETEX_EFORMAT, "%s: %.400s", options->model, aiGetErrorString());
     if (!import->scene->mRootNode || !import->scene->mNumMeshes || !import->scene->mNumMaterials)

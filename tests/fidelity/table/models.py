@@ -137,7 +137,7 @@ def one(work, page, row, spp):
     name, file = row["name"], os.path.basename(row["path"])
     folder, model = f"{work}/scenes/{name}", f"{work}/models/{name}/{file}"
     shutil.rmtree(folder, ignore_errors=True)
-    code, told, seconds = run("retex-import", "-o", folder, *row["options"].split(), model)
+    code, told, seconds = run("retex-import", "--partial", "-o", folder, *row["options"].split(), model)
     lines = [line for line in told.splitlines() if not line.startswith("wrote ")]
     got = dict(row, code=code, told=lines, seconds=seconds)
     if code:
