@@ -38,6 +38,8 @@ static const CliOption options[] = {
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
     {"include", 'I', "DIR", "also read files that the model names from DIR; repeatable", 0},
     {"partial", 0, NULL, "make the scene although images, objects or lights are lost", 0},
+    {"variant", 0, "NAME", "take the materials of this variant of a glTF file", 0},
+    {"list-variants", 0, NULL, "print the names of the variants of a glTF file, and stop", 0},
     {"layer", 0, "NAME", "of a picture with light groups: the layer of all light; default: Combined", 0},
     {"other-half", 0, "FILE", "of such a picture: a second render, with as many other samples", 0},
     {"force", 'f', NULL, "write into a folder that exists, and replace files of the same names there", 0},
@@ -107,7 +109,8 @@ _Noreturn static void run_child(const Cli *cli, ImportOptions *import, int to)
     confine_limit(RLIMIT_FSIZE, (uint64_t)MOST_GIGABYTES << 30);
     if (retex_budget_memory(cli->budget))
         confine_memory(retex_budget_memory(cli->budget));
-    setenv("TMPDIR", import->folder, 1);
+    if (import->folder)
+        setenv("TMPDIR", import->folder, 1);
     confine_to_folder(import->folder);
     unsetenv("OCIO"); /* images are written as sRGB */
     if (!lines)
@@ -127,6 +130,8 @@ static void pass_on(const Cli *cli, char kind, const char *text)
 {
     if (kind == IMPORT_WARNING)
         cli_warn(cli, "%s", text);
+    else if (kind == IMPORT_ANSWER)
+        puts(text);
     else if (kind == IMPORT_INFO)
         cli_info(cli, "%s", text);
     else
@@ -340,6 +345,10 @@ static void parse(Cli *cli, ImportOptions *import, Request *r)
             import->lights = cli_number(cli, option, 0, 1e9);
         } else if (strcmp(option->name, "smooth") == 0) {
             import->smooth = cli_number(cli, option, 0, 175);
+        } else if (strcmp(option->name, "variant") == 0) {
+            import->variant = cli->value;
+        } else if (strcmp(option->name, "list-variants") == 0) {
+            import->list_variants = 1;
         } else if (strcmp(option->name, "include") == 0) {
             if (import->nalso == MOST_FOLDERS)
                 cli_die(cli, "-I: more than %d folders", MOST_FOLDERS);
@@ -399,6 +408,14 @@ static int import_picture(Cli *cli, const char *path, const Request *request)
     return cli_close(cli, CLI_OK);
 }
 
+static int list_variants(Cli *cli, ImportOptions *import)
+{
+    RetexError err = {0};
+    if (run_import(cli, import, &err))
+        cli_fail(cli, &err);
+    return cli_close(cli, CLI_OK);
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-import",
@@ -426,6 +443,8 @@ int main(int argc, char **argv)
     import.accept_damaged = cli.access.accept_damaged;
     import.max_pixels = cli.limits.pixels;
     import.budget = cli.budget;
+    if (import.list_variants)
+        return list_variants(&cli, &import);
     import_to(&cli, &import, request.force);
     watchdog_done(); /* nothing goes to standard output, which need not be closed well */
     return CLI_OK;

@@ -342,7 +342,7 @@ $ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_betwe
 ! retex-import: error: stride_huge.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
 ! retex-import: error: longs.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there
 ! retex-import: error: comma.gltf: its JSON text: string or '}' expected near '}'
-! retex-import: error: chunk_between.glb: No suitable reader found for the file format of file "chunk_between.glb".
+! retex-import: error: chunk_between.glb: GLTF: Buffer view with offset/length (80/12) is out of range.
 ! retex-import: error: chunk_before.glb: No suitable reader found for the file format of file "chunk_before.glb".
 ! ls: cannot access 'odd*': No such file or directory
 = 2

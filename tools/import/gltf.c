@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "import/internal.h"
+#include "import/variants.h"
 #include "json_text.h"
 
 uint32_t gltf_little(const unsigned char *p)
@@ -185,6 +185,7 @@ static int is_taken(const char *name)
         "KHR_materials_specular",
         "KHR_materials_transmission",
         "KHR_materials_unlit",
+        "KHR_materials_variants",
         "KHR_materials_volume",
         "KHR_mesh_quantization",
         "KHR_node_visibility",
@@ -262,6 +263,16 @@ static void note_extensions(Import *import, const json_t *json, const json_t *to
     }
 }
 
+int gltf_material_place(const char **name)
+{
+    char *end;
+    const long place = strtol(*name, &end, 10);
+    if (end == *name || *end != ':' || place < 0 || place > INT_MAX)
+        return -1;
+    *name = end + 1;
+    return (int)place;
+}
+
 static GltfText load_model(const Import *import)
 {
     int descriptor;
@@ -276,6 +287,16 @@ static GltfText load_model(const Import *import)
         fclose(in);
     }
     return text;
+}
+
+int gltf_list_variants(const Import *import, RetexError *err)
+{
+    const GltfText text = load_model(import);
+    const int code = text.json ? RETEX_OK : retex_fail(err, RETEX_EFORMAT, "%s: %s", import->options->model,
+                                                       text.why[0] ? text.why : "it is no glTF file");
+    gltf_variants_list(import, text.json);
+    json_decref(text.json);
+    return code;
 }
 
 int gltf_explain(const Import *import, RetexError *err)
@@ -293,9 +314,9 @@ int gltf_explain(const Import *import, RetexError *err)
 int gltf_read(Import *import, RetexError *err)
 {
     const GltfText text = load_model(import);
+    char refused[GLTF_REFUSED_SIZE];
     if (!text.json && text.why[0])
         return gltf_explain(import, err);
-    take_materials(text.json, &import->gltf);
     note_specular_images(import, text.json);
     note_lines(import, text.json);
     gltf_note_images(import, text.json);
@@ -303,6 +324,8 @@ int gltf_read(Import *import, RetexError *err)
     note_materials(import, text.json, told);
     note_extensions(import, text.json, told);
     json_decref(told);
+    gltf_variants_take(text.json, import->options->variant, NULL, refused); /* as Assimp was given them */
+    take_materials(text.json, &import->gltf);
     const int done = gltf_take_cameras(import, text.json) && gltf_take_lights(import, text.json);
     json_decref(text.json);
     return done ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");

@@ -7,6 +7,7 @@
 
 #include "import/gltf_decode.h"
 #include "import/gltf_floats.h"
+#include "import/variants.h"
 
 /* Images in formats that only an extension may name, where there is no other image in its place. Returns 1 if there
  * are any. */
@@ -66,6 +67,21 @@ static int drop_cameras_and_lights(json_t *json)
         any |= without(node, "camera") | without(json_object_get(node, "extensions"), lights);
     }
     return any;
+}
+
+/* Assimp reads those materials that meshes use, in the order in which it finds them: names begin with their place in
+ * the file, see gltf_material_place. */
+static int mark_materials(json_t *json)
+{
+    const json_t *materials = json_object_get(json, "materials");
+    for (size_t i = 0; i < json_array_size(materials); i++) {
+        json_t *material = json_array_get(materials, i);
+        const json_t *name = json_object_get(material, "name");
+        const char *text = json_string_value(name);
+        const int length = text ? (int)strlen(text) : 0;
+        json_object_set_new(material, "name", json_sprintf("%zu:%.*s", i, length < 900 ? length : 0, text ? text : ""));
+    }
+    return json_array_size(materials) > 0;
 }
 
 /* Nodes that are hidden: marks for each, and those whose children are still to be marked. */
@@ -193,11 +209,15 @@ static FILE *open_in_memory(void)
 /* Each change, in an order in which it finds what it reads. Returns 1 where there was any. */
 static int change(GltfFloats *f)
 {
+    Import *import = f->buffers.import;
     int any = 0;
     gltf_check_indices(f->json, f->refused);
     if (!f->refused[0])
         any |= decode_all(f);
+    if (!f->refused[0])
+        any |= gltf_variants_take(f->json, import->options->variant, &import->variants, f->refused);
     if (!f->refused[0]) {
+        any |= mark_materials(f->json);
         any |= drop_hidden(f->json);
         any |= take_images(f->json);
         any |= take_weights(f->json);

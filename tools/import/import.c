@@ -13,6 +13,7 @@
 #include <retex/version.h>
 
 #include "import/internal.h"
+#include "import/variants.h"
 
 #define FARTHEST 1e15 /* from the origin */
 
@@ -70,6 +71,11 @@ static int has_ending(const char *path, const char *ending)
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+static int is_gltf(const char *path)
+{
+    return has_ending(path, ".gltf") || has_ending(path, ".glb");
+}
+
 /* Which of its axes is up is known of some formats; Assimp turns others so that y is. */
 static void set_world(Import *import)
 {
@@ -108,7 +114,9 @@ static int read_model(Import *import, RetexError *err)
 {
     const ImportOptions *options = import->options;
     unsigned flags = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords | aiProcess_RemoveComponent;
-    import->is_gltf = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb");
+    import->is_gltf = is_gltf(options->model);
+    if (options->variant && !import->is_gltf)
+        return retex_fail(err, RETEX_EINVAL, "%s: only glTF files have variants", options->model);
     import->is_fbx = has_ending(options->model, ".fbx");
     import->is_3ds = has_ending(options->model, ".3ds");
     if (!import->is_gltf)
@@ -313,6 +321,9 @@ static void write_head(const Import *import, FILE *out)
             "}\n"
             "#default { finish { ambient 0 } }\n\n",
             import_plain(slash ? slash + 1 : import->options->model, plain), RETEX_VERSION, name, name);
+    if (import->variants.command)
+        fprintf(out, "// The variants of %s-variants.csv, in this folder:\n//   %s\n\n", name,
+                import->variants.command);
 }
 
 static int write_scene(Import *import, RetexError *err)
@@ -361,8 +372,10 @@ int import_model(const ImportOptions *options, RetexError *err)
 {
     Import import = {.options = options};
     char folder[PATH_MAX];
-    snprintf(folder, sizeof folder, "%s/textures", options->folder);
     int code = files_begin(&import, err);
+    if (!code && options->list_variants)
+        return is_gltf(options->model) ? gltf_list_variants(&import, err) : RETEX_OK;
+    snprintf(folder, sizeof folder, "%s/textures", options->folder);
     if (!code && mkdir(folder, 0777) != 0)
         code = retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
     if (!code) {
@@ -385,12 +398,15 @@ int import_model(const ImportOptions *options, RetexError *err)
         note_left_out(&import);
         code = losses_check(&import, err);
     }
-    if (!code)
+    if (!code) {
         tell_summary(&import);
+        variants_tell(&import);
+    }
     rmdir(folder); /* where no image is in it */
     /* the process ends now, and with it what Assimp has */
     images_free(&import);
     gltf_free(&import.gltf);
+    gltf_variants_free(&import.variants);
     names_free(&import.names);
     names_free(&import.files);
     names_free(&import.lost_images);

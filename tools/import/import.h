@@ -8,17 +8,19 @@
 #include <retex/error.h>
 
 /* How messages are told: `kind` is one of these letters. */
-enum { IMPORT_WARNING = 'w', IMPORT_INFO = 'i', IMPORT_DETAIL = 'd' };
+enum { IMPORT_WARNING = 'w', IMPORT_INFO = 'i', IMPORT_DETAIL = 'd', IMPORT_ANSWER = 'a' /* what was asked for */ };
 typedef void ImportTell(void *context, char kind, const char *text);
 
 typedef struct ImportOptions {
     const char *model;       /* the file to import */
     const char *name;        /* of the scene; the file is NAME.pov */
-    const char *folder;      /* to write into: it exists and is empty */
+    const char *folder;      /* to write into: it exists and is empty; NULL: list_variants */
     const char *sky;         /* a picture of the sky, or NULL */
     const char *camera;      /* name or number from 1, or NULL: the first */
     const char *const *also; /* more folders that may be read, of -I */
     int nalso;
+    const char *variant;     /* of a glTF file, or NULL: its own materials */
+    int list_variants;       /* tell their names, and make no scene */
     char up;       /* 'y' or 'z': the model's axis that is up; 0: what its format says */
     double scale;  /* of all lengths */
     double lights; /* factor of all light sources */

@@ -75,6 +75,7 @@ typedef struct ImportMaterial {
     int has_image;
     int has_maps; /* images of any kind, so that UV matter */
     float vertex_factor[3]; /* of colours of vertices, where there is no image */
+    int place;     /* in a glTF file; -1: not there */
     int is_solid;  /* declared as a material, with an interior */
     int is_used;
 } ImportMaterial;
@@ -119,6 +120,20 @@ typedef struct Gltf {
     int nmaterials, ncameras, nlights;
 } Gltf;
 
+/* Surfaces whose material variants change together. */
+typedef struct VariantSurfaces {
+    int material; /* its place in the file as Assimp is given it; theirs alone */
+    int *others;  /* by variant: the material that takes its place, or itself */
+} VariantSurfaces;
+
+typedef struct Variants {
+    int count, nsurfaces;
+    char (*names)[NAME_SIZE]; /* by variant, for people */
+    VariantSurfaces *surfaces;
+    char *command; /* which renders those of the table; NULL: there is no table */
+    char *is_apart; /* by variant: it needs a scene of its own */
+} Variants;
+
 typedef struct ImportPlace {
     Affine world; /* z not mirrored */
     int is_known; /* 0: left out, which is told */
@@ -134,6 +149,7 @@ struct Import {
     int is_gltf, is_fbx, is_3ds;
     Gltf gltf;
     int gltf_is_prepared;
+    Variants variants;      /* that are still to be chosen */
     FILE *gltf_prepared;    /* of gltf_prepare, or NULL */
     char gltf_refused[GLTF_REFUSED_SIZE]; /* what it cannot say in other words, or "" */
     Names names, files; /* identifiers; names of files */
@@ -201,6 +217,8 @@ typedef struct GltfText {
 GltfText gltf_load(FILE *in);
 /* What Assimp leaves out, into import->gltf. */
 int gltf_read(Import *import, RetexError *err);
+/* Tell the names of the file's variants. */
+int gltf_list_variants(const Import *import, RetexError *err);
 /* Fail where this tool, or the file itself, says better than Assimp why it cannot be read. */
 int gltf_explain(const Import *import, RetexError *err);
 void gltf_free(Gltf *gltf);
@@ -214,6 +232,9 @@ const char *gltf_material_name(const json_t *json, size_t index, char plain[NAME
 const json_t *gltf_extras(const json_t *node);
 /* gltf_indices.c: why the file cannot be read, which may not refer to more than it has; or nothing. */
 void gltf_check_indices(const json_t *json, char why[GLTF_REFUSED_SIZE]);
+/* The place in the file of a material of that name, which gltf_prepare has marked; *name becomes its own. -1: Assimp
+ * made it. */
+int gltf_material_place(const char **name);
 /* gltf_prepare.c */
 /* The file, or in its place one that says the same in words that Assimp reads well. NULL: it is refused (see
  * gltf_explain), or cannot be opened again. */
@@ -266,8 +287,14 @@ const char *images_keyword(const char *file);
 void images_free(Import *import);
 
 /* materials.c */
+/* The finish of one of the model's materials on surfaces of another one, `to`: "finish { … }", to be freed. */
+int materials_finish(Import *import, int index, ImportMaterial *to, char **text, RetexError *err);
 int materials_write(Import *import, FILE *out, RetexError *err);
 /* meshes.c */
+/* Whether there is a triangle with an area in it. */
+int mesh_has_surface(const struct aiMesh *mesh);
+/* Whether vertices have colours that show. */
+int mesh_has_colors(const struct aiMesh *mesh);
 int meshes_write(Import *import, FILE *out, RetexError *err);
 /* The bounds of a mesh, z mirrored. Returns 0 if it is empty. */
 int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3]);

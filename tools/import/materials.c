@@ -7,6 +7,7 @@
 #include <retex/target_name.h>
 
 #include "import/surface.h"
+#include "import/variants.h"
 
 static void print_color(FILE *out, const float c[3])
 {
@@ -354,6 +355,26 @@ static int write_maps(Writing *w, float emission[3], RetexError *err)
     return code ? code : write_image(w, &s->sheen_map, LEFT_FINISH_MAP, w->files.sheen, err);
 }
 
+int materials_finish(Import *import, int index, ImportMaterial *to, char **text, RetexError *err)
+{
+    Writing w = {.import = import, .material = to};
+    float emission[3] = {0, 0, 0};
+    size_t size = 0;
+    *text = NULL;
+    int code = surface_read(import, index, &w.surface, err);
+    if (!code)
+        code = write_maps(&w, emission, err);
+    FILE *out = code ? NULL : open_memstream(text, &size);
+    if (!code && !out)
+        code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (out) {
+        print_finish(out, &w.surface, emission, 1, &w.files, to->uv_set);
+        if (fclose(out) != 0)
+            code = retex_fail(err, RETEX_ENOMEM, "out of memory");
+    }
+    return code;
+}
+
 static int write_material(Import *import, int index, ImportMaterial *to, FILE *out, RetexError *err)
 {
     Writing w = {.import = import, .material = to};
@@ -396,10 +417,20 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     return RETEX_OK;
 }
 
+/* Assimp's own for a material. */
 static void get_name(const struct aiMaterial *material, struct aiString *name)
 {
     if (aiGetMaterialString(material, AI_MATKEY_NAME, name) != aiReturn_SUCCESS)
         name->data[0] = '\0';
+}
+
+/* Of a material of Assimp's: what the model calls it. */
+static void take_name(ImportMaterial *material, const struct aiMaterial *from, int is_gltf, struct aiString *name)
+{
+    const char *text = name->data;
+    get_name(from, name);
+    material->place = is_gltf ? gltf_material_place(&text) : -1;
+    memmove(name->data, text, strlen(text) + 1);
 }
 
 /* What people call materials, where identifiers are not that but for the case of letters. Of several of one name it is
@@ -410,8 +441,8 @@ static int write_names(Import *import, FILE *out)
     struct aiString name;
     int any = 0, is_new = 1;
     for (unsigned i = 0; i < import->scene->mNumMaterials && is_new >= 0; i++) {
-        const ImportMaterial *material = &import->materials[i];
-        get_name(import->scene->mMaterials[i], &name);
+        ImportMaterial *material = &import->materials[i];
+        take_name(material, import->scene->mMaterials[i], import->is_gltf, &name);
         if (!material->is_used || strcasecmp(material->name, name.data) == 0 || names_have(&import->names, name.data) ||
             !retex_target_name_is_valid(name.data) || (is_new = names_add(&called, name.data)) <= 0)
             continue;
@@ -432,20 +463,25 @@ int materials_write(Import *import, FILE *out, RetexError *err)
     if (!import->materials)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
     for (unsigned i = 0; i < scene->mNumMeshes; i++)
-        if (scene->mMeshes[i]->mMaterialIndex < scene->mNumMaterials)
+        if (scene->mMeshes[i]->mMaterialIndex < scene->mNumMaterials && mesh_has_surface(scene->mMeshes[i]))
             import->materials[scene->mMeshes[i]->mMaterialIndex].is_used = 1;
+    for (unsigned i = 0; i < scene->mNumMaterials; i++)
+        take_name(&import->materials[i], scene->mMaterials[i], import->is_gltf, &name);
     fprintf(out, "// ---- materials: each can be a target of retexturing ----\n\n");
     for (unsigned i = 0; i < scene->mNumMaterials; i++) {
         ImportMaterial *to = &import->materials[i];
+        take_name(to, scene->mMaterials[i], import->is_gltf, &name);
         if (!to->is_used)
             continue;
-        get_name(scene->mMaterials[i], &name);
         if (!names_make(&import->names, name.data, "Material", to->name))
             return retex_fail(err, RETEX_ENOMEM, "out of memory");
         const int code = write_material(import, (int)i, to, out, err);
         if (code)
             return code;
     }
+    const int code = variants_write(import, out, err);
+    if (code)
+        return code;
     const int done = write_names(import, out);
     fprintf(out, "\n");
     return done ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory");

@@ -43,6 +43,14 @@ static long count_surfaces(const struct aiMesh *mesh)
     return n;
 }
 
+int mesh_has_surface(const struct aiMesh *mesh)
+{
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        if (is_surface(mesh, &mesh->mFaces[i]))
+            return 1;
+    return 0;
+}
+
 int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3])
 {
     int any = 0;
@@ -154,8 +162,8 @@ static void write_colors(FILE *out, const Colors *colors, const ImportMaterial *
     fprintf(out, "\n  }\n");
 }
 
-/* Whether vertices have colours that show: not where all are white. */
-static int has_colors(const struct aiMesh *mesh)
+/* Not where all are white. */
+int mesh_has_colors(const struct aiMesh *mesh)
 {
     const struct aiColor4D *c = mesh->mColors[0];
     for (unsigned i = 0; c && i < mesh->mNumVertices; i++)
@@ -230,9 +238,9 @@ static int write_mesh(Import *import, unsigned index, FILE *out, RetexError *err
     snprintf(name, sizeof name, "Mesh_%s", mesh->mName.data);
     if (!names_make(&import->names, name, "Mesh", import->meshes[index]))
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
-    if (has_colors(mesh) && material->is_solid)
+    if (mesh_has_colors(mesh) && material->is_solid)
         import_leave_out(import, LEFT_VERTEX_COLORS);
-    else if (has_colors(mesh)) {
+    else if (mesh_has_colors(mesh)) {
         const int code = find_colors(import, mesh, &colors, err);
         if (code)
             return code;

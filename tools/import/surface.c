@@ -214,9 +214,9 @@ static void take_opacity(const Import *import, const struct aiMaterial *m, const
     }
 }
 
-static void take_emission(const Import *import, const struct aiMaterial *m, int index, Surface *s)
+static void take_emission(const Import *import, const struct aiMaterial *m, int place, Surface *s)
 {
-    float color[4], strength = index < import->gltf.nmaterials ? import->gltf.strengths[index] : 1;
+    float color[4], strength = place >= 0 ? import->gltf.strengths[place] : 1;
     int mode = 0;
     if (get_color(m, AI_MATKEY_COLOR_EMISSIVE, color)) {
         for (int k = 0; k < 3; k++)
@@ -308,6 +308,7 @@ static void fold_tint(Surface *s)
 int surface_read(Import *import, int index, Surface *s, RetexError *err)
 {
     const struct aiMaterial *m = import->scene->mMaterials[index];
+    const int said = import->materials[index].place, place = said < import->gltf.nmaterials ? said : -1;
     float base[4] = {0.8f, 0.8f, 0.8f, 1}, factor;
     const int is_specular = get_float(m, AI_MATKEY_GLOSSINESS_FACTOR, &factor);
     *s = (Surface){.roughness = 0.5f, .ior = 1.5f, .tint = 1};
@@ -328,14 +329,14 @@ int surface_read(Import *import, int index, Surface *s, RetexError *err)
         s->ior = factor;
     get_float(m, AI_MATKEY_TRANSMISSION_FACTOR, &s->transmission);
     s->transmission = unit(s->transmission);
-    if (is_pbr && index < import->gltf.nmaterials)
-        s->tint = import->gltf.speculars[index];
-    if (index < import->gltf.nmaterials) {
-        s->dispersion = import->gltf.dispersions[index];
-        s->bump = import->gltf.bumps[index];
+    if (is_pbr && place >= 0)
+        s->tint = import->gltf.speculars[place];
+    if (place >= 0) {
+        s->dispersion = import->gltf.dispersions[place];
+        s->bump = import->gltf.bumps[place];
     }
     take_opacity(import, m, base, s);
-    take_emission(import, m, index, s);
+    take_emission(import, m, place, s);
     take_volume(m, s);
     fold_tint(s);
     note_left_out(import, m);
