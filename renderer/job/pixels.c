@@ -1,16 +1,20 @@
-/* Targets and lamps by what pixels show. `@X:Y` becomes the number of the object there, which a set keeps: at another
- * size the same pixel would show another one. */
+/* Targets and lamps by what pixels show. `@X:Y` becomes the number of the object there, with the scope of what is taken
+ * with it, which a set keeps: at another size the same pixel would show another one. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "job/job.h"
 #include "light/environment.h"
 #include "path/target_units.h"
+#include "shape/faces.h"
 
 enum { PIXELS_MAX = 64 };
 typedef struct Pixels {
+    SelectorScope scope; /* of those that name none */
     int count;
     int at[PIXELS_MAX][2];
-    ObjectPart shown[PIXELS_MAX];
+    SelectorScope scopes[PIXELS_MAX];
+    ShownSurface shown[PIXELS_MAX];
 } Pixels;
 
 /* The first selector of a target's; NULL where it has none but its name. */
@@ -30,59 +34,93 @@ static const char *next_selector(const char *selector)
 static int find_pixels(Pixels *pixels, const char *spec, RetexError *err)
 {
     for (const char *at = first_selector(spec); at; at = next_selector(at)) {
-        char word[64];
+        char word[64], *slash;
+        int k = pixels->count;
         if (*at != '@')
             continue;
         snprintf(word, sizeof word, "%.*s", (int)selector_length(at), at);
-        if (pixels->count == PIXELS_MAX)
+        if (k == PIXELS_MAX)
             return retex_fail(err, RETEX_EINVAL, "more than %d pixels name targets", PIXELS_MAX);
-        if (!job_numbers(word + 1, ':', 2, pixels->at[pixels->count++]))
-            return retex_fail(err, RETEX_EINVAL, "target `%s`: expected @X:Y, a pixel of the picture", word);
+        pixels->scopes[k] = pixels->scope;
+        if ((slash = strchr(word, '/')))
+            *slash = 0;
+        if (!job_numbers(word + 1, ':', 2, pixels->at[k]) ||
+            (slash && !selector_scope(&pixels->scopes[k], slash + 1)))
+            return retex_fail(err, RETEX_EINVAL,
+                              "target `%.*s`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat "
+                              "or /level",
+                              (int)selector_length(at), at);
+        pixels->count++;
     }
     return RETEX_OK;
 }
 
+/* The text that stands for a pixel. */
+static int name_shown(char text[SELECTOR_MAX], const ShownSurface *shown, SelectorScope scope,
+                      const Materials *materials, RetexError *err)
+{
+    int *flat = scope == SCOPE_FLAT && faces_count(shown->primitive) ? faces_flat(shown->primitive) : NULL;
+    const int named = shown_selector(text, shown, scope, materials, flat);
+    free(flat);
+    return named ? RETEX_OK : retex_fail(err, RETEX_EUNSUPPORTED, "what a pixel shows has no number");
+}
+
 /* The target with numbers of objects in the place of pixels, from the k-th pixel on. */
-static int name_objects(Scene *scene, const Pixels *pixels, int *k, const char *spec, const char **named,
-                        RetexError *err)
+static int name_objects(Scene *scene, const Pixels *pixels, const Materials *materials, int *k, const char *spec,
+                        const char **named, RetexError *err)
 {
     const char *at = first_selector(spec);
     size_t size = strlen(spec) + 1, used = at ? (size_t)(at - spec) : 0;
+    int code = RETEX_OK;
     for (const char *p = spec; (p = strchr(p, '@')); p++)
-        size += 32;
+        size += 64;
     char *text = arena_alloc(scene->arena, size);
     if (!text)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
     memcpy(text, spec, used);
-    for (; at; at = next_selector(at)) {
+    for (; at && !code; at = next_selector(at)) {
         char object[SELECTOR_MAX];
         const int is_pixel = *at == '@';
-        if (is_pixel)
-            selector_of_object(object, &pixels->shown[(*k)++]);
+        if (is_pixel) {
+            code = name_shown(object, &pixels->shown[*k], pixels->scopes[*k], materials, err);
+            ++*k;
+        }
+        if (code)
+            return code;
         const int length = is_pixel ? (int)strlen(object) : (int)selector_length(at);
         used += (size_t)snprintf(text + used, size - used, "%.*s%s", length, is_pixel ? object : at,
                                  next_selector(at) ? "," : "");
     }
     *named = text;
-    return RETEX_OK;
+    return code;
 }
 
-/* Copies of the specs, in which numbers of objects stand for pixels. */
-static int name_pixels(Scene *scene, const RenderParams *render, const char *const *specs, int nspecs,
-                       const char **named, RetexError *err)
+static int name_all(Scene *scene, const Pixels *pixels, const char *const *specs, int nspecs, const char **named,
+                    RetexError *err)
 {
-    Pixels pixels = {.count = 0};
+    Materials materials;
     int code = RETEX_OK, next = 0;
+    if (!materials_open(&materials, scene))
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the materials of the scene");
     for (int k = 0; k < nspecs && !code; k++)
-        code = find_pixels(&pixels, specs[k], err);
-    if (!code && pixels.count)
-        code = render_pick(scene, render, pixels.count, (const int(*)[2])pixels.at, pixels.shown, err);
-    for (int k = 0; k < nspecs && !code; k++) {
-        named[k] = specs[k];
-        if (pixels.count && first_selector(specs[k]))
-            code = name_objects(scene, &pixels, &next, specs[k], &named[k], err);
-    }
+        if (first_selector(specs[k]))
+            code = name_objects(scene, pixels, &materials, &next, specs[k], &named[k], err);
+    materials_close(&materials);
     return code;
+}
+
+/* Copies of the specs, in which numbers of objects stand for pixels. scope: of pixels that name none. */
+static int name_pixels(Scene *scene, const RenderParams *render, const char *const *specs, int nspecs,
+                       SelectorScope scope, const char **named, RetexError *err)
+{
+    Pixels pixels = {.scope = scope};
+    int code = RETEX_OK;
+    for (int k = 0; k < nspecs && !code; k++)
+        named[k] = specs[k], code = find_pixels(&pixels, specs[k], err);
+    if (code || !pixels.count)
+        return code;
+    code = render_pick(scene, render, pixels.count, (const int(*)[2])pixels.at, pixels.shown, err);
+    return code ? code : name_all(scene, &pixels, specs, nspecs, named, err);
 }
 
 int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
@@ -91,9 +129,11 @@ int job_resolve_targets(Scene *scene, const RenderParams *render, const char *co
     const char *named[RETEX_MAX_TARGETS];
     if (ntargets > RETEX_MAX_TARGETS)
         return scene_resolve_targets(scene, targets, ntargets, err);
-    int code = name_pixels(scene, render, targets, ntargets, named, err);
+    int code = name_pixels(scene, render, targets, ntargets, SCOPE_MATERIAL, named, err);
     if (!code)
         code = scene_resolve_targets(scene, named, ntargets, err);
+    if (!code)
+        code = faces_mark(scene, err);
     if (!code)
         target_units_choose(scene);
     return code;
@@ -107,6 +147,6 @@ int job_resolve_lamps(Scene *scene, const RenderParams *render, const JobNames *
         code = scene_each_lamp(scene, sky_shines(scene) || !rgb_is_black(scene->background), &specs, &count, err);
     if (code || count > LAMPS_MAX)
         return code ? code : scene_resolve_lamps(scene, specs, count, err);
-    code = name_pixels(scene, render, specs, count, named, err);
+    code = name_pixels(scene, render, specs, count, SCOPE_OBJECT, named, err);
     return code ? code : scene_resolve_lamps(scene, named, count, err);
 }

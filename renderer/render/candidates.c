@@ -81,7 +81,7 @@ static void add_leaf(void *context, const SeenLeaf *leaf)
 {
     Collection *c = context;
     const Surface *surface = &leaf->s.surface;
-    const ObjectPart part = first_hit_part(c->window->scene, surface);
+    const ObjectPart part = first_hit_of(c->window->scene, surface).part;
     const PlaceList *place = part.places ? part.places : surface->instance ? surface->instance->places : NULL;
     char text[SELECTOR_MAX];
     if (selector_of_object(text, &part)) {

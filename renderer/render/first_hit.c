@@ -283,18 +283,22 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
 }
 
 /* Of textures that are blended from corner to corner none is seen alone. */
-ObjectPart first_hit_part(const Scene *scene, const Surface *surface)
+ShownSurface first_hit_of(const Scene *scene, const Surface *surface)
 {
     const Shape *shape = &surface->primitive->shape;
-    const FaceTextures *textures = shape->mesh && shape->mesh->corner_textures ? NULL : shape->textures;
+    const int blends = shape->mesh && shape->mesh->corner_textures;
+    const FaceTextures *textures = blends ? NULL : shape->textures;
     int part = 0;
     for (int k = 0; textures && k < textures->count && !part; k++)
         if (textures->list[k] == surface->texture)
             part = k + 1;
-    return object_part(scene, surface->primitive, part);
+    ShownSurface shown = {object_part(scene, surface->primitive, part), surface->primitive, surface->face};
+    if (blends)
+        shown.part.texture = NULL;
+    return shown;
 }
 
-int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *part)
+int first_hit_shown(const FirstHitWindow *window, int x, int y, ShownSurface *shown)
 {
     Ray ray;
     Hit hit;
@@ -302,7 +306,7 @@ int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *par
     if (!first_hit_ray(window, x, y, &ray, &hit))
         return 0;
     surface_at(&surface, window->scene, &ray, &hit);
-    *part = first_hit_part(window->scene, &surface);
+    *shown = first_hit_of(window->scene, &surface);
     return 1;
 }
 

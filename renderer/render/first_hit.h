@@ -6,6 +6,7 @@
 #include "accel/accel.h"
 #include "path/shading.h"
 #include "render/render.h"
+#include "render/shown.h"
 
 typedef struct FirstHitWindow {
     const Scene *scene;
@@ -30,10 +31,10 @@ int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *e
 void target_periodic(const Scene *scene, int target, int periodic[2]);
 /* The ray through a pixel's centre, and what it meets; 0: nothing. */
 int first_hit_ray(const FirstHitWindow *window, int x, int y, Ray *ray, Hit *hit);
-/* The object that a pixel of the picture shows, and which of its textures if not all are blended on it; 0: none. */
-int first_hit_object(const FirstHitWindow *window, int x, int y, ObjectPart *part);
-/* Which part of its object a surface is. */
-ObjectPart first_hit_part(const Scene *scene, const Surface *surface);
+/* What a pixel of the picture shows; 0: nothing. */
+int first_hit_shown(const FirstHitWindow *window, int x, int y, ShownSurface *shown);
+/* Which object a surface is of, and which of its textures if not all are blended on it. */
+ShownSurface first_hit_of(const Scene *scene, const Surface *surface);
 /* shares[i]: the share of pixels whose first hit has identifier i. */
 int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
 

@@ -191,11 +191,11 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
 static int nearest_object(const FirstHitWindow *w, const int from[2], int nearest[2])
 {
     double best = INFINITY;
-    ObjectPart part;
+    ShownSurface shown;
     for (int y = 0; y < w->h; y++)
         for (int x = 0; x < w->w; x++) {
             const double distance = hypot(x - from[0], y - from[1]);
-            if (distance >= best || !first_hit_object(w, x, y, &part))
+            if (distance >= best || !first_hit_shown(w, x, y, &shown))
                 continue;
             best = distance;
             nearest[0] = x, nearest[1] = y;
@@ -203,13 +203,13 @@ static int nearest_object(const FirstHitWindow *w, const int from[2], int neares
     return best < INFINITY;
 }
 
-static int pick(const FirstHitWindow *w, const int pixel[2], ObjectPart *part, RetexError *err)
+static int pick(const FirstHitWindow *w, const int pixel[2], ShownSurface *shown, RetexError *err)
 {
     int nearest[2];
     if (pixel[0] >= w->w || pixel[1] >= w->h)
         return retex_fail(err, RETEX_EINVAL, "pixel @%d:%d does not lie inside the picture of %dx%d", pixel[0],
                           pixel[1], w->w, w->h);
-    if (first_hit_object(w, pixel[0], pixel[1], part))
+    if (first_hit_shown(w, pixel[0], pixel[1], shown))
         return RETEX_OK;
     if (!nearest_object(w, pixel, nearest))
         return retex_fail(err, RETEX_ENOTFOUND, "pixel @%d:%d shows no object, nor does any other", pixel[0], pixel[1]);
@@ -217,7 +217,7 @@ static int pick(const FirstHitWindow *w, const int pixel[2], ObjectPart *part, R
                       pixel[1], nearest[0], nearest[1]);
 }
 
-int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ObjectPart *parts,
+int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ShownSurface *shown,
                 RetexError *err)
 {
     RenderParams whole = *params;
@@ -226,7 +226,7 @@ int render_pick(const Scene *scene, const RenderParams *params, int count, const
     int code = render_open(&r, scene, &whole, err);
     const FirstHitWindow window = render_window(&r);
     for (int k = 0; k < count && !code; k++)
-        code = pick(&window, pixels[k], &parts[k], err);
+        code = pick(&window, pixels[k], &shown[k], err);
     render_close(&r);
     return code;
 }

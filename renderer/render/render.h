@@ -7,7 +7,7 @@
 #include <retex/budget.h>
 #include <retex/host/aov.h>
 #include "render/control_variate.h"
-#include "scene/selector.h"
+#include "render/shown.h"
 #include "scene/variant.h"
 
 /* Begin with RENDER_PARAMS_INIT. */
@@ -92,8 +92,8 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
 
-/* The object, or part of an object, that each of these pixels shows at its centre. x and y as in the picture. */
-int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ObjectPart *parts,
+/* What each of these pixels shows at its centre. x and y as in the picture. */
+int render_pick(const Scene *scene, const RenderParams *params, int count, const int (*pixels)[2], ShownSurface *shown,
                 RetexError *err);
 
 /* Scene units that a unit of u and of v spans on each target; see uv_scale.h. */

@@ -130,8 +130,13 @@ static int read_selector(LampSelector *selector, const Scene *scene, const char 
         return RETEX_OK;
     if (strncmp(text, SOURCE, strlen(SOURCE)) == 0)
         return read_source(selector, scene, text, err);
-    if (!is_word(text))
-        return selector_parse(&selector->selector, scene, text, err);
+    if (!is_word(text)) {
+        int code = selector_parse(&selector->selector, scene, text, err);
+        if (!code && selector_selects_faces(&selector->selector))
+            code = retex_fail(err, RETEX_EUNSUPPORTED,
+                              "lamp `%s`: a lamp is a whole object or material, not some of its faces", text);
+        return code;
+    }
     if (!wanted.nearest)
         return retex_fail(err, RETEX_ENOTFOUND,
                           "no lamp `%s`: nothing that shines has a name in the scene, but there "

@@ -12,7 +12,12 @@ const Texture *primitive_texture(const Primitive *p, int k, int *target)
         *target = p->interior_target;
         return p->interior_texture;
     }
-    if (!p->shape.textures || part >= p->shape.textures->count)
+    const int parts = p->shape.textures ? p->shape.textures->count : 0;
+    if (part >= parts && p->faces && part - parts < p->faces->count) {
+        *target = p->faces->textures[part - parts].target;
+        return p->faces->textures[part - parts].texture;
+    }
+    if (part >= parts)
         return NULL;
     *target = p->face_targets ? p->face_targets[part] : p->target;
     return p->shape.textures->list[part];

@@ -430,6 +430,16 @@ typedef struct Instance {
     int line;
 } Instance;
 
+/* Faces of a primitive that are targets by themselves, whatever the rest of it is. */
+typedef struct FaceTargets {
+    const int8_t *of;        /* of each face, as Hit counts them: the target, or -1 */
+    int count;               /* the textures of these faces, each with each of their targets */
+    struct FaceTexture {
+        const Texture *texture;
+        int target;
+    } *textures;
+} FaceTargets;
+
 typedef struct Primitive {
     Shape shape;
     Transform transform;     /* canonical shape to world */
@@ -450,6 +460,7 @@ typedef struct Primitive {
     int target;              /* index into scene->targets, or -1; parts may have others, see face_targets */
     int interior_target;     /* the same for interior_texture */
     const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
+    const FaceTargets *faces; /* or NULL: no face is a target by itself */
     int lamp;                /* of the scene's lamps, that its emission is of */
     const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit, else NULL */
 } Primitive;
@@ -593,10 +604,19 @@ typedef struct TargetFinish {
  * finishes. Of 10, 15 and 20 this was nearest to pictures rendered with maps of 10 and 30 degrees. */
 #define NORMAL_TILT 15.0
 
+/* What selects faces instead of objects; shape/faces.h tells which they are. */
+typedef struct FaceSelection {
+    int number, face; /* of the object, and of the face that was seen: both from 1 */
+    int level;        /* 1: all faces of the scene on its level; 0: those of the object that are flat with it */
+    const char *text;
+} FaceSelection;
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
     int is_pointed_at;       /* 1: one of them selects objects or colours that need no name */
+    int nselections;         /* of faces */
+    FaceSelection *selections;
     double uv_unit[2];       /* path/target_units.h; 0, 0: UV are those of shapes and patterns */
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
     int nfinishes;           /* 0: it keeps its own */
@@ -684,8 +704,8 @@ typedef struct Scene {
     KeptLight kept[KEPT_MAX];      /* by lamp; of each what met no target with several finishes, then combinations */
 } Scene;
 
-/* The k-th texture of a primitive, from 0: its own, the interior's, those of its parts; and the target that it is as a
- * whole, or -1. NULL: there are no more. */
+/* The k-th texture of a primitive, from 0: its own, the interior's, those of its parts, and once more those of faces
+ * that are targets by themselves; and the target that it is as a whole, or -1. NULL: there are no more. */
 const Texture *primitive_texture(const Primitive *primitive, int k, int *target);
 /* What people call that identifier: its name of retex_names, where a target can be named so, or itself. */
 const char *scene_name_of(const Scene *scene, const char *ident);

@@ -1,6 +1,7 @@
 /* The forms of selectors: a row each. See selector.h. */
 #include <ctype.h>
 #include <fnmatch.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,11 +31,6 @@ size_t selector_length(const char *list)
     for (; list[n] && (list[n] != ',' || depth > 0); n++)
         depth += (list[n] == '(') - (list[n] == ')');
     return n;
-}
-
-ObjectPart object_part(const Scene *scene, const Primitive *p, int part)
-{
-    return (ObjectPart){p->idents, p->places, (int)(p - scene->primitives) + 1, part};
 }
 
 static const char *base_name(const char *path)
@@ -178,50 +174,125 @@ static int object_named(const Selector *selector, const ObjectPart *object)
     return named(object->idents, selector->name);
 }
 
-/* ---- #N, #N.K ---- */
+/* ---- #N, #N.K, and after it /material, /flat:F or /level:F ---- */
+
+static const char *const scope_words[] = {"object", "material", "flat", "level"};
+
+int selector_scope(SelectorScope *scope, const char *word)
+{
+    for (int k = 0; k < (int)(sizeof scope_words / sizeof *scope_words); k++)
+        if (strcmp(word, scope_words[k]) == 0) {
+            *scope = (SelectorScope)k;
+            return 1;
+        }
+    return 0;
+}
 
 static int begins_number(const char *text)
 {
     return *text == '#';
 }
 
-static int read_number(Selector *selector, const Scene *scene, RetexError *err)
+/* A whole number from 1; returns what follows, or NULL. */
+static const char *read_count(const char *at, int *number)
 {
-    char *end = "";
-    const char *at = selector->text + 1;
-    const long number = isdigit((unsigned char)*at) ? strtol(at, &end, 10) : 0;
-    long part = 0;
-    if (*end == '.' && isdigit((unsigned char)end[1]))
-        part = strtol(end + 1, &end, 10);
-    if (!isdigit((unsigned char)*at) || *end)
-        return malformed(selector, "#N, an object's number, or #N.K, one of its textures", err);
-    if (number < 1 || number > scene->nprimitives)
+    char *end;
+    const long value = isdigit((unsigned char)*at) ? strtol(at, &end, 10) : -1;
+    *number = value > 0 && value <= INT_MAX ? (int)value : 0;
+    return value < 0 ? NULL : end;
+}
+
+/* What follows the number: 0 where it is no scope. */
+static int read_scope(Selector *selector, const char *at)
+{
+    char word[16];
+    const size_t length = strcspn(at, ":");
+    if (length >= sizeof word)
+        return 0;
+    memcpy(word, at, length);
+    word[length] = 0;
+    if (!selector_scope(&selector->scope, word))
+        return 0;
+    if (!selector_selects_faces(selector))
+        return !at[length];
+    const char *end = at[length] ? read_count(at + length + 1, &selector->face) : NULL;
+    return end && !*end && selector->face > 0 && !selector->part;
+}
+
+static int read_material(Selector *selector, const Scene *scene, const Texture *texture, RetexError *err)
+{
+    Materials materials;
+    if (!materials_open(&materials, scene))
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the materials of the scene");
+    selector->texture = texture;
+    selector->name = texture ? materials_name(&materials, texture) : NULL;
+    materials_close(&materials);
+    return RETEX_OK;
+}
+
+static int check_number(Selector *selector, const Scene *scene, RetexError *err)
+{
+    if (selector->number < 1 || selector->number > scene->nprimitives)
         return retex_fail(err, RETEX_ENOTFOUND,
                           "no object `%s`: the scene has %d, from #1 on; --list-targets -v lists "
                           "those that are seen",
                           selector->text, scene->nprimitives);
-    const FaceTextures *textures = scene->primitives[number - 1].shape.textures;
-    const int parts = textures ? textures->count : 0;
-    if (part > parts)
-        return retex_fail(err, RETEX_ENOTFOUND, "no texture `%s`: the parts of object #%ld have %d of their own",
-                          selector->text, number, parts);
-    selector->number = (int)number, selector->part = (int)part;
+    const Primitive *p = &scene->primitives[selector->number - 1];
+    const int parts = p->shape.textures ? p->shape.textures->count : 0;
+    if (selector->part > parts)
+        return retex_fail(err, RETEX_ENOTFOUND, "no texture `%s`: the parts of object #%d have %d of their own",
+                          selector->text, selector->number, parts);
+    if (selector->scope == SCOPE_MATERIAL)
+        return read_material(selector, scene, object_part(scene, p, selector->part).texture, err);
     return RETEX_OK;
+}
+
+static int read_number(Selector *selector, const Scene *scene, RetexError *err)
+{
+    const char *end = read_count(selector->text + 1, &selector->number);
+    if (end && *end == '.' && isdigit((unsigned char)end[1]))
+        end = read_count(end + 1, &selector->part);
+    if (end && *end == '/')
+        end = read_scope(selector, end + 1) ? "" : NULL;
+    if (!end || *end)
+        return malformed(selector,
+                         "#N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, "
+                         "#N/level:FACE",
+                         err);
+    return check_number(selector, scene, err);
+}
+
+static int texture_of_material(const Selector *selector, const Texture *texture)
+{
+    return selector->name && named(texture->idents, selector->name);
 }
 
 static int object_numbered(const Selector *selector, const ObjectPart *object)
 {
+    if (selector_selects_faces(selector))
+        return 0;
+    if (selector->texture && selector->texture == object->texture)
+        return 1;
     return selector->number == object->number && (!selector->part || selector->part == object->part);
 }
 
-int selector_of_object(char text[SELECTOR_MAX], const ObjectPart *object)
+int selector_of_scope(char text[SELECTOR_MAX], const ObjectPart *object, SelectorScope scope, int face)
 {
     if (!object->number)
         return 0;
     int n = snprintf(text, SELECTOR_MAX, "#%d", object->number);
-    if (object->part)
-        snprintf(text + n, SELECTOR_MAX - (size_t)n, ".%d", object->part);
+    if (object->part && scope <= SCOPE_MATERIAL)
+        n += snprintf(text + n, SELECTOR_MAX - (size_t)n, ".%d", object->part);
+    if (scope != SCOPE_OBJECT)
+        n += snprintf(text + n, SELECTOR_MAX - (size_t)n, "/%s", scope_words[scope]);
+    if (scope > SCOPE_MATERIAL)
+        snprintf(text + n, SELECTOR_MAX - (size_t)n, ":%d", face);
     return 1;
+}
+
+int selector_of_object(char text[SELECTOR_MAX], const ObjectPart *object)
+{
+    return selector_of_scope(text, object, SCOPE_OBJECT, 0);
 }
 
 /* ---- ~COLOUR ---- */
@@ -387,7 +458,7 @@ static double near_image(const Selector *selector, const Texture *texture, const
 /* ---- the table ---- */
 
 static const SelectorForm forms[] = {
-    {"object", 1, begins_number, read_number, NULL, object_numbered, NULL},
+    {"object", 1, begins_number, read_number, texture_of_material, object_numbered, NULL},
     {"surface of the colour", 1, begins_color, read_color, texture_colored, NULL, near_color},
     {"object that begins in", 1, begins_place, read_place, NULL, object_placed, near_place},
     {"image", 0, begins_image, read_image, texture_shows_image, NULL, near_image},

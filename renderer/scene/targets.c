@@ -36,6 +36,9 @@ static int add_selector(const Scene *scene, Target *target, Selector *selector, 
     if (code)
         return code;
     target->is_pointed_at |= selector_points(selector);
+    if (selector_selects_faces(selector))
+        target->selections[target->nselections++] = (FaceSelection){
+            selector->number, selector->face, selector->scope == SCOPE_LEVEL, selector->text};
     size_t used = strlen(target->idents);
     if (used + strlen(selector->text) + 2 > sizeof target->idents)
         return retex_fail(err, RETEX_ELIMIT, "target `%s`: its identifiers are more than %zu bytes", target->name,
@@ -53,7 +56,8 @@ static int read_spec(Scene *scene, Selectors *selectors, int t, const char *spec
     for (const char *at = list; *(at += selector_length(at)); at++)
         count++;
     Selector *all = arena_alloc(scene->arena, (size_t)count * sizeof *all);
-    if (!all)
+    target->selections = arena_alloc(scene->arena, (size_t)count * sizeof *target->selections);
+    if (!all || !target->selections)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
     selectors->lists[t] = all;
     selectors->counts[t] = count;
@@ -90,6 +94,7 @@ static int mark(Scene *scene, const Selectors *selectors, Primitive *p, RetexErr
     p->target = target_of(selectors, p->inherits ? NULL : p->texture, &object);
     p->interior_target = p->interior_texture ? target_of(selectors, p->interior_texture, &object) : -1;
     p->face_targets = NULL;
+    p->faces = NULL;
     p->unit_targets = NULL;
     mark_leaves(selectors, p->texture);
     if (p->interior_texture)
@@ -100,7 +105,7 @@ static int mark(Scene *scene, const Selectors *selectors, Primitive *p, RetexErr
     if (!targets)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the targets of a mesh");
     for (int i = 0; i < p->shape.textures->count; i++) {
-        object.part = i + 1;
+        object = object_part(scene, p, i + 1);
         targets[i] = (int8_t)target_of(selectors, p->shape.textures->list[i], &object);
         mark_leaves(selectors, p->shape.textures->list[i]);
     }

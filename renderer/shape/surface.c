@@ -2,6 +2,12 @@
  * its UVs and whose texture and target it is. */
 #include "shape/shape.h"
 
+/* Of two, the one that was asked for first. */
+static int first_target(int a, int b)
+{
+    return a < 0 || (b >= 0 && b < a) ? b : a;
+}
+
 /* The texture and target there. All else of the surface but the side it is seen from is set. */
 static void set_material(Surface *surface)
 {
@@ -11,6 +17,8 @@ static void set_material(Surface *surface)
 
     surface->texture = own >= 0 ? shape->textures->list[own] : primitive->texture;
     surface->target = own >= 0 && primitive->face_targets ? primitive->face_targets[own] : primitive->target;
+    if (primitive->faces)
+        surface->target = first_target(surface->target, primitive->faces->of[surface->face]);
     surface->backside = 0;
     surface->instance = NULL;
 }
@@ -39,12 +47,6 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     set_material(surface);
 }
 
-/* Of two, the one that was asked for first. */
-static int first_target(int a, int b)
-{
-    return a < 0 || (b >= 0 && b < a) ? b : a;
-}
-
 void surface_turn(Surface *surface, int backside)
 {
     const Primitive *primitive = surface->primitive;
@@ -56,6 +58,8 @@ void surface_turn(Surface *surface, int backside)
         return;
     surface->texture = primitive->interior_texture;
     surface->target = primitive->interior_target;
+    if (primitive->faces)
+        surface->target = first_target(surface->target, primitive->faces->of[surface->face]);
     if (instance)
         surface->target = first_target(surface->target, instance->target);
 }

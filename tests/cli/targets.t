@@ -2,17 +2,25 @@
 $ printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } camera { orthographic location <0,0,-5> look_at 0 right 4*x up 4*y } light_source { <1,2,-9> rgb 1 }' '#declare Pine = texture { pigment { rgb <.8,.4,.2> } }' '#macro Slab(A, B) box { A, B' 'pigment { rgb <.1,.2,.7> } } #end' '#declare Post = box { <-2,-2,0>, <-1,2,1> }' 'object { Post texture { Pine } }' 'Slab(<-1,-2,0>, <0,2,1>)' 'union {' 'box { <0,-2,0>, <1,2,1> }' 'mesh2 { vertex_vectors { 4, <1,-2,0>, <2,-2,0>, <2,2,0>, <1,2,0> } texture_list { 2, texture { pigment { rgb .3 } }, texture { Pine } }' 'face_indices { 2, <0,1,2>,0, <0,2,3>,1 } }' 'pigment { image_map { png "grey.png" } } }' >room.pov
 $ printf 'P6 1 1 255 \200\200\200' >grey.ppm; oiiotool grey.ppm -o grey.png
 $ printf 'for t; do retex-render -q --size 8x8 --spp 2 -t "A=$t" room.pov -o a.exr && retex-info a.exr | awk "/^ +idents/ { i = \\$2 } /^ +share/ { print i, \\$2 }"; done\n' >shares
-$ sh shares Pine '#1' '#2' '#4' '#4.1' '#1,#2' '@0:0' '@7:7' '@7:0' '@3:4,@4:4' room.pov:5 room.pov:6 room.pov:7 room.pov:8 room.pov:10 '~rgb(.1,.2,.7)' '~rgb( .8, .4, .2 ),#2' '*grey.png' 'gr?y.png' grey.png
+$ sh shares Pine '#1' '#2' '#4' '#4.1' '#1,#2' '@0:0' '@0:0/object' '@7:7' '@7:0' '@7:0/object' '@7:0/material' '@3:4,@4:4' '#4.2/material' '@0:0/flat' '@4:0/level' '@7:7/flat' '#4/level:1' room.pov:5 room.pov:6 room.pov:7 room.pov:8 room.pov:10 '~rgb(.1,.2,.7)' '~rgb( .8, .4, .2 ),#2' '*grey.png' 'gr?y.png' grey.png
 > Pine 37.50%
 > #1 25.00%
 > #2 25.00%
 > #4 25.00%
 > #4.1 12.50%
 > #1,#2 50.00%
+> #1/material 37.50%
 > #1 25.00%
 > #4.1 12.50%
+> #1/material 37.50%
 > #4.2 12.50%
+> #1/material 37.50%
 > #2,#3 50.00%
+> #4.2/material 37.50%
+> #1/flat:5 25.00%
+> #3/level:5 100.00%
+> #4/flat:1 25.00%
+> #4/level:1 100.00%
 > room.pov:5 25.00%
 > room.pov:6 25.00%
 > room.pov:7 25.00%
@@ -24,13 +32,20 @@ $ sh shares Pine '#1' '#2' '#4' '#4.1' '#1,#2' '@0:0' '@7:7' '@7:0' '@3:4,@4:4' 
 > gr?y.png 25.00%
 > grey.png 25.00%
 # A set by number is the same as one by name, but for the rounding of the file.
-$ retex-render -q --size 16x16 --spp 4 -t A=Pine room.pov -o name.exr; retex-render -q --size 16x16 --spp 4 -t 'A=@0:0,#4.2' --full-precision room.pov -o number.exr
+$ retex-render -q --size 16x16 --spp 4 -t A=Pine room.pov -o name.exr; retex-render -q --size 16x16 --spp 4 -t 'A=@0:0/object,#4.2' --full-precision room.pov -o number.exr
 $ for s in name number; do retex-combine -q $s.exr --texture 'A=rgb(.1,.9,.5)' -o $s-new.exr; done; retex-diff -q --fail-psnr 75 name-new.exr number-new.exr
 # The original shows without a texture; a new one is what rendering again with it gives.
 $ retex-combine -q number.exr -o same.exr; retex-render -q --plain --size 16x16 --spp 4 room.pov -o plain.exr; retex-diff --fail-psnr 75 same.exr plain.exr >/dev/null
-$ retex-combine -q number.exr --texture 'A=rgb(.1,.9,.5)' -o new.exr; retex-render -q --size 16x16 --spp 4 -t 'A=@0:0,#4.2' --replace 'A=rgb(.1,.9,.5)' room.pov -o again.exr; retex-diff --fail-psnr 75 new.exr again.exr >/dev/null
+$ retex-combine -q number.exr --texture 'A=rgb(.1,.9,.5)' -o new.exr; retex-render -q --size 16x16 --spp 4 -t 'A=@0:0/object,#4.2' --replace 'A=rgb(.1,.9,.5)' room.pov -o again.exr; retex-diff --fail-psnr 75 new.exr again.exr >/dev/null
 # Nothing matches: one line each, with what is near.
-$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '~rgb(.8,.3,.2)' '~rgb(1,2)' '~red' '~rde' room.pov:11 hall.pov:7 '*oak.png' Pin '#1,' ',#1' '#1,~rgb(1,1,1)'; do retex-render -q --size 8x8 -t "A=$t" room.pov -o b.exr; echo $?; done; ls b.exr
+$ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '@1:2/wall' '@1:2/' '#1/flat' '#1/flat:7' '#1/level:0' '#1.1/flat:1' '#1/material:1' '~rgb(.8,.3,.2)' '~rgb(1,2)' '~red' '~rde' room.pov:11 hall.pov:7 '*oak.png' Pin '#1,' ',#1' '#1,~rgb(1,1,1)'; do retex-render -q --size 8x8 -t "A=$t" room.pov -o b.exr; echo $?; done; ls b.exr
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
 > 2
 > 2
 > 2
@@ -53,13 +68,20 @@ $ for t in '#5' '#0' '#x' '#1.' '#1.1' '#4.3' '@8:0' '@1' '@1:2:3' '~rgb(.8,.3,.
 > 2
 ! retex-render: error: no object `#5`: the scene has 4, from #1 on; --list-targets -v lists those that are seen
 ! retex-render: error: no object `#0`: the scene has 4, from #1 on; --list-targets -v lists those that are seen
-! retex-render: error: target `#x`: expected #N, an object's number, or #N.K, one of its textures
-! retex-render: error: target `#1.`: expected #N, an object's number, or #N.K, one of its textures
+! retex-render: error: target `#x`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
+! retex-render: error: target `#1.`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
 ! retex-render: error: no texture `#1.1`: the parts of object #1 have 0 of their own
 ! retex-render: error: no texture `#4.3`: the parts of object #4 have 2 of their own
 ! retex-render: error: pixel @8:0 does not lie inside the picture of 8x8
-! retex-render: error: target `@1`: expected @X:Y, a pixel of the picture
-! retex-render: error: target `@1:2:3`: expected @X:Y, a pixel of the picture
+! retex-render: error: target `@1`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `@1:2:3`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `@1:2/wall`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `@1:2/`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+! retex-render: error: target `#1/flat`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
+! retex-render: error: no face `#1/flat:7`: object #1 has 6
+! retex-render: error: target `#1/level:0`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
+! retex-render: error: target `#1.1/flat:1`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
+! retex-render: error: target `#1/material:1`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
 ! retex-render: error: no surface of the colour `~rgb(.8,.3,.2)` in the scene; nearest: ~rgb(0.8,0.4,0.2), ~rgb(0.3,0.3,0.3), ~rgb(0.1,0.2,0.7)
 ! retex-render: error: target `~rgb(1,2)`: expected a colour, as ~rgb(.6,.4,.2), which is scene-linear, ~#cbaa7c or ~tan
 ! retex-render: error: no surface of the colour `~red` in the scene; nearest: ~rgb(0.8,0.4,0.2), ~rgb(0.3,0.3,0.3), ~rgb(0.1,0.2,0.7)
