@@ -178,8 +178,19 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
                  info.orders, 100 * info.folded);
 }
 
+/* Where UV are not those of the model. */
+static void tell_projection(const Arguments *a, const Target *target)
+{
+    static const char *const names[] = {[UV_PLANAR] = "planar", "box", "cylinder"};
+    if (target->projection.kind > UV_MODEL && !target->uv)
+        cli_info(a->cli, "target `%s` %s: a %s projection gives it UV; `:uv=` after it chooses another one",
+                 target->name, target->nselections ? "is faces" : "has no UV", names[target->projection.kind]);
+}
+
 static void check_targets(const Arguments *a, const Scene *scene)
 {
+    for (int t = 0; t < scene->ntargets; t++)
+        tell_projection(a, &scene->targets[t]);
     for (int t = 0; t < scene->ntargets; t++)
         if (job_target_is_empty(scene, t))
             cli_warn(a->cli, "target `%s` has no surface%s", scene->targets[t].name,

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "job/job.h"
 #include "light/environment.h"
+#include "path/projection.h"
 #include "path/target_units.h"
 #include "shape/faces.h"
 
@@ -123,17 +124,46 @@ static int name_pixels(Scene *scene, const RenderParams *render, const char *con
     return code ? code : name_all(scene, &pixels, specs, nspecs, named, err);
 }
 
+/* Text of two parts, in the scene's arena. */
+static int join(Scene *scene, const char **text, const char *a, size_t length, const char *b, RetexError *err)
+{
+    char *made = arena_alloc(scene->arena, length + strlen(b) + 1);
+    if (!made)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
+    memcpy(made, a, length);
+    memcpy(made + length, b, strlen(b) + 1);
+    *text = made;
+    return RETEX_OK;
+}
+
+/* Options stand at the end: they are taken off while pixels are named. */
+static int name_targets(Scene *scene, const RenderParams *render, const char *const *specs, int nspecs,
+                        const char **named, RetexError *err)
+{
+    const char *bare[RETEX_MAX_TARGETS] = {0};
+    int code = RETEX_OK;
+    for (int k = 0; k < nspecs && !code; k++)
+        code = join(scene, &bare[k], specs[k], (size_t)(target_spec_options(specs[k]) - specs[k]), "", err);
+    if (!code)
+        code = name_pixels(scene, render, bare, nspecs, SCOPE_MATERIAL, named, err);
+    for (int k = 0; k < nspecs && !code; k++)
+        code = join(scene, &named[k], named[k], strlen(named[k]), target_spec_options(specs[k]), err);
+    return code;
+}
+
 int job_resolve_targets(Scene *scene, const RenderParams *render, const char *const *targets, int ntargets,
                         RetexError *err)
 {
     const char *named[RETEX_MAX_TARGETS];
     if (ntargets > RETEX_MAX_TARGETS)
         return scene_resolve_targets(scene, targets, ntargets, err);
-    int code = name_pixels(scene, render, targets, ntargets, SCOPE_MATERIAL, named, err);
+    int code = name_targets(scene, render, targets, ntargets, named, err);
     if (!code)
         code = scene_resolve_targets(scene, named, ntargets, err);
     if (!code)
         code = faces_mark(scene, err);
+    if (!code)
+        code = projection_choose(scene, render->unit, err);
     if (!code)
         target_units_choose(scene);
     return code;

@@ -1,5 +1,6 @@
 /* See surface_color.h. */
 #include "path/surface_color.h"
+#include "path/projection.h"
 #include "path/target_units.h"
 #include "shade/pigment.h"
 
@@ -8,6 +9,12 @@ PatternPoint surface_pattern_point(const Surface *surface)
     const Vec3 normal = surface->shading_normal;
     return (PatternPoint){surface_texture_point(surface), surface->backside ? vec_neg(normal) : normal,
                           surface->direction};
+}
+
+static inline int is_projected(const Surface *surface)
+{
+    return surface->target >= 0 && surface->primitive->unit_targets &&
+           projection_is_used(&surface->primitive->unit_targets[surface->target]);
 }
 
 static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
@@ -80,7 +87,7 @@ static int shape_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, V
 int surface_target_frame(const Surface *surface, Vec3 normal, Vec3 *of_u, Vec3 *of_v)
 {
     const Pigment *pigment = surface->texture->pigment;
-    const Mesh *mesh = surface->primitive->shape.mesh;
+    const Mesh *mesh = is_projected(surface) ? NULL : surface->primitive->shape.mesh;
     Vec3 along_u, along_v;
     if (!(mesh && mesh->nuvs && (pigment->uv_mapping || pigment->kind != PIGMENT_IMAGE)
               ? mesh_target_frame
@@ -108,9 +115,13 @@ Rgbft surface_color(const Surface *surface, const ImagePlace *place, Vec2 *targe
 {
     const Pigment *pigment = surface->texture->pigment;
     SurfaceUv of = {.has_natural = 0};
-    if (pigment->kind == PIGMENT_IMAGE)
-        return pigment_eval_image(pigment, place && place->is_known ? place->point : image_point(surface, pigment),
-                                  target);
+    if (pigment->kind == PIGMENT_IMAGE) {
+        const Rgbft c = pigment_eval_image(
+            pigment, place && place->is_known ? place->point : image_point(surface, pigment), target);
+        if (is_projected(surface))
+            *target = surface_target_uv(surface);
+        return c;
+    }
     if (pigment->uv_mapping || surface->target >= 0)
         of = surface_uv(surface);
     if (surface->target >= 0)

@@ -1,5 +1,6 @@
 /* See target_units.h. */
 #include <math.h>
+#include "path/projection.h"
 #include "path/target_units.h"
 #include "shade/pigment.h"
 #include "shape/shape.h"
@@ -94,9 +95,9 @@ void target_units_choose(Scene *scene)
 {
     int any = 0;
     for (int t = 0; t < scene->ntargets; t++) {
-        if (scene->targets[t].is_pointed_at)
+        if (scene->targets[t].is_pointed_at && !projection_is_used(&scene->targets[t]))
             choose(scene, t);
-        any |= scene->targets[t].uv_unit[0] > 0;
+        any |= scene->targets[t].uv_unit[0] > 0 || projection_is_used(&scene->targets[t]);
     }
     for (int k = 0; k < scene->nprimitives; k++)
         scene->primitives[k].unit_targets = any ? scene->targets : NULL;
@@ -132,6 +133,10 @@ int target_units_uv(const Surface *surface, const SurfaceUv *of, Vec2 *uv)
     const unsigned properties = surface->primitive->shape.ops->properties;
     ShapeExtent extent;
     Vec2 natural = of->natural;
+    if (target && projection_is_used(target)) {
+        *uv = projection_uv(&target->projection, surface);
+        return 1;
+    }
     if (!target || !(target->uv_unit[0] > 0) || has_own_uv(surface->primitive, surface->texture->pigment))
         return 0;
     if (!of->has_natural || !extent_of(surface->primitive, surface->instance, surface->face, &extent)) {

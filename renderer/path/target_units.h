@@ -10,7 +10,8 @@
  *   from the scene's origin, so that rows of bricks go on from box to box. What closes goes there and back, mirrored,
  *   so that it has no seam. All other shapes, planes among them, take the box projection, of the scene's axes.
  *
- * A surface with uv_mapping or an image_map, or with a mesh's own UV, keeps them. */
+ * A surface with uv_mapping or an image_map, or with a mesh's own UV, keeps them. Where a target has a projection
+ * (path/projection.h), that goes before all of this. */
 #ifndef RENDERER_PATH_TARGET_UNITS_H
 #define RENDERER_PATH_TARGET_UNITS_H
 

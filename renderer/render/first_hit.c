@@ -6,6 +6,7 @@
 #include "camera/camera.h"
 #include "render/first_hit.h"
 #include "path/path.h"
+#include "path/projection.h"
 #include "shape/shape.h"
 
 /* The value of an AOV at a first hit, of one leaf of its texture: up to three channels. */
@@ -259,7 +260,7 @@ static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
 
 void target_periodic(const Scene *scene, int t, int periodic[2])
 {
-    int any = 0, u = !scene->targets[t].uv_folds, v = u;
+    int any = 0, u = !scene->targets[t].uv_folds && !projection_is_used(&scene->targets[t]), v = u;
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         const Texture *texture;

@@ -6,6 +6,7 @@
 #include <retex/target_name.h>
 #include <retex/host/texture_lookup.h>
 #include <retex/parallel.h>
+#include "path/projection.h"
 #include "render/originals.h"
 #include "shade/pigment.h"
 #include "shape/shapes.h"
@@ -81,9 +82,12 @@ static int baked_axis(const Primitive *p, const Pigment *pigment)
     return -1;
 }
 
-/* A pattern in space is no function of UV but on such a plane: of other surfaces, footprints keep its means. */
-static int is_function_of_uv(const Primitive *p, const Pigment *pigment)
+/* A pattern in space is no function of UV but on such a plane: of other surfaces, footprints keep its means. Nothing
+ * but a constant is one of UV that are projected. */
+static int is_function_of_uv(const Target *target, const Primitive *p, const Pigment *pigment)
 {
+    if (projection_is_used(target))
+        return pigment_is_constant(pigment);
     return pigment->kind == PIGMENT_COLOR || pigment->kind == PIGMENT_IMAGE || pigment->uv_mapping ||
            pigment_is_constant(pigment) || baked_axis(p, pigment) >= 0;
 }
@@ -111,7 +115,7 @@ static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, 
 {
     const Primitive *p = NULL;
     const Pigment *pigment = target_pigment(scene, t, &p);
-    if (!pigment || !is_function_of_uv(p, pigment))
+    if (!pigment || !is_function_of_uv(&scene->targets[t], p, pigment))
         return RETEX_OK;
     const int axis = baked_axis(p, pigment);
     RetexTarget *target = retex_set_mutable_target(set, t);

@@ -223,6 +223,7 @@ int render_pick(const Scene *scene, const RenderParams *params, int count, const
     RenderParams whole = *params;
     Render r;
     memset(whole.crop, 0, sizeof whole.crop);
+    render_drop_files(&whole);
     int code = render_open(&r, scene, &whole, err);
     const FirstHitWindow window = render_window(&r);
     for (int k = 0; k < count && !code; k++)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include "camera/camera.h"
 #include "path/path.h"
+#include "path/projection.h"
 #include "render/uv_scale.h"
 
 enum {
@@ -155,6 +156,8 @@ int uv_scale_measure(const Scene *scene, const Accel *accel, double scale[][2], 
     for (int t = 0; t < scene->ntargets; t++) {
         scale[t][0] = median(all[t].u, all[t].count);
         scale[t][1] = median(all[t].v, all[t].count);
+        if (projection_is_used(&scene->targets[t]))
+            scale[t][0] = scale[t][1] = 1 / scene->targets[t].projection.unit;
     }
     free(all);
     return RETEX_OK;

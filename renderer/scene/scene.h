@@ -462,7 +462,7 @@ typedef struct Primitive {
     const int8_t *face_targets; /* of each of the shape's textures, or NULL: their targets instead */
     const FaceTargets *faces; /* or NULL: no face is a target by itself */
     int lamp;                /* of the scene's lamps, that its emission is of */
-    const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit, else NULL */
+    const struct Target *unit_targets; /* the scene's targets, where one has a uv_unit or a projection, else NULL */
 } Primitive;
 
 /* ---- lights, camera, sky ---- */
@@ -611,12 +611,32 @@ typedef struct FaceSelection {
     const char *text;
 } FaceSelection;
 
+/* How a target gets UV that its model lacks; path/projection.h. */
+typedef enum UvProjection {
+    UV_UNSAID, /* planar where faces are selected, box where a target that is pointed at has none, else the model's */
+    UV_MODEL,
+    UV_PLANAR,
+    UV_BOX,
+    UV_CYLINDER
+} UvProjection;
+
+/* Coordinates are along the axes, in scene units. */
+typedef struct TargetProjection {
+    UvProjection kind; /* UV_UNSAID, UV_MODEL: there is none */
+    Vec3 axes[3];      /* of unit length, at right angles. Planar: of u, of v, normal; else of the sides, and up in the
+                          middle */
+    double low[3], high[3]; /* of the target; both 0 where it has no end */
+    double unit;       /* of UV in a scene unit */
+} TargetProjection;
+
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* its selectors, comma-separated; identifiers as the scene spells them */
     int is_pointed_at;       /* 1: one of them selects objects or colours that need no name */
     int nselections;         /* of faces */
     FaceSelection *selections;
+    UvProjection uv;         /* that was asked for */
+    TargetProjection projection;
     double uv_unit[2];       /* path/target_units.h; 0, 0: UV are those of shapes and patterns */
     int uv_folds;            /* 1: shapes that close have their UV there and back, mirrored */
     int nfinishes;           /* 0: it keeps its own */
@@ -718,7 +738,9 @@ static inline int texture_leaf_target(const Texture *leaf, int whole)
 const Texture *primitive_target_texture(const Primitive *primitive, int target);
 /* The same of the instance's own texture and names, and a primitive that has it; of may be NULL. */
 const Texture *instance_target_texture(const Scene *scene, const Instance *instance, int target, const Primitive **of);
-/* Each of one -t of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see selector.h. */
+/* Where the options of one -t begin, ":uv=WORD" at its end; or its end. */
+const char *target_spec_options(const char *spec);
+/* Each of one -t of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see selector.h, with or without options. */
 int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
 /* Each of one -l of the command line: "NAME" or "NAME=SELECTOR,SELECTOR", see scene/lamps.c. Without any, all light is
  * of lamp 0, and there is nothing to keep apart. */

@@ -47,12 +47,42 @@ static int add_selector(const Scene *scene, Target *target, Selector *selector, 
     return 0;
 }
 
-static int read_spec(Scene *scene, Selectors *selectors, int t, const char *spec, RetexError *err)
+/* ---- options ---- */
+
+static const char *const uv_words[] = {[UV_MODEL] = "model", "planar", "box", "cylinder"};
+#define UV_OPTION ":uv="
+
+const char *target_spec_options(const char *spec)
+{
+    const char *options = NULL;
+    for (const char *at = spec; (at = strstr(at, UV_OPTION)); at++)
+        options = at;
+    return options && !strchr(options, ',') ? options : spec + strlen(spec);
+}
+
+/* Keeps what was asked for among the selectors, so that they name the same target again. */
+static int read_options(Target *target, const char *options, RetexError *err)
+{
+    const size_t used = strlen(target->idents);
+    if (!*options)
+        return RETEX_OK;
+    for (int k = UV_MODEL; k <= UV_CYLINDER; k++)
+        if (strcmp(options + strlen(UV_OPTION), uv_words[k]) == 0)
+            target->uv = (UvProjection)k;
+    if (!target->uv)
+        return retex_fail(err, RETEX_EINVAL, "target `%s`: uv=%s is none of planar, box, cylinder and model",
+                          target->name, options + strlen(UV_OPTION));
+    if (used + strlen(options) + 1 > sizeof target->idents)
+        return retex_fail(err, RETEX_ELIMIT, "target `%s`: its identifiers are more than %zu bytes", target->name,
+                          sizeof target->idents);
+    memcpy(target->idents + used, options, strlen(options) + 1);
+    return RETEX_OK;
+}
+
+static int read_selectors(Scene *scene, Selectors *selectors, int t, const char *list, RetexError *err)
 {
     Target *target = &scene->targets[t];
-    const char *equals = strchr(spec, '=');
-    const char *list = equals ? equals + 1 : spec;
-    int code = read_name(target, spec, equals ? (size_t)(equals - spec) : strlen(spec), err), count = 1;
+    int code = RETEX_OK, count = 1;
     for (const char *at = list; *(at += selector_length(at)); at++)
         count++;
     Selector *all = arena_alloc(scene->arena, (size_t)count * sizeof *all);
@@ -67,6 +97,19 @@ static int read_spec(Scene *scene, Selectors *selectors, int t, const char *spec
         list += length + 1;
     }
     return code;
+}
+
+static int read_spec(Scene *scene, Selectors *selectors, int t, const char *spec, RetexError *err)
+{
+    const char *options = target_spec_options(spec);
+    const char *text = arena_string(scene->arena, spec, (size_t)(options - spec));
+    if (!text)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the targets");
+    const char *equals = strchr(text, '=');
+    int code = read_name(&scene->targets[t], text, equals ? (size_t)(equals - text) : strlen(text), err);
+    if (!code)
+        code = read_selectors(scene, selectors, t, equals ? equals + 1 : text, err);
+    return code ? code : read_options(&scene->targets[t], options, err);
 }
 
 /* ---- which surfaces a target is ---- */

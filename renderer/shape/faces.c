@@ -321,7 +321,7 @@ int faces_check(const Scene *scene, const FaceSelection *of, RetexError *err)
     if (!count)
         return retex_fail(err, RETEX_EUNSUPPORTED,
                           "target `%s`: a %s has no flat faces; of meshes, boxes, planes and discs faces can be "
-                          "targets: #%d takes the whole object",
+                          "targets: #%d, or @X:Y/object, takes all of it",
                           of->text, p->shape.ops->name, of->number);
     if (of->face > count || !faces_at(p, of->face - 1, &face))
         return retex_fail(err, RETEX_ENOTFOUND, "no face `%s`: object #%d has %d", of->text, of->number, count);

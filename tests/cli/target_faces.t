@@ -1,0 +1,46 @@
+# Rooms as people find them: one image on all of one mesh. What is pointed at is compared with the same room in which it is an object of its own, with UV that are right by construction.
+$ python3 "$TESTS/face_rooms.py"; cp "$TESTS/../../scenes/textures/fans.jpg" .
+$ printf 'n=$1 t=$2 o=$3; render() { retex-render -q --size 96x72 --spp 48 "$@"; }; render -t "A=$t" $n.pov -o $n.exr; render -t A=Right $n-right.pov -o right.exr; for s in $n right; do retex-combine -q $s.exr --texture$o A=fans.jpg -o $s-new.exr; done; retex-diff -q --fail-psnr 60 $n-new.exr right-new.exr || echo $n: other than the right one; render -t "A=$t" --replace$o A=fans.jpg $n.pov -o again.exr; retex-diff -q --fail-psnr 42 $n-new.exr again.exr || echo $n: other than rendered again; retex-combine -q $n.exr -o old.exr; render --plain $n.pov -o plain.exr; retex-diff -q --fail-psnr 75 old.exr plain.exr || echo $n: the original is lost\n' >as_right
+$ sh as_right room @48:66/flat :width=90cm; retex-info room.exr | grep -E '^  (idents|size) '
+>   idents       #1/flat:1
+>   size         1 x 1 scene units a unit of u and of v
+$ sh as_right crate @32:44/object:uv=box :width=60cm; retex-info crate.exr | grep -E '^  idents '
+>   idents       #2:uv=box
+$ sh as_right pillar @52:42/object:uv=cylinder :width=60cm
+# Without the projection, or with all that the image covers, it is another picture.
+$ render() { retex-render -q --size 96x72 --spp 8 "$@" --replace A=fans.jpg room.pov; }; render -t A=@48:66/flat -o flat.exr; for t in @48:66/flat:uv=model @48:66; do render -t A=$t -o other.exr; retex-diff -q --fail-psnr 30 flat.exr other.exr || echo $t; done
+> @48:66/flat:uv=model
+> @48:66
+# Every pixel of a floor names it alike, at any size, so that shards fit together; another target does not.
+$ render() { retex-render -q --size 96x72 --spp 4 "$@"; }; render -t A=@48:66/flat room.pov -o whole.exr; render -t A=@48:66/flat --shard 1/2 room.pov -o one; render -t A=@30:60/flat --shard 2/2 room.pov -o two; render -t 'A=#1/flat:1' --merge one --merge two room.pov -o merged.exr; cmp whole.exr merged.exr
+$ retex-render -q --size 48x36 --spp 1 -t A=@40:33/flat room.pov -o small.exr; for s in whole small; do retex-info $s.exr | awk '/^  idents/ { i = $2 } /^  share/ { print i, int(($2 + 5) / 10) }'; done
+> #1/flat:1 4
+> #1/flat:1 4
+$ retex-render -q --size 96x72 --spp 4 -t A=@48:66 --merge one --merge two room.pov -o other.exr
+! retex-render: error: one is of another render: other options, another scene or build
+= 2
+# A set tells its targets with their UV: --control renders them again.
+$ retex-render -q --size 96x72 --spp 32 --control-data biased -t A=@32:44/object:uv=box crate.pov -o control.exr; retex-render -q --size 96x72 --spp 32 --control control.exr --replace A=fans.jpg crate.pov -o near.exr; retex-render -q --size 96x72 --spp 32 -t 'A=#2:uv=box' --replace A=fans.jpg crate.pov -o truth.exr; retex-diff -q --fail-psnr 38 near.exr truth.exr
+# A table renders what --replace does; masks cover what the target covers.
+$ printf 'output,A\na.exr,fans.jpg\n' >table.csv; retex-render -q --size 96x72 --spp 4 -t A=@48:66/flat --variants table.csv room.pov; retex-render -q --size 96x72 --spp 4 -t A=@48:66/flat --replace A=fans.jpg room.pov -o b.exr; retex-diff --fail-abs 0 a.exr b.exr >/dev/null
+# Boards are a floor of many objects. They have one material with the wall behind; one is flat by itself.
+$ for t in @20:60 @20:60/object @20:60/flat @20:60/level @60:60/level; do retex-render -q --size 96x72 --spp 1 -t A=$t boards.pov -o b.exr; retex-info b.exr | awk '/^  idents/ { i = $2 } /^  share/ { print i, $2 }'; done
+> #1/material 99.51%
+> #4 7.64%
+> #4/flat:4 7.64%
+> #4/level:4 45.75%
+> #6/level:4 45.75%
+# What a target's UV are is told where the model's are not taken, and nobody said so.
+$ retex-render --size 8x6 --spp 1 -t A=@4:5/flat -t B=@4:1/level:uv=box -t 'C=#1' room.pov -o b.exr 2>&1 | grep UV
+> retex-render: target `A` is faces: a planar projection gives it UV; `:uv=` after it chooses another one
+# What cannot be.
+$ printf 'camera { location -5*z } light_source { -9 rgb 1 } sphere { 0, 1 pigment { rgb 1 } finish { emission 1 } }' >ball.pov; for o in '-t A=@4:3/flat' '-t A=#1/level:1' '-t A=#1:uv=round' '-t A=#1:uv=' '-t A:uv=box' '-t A=#1:uv=box,#1' '-l A=@4:3/flat' '-l A=@4:3/wall'; do retex-render -q --size 8x6 --spp 1 $o ball.pov -o b.exr; done
+! retex-render: error: target `#1/flat:1`: a sphere has no flat faces; of meshes, boxes, planes and discs faces can be targets: #1, or @X:Y/object, takes all of it
+! retex-render: error: target `#1/level:1`: a sphere has no flat faces; of meshes, boxes, planes and discs faces can be targets: #1, or @X:Y/object, takes all of it
+! retex-render: error: target `A`: uv=round is none of planar, box, cylinder and model
+! retex-render: error: target `A`: uv= is none of planar, box, cylinder and model
+! retex-render: error: no target `A`: the scene uses no declared texture or object
+! retex-render: error: target `#1:uv=box`: expected #N, an object's number, or #N.K, one of its textures; or #N/material, #N/flat:FACE, #N/level:FACE
+! retex-render: error: lamp `#1/flat:1`: a lamp is a whole object or material, not some of its faces
+! retex-render: error: target `@4:3/wall`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
+= 2
