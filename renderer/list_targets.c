@@ -48,7 +48,16 @@ static void print_place(const PlaceList *place)
         printf(" in %s", cli_plain(outer));
 }
 
-static void print_candidates(const Candidates *all)
+/* Where a texture would cover more than a person means. */
+static void print_advice(const Candidate *one)
+{
+    if (one->directions > 1)
+        printf("; one image serves faces of %d directions: @X:Y/flat or /level takes fewer", one->directions);
+    if (one->is_unlit)
+        printf("; it only shines, light is baked into its image: so would a new texture");
+}
+
+static void print_candidates(const Scene *scene, const Candidates *all)
 {
     int widest = 0;
     for (int k = 0; k < all->count; k++) {
@@ -58,7 +67,11 @@ static void print_candidates(const Candidates *all)
     for (int k = 0; k < all->count; k++) {
         const Candidate *one = &all->list[k];
         printf("%6.2f%%  %-*s  %-9s", 100 * one->share, widest, one->text, one->kind);
-        print_place(one->place);
+        if (one->name)
+            printf("  %s", scene_name_of(scene, one->name));
+        else
+            print_place(one->place);
+        print_advice(one);
         putchar('\n');
     }
 }
@@ -85,7 +98,7 @@ void list_targets(Arguments *a, const Scene *scene)
     if (render_candidates(&all, a->sheet ? &sheet : NULL, scene, &a->render, &err))
         cli_fail(a->cli, &err);
     if (a->cli->verbose)
-        print_candidates(&all);
+        print_candidates(scene, &all);
     if (a->sheet && retex_image_write(&sheet, a->sheet, NULL, a->cli->threads, &err))
         cli_fail(a->cli, &err);
     retex_image_free(&sheet);

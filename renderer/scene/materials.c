@@ -134,16 +134,23 @@ const char *materials_name(const Materials *m, const Texture *texture)
     return best;
 }
 
+/* What tells a material: its name, or the texture itself. */
+static const void *key_of(const Materials *m, const Texture *texture)
+{
+    const char *name = materials_name(m, texture);
+    return name ? (const void *)name : texture;
+}
+
 int materials_first(const Materials *m, const ObjectPart *object, ObjectPart *first)
 {
-    const void *key = object->texture ? materials_name(m, object->texture) : NULL;
-    if (!object->texture)
-        return 0;
-    if (!key)
-        key = object->texture;
-    const int begin = find(m, key, 0), end = find(m, key, 1);
+    const void *key = object->texture ? key_of(m, object->texture) : NULL;
+    const int begin = key ? find(m, key, 0) : 0, end = key ? find(m, key, 1) : 0;
     if (end - begin < 2)
         return 0;
-    *first = object_part(m->scene, &m->scene->primitives[m->uses[begin].number - 1], m->uses[begin].part);
-    return 1;
+    for (int k = begin; k < end; k++) { /* others may have this name, but also one that fewer have */
+        *first = object_part(m->scene, &m->scene->primitives[m->uses[k].number - 1], m->uses[k].part);
+        if (key_of(m, first->texture) == key)
+            return 1;
+    }
+    return 0;
 }

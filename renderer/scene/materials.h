@@ -30,7 +30,7 @@ void materials_close(Materials *materials);
 /* The name of a texture or material that all of this texture came through: of several the one that the fewest objects
  * have. A pigment's name is none. NULL: there is none. */
 const char *materials_name(const Materials *materials, const Texture *texture);
-/* The first object that has the material of this one, which may be itself. 0: no other has it. */
+/* The first object whose material is that of this one, which may be itself. 0: no other object has it. */
 int materials_first(const Materials *materials, const ObjectPart *object, ObjectPart *first);
 
 #endif

@@ -1,6 +1,6 @@
 # Rooms as people find them: one image on all of one mesh. What is pointed at is compared with the same room in which it is an object of its own, with UV that are right by construction.
-$ python3 "$TESTS/face_rooms.py"; cp "$TESTS/../../scenes/textures/fans.jpg" .
-$ printf 'n=$1 t=$2 o=$3; render() { retex-render -q --size 96x72 --spp 48 "$@"; }; render -t "A=$t" $n.pov -o $n.exr; render -t A=Right $n-right.pov -o right.exr; for s in $n right; do retex-combine -q $s.exr --texture$o A=fans.jpg -o $s-new.exr; done; retex-diff -q --fail-psnr 60 $n-new.exr right-new.exr || echo $n: other than the right one; render -t "A=$t" --replace$o A=fans.jpg $n.pov -o again.exr; retex-diff -q --fail-psnr 42 $n-new.exr again.exr || echo $n: other than rendered again; retex-combine -q $n.exr -o old.exr; render --plain $n.pov -o plain.exr; retex-diff -q --fail-psnr 75 old.exr plain.exr || echo $n: the original is lost\n' >as_right
+$ python3 "$TESTS/face_rooms.py"; cp "$TESTS/../../scenes/textures/fans.jpg" .; oiiotool --create 8x8 4 -o clear.png
+$ printf 'n=$1 t=$2 o=$3; render() { retex-render -q --size 96x72 --spp 48 "$@"; }; render -t "A=$t" $n.pov -o $n.exr; render -t A=Right $n-right.pov -o right.exr; for s in $n right; do retex-combine -q $s.exr --texture$o A=fans.jpg -o $s-new.exr; done; retex-diff -q --fail-psnr 60 $n-new.exr right-new.exr || echo $n: other than the right one; render -t "A=$t" --replace$o A=fans.jpg $n.pov -o again.exr; retex-diff -q --fail-psnr 42 $n-new.exr again.exr || echo $n: other than rendered again; retex-combine -q $n.exr -o old.exr; render --plain $n.pov -o plain.exr; retex-diff -q --fail-psnr 75 old.exr plain.exr || echo $n: the original is lost; retex-combine -q $n.exr --texture A=clear.png -o old.exr; retex-diff -q --fail-psnr 60 old.exr plain.exr || echo $n: the original is another below a clear texture\n' >as_right
 $ sh as_right room @48:66/flat :width=90cm; retex-info room.exr | grep -E '^  (idents|size) '
 >   idents       #1/flat:1
 >   size         1 x 1 scene units a unit of u and of v
@@ -30,6 +30,10 @@ $ for t in @20:60 @20:60/object @20:60/flat @20:60/level @60:60/level; do retex-
 > #4/flat:4 7.64%
 > #4/level:4 45.75%
 > #6/level:4 45.75%
+# A material that is made of another is that one; where all are of one, it is all of them.
+$ printf '#version 3.7; camera { orthographic location -5*z right 4*x up 4*y direction z } light_source { -9*z rgb 1 } #declare Wood = texture { pigment { rgb .5 } } #declare Oak = texture { Wood } box { <-2,-2,0>, <-1,2,1> texture { Oak } } box { <-1,-2,0>, <0,2,1> texture { Oak } } box { <0,-2,0>, <2,2,1> texture { Wood } }' >woods.pov; for x in 1 7; do retex-render -q --size 8x8 --spp 1 -t A=@$x:4 woods.pov -o b.exr; retex-info b.exr | awk '/^  idents/ { i = $2 } /^  share/ { print i, $2 }'; done
+> #1/material 50.00%
+> #3/material 100.00%
 # What a target's UV are is told where the model's are not taken, and nobody said so.
 $ retex-render --size 8x6 --spp 1 -t A=@4:5/flat -t B=@4:1/level:uv=box -t 'C=#1' room.pov -o b.exr 2>&1 | grep UV
 > retex-render: target `A` is faces: a planar projection gives it UV; `:uv=` after it chooses another one
@@ -44,3 +48,24 @@ $ printf 'camera { location -5*z } light_source { -9 rgb 1 } sphere { 0, 1 pigme
 ! retex-render: error: lamp `#1/flat:1`: a lamp is a whole object or material, not some of its faces
 ! retex-render: error: target `@4:3/wall`: expected @X:Y, a pixel of the picture, or @X:Y/material, /object, /flat or /level
 = 2
+# The list has what each form takes, and tells an atlas and baked light.
+$ for s in room boards; do echo $s:; retex-render -q -v --list-targets --size 96x72 $s.pov 2>/dev/null | awk '$2 ~ "/" || /;/ || NR == 1'; done
+> room:
+> 100.00%  Atlas
+> 100.00%  #1          mesh       room.pov:5; one image serves faces of 2 directions: @X:Y/flat or /level takes fewer
+>  50.52%  #1/flat:9   flat       room.pov:5
+>  40.26%  #1/flat:1   flat       room.pov:5
+>   6.79%  #1/flat:19  flat       room.pov:5
+>   1.45%  #1/flat:27  flat       room.pov:5
+> boards:
+>  99.51%  #1/material        material   boards.pov:6
+>  45.75%  #4/level:4         level      boards.pov:9
+>   2.30%  #11/flat:5         flat       boards.pov:16
+>   1.22%  #11/flat:4         flat       boards.pov:16
+$ printf '#version 3.7; camera { orthographic location -5*z right 4*x up 4*y direction z } #declare Baked = texture { pigment { image_map { ppm "atlas.ppm" } } finish { emission 1 diffuse 0 } } box { -1, 1 texture { Baked } } disc { <1.5,0,0>, z, .3 texture { Baked } }' >baked.pov; retex-render -q -v --list-targets=sheet.exr --size 40x40 baked.pov 2>/dev/null; oiiotool --dumpdata sheet.exr | awk '/Pixel/ && $4 != $5 && !colours[$4, $5, $6]++ { print sprintf("%.2f %.2f", $4 / $5, $6 / $5) }' | sort | uniq -c | awk '{ print $1, "shades of one hue" }'
+>  27.00%  Baked
+>  27.00%  #1/material  material   Baked; it only shines, light is baked into its image: so would a new texture
+>  27.00%  *atlas.ppm   image      baked.pov:1
+>  25.00%  #1           box        baked.pov:1
+>   2.00%  #2           disc       baked.pov:1
+> 2 shades of one hue

@@ -113,10 +113,13 @@ $ retex-render -q --list-targets --size 8x8 room.pov; retex-render -q -v --list-
 >  25.00%  Post
 >  37.50%  Pine
 >  25.00%  Post
+> 100.00%  #1/level:5         level      room.pov:5 in room.pov:6
+>  37.50%  #1/material        material   Pine
 >  37.50%  ~rgb(0.8,0.4,0.2)  colour     room.pov:5 in room.pov:6
 >  25.00%  #1                 box        room.pov:5 in room.pov:6
 >  25.00%  #2                 box        room.pov:7
 >  25.00%  #3                 box        room.pov:9 in room.pov:8
+>  25.00%  #4/flat:1          flat       room.pov:10 in room.pov:8
 >  25.00%  *grey.png          image      room.pov:9 in room.pov:8
 >  25.00%  ~rgb(0.1,0.2,0.7)  colour     room.pov:7
 >  12.50%  #4.1               mesh       room.pov:10 in room.pov:8
@@ -128,9 +131,9 @@ $ retex-render -q --list-targets=sheet.exr --size 8x8 room.pov; oiiotool --dumpd
 >  25.00%  Post
 > 8
 > 16
+> 16
+> 16
 > 8
-> 16
-> 16
 $ retex-render -q --list-targets=big.exr --size 400x400 room.pov >/dev/null; oiiotool big.exr --cut 100x400+0+0 --colorcount '1,1,1:0,0,0' | grep -o '^ *[0-9]*'
 >      128
 >       76

@@ -203,19 +203,19 @@ static void hits_have_the_targets_of_their_faces(void **state)
 
 /* ---- levels, by a loop over all corners ---- */
 
-static const char
-    levels[] = "camera { location -9*z } #default { pigment { rgb 1 } } "
-               "box { <0,0,0>, <4,1,4> } "                                /* #1, its top is pointed at */
-               "box { <5,0,0>, <6,1.01,1> } "                             /* #2 is level */
-               "box { <7,0,0>, <8,1.3,1> } "                              /* #3 is too high */
-               "box { <5,-1,-1>, <6,0,1> rotate x*5 translate <0,1,3> } " /* #4 is tilted, but not much, and too far */
-               "box { <-.1,-1,-.1>, <.1,0,.1> rotate x*8 translate <9,1,3> } " /* #5 is tilted and small */
-               "box { <5,1,6>, <6,2,7> } " /* #6 has its bottom there, which faces down */
-               "mesh2 { vertex_vectors { 4, <0,1,6>, <1,1,6>, <1,1,7>, <0,1.5,7> } face_indices { 2, <0,2,1>, <0,3,2> "
-               "} } "                                                                                   /* #7 */
-               "mesh2 { vertex_vectors { 3, <2,1,6>, <3,1,6>, <3,1,7> } face_indices { 1, <0,1,2> } } " /* #8 */
-               "plane { y, 1 } plane { y, 2 } plane { -y, -1 } plane { y, 1 rotate z*3 } "              /* #9 to #12 */
-               "disc { <9,1.02,9>, -y, 1 } sphere { <20,1,0>, .1 }";                                    /* #13, #14 */
+static const char levels[] =
+    "camera { location -9*z } #default { pigment { rgb 1 } } "
+    "box { <0,0,0>, <4,1,4> } "                                     /* #1, its top is pointed at */
+    "box { <5,0,0>, <6,1.01,1> } "                                  /* #2 is level */
+    "box { <7,0,0>, <8,1.3,1> } "                                   /* #3 is too high */
+    "box { <5,-1,-1>, <6,0,1> rotate x*5 translate <0,1,3> } "      /* #4 is tilted, but not much, and too far */
+    "box { <-.1,-1,-.1>, <.1,0,.1> rotate x*8 translate <9,1,3> } " /* #5 is tilted and small */
+    "box { <5,1,6>, <6,2,7> } "                                     /* #6 has its bottom there, which faces down */
+    "mesh2 { vertex_vectors { 4, <0,1,6>, <1,1,6>, <1,1,7>, <0,1.5,7> } face_indices { 2, <0,2,1>, <0,3,2> "
+    "} } "                                                                                   /* #7 */
+    "mesh2 { vertex_vectors { 3, <2,1,6>, <3,1,6>, <3,1,7> } face_indices { 1, <0,1,2> } } " /* #8 */
+    "plane { y, 1 } plane { y, 2 } plane { -y, -1 } plane { y, 1 rotate z*3 } "              /* #9 to #12 */
+    "disc { <9,1.02,9>, -y, 1 } sphere { <20,1,0>, .1 }";                                    /* #13, #14 */
 
 /* As above, but told by hand: number of the object, and bits of its faces. */
 static const unsigned on_level[14] = {1u << 3, 1u << 3, 0, 0, 1u << 3, 0, 1, 1, 1, 0, 0, 0, 1, 0};
@@ -240,6 +240,22 @@ static void levels_by_hand(void **state)
         }
         assert_int_equal(primitive_target_texture(p, 0) != NULL, on_level[i] != 0);
     }
+    scene_close(&scene);
+}
+
+/* Of two selections that have a face the first counts, whichever is the wider one. */
+static void first_selection_wins(void **state)
+{
+    (void)state;
+    static const char *const wide_first[] = {"A=#1/level:4", "B=#2/flat:4"}, *const narrow_first[] = {"B=#2/flat:4",
+                                                                                                      "A=#1/level:4"};
+    Scene *scene = scene_with(levels, wide_first, 2);
+    assert_int_equal(scene->primitives[0].faces->of[3], 0);
+    assert_int_equal(scene->primitives[1].faces->of[3], 0);
+    scene_close(&scene);
+    scene = scene_with(levels, narrow_first, 2);
+    assert_int_equal(scene->primitives[0].faces->of[3], 1);
+    assert_int_equal(scene->primitives[1].faces->of[3], 0);
     scene_close(&scene);
 }
 
@@ -327,6 +343,7 @@ int main(void)
         cmocka_unit_test(degenerate_and_folded),
         cmocka_unit_test(hits_have_the_targets_of_their_faces),
         cmocka_unit_test(levels_by_hand),
+        cmocka_unit_test(first_selection_wins),
         cmocka_unit_test(levels_by_a_loop),
         cmocka_unit_test(levels_of_copies),
     };
