@@ -70,10 +70,12 @@ enum {
 
 static const CliOption options[] = {
     [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]",
-                    "make everything #declared as IDENT (or NAME) the target NAME; repeatable", 0},
+                    "make everything #declared as IDENT (or NAME), or with the texture that pixel @X:Y shows, the "
+                    "target NAME; repeatable",
+                    0},
     [OPT_LIST] = {"list-targets", 0, "=FILE",
                   "print the identifiers that can be targets, with their share of the picture, and stop; with -v also "
-                  "objects, colours and images; FILE gets a picture with the numbers of objects",
+                  "objects, materials, colours and images; FILE gets a picture with the numbers of objects",
                   0},
     [OPT_LAMP] = {"lamp", 'l', "NAME[=IDENT,…]",
                   "keep the light of IDENT (or NAME) apart, so that it can be changed later; IDENT may be a light "

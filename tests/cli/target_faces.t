@@ -1,7 +1,7 @@
 # Rooms as people find them: one image on all of one mesh. What is pointed at is compared with the same room in which it is an object of its own, with UV that are right by construction.
 $ python3 "$TESTS/face_rooms.py"; cp "$TESTS/../../scenes/textures/fans.jpg" .; oiiotool --create 8x8 4 -o clear.png
 $ printf 'n=$1 t=$2 o=$3; render() { retex-render -q --size 96x72 --spp 48 "$@"; }; render -t "A=$t" $n.pov -o $n.exr; render -t A=Right $n-right.pov -o right.exr; for s in $n right; do retex-combine -q $s.exr --texture$o A=fans.jpg -o $s-new.exr; done; retex-diff -q --fail-psnr 60 $n-new.exr right-new.exr || echo $n: other than the right one; render -t "A=$t" --replace$o A=fans.jpg $n.pov -o again.exr; retex-diff -q --fail-psnr 42 $n-new.exr again.exr || echo $n: other than rendered again; retex-combine -q $n.exr -o old.exr; render --plain $n.pov -o plain.exr; retex-diff -q --fail-psnr 75 old.exr plain.exr || echo $n: the original is lost; retex-combine -q $n.exr --texture A=clear.png -o old.exr; retex-diff -q --fail-psnr 60 old.exr plain.exr || echo $n: the original is another below a clear texture\n' >as_right
-$ sh as_right room @48:66/flat :width=90cm; retex-info room.exr | grep -E '^  (idents|size) '
+$ sh as_right room @48:66/flat :width=90cm; retex-info room.exr | grep -E '^  (idents|size|original) '
 >   idents       #1/flat:1
 >   size         1 x 1 scene units a unit of u and of v
 $ sh as_right crate @32:44/object:uv=box :width=60cm; retex-info crate.exr | grep -E '^  idents '
@@ -21,7 +21,9 @@ $ retex-render -q --size 96x72 --spp 4 -t A=@48:66 --merge one --merge two room.
 = 2
 # A set tells its targets with their UV: --control renders them again.
 $ retex-render -q --size 96x72 --spp 32 --control-data biased -t A=@32:44/object:uv=box crate.pov -o control.exr; retex-render -q --size 96x72 --spp 32 --control control.exr --replace A=fans.jpg crate.pov -o near.exr; retex-render -q --size 96x72 --spp 32 -t 'A=#2:uv=box' --replace A=fans.jpg crate.pov -o truth.exr; retex-diff -q --fail-psnr 38 near.exr truth.exr
-# A table renders what --replace does; masks cover what the target covers.
+# Finishes, the other layout and masks know the target as well.
+$ both() { t=$1; shift; for n in room room-right; do retex-render -q --size 96x72 --spp 8 -t A=$([ $n = room ] && echo @48:66/flat || echo Right) "$@" $n.pov -o $n.exr; retex-combine -q $n.exr --texture A=fans.jpg $t -o $n-new.exr; done; retex-diff -q --fail-psnr 70 room-new.exr room-right-new.exr; }; both '--finish A=polished' --finish A=original,polished; both '' --layout paper; for n in room room-right; do retex-render -q --size 96x72 --spp 8 -t A=$([ $n = room ] && echo @48:66/flat || echo Right) --mattes m.exr $n.pov -o b.exr; oiiotool m.exr --ch mask_A.R -o $n-mask.exr; done; retex-diff --fail-abs 0 room-mask.exr room-right-mask.exr >/dev/null
+# A table renders what --replace does.
 $ printf 'output,A\na.exr,fans.jpg\n' >table.csv; retex-render -q --size 96x72 --spp 4 -t A=@48:66/flat --variants table.csv room.pov; retex-render -q --size 96x72 --spp 4 -t A=@48:66/flat --replace A=fans.jpg room.pov -o b.exr; retex-diff --fail-abs 0 a.exr b.exr >/dev/null
 # Boards are a floor of many objects. They have one material with the wall behind; one is flat by itself.
 $ for t in @20:60 @20:60/object @20:60/flat @20:60/level @60:60/level; do retex-render -q --size 96x72 --spp 1 -t A=$t boards.pov -o b.exr; retex-info b.exr | awk '/^  idents/ { i = $2 } /^  share/ { print i, $2 }'; done
