@@ -29,6 +29,8 @@ $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(
 	$(SAY)$(LINK) $(filter %.o,$^) $(filter-out %.o,$^) -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
 $(BUILD)/tests/unit/test_confine: $(BUILD)/obj/tools/confine.o
+# What retex-import asks of a model's surfaces is tested without Assimp.
+$(BUILD)/tests/unit/test_import_space: $(patsubst %,$(BUILD)/obj/tools/import/%.o,space room room_view)
 $(BUILD)/tests/unit/test_serve: private TEST_LIBS += $(SERVE_LIBS)
 # What URLs mean to retex-serve is tested without a server.
 SERVE_URL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/serve/%.o,request url iiif)
@@ -56,7 +58,7 @@ $(BUILD)/obj/tests/fuzz/fuzz_gltf.o: RENDER_CFLAGS += $(IMPORT_CFLAGS)
 $(BUILD)/tests/fuzz/fuzz_gltf: $(BUILD)/obj/tests/fuzz/fuzz_gltf.o $(FUZZ_OBJECTS) $(IMPORT_OBJECTS) $(TOOL_OBJECTS) \
 	    $(LIBTEST) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 # It runs the tools, and has models from Assimp.
 $(BUILD)/tests/fuzz/fuzz_import: TEST_LIBS += -lassimp
 $(BUILD)/tests/fuzz/fuzz_import: | $(addprefix $(BUILD)/bin/,retex-import retex-render)

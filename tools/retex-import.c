@@ -30,9 +30,16 @@
 enum { MOST_FOLDERS = 32, READ_SECONDS = 600, MOST_FILES = 256, MOST_GIGABYTES = 8 /* of one file */ };
 
 static const CliOption options[] = {
-    {"camera", 0, "N", "use the Nth camera of the model, or the one of that name; default the first", 0},
+    {"camera", 0, "N",
+     "the Nth camera of the model, or the one of that name; or inside, outside, or X,Y,Z:X,Y,Z[:ANGLE], where it is "
+     "and what it looks at; default auto: the first, else inside of a room, else outside",
+     0},
     {"sky", 0, "FILE", "put a picture around the scene, which lights it: HDR, EXR, PNG, JPEG or TIFF", 0},
     {"up", 0, "y|z", "the model's axis that is up; default what its format says", 0},
+    {"unit", 0, "LENGTH",
+     "what a unit of the model is: cm, 2.5cm, ft; the scene has metres. Default: what its format or its room's height "
+     "says",
+     0},
     {"scale", 0, "S", "multiply all lengths", 0},
     {"lights", 0, "F", "multiply the light of all light sources", 0},
     {"smooth", 0, "DEGREES", "smooth edges that are flatter than this, in meshes without normals", 0},
@@ -317,6 +324,15 @@ static char take_axis(const Cli *cli)
     return cli->value[0];
 }
 
+static double take_unit(const Cli *cli)
+{
+    double metres;
+    RetexError err = {0};
+    if (retex_length_parse(&metres, cli->value, &err) || !(metres >= 1e-9 && metres <= 1e9))
+        cli_die(cli, "--unit: expected a length such as cm, 2.5cm or ft, not '%s'", cli->value);
+    return metres;
+}
+
 static void parse(Cli *cli, ImportOptions *import, Request *r)
 {
     const CliOption *option;
@@ -340,7 +356,11 @@ static void parse(Cli *cli, ImportOptions *import, Request *r)
         } else if (strcmp(option->name, "up") == 0) {
             import->up = take_axis(cli);
         } else if (strcmp(option->name, "scale") == 0) {
-            import->scale = cli_number(cli, option, 1e-9, 1e9);
+            import->scale *= cli_number(cli, option, 1e-9, 1e9);
+            import->is_scaled = 1;
+        } else if (strcmp(option->name, "unit") == 0) {
+            import->scale *= take_unit(cli);
+            import->unit = 1;
         } else if (strcmp(option->name, "lights") == 0) {
             import->lights = cli_number(cli, option, 0, 1e9);
         } else if (strcmp(option->name, "smooth") == 0) {

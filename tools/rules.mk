@@ -116,18 +116,21 @@ $(BUILD)/bin/retex-combine: $(BUILD)/obj/tools/retex-combine.o $(COMBINE_OBJECTS
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
-# retex-import alone uses Assimp, Draco and meshoptimizer. Draco's headers are of C++: one file of it.
+# retex-import alone uses Assimp, Draco and meshoptimizer. Draco's headers are of C++: one file of it. With Embree it looks
+# for rooms.
+EMBREE_CFLAGS = $(filter -DRETEX_EMBREE%,$(RENDER_CFLAGS))
+EMBREE_LIBS = $(filter -lembree%,$(RENDER_LIBS))
 IMPORT_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/import/*.c)) $(BUILD)/obj/tools/import/draco_mesh.o
 $(BUILD)/bin/retex-import: $(BUILD)/obj/tools/retex-import.o $(BUILD)/obj/tools/confine.o $(IMPORT_OBJECTS) $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE) $(DECODER)
 	@mkdir -p $(@D)
-	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(IMPORT_LIBS) $(EMBREE_LIBS) $(LIBRETEX_LIBS)
 
 $(BUILD)/obj/tools/import/%.o: tools/import/%.cpp $(BUILD)/config.mk
 	@mkdir -p $(@D)
 	$(SAY)$(CXX) $(CPPFLAGS_ALL) $(IMPORT_CFLAGS) $(CXXFLAGS_ALL) -MMD -MP -c $< -o $@
 $(BUILD)/obj/tools/import/%.o: tools/import/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(IMPORT_CFLAGS) $(EMBREE_CFLAGS) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
 # retex-serve alone uses libmicrohttpd and Nettle.
 SERVE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tools/serve/*.c))

@@ -177,9 +177,10 @@ $ retex-import names.obj -o names && grep declare names/names.pov
 > #declare Sphere_2 = texture {
 > #declare Material_2nd = texture {
 > #declare Material = texture {
-! retex-import: no camera in the model: the scene is framed
+! retex-import: 3 faces lie on others of the same corners: one of each is kept
+! retex-import: no camera in the model: the view is from outside, from 1.536,1.306,-1.888 to 0.5,0.5,0, 40 degrees
 ! retex-import: no light in the model: a soft sky lights it
-! retex-import: 4 materials, 4 meshes, 4 objects, 4 triangles
+! retex-import: 4 materials, 1 mesh, 1 object, 1 triangle
 ! retex-import: wrote names/names.pov
 
 # Missing images are told, and the scene is made without them where that is asked for; files outside of the model's folder

@@ -17,7 +17,7 @@ $ retex-import -v numbers.gltf --camera 1 -o one; retex-import -q numbers.gltf -
 $ for m in studio_dae.dae lamps_fbx.fbx; do retex-import -q $m -o ${m%.*} && /usr/bin/python3 $TESTS/import_names.py places ${m%.*}; done
 $ retex-import --partial shared_fbx.fbx -o shared_fbx && /usr/bin/python3 $TESTS/import_names.py places shared_fbx
 ! retex-import: warning: cameras and lights that cannot be told from others of the same name are left out
-! retex-import: no camera in the model: the scene is framed
+! retex-import: no camera in the model: the view is from outside, from 1.536,1.306,-1.888 to 0.5,0.5,0, 40 degrees
 ! retex-import: no light in the model: a soft sky lights it
 ! retex-import: 1 material, 1 mesh, 1 object, 2 triangles
 ! retex-import: wrote shared_fbx/shared_fbx.pov

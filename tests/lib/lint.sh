@@ -31,7 +31,9 @@ forbid() { # directory pattern why
 $found"
 }
 renderer_headers=$(cd renderer && find . -name '*.h' | sed 's|^\./||' | tr '\n' '|' | sed 's/|$//')
-forbid tools "renderer/|embree|$renderer_headers" "libretex and the tools must not know the renderer"
+forbid tools "renderer/|$renderer_headers" "libretex and the tools must not know the renderer"
+found=$(grep -rl '#include *<embree' tools | grep -v '^tools/import/space\.c$')
+[ -z "$found" ] || complain "of the tools, only tools/import/space.c asks Embree: $found"
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
 forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|jpeglib|zip\.h' "the renderer knows libretex only"

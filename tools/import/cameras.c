@@ -1,4 +1,4 @@
-/* Cameras: all of the model's are declared, one is used; where there is none, the scene is framed. */
+/* Cameras: all of the model's are declared, one is used; where there is none, framing.c frames the scene. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,27 +155,6 @@ static int write_camera(const Import *import, int index, const char *name, FILE 
     return 1;
 }
 
-/* From the right in front and above, so that a sphere about the scene fits. */
-static void write_framing(const Import *import, FILE *out)
-{
-    double middle[3], radius = 0, at[3];
-    const double from[3] = {0.45, 0.35, -0.82}, angle = 40;
-    for (int k = 0; k < 3; k++) {
-        const double half = (import->high[k] - import->low[k]) / 2;
-        middle[k] = import->low[k] + half;
-        radius += half * half;
-    }
-    radius = sqrt(radius);
-    for (int k = 0; k < 3; k++)
-        at[k] = middle[k] + from[k] * radius / tan(angle / 2 * 0.75 * PI / 180);
-    fprintf(out, "camera {\n");
-    vector_print(out, "  location ", at, "\n");
-    fprintf(out, "  right x * 4/3\n  up y\n  angle %g\n", angle);
-    vector_print(out, "  look_at ", middle, "\n");
-    fprintf(out, "}\n\n");
-    import_tell(import, IMPORT_INFO, "no camera in the model: the scene is framed");
-}
-
 typedef struct Cameras {
     char (*names)[NAME_SIZE]; /* "" = its place is no number */
     int count;
@@ -191,20 +170,22 @@ static int answers_to(const Import *import, const Cameras *cameras, int index, c
                                                     : !*end && number == (long)index + 1);
 }
 
-/* The camera that --camera asks for, the first of that name; else the first of all. Returns -1 where there is none. */
+/* The camera of the model that --camera asks for, the first of that name; else the first of all. Returns -1 where there
+ * is none. */
 static int choose(const Import *import, const Cameras *cameras, int *chosen, RetexError *err)
 {
     enum { FORMS = 3 };
     const char *asked = import->options->camera;
+    const int is_any = !asked || strcmp(asked, "auto") == 0;
     *chosen = -1;
-    for (int i = cameras->count; i-- > 0 && !asked;)
+    for (int i = cameras->count; i-- > 0 && is_any;)
         if (cameras->names[i][0])
             *chosen = i;
-    for (int form = 0; form < FORMS && asked && *chosen < 0; form++)
+    for (int form = 0; form < FORMS && !is_any && *chosen < 0; form++)
         for (int i = cameras->count; i-- > 0;)
             if (answers_to(import, cameras, i, asked, form))
                 *chosen = i;
-    if (*chosen >= 0 || !asked)
+    if (*chosen >= 0 || is_any)
         return RETEX_OK;
     return retex_fail(err, RETEX_ENOTFOUND, "--camera %s: the model has %d camera%s%s%.100s", asked, cameras->count,
                       cameras->count == 1 ? "" : "s", cameras->count ? ", the first is " : "",
@@ -214,7 +195,7 @@ static int choose(const Import *import, const Cameras *cameras, int *chosen, Ret
 static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError *err)
 {
     char name[TEXT_SIZE + 8];
-    int chosen;
+    int chosen, is_framed;
     for (int i = 0; i < cameras->count; i++) {
         snprintf(name, sizeof name, "Camera_%s", camera_name(import, i));
         if (!names_make(&import->names, name, "Camera", cameras->names[i]))
@@ -222,13 +203,14 @@ static int write_cameras(Import *import, Cameras *cameras, FILE *out, RetexError
         if (!write_camera(import, i, cameras->names[i], out))
             cameras->names[i][0] = '\0';
     }
-    const int code = choose(import, cameras, &chosen, err);
+    int code = framing_is_asked(import, &is_framed, err);
     if (code)
         return code;
-    if (chosen < 0) {
-        write_framing(import, out);
-        return RETEX_OK;
-    }
+    code = is_framed ? RETEX_OK : choose(import, cameras, &chosen, err);
+    if (code)
+        return code;
+    if (is_framed || chosen < 0)
+        return framing_write(import, out, err);
     fprintf(out, "camera { %s }\n\n", cameras->names[chosen]);
     if (cameras->count > 1)
         import_tell(import, IMPORT_INFO, "camera %d of %d is used, %s; --camera takes another one", chosen + 1,

@@ -76,15 +76,33 @@ static int is_gltf(const char *path)
     return has_ending(path, ".gltf") || has_ending(path, ".glb");
 }
 
+void import_set_world(Import *import, char up)
+{
+    const double s = import->options->scale;
+    const Affine y_up = {{{s, 0, 0, 0}, {0, s, 0, 0}, {0, 0, s, 0}}};
+    const Affine z_up = {{{s, 0, 0, 0}, {0, 0, s, 0}, {0, -s, 0, 0}}};
+    import->world = up == 'z' ? z_up : y_up;
+}
+
 /* Which of its axes is up is known of some formats; Assimp turns others so that y is. */
 static void set_world(Import *import)
 {
     const ImportOptions *options = import->options;
-    const char up = options->up ? options->up : has_ending(options->model, ".stl") ? 'z' : 'y';
-    const double s = options->scale;
-    const Affine y_up = {{{s, 0, 0, 0}, {0, s, 0, 0}, {0, 0, s, 0}}};
-    const Affine z_up = {{{s, 0, 0, 0}, {0, 0, s, 0}, {0, -s, 0, 0}}};
-    import->world = up == 'z' ? z_up : y_up;
+    import_set_world(import, options->up ? options->up : has_ending(options->model, ".stl") ? 'z' : 'y');
+    import->axes_are_unknown = has_ending(options->model, ".obj") || has_ending(options->model, ".ply");
+    import->has_metres = has_ending(options->model, ".gltf") || has_ending(options->model, ".glb") ||
+                         has_ending(options->model, ".fbx") || has_ending(options->model, ".dae");
+}
+
+void import_set_scale(Import *import, double scale)
+{
+    const Affine larger = {{{scale, 0, 0, 0}, {0, scale, 0, 0}, {0, 0, scale, 0}}};
+    import->own_options->scale *= scale;
+    import->world = affine_multiply(&larger, &import->world);
+    for (int i = 0; i < import->gltf.ncameras; i++)
+        import->gltf.cameras[i].place = affine_multiply(&larger, &import->gltf.cameras[i].place);
+    for (int i = 0; i < import->gltf.nlights; i++)
+        import->gltf.lights[i].place = affine_multiply(&larger, &import->gltf.lights[i].place);
 }
 
 static const struct aiScene *read_by_assimp(Import *import, unsigned flags)
@@ -167,16 +185,13 @@ typedef struct Bounds {
     int any;
 } Bounds;
 
-/* Calls `visit` for every node, with its transform; without recursion, for files may nest deeply. Returns 0 without
- * memory. */
-typedef void Visit(Import *import, const struct aiNode *node, const Affine *world, void *context);
-
 typedef struct Place {
     const struct aiNode *node;
     Affine world;
 } Place;
 
-static int visit_nodes(Import *import, Visit *visit, void *context)
+/* Without recursion, for files may nest deeply. */
+int import_visit_nodes(Import *import, ImportVisit *visit, void *context)
 {
     size_t count = 1, capacity = 256;
     Place *places = malloc(capacity * sizeof *places);
@@ -238,7 +253,7 @@ static int find_bounds(Import *import, RetexError *err)
         bounds[i].any = mesh_bounds(import->scene->mMeshes[i], bounds[i].low, bounds[i].high);
     for (int k = 0; k < 3; k++)
         import->low[k] = INFINITY, import->high[k] = -INFINITY;
-    const int done = visit_nodes(import, add_bounds, bounds);
+    const int done = import_visit_nodes(import, add_bounds, bounds);
     free(bounds);
     if (!done)
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
@@ -257,10 +272,10 @@ static void write_object(Import *import, const struct aiNode *node, const Affine
     FILE *out = context;
     const Affine placed = affine_mirror_z(world);
     char plain[NAME_SIZE];
-    if (!affine_is_finite(&placed))
-        return;
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const unsigned index = node->mMeshes[i];
+        if (import->is_double[import->walked++] || !affine_is_finite(&placed))
+            continue;
         if (index >= import->scene->mNumMeshes || !import->meshes[index][0])
             continue;
         const ImportMaterial *material = &import->materials[import->scene->mMeshes[index]->mMaterialIndex];
@@ -335,6 +350,10 @@ static int write_scene(Import *import, RetexError *err)
     if (memory && fclose(memory) != 0 && !code)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory");
     if (!code)
+        code = doubles_find_objects(import, err);
+    if (!code)
+        code = doubles_drop(import, err);
+    if (!code)
         code = write_meshes(import, err);
     FILE *out = code ? NULL : open_output(import, ".pov", path, err);
     if (!out) {
@@ -348,7 +367,7 @@ static int write_scene(Import *import, RetexError *err)
     if (!code) {
         fwrite(materials, 1, size, out);
         fprintf(out, "// ---- objects ----\n\n#include \"%s-meshes.inc\"\n\n", import->options->name);
-        if (!visit_nodes(import, write_object, out))
+        if (!import_visit_nodes(import, write_object, out))
             code = retex_fail(err, RETEX_ENOMEM, "out of memory");
     }
     free(materials);
@@ -370,7 +389,8 @@ static void tell_summary(const Import *import)
 
 int import_model(const ImportOptions *options, RetexError *err)
 {
-    Import import = {.options = options};
+    ImportOptions own = *options;
+    Import import = {.options = &own, .own_options = &own};
     char folder[PATH_MAX];
     int code = files_begin(&import, err);
     if (!code && options->list_variants)
@@ -386,6 +406,8 @@ int import_model(const ImportOptions *options, RetexError *err)
         code = morphs_apply(&import, err);
     if (!code && import.is_gltf)
         code = gltf_read(&import, err);
+    if (!code)
+        code = sense_find(&import, err);
     if (!code)
         code = places_find(&import, err);
     if (!code && import.is_3ds)
@@ -404,6 +426,7 @@ int import_model(const ImportOptions *options, RetexError *err)
     }
     rmdir(folder); /* where no image is in it */
     /* the process ends now, and with it what Assimp has */
+    sense_free(&import);
     images_free(&import);
     gltf_free(&import.gltf);
     gltf_variants_free(&import.variants);
@@ -412,6 +435,7 @@ int import_model(const ImportOptions *options, RetexError *err)
     names_free(&import.lost_images);
     free(import.light_places);
     free(import.camera_places);
+    free(import.is_double);
     free(import.materials);
     free(import.meshes);
     return code;

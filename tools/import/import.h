@@ -16,13 +16,15 @@ typedef struct ImportOptions {
     const char *name;        /* of the scene; the file is NAME.pov */
     const char *folder;      /* to write into: it exists and is empty; NULL: list_variants */
     const char *sky;         /* a picture of the sky, or NULL */
-    const char *camera;      /* name or number from 1, or NULL: the first */
+    const char *camera;      /* name or number from 1, auto, inside, outside, or where it is; NULL: auto */
     const char *const *also; /* more folders that may be read, of -I */
     int nalso;
     const char *variant;     /* of a glTF file, or NULL: its own materials */
     int list_variants;       /* tell their names, and make no scene */
     char up;       /* 'y' or 'z': the model's axis that is up; 0: what its format says */
-    double scale;  /* of all lengths */
+    double scale;  /* of all lengths, that of the unit included */
+    int unit;      /* 1: the model's unit is asked for, and is in scale */
+    int is_scaled; /* 1: a scale is asked for */
     double lights; /* factor of all light sources */
     double smooth; /* degrees: edges that are flatter become smooth where a mesh has no normals; 0: none */
     int partial; /* 1: the scene is made although images, objects or lights are lost, which is told */

@@ -55,6 +55,7 @@ void vector_print(FILE *out, const char *before, const double v[3], const char *
 /* ---- the import ---- */
 
 typedef struct Import Import;
+typedef struct Sense Sense;
 
 typedef enum AlphaMode { ALPHA_IGNORE, ALPHA_BLEND, ALPHA_MASK } AlphaMode;
 
@@ -77,6 +78,9 @@ typedef struct ImportMaterial {
     float vertex_factor[3]; /* of colours of vertices, where there is no image */
     int place;     /* in a glTF file; -1: not there */
     int is_solid;  /* declared as a material, with an interior */
+    int is_opaque; /* nowhere does light go through it */
+    int is_clear;  /* light goes through all of it */
+    float radiance; /* of what it shines, about */
     int is_used;
 } ImportMaterial;
 
@@ -140,13 +144,16 @@ typedef struct ImportPlace {
 } ImportPlace;
 
 struct Import {
-    const ImportOptions *options;
+    const ImportOptions *options; /* their scale is that of the unit, too */
+    ImportOptions *own_options;   /* the same, to be changed */
     const struct aiScene *scene;
     RetexAccess access; /* of files that the model names */
     const char *roots[64];
     char root[PATH_MAX];   /* folder of the model, resolved */
     char denied[PATH_MAX]; /* the first file outside that the model asked for */
     int is_gltf, is_fbx, is_3ds;
+    int axes_are_unknown; /* the format does not say which one is up */
+    int has_metres;       /* lengths are metres, by the format or as Assimp makes them */
     Gltf gltf;
     int gltf_is_prepared;
     Variants variants;      /* that are still to be chosen */
@@ -155,8 +162,11 @@ struct Import {
     Names names, files; /* identifiers; names of files */
     Affine world;       /* from the model's space: axes and scale, before z is mirrored */
     ImportPlace *light_places, *camera_places; /* of Assimp's lights and cameras */
+    Sense *sense; /* of sense_find, or NULL */
     ImportMaterial *materials;
     char (*meshes)[NAME_SIZE]; /* identifiers; "" = without surface */
+    unsigned char *is_double;  /* objects in the order of a walk: 1: the same one is there already */
+    unsigned long walked;      /* objects that write_object has seen */
     double low[3], high[3];    /* of the scene as written */
     long triangles, objects;
     int emits; /* some material shines enough to light the scene */
@@ -194,6 +204,18 @@ void import_tell(const Import *import, char kind, const char *fmt, ...) RETEX_PR
 int losses_of_image(Import *import, const char *source);
 /* At the end: fails where something is lost, unless a scene without it was asked for. */
 int losses_check(Import *import, RetexError *err);
+/* import.c */
+/* Called for every node with its transform, z not mirrored. Returns 0 without memory. */
+typedef void ImportVisit(Import *import, const struct aiNode *node, const Affine *world, void *context);
+int import_visit_nodes(Import *import, ImportVisit *visit, void *context);
+/* Which axis is up, before nodes are placed. */
+void import_set_world(Import *import, char up);
+/* Multiply all lengths, before nodes are placed; cameras and lights of glTF are. */
+void import_set_scale(Import *import, double scale);
+/* sense.c */
+/* Find out what the model means: whether it is a room, and its unit. */
+int sense_find(Import *import, RetexError *err);
+void sense_free(Import *import);
 
 /* files.c */
 int files_begin(Import *import, RetexError *err);
@@ -295,6 +317,8 @@ int materials_write(Import *import, FILE *out, RetexError *err);
 int mesh_has_surface(const struct aiMesh *mesh);
 /* Whether vertices have colours that show. */
 int mesh_has_colors(const struct aiMesh *mesh);
+/* A triangle with an area, whose indices and positions are numbers that there are. */
+int mesh_is_surface(const struct aiMesh *mesh, const struct aiFace *face);
 int meshes_write(Import *import, FILE *out, RetexError *err);
 /* The bounds of a mesh, z mirrored. Returns 0 if it is empty. */
 int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3]);
@@ -302,6 +326,21 @@ int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3]);
 int lights_write(Import *import, FILE *out, RetexError *err);
 /* cameras.c */
 int cameras_write(Import *import, FILE *out, RetexError *err);
+/* doubles.c */
+/* Of faces that lie on one another, one stays; once materials are known. */
+int doubles_drop(Import *import, RetexError *err);
+int doubles_find_objects(Import *import, RetexError *err);
+/* ceiling.c */
+/* Whether surfaces shine enough to be the light of the scene. */
+int ceiling_emits(const Import *import);
+/* Whether the model is a room that no sky can light. */
+int ceiling_is_needed(const Import *import, int *is_needed, RetexError *err);
+int ceiling_write(Import *import, FILE *out, RetexError *err);
+/* framing.c */
+/* Whether --camera asks for a view that is none of the model's: a place, or the words inside and outside. */
+int framing_is_asked(const Import *import, int *is_asked, RetexError *err);
+/* A view of the scene: what is asked for, else from inside of a room and from outside of what is none. */
+int framing_write(Import *import, FILE *out, RetexError *err);
 /* places.c */
 /* Where cameras and lights are that Assimp has read: it tells their nodes by names, which may be the same. Those that
  * cannot be told apart are left out, and told. */

@@ -127,25 +127,27 @@ static void write_light(Import *import, unsigned index, double user, FILE *out)
     fprintf(out, " }\n");
 }
 
+/* A sky, of the options or where there is no light; in a room that it does not reach, a light below the ceiling. */
 static int write_sky(Import *import, FILE *out, int has_light, RetexError *err)
 {
     char file[NAME_SIZE + 32];
-    if (import->options->sky) {
-        const int code = images_add_sky(import, file, err);
-        if (code)
-            return code;
-        /* seen from inside */
-        fprintf(out, "sky_sphere { pigment { image_map { %s \"%s\" map_type 1 interpolate 2 } scale <-1, 1, 1> } }\n\n",
-                images_keyword(file), file);
-        return RETEX_OK;
-    }
-    if (has_light) {
+    int is_dark = 0;
+    int code = has_light ? RETEX_OK : ceiling_is_needed(import, &is_dark, err);
+    if (!code && import->options->sky) {
+        code = images_add_sky(import, file, err);
+        if (!code) /* seen from inside */
+            fprintf(out,
+                    "sky_sphere { pigment { image_map { %s \"%s\" map_type 1 interpolate 2 } scale <-1, 1, 1> } }\n\n",
+                    images_keyword(file), file);
+    } else if (has_light) {
         fprintf(out, "\n");
-        return RETEX_OK;
+    } else if (!is_dark) {
+        fprintf(out,
+                "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }\n\n");
+        import_tell(import, IMPORT_INFO, "%s in the model: a soft sky lights it",
+                    import->emits ? "next to no light" : "no light");
     }
-    fprintf(out, "sky_sphere { pigment { gradient y color_map { [0 rgb 0.3] [1 rgb 1] } scale 2 translate -y } }\n\n");
-    import_tell(import, IMPORT_INFO, "no light in the model: a soft sky lights it");
-    return RETEX_OK;
+    return code || !is_dark ? code : ceiling_write(import, out, err);
 }
 
 /* Programs write ambient lights that are black. */
@@ -181,5 +183,5 @@ int lights_write(Import *import, FILE *out, RetexError *err)
     fprintf(out, "// ---- light ----\n\n");
     const int any =
         import->is_gltf ? gltf_lights_write(import, import->options->lights, out) : write_lights(import, out);
-    return write_sky(import, out, any || import->emits, err);
+    return write_sky(import, out, any || ceiling_emits(import), err);
 }

@@ -171,7 +171,7 @@ static float dispersion_of(const Surface *s)
 }
 
 /* Light that is absorbed: POV-Ray's fade_power 1001 is exp((fade_color - 1) x / fade_distance). */
-static void print_interior(FILE *out, const Surface *s)
+static void print_interior(const Import *import, FILE *out, const Surface *s)
 {
     float optical[3], most = 0;
     fprintf(out, "  interior { ior %.4g", (double)s->ior);
@@ -183,7 +183,8 @@ static void print_interior(FILE *out, const Surface *s)
     }
     if (s->fade_distance > 0 && most > 0) {
         const float color[3] = {1 - optical[0] / most, 1 - optical[1] / most, 1 - optical[2] / most};
-        fprintf(out, " fade_power 1001 fade_distance %.5g fade_color ", (double)(s->fade_distance / most));
+        fprintf(out, " fade_power 1001 fade_distance %.5g fade_color ",
+                (double)(s->fade_distance / most) * import->options->scale);
         print_color(out, color);
     }
     fprintf(out, " }\n");
@@ -403,15 +404,19 @@ static int write_material(Import *import, int index, ImportMaterial *to, FILE *o
     code = write_maps(&w, emission, err);
     if (code)
         return code;
+    to->radiance = largest(emission) * (to->has_image ? 0.5f : largest(s->base)); /* images are grey on average */
     import->emits |= !s->unlit && largest(emission) > 1; /* what shines less is a label or a lamp on a panel */
     to->is_solid = s->transmission > 0;
+    to->is_opaque = s->transmission <= 0 && s->opacity >= 1 && !s->opacity_map.source[0] &&
+                    (s->alpha == ALPHA_IGNORE || !to->has_image);
+    to->is_clear = s->transmission > 0.2f || s->opacity < 0.7f;
     fprintf(out, "#declare %s = %s {\n", to->name, to->is_solid ? "material {\n  texture" : "texture");
     print_pigment(out, s, file);
     print_normal(import, out, s, &w.files, to->uv_set);
     print_finish(out, s, emission, has_diffuse, &w.files, to->uv_set);
     if (to->is_solid) {
         fprintf(out, "  }\n");
-        print_interior(out, s);
+        print_interior(import, out, s);
     }
     fprintf(out, "}\n");
     return RETEX_OK;

@@ -14,8 +14,7 @@ static int is_finite(const struct aiVector3D *v)
     return isfinite(v->x) && isfinite(v->y) && isfinite(v->z);
 }
 
-/* A triangle with an area, whose indices and positions are numbers that there are. */
-static int is_surface(const struct aiMesh *mesh, const struct aiFace *face)
+int mesh_is_surface(const struct aiMesh *mesh, const struct aiFace *face)
 {
     const struct aiVector3D *p[3];
     if (face->mNumIndices != 3)
@@ -39,14 +38,14 @@ static long count_surfaces(const struct aiMesh *mesh)
 {
     long n = 0;
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
-        n += is_surface(mesh, &mesh->mFaces[i]);
+        n += mesh_is_surface(mesh, &mesh->mFaces[i]);
     return n;
 }
 
 int mesh_has_surface(const struct aiMesh *mesh)
 {
     for (unsigned i = 0; i < mesh->mNumFaces; i++)
-        if (is_surface(mesh, &mesh->mFaces[i]))
+        if (mesh_is_surface(mesh, &mesh->mFaces[i]))
             return 1;
     return 0;
 }
@@ -55,7 +54,7 @@ int mesh_bounds(const struct aiMesh *mesh, double low[3], double high[3])
 {
     int any = 0;
     for (unsigned i = 0; i < mesh->mNumFaces; i++) {
-        if (!is_surface(mesh, &mesh->mFaces[i]))
+        if (!mesh_is_surface(mesh, &mesh->mFaces[i]))
             continue;
         for (int k = 0; k < 3; k++) {
             const struct aiVector3D *v = &mesh->mVertices[mesh->mFaces[i].mIndices[k]];
@@ -179,7 +178,7 @@ static void write_faces(FILE *out, const struct aiMesh *mesh, long count, const 
     fprintf(out, "  face_indices { %ld", count);
     for (unsigned i = 0; i < mesh->mNumFaces; i++) {
         const unsigned *v = mesh->mFaces[i].mIndices;
-        if (!is_surface(mesh, &mesh->mFaces[i]))
+        if (!mesh_is_surface(mesh, &mesh->mFaces[i]))
             continue;
         /* z is mirrored: the other way round, so that the front stays in front */
         fprintf(out, ",\n<%u,%u,%u>", v[0], v[2], v[1]);

@@ -1,0 +1,318 @@
+/* Rays against a model's triangles and what retex-import asks of them, compared with a loop over all triangles, with
+ * boxes whose measures are known, and with the solid angle of a rectangle. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import/room.h"
+
+#define PI 3.14159265358979323846
+
+enum { TRIANGLES = 3000, RAYS = 20000 };
+
+static uint32_t state = 5;
+
+static double between(double low, double high)
+{
+    return low + (high - low) * test_random(&state);
+}
+
+static SpaceTriangles make(size_t nvertices, size_t ntriangles)
+{
+    SpaceTriangles t = {.vertices = calloc(nvertices, sizeof *t.vertices),
+                        .corners = calloc(ntriangles, sizeof *t.corners),
+                        .tags = calloc(ntriangles, sizeof *t.tags)};
+    assert_non_null(t.vertices);
+    assert_non_null(t.corners);
+    assert_non_null(t.tags);
+    return t;
+}
+
+static Space *create(SpaceTriangles *t)
+{
+    Space *space;
+    RetexError err = {0};
+    assert_int_equal(space_create(&space, t, &err), RETEX_OK);
+    return space;
+}
+
+/* ---- rays ---- */
+
+static SpaceTriangles random_triangles(void)
+{
+    SpaceTriangles t = make(3 * TRIANGLES, TRIANGLES);
+    for (t.ntriangles = 0; t.ntriangles < TRIANGLES; t.ntriangles++) {
+        const double at[3] = {between(-10, 10), between(-10, 10), between(-10, 10)};
+        for (uint32_t k = 0; k < 3; k++, t.nvertices++) {
+            for (int j = 0; j < 3; j++)
+                t.vertices[t.nvertices][j] = (float)(at[j] + between(-1, 1));
+            t.corners[t.ntriangles][k] = (uint32_t)t.nvertices;
+        }
+        t.tags[t.ntriangles] = (uint32_t)(t.ntriangles % 7);
+    }
+    return t;
+}
+
+static double determinant(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* By Cramer's rule: from + t d = a + u e1 + v e2. margin: how far inside the triangle it is. */
+static double meet(const SpaceTriangles *t, size_t i, const double from[3], const double d[3], double *margin,
+                   int *front)
+{
+    double e1[3], e2[3], s[3], minus[3];
+    for (int k = 0; k < 3; k++) {
+        const double a = (double)t->vertices[t->corners[i][0]][k];
+        e1[k] = (double)t->vertices[t->corners[i][1]][k] - a;
+        e2[k] = (double)t->vertices[t->corners[i][2]][k] - a;
+        s[k] = from[k] - a, minus[k] = -d[k];
+    }
+    const double all = determinant(minus, e1, e2);
+    const double u = determinant(minus, s, e2) / all, v = determinant(minus, e1, s) / all;
+    *margin = fmin(fmin(u, v), 1 - u - v);
+    *front = all > 0;
+    return determinant(s, e1, e2) / all;
+}
+
+static void the_nearest_is_that_of_a_loop(void **unused)
+{
+    SpaceTriangles t = random_triangles(), mine = random_triangles();
+    (void)unused;
+    for (size_t i = 0; i < t.nvertices; i++)
+        memcpy(mine.vertices[i], t.vertices[i], sizeof *t.vertices);
+    Space *space = create(&t);
+    static const unsigned char passes[7] = {0, 1, 0, 0, 1, 1, 0};
+    int hits = 0, through = 0;
+    for (int i = 0; i < RAYS; i++) {
+        const double from[3] = {between(-12, 12), between(-12, 12), between(-12, 12)};
+        const double d[3] = {between(-1, 1), between(-1, 1), between(-1, 1)};
+        double best[2] = {INFINITY, INFINITY};
+        int front[2] = {0, 0}, is_close = 0;
+        size_t which[2] = {0, 0};
+        for (size_t k = 0; k < TRIANGLES; k++) {
+            double margin;
+            int is_front;
+            const double at = meet(&mine, k, from, d, &margin, &is_front);
+            is_close |= fabs(margin) < 1e-4 || fabs(at) < 1e-4; /* float may decide otherwise */
+            for (int kind = 0; kind < 2; kind++)
+                if (margin > 0 && at > 0 && at < best[kind] && !(kind && passes[mine.tags[k]]))
+                    best[kind] = at, which[kind] = k, front[kind] = is_front;
+        }
+        for (int kind = 0; kind < 2 && !is_close; kind++) {
+            SpaceHit hit;
+            const int any =
+                kind ? space_ray_through(space, from, d, passes, &hit) : space_ray(space, from, d, 0, INFINITY, &hit);
+            assert_int_equal(any, isfinite(best[kind]));
+            if (!any)
+                continue;
+            hits += !kind, through += kind && which[0] != which[1];
+            assert_true(fabs(hit.t - best[kind]) < 1e-4 * (1 + best[kind]));
+            if (hit.triangle != which[kind]) /* two are there */
+                continue;
+            assert_int_equal(hit.is_front, front[kind]);
+            assert_int_equal(hit.tag, mine.tags[which[kind]]);
+        }
+    }
+    assert_true(hits > RAYS / 8 && through > RAYS / 50);
+    space_free(space);
+    free(mine.vertices);
+    free(mine.corners);
+    free(mine.tags);
+}
+
+static void ends_of_rays_count(void **unused)
+{
+    SpaceTriangles t = make(3, 1);
+    const float corners[3][3] = {{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}};
+    const double from[3] = {0, 0, 0}, d[3] = {0, 0, 2};
+    SpaceHit hit;
+    (void)unused;
+    memcpy(t.vertices, corners, sizeof corners);
+    for (uint32_t k = 0; k < 3; k++)
+        t.corners[0][k] = k;
+    t.nvertices = 3, t.ntriangles = 1, t.tags[0] = 9;
+    Space *space = create(&t);
+    assert_int_equal(space_ray(space, from, d, 0, 2.4, &hit), 0);
+    assert_int_equal(space_ray(space, from, d, 2.6, 9, &hit), 0);
+    assert_int_equal(space_ray(space, from, d, 0, 2.6, &hit), 1);
+    assert_true(fabs(hit.t - 2.5) < 1e-6 && fabs(hit.point[2] - 5) < 1e-6 && fabs(fabs(hit.normal[2]) - 1) < 1e-6);
+    assert_int_equal(hit.tag, 9);
+    assert_int_equal(hit.is_front, hit.normal[2] < 0);
+    space_free(space);
+}
+
+/* ---- rooms ---- */
+
+static void add_quad(SpaceTriangles *t, const double corners[4][3], uint32_t tag)
+{
+    const uint32_t base = (uint32_t)t->nvertices;
+    for (int k = 0; k < 4; k++, t->nvertices++)
+        for (int j = 0; j < 3; j++)
+            t->vertices[t->nvertices][j] = (float)corners[k][j];
+    for (uint32_t k = 0; k < 2; k++, t->ntriangles++) {
+        t->corners[t->ntriangles][0] = base;
+        t->corners[t->ntriangles][1] = base + 1 + k, t->corners[t->ntriangles][2] = base + 2 + k;
+        t->tags[t->ntriangles] = tag;
+    }
+}
+
+/* The six sides of a box, numbered 2 axis + side; without those of `without`, bits. Their tags are first + number. */
+static void add_box(SpaceTriangles *t, const double low[3], const double high[3], int inwards, unsigned without,
+                    uint32_t first)
+{
+    for (int side = 0; side < 6; side++) {
+        const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3, turned = (side % 2 == 0) != inwards;
+        double corners[4][3];
+        for (int k = 0; k < 4; k++) {
+            const int at = turned ? 3 - k : k;
+            corners[k][axis] = side % 2 ? high[axis] : low[axis];
+            corners[k][u] = at == 1 || at == 2 ? high[u] : low[u];
+            corners[k][v] = at >= 2 ? high[v] : low[v];
+        }
+        if (!(without >> side & 1))
+            add_quad(t, corners, first + (uint32_t)side);
+    }
+}
+
+static Space *box_room(double scale, unsigned without, int with_table)
+{
+    SpaceTriangles t = make(64, 64);
+    const double low[3] = {0, 0, 0}, high[3] = {5 * scale, 2.6 * scale, 4 * scale};
+    const double from[3] = {1.5 * scale, 0, scale}, to[3] = {3 * scale, .75 * scale, 2 * scale};
+    add_box(&t, low, high, 1, without, 0);
+    if (with_table)
+        add_box(&t, from, to, 0, 0, 6);
+    return create(&t);
+}
+
+static void a_box_is_measured(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 3; i++) {
+        const double scale = i == 1 ? 100 : 1, metre = i == 0 ? 1 : 0;
+        Space *space = box_room(scale, 0, 1);
+        RetexError err = {0};
+        Room room;
+        assert_int_equal(room_find(&room, space, metre, 0, &err), RETEX_OK);
+        assert_true(room.is_found && room.is_closed && !room.is_doubtful);
+        assert_true(fabs(room.floor) < 1e-3 * scale);
+        assert_true(fabs(room.height - 2.6 * scale) < 1e-3 * scale);
+        assert_true(fabs(room.metre - scale) < 1e-3 * scale);
+        assert_true(fabs(room.eye - 1.5 * scale) < 1e-3 * scale);
+        assert_true(fabs(room.enclosed - 1) < 1e-9 && fabs(room.covered - 1) < 1e-9);
+        /* the table takes 1.5 of 20 square metres; cells at its edge are either */
+        const double free_floor = room.ninside * room.cell * room.cell / (scale * scale);
+        assert_true(fabs(free_floor - 18.5) < 0.4);
+        /* clearances, by distances to the walls and the table's sides: no less than the true one */
+        for (int k = 0; k < room.nx * room.nz; k++) {
+            double p[3];
+            if (!room.cells[k].is_inside)
+                continue;
+            room_point(&room, k, 0, p);
+            const double x = p[0] / scale, z = p[2] / scale;
+            const double walls = fmin(fmin(x, 5 - x), fmin(z, 4 - z));
+            const double dx = fmax(fmax(1.5 - x, x - 3), 0), dz = fmax(fmax(1 - z, z - 2), 0);
+            const double truth = fmin(walls, hypot(dx, dz)) * scale;
+            assert_true((double)room.cells[k].clearance > truth - 1e-4 * scale);
+            assert_true((double)room.cells[k].clearance < 1.25 * truth + 0.02 * scale);
+        }
+        room_free(&room);
+        space_free(space);
+    }
+}
+
+static void a_solid_is_no_room(void **unused)
+{
+    (void)unused;
+    SpaceTriangles t = make(32, 16);
+    const double low[3] = {0, 0, 0}, high[3] = {5, 2.6, 4};
+    RetexError err = {0};
+    Room room;
+    add_box(&t, low, high, 0, 0, 0);
+    Space *space = create(&t);
+    assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+    assert_false(room.is_closed);
+    room_free(&room);
+    space_free(space);
+}
+
+/* A corner of a rectangle is above the point, at this height. */
+static double solid_angle(double a, double b, double height)
+{
+    return atan2(a * b, height * sqrt(height * height + a * a + b * b));
+}
+
+static void the_sky_has_the_solid_angle_of_the_opening(void **unused)
+{
+    static const unsigned char passes[12] = {[3] = 1}; /* a ceiling of glass */
+    (void)unused;
+    for (int i = 0; i < 3; i++) {
+        Space *space = box_room(1, i == 0 ? 1u << 3 : 0, 0);
+        RetexError err = {0};
+        Room room;
+        assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+        double sum = 0, count = 0;
+        for (int k = 0; k < room.nx * room.nz; k++) {
+            double p[3];
+            room_point(&room, k, 0, p);
+            if (!room.cells[k].is_inside)
+                continue;
+            const double h = 2.6 - room.eye;
+            sum += (solid_angle(p[0], p[2], h) + solid_angle(5 - p[0], p[2], h) + solid_angle(p[0], 4 - p[2], h) +
+                    solid_angle(5 - p[0], 4 - p[2], h)) /
+                   (4 * PI);
+            count++;
+        }
+        const double open = room_openness(&room, i == 1 ? passes : NULL), truth = i == 2 ? 0 : sum / count;
+        assert_true(count > 100 && fabs(open - truth) < 0.02);
+        room_free(&room);
+        space_free(space);
+    }
+}
+
+static void a_view_is_of_the_furniture(void **unused)
+{
+    (void)unused;
+    Space *space = box_room(1, 0, 1);
+    RetexError err = {0};
+    RoomView view, again;
+    memset(&view, 0, sizeof view);
+    memset(&again, 0, sizeof again);
+    Room room;
+    assert_int_equal(room_find(&room, space, 1, 0, &err), RETEX_OK);
+    assert_int_equal(room_view(&room, &view, &err), 1);
+    assert_int_equal(room_view(&room, &again, &err), 1);
+    assert_memory_equal(&view, &again, sizeof view);
+    assert_true(view.angle >= 65 && view.angle <= 75);
+    /* the table is before the eye, and most of it is in the picture: its corners are not far from the axis */
+    double ahead[3], to[3], length = 0, size = 0, cosine = 0;
+    for (int k = 0; k < 3; k++) {
+        ahead[k] = view.target[k] - view.eye[k];
+        to[k] = (const double[3]){2.25, 0.6, 1.5}[k] - view.eye[k];
+        length += ahead[k] * ahead[k], size += to[k] * to[k], cosine += ahead[k] * to[k];
+    }
+    cosine /= sqrt(length * size);
+    assert_true(cosine > cos(30 * PI / 180) && sqrt(size) > 1);
+    assert_true(ahead[1] < 0);
+    room_free(&room);
+    space_free(space);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_nearest_is_that_of_a_loop),
+        cmocka_unit_test(ends_of_rays_count),
+        cmocka_unit_test(a_box_is_measured),
+        cmocka_unit_test(a_solid_is_no_room),
+        cmocka_unit_test(the_sky_has_the_solid_angle_of_the_opening),
+        cmocka_unit_test(a_view_is_of_the_furniture),
+    };
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
