@@ -3,7 +3,8 @@
 Both draw the colours of surfaces alone, from the camera that retex-import chose: retex the AOV albedo_mean, three.js
 materials without light. Compared are which pixels show the model at all, and means of colour in 16 x 12 regions that both
 cover, as sRGB. Surfaces that transmit light or that are blended with what is behind them differ by definition: the AOV
-shows the first surface. Such regions, and what else differs, are named in the column `why` of models.csv."""
+shows the first surface. Such regions, and what else differs, are named in the column `why` of models.csv. In rooms with
+a column `floor`, that target is rendered and gets walnut planks, an image of which is `width` wide."""
 import base64
 import csv
 import hashlib
@@ -23,6 +24,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "../../web"))
 from browser import Browser, serve  # pylint: disable=wrong-import-position
 
+WALNUT = os.path.join(HERE, "../../../scenes/textures/walnut-herringbone.jpg")
 WIDTH = 320
 COLUMNS, ROWS = 16, 12  # regions
 DIFFERS = 0.05          # of a region's mean, of 1
@@ -132,6 +134,15 @@ class Page:
             self.browser.close()
 
 
+UNITS = {"centimetres": .01, "millimetres": .001, "inches": .0254}
+
+
+def scale_of(told):
+    """What the tool multiplied lengths by."""
+    found = re.search(r"taken as (\w+), and become metres", told)
+    return UNITS[found.group(1)] if found else 1
+
+
 def one(work, page, row, spp):
     """What became of a model: a dictionary for the table."""
     name, file = row["name"], os.path.basename(row["path"])
@@ -144,16 +155,27 @@ def one(work, page, row, spp):
         return got
     scene, set_file = f"{folder}/{name}.pov", f"{work}/{name}.exr"
     camera, aspect = camera_of(scene)
+    scale = scale_of("\n".join(lines))
     height = round(WIDTH / aspect)
     code, told, _ = run("retex-render", "-q", "--denoise", "--size", f"{WIDTH}x{height}", "--spp", str(spp), "--aov",
-                        "albedo_mean,depth", scene, "-o", set_file)
+                        "albedo_mean,depth", *(["-t", row["floor"]] if row["floor"] else []), scene, "-o", set_file)
     if code:
         return dict(got, code=code, told=told.splitlines())
     run("retex-combine", "-q", "--auto-exposure", set_file, "-o", f"{work}/{name}-retex.png")
+    if row["floor"]:
+        run("retex-combine", "-q", "--auto-exposure", set_file, f"--texture:width={row['width']}", f"Floor={WALNUT}", "-o",
+            f"{work}/{name}-walnut.png")
+        write(f"{work}/{name}-floors.png", np.concatenate(
+            [read(f"{work}/{name}-{which}.png")[:, :, :3] for which in ("retex", "walnut")], 1))
     depth = aov(set_file, "depth")[:, :, 0]
     covered = np.isfinite(depth)
     span = float(np.max(depth[covered], initial=1))
     camera.update(near=span / 5000, far=4 * span)
+    for key, value in camera.items():
+        if key in ("location", "target"):
+            camera[key] = [x / scale for x in value]
+        elif key in ("near", "far"):
+            camera[key] = value / scale
     try:
         drawn = page.draw(name, file, camera, height)
     except RuntimeError as error:
@@ -166,20 +188,20 @@ def one(work, page, row, spp):
     return dict(got, cover=cover, differs=differs, mean=mean, triangles=drawn["triangles"])
 
 
-def sheets(work, found):
+def sheets(work, found, kind, to):
     """Pictures of those that may be shown, in pairs, a few to a sheet."""
-    shown = [r["name"] for r in found if FREE.search(r["licence"]) and os.path.exists(f"{work}/{r['name']}-pair.png")]
+    shown = [r["name"] for r in found if FREE.search(r["licence"]) and os.path.exists(f"{work}/{r['name']}-{kind}.png")]
     names = []
     for k in range(0, len(shown), A_SHEET):
         rows, some = [], shown[k:k + A_SHEET]
         for name in some:
-            pair = read(f"{work}/{name}-pair.png")[:240, :, :3]
+            pair = read(f"{work}/{name}-{kind}.png")[:240, :, :3]
             rows.append(np.pad(pair, ((0, 240 - pair.shape[0]), (0, 0), (0, 0))))
         while len(rows) % 2:
             rows.append(np.zeros_like(rows[0]))
         lines = [np.concatenate(rows[i:i + 2], 1) for i in range(0, len(rows), 2)]
-        path = f"models-{k // A_SHEET + 1}.jpg"
-        write(f"{work}/{path}", np.concatenate(lines, 0)[::1])
+        path = f"{to}-{k // A_SHEET + 1}.jpg"
+        write(f"{work}/{path}", np.concatenate(lines, 0))
         names.append((path, some))
     return names
 
@@ -218,9 +240,13 @@ def write_page(work, head, found, spp, missing):
             for r in kinds[kind]:
                 print(line_of(r), file=out)
             print("", file=out)
+        print("## Other floors\n\nRooms as `retex-import` shows them, and with walnut on the floor, from one render each, by "
+              "the target of the column `floor` of the list, as in `-t Floor=@140:228/level`.\n", file=out)
+        for path, names in sheets(work, found, "floors", "models-floors"):
+            print(f"{', '.join(names)}:\n\n![rooms with another floor]({'pictures/' + path})\n", file=out)
         print("## Pictures\n\nretex at the left, three.js with lights of its own at the right; of models whose licence "
               "allows it.\n", file=out)
-        for path, names in sheets(work, found):
+        for path, names in sheets(work, found, "pair", "models"):
             print(f"{', '.join(names)}:\n\n![models]({'pictures/' + path})\n", file=out)
         if missing:
             print(f"Not there when this page was made: {', '.join(missing)}.", file=out)
