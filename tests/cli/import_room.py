@@ -22,6 +22,9 @@ MODELS = {
     'ell': dict(inside=ELL, boxes=ELL_FURNITURE, between=[(0, 1)]),
     'plane': dict(inside=[], boxes=[('Ground', (-5, -.1, -5), (5, 0, 5)), ('Vase', (-.2, 0, -.2), (.2, .5, .2))]),
     'solid': dict(inside=[], boxes=[('Block', (0, 0, 0), (3, 2.6, 3))]),
+    # a stove in centimetres, with boards within
+    'hull': dict(inside=[], boxes=[('Hull', (0, 0, 0), (90, 82, 80)), ('Board', (10, .5, 10), (40, 20, 30)),
+                                   ('Board', (60, .5, 50), (80, 30, 70))]),
     'shelves': dict(inside=[], boxes=[('Board', (0, y, 0), (1, y + .02, .4)) for y in (0, .5, 1, 1.5, 2)] +
                     [('Side', (x, 0, 0), (x + .02, 2, .4)) for x in (0, .98)] + [('Back', (0, 0, -.02), (1, 2, 0))]),
     'two_walls': dict(inside=[], boxes=[('Base', (0, -.1, 0), (4, 0, 4)), ('Left', (0, 0, 0), (.1, 2.5, 4)),

@@ -77,7 +77,8 @@ $ retex-import -f --unit 0 room.obj -o x
 = 2
 
 # From outside: what is no room. Of a room with two walls the open side is seen: from the right and from behind.
-$ for m in plane solid shelves two_walls; do retex-import $m.obj -o $m 2>&1 | grep -o 'the view is.*, from'; done
+$ for m in plane solid hull shelves two_walls; do retex-import $m.obj -o $m 2>&1 | grep -o 'the view is.*, from'; done
+> the view is from outside, from
 > the view is from outside, from
 > the view is from outside, from
 > the view is from outside, on the side that is open, from

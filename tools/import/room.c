@@ -332,8 +332,9 @@ static int is_furnished(const Room *room, int cell)
     return 0;
 }
 
-/* Inside of a solid all surfaces are seen from behind, and nothing stands in it. */
-static void find_means(Room *room)
+/* Inside of a solid surfaces are seen from behind. Furniture has a hull, and within it may be springs and boards, but
+ * it is not as high as rooms are; models that are turned inside out may be. metre: as said, or 0. */
+static void find_means(Room *room, double metre)
 {
     enum { DIRECTIONS = 48 };
     double enclosed = 0, covered = 0, front = 0, seen = 0, floor = 0, furniture = 0;
@@ -362,7 +363,8 @@ static void find_means(Room *room)
     room->enclosed = room->ninside ? enclosed / room->ninside : 0;
     room->covered = room->ninside ? covered / room->ninside : 0;
     room->is_furnished = furniture > 0.005 * room->ninside;
-    room->is_solid = front < 0.05 * seen && !room->is_furnished;
+    const double height = metre > 0 ? room->height / metre : room->height;
+    room->is_solid = front < 0.05 * seen && (!room->is_furnished || height < 2 || height > 4);
     room->share = floor > 0 ? room->ninside / floor : 0;
 }
 
@@ -498,11 +500,11 @@ int room_find(Room *room, const Space *space, double metre, int is_sure, RetexEr
         if (code || !room->is_found)
             return code;
     }
-    find_means(room);
+    find_means(room, metre);
     const double area = room->ninside * room->cell * room->cell, m = room->metre;
     /* hollow walls are long, too, but nowhere wide */
     room->is_closed = !room->is_solid && area > 2 * m * m && room->clearance > 0.4 * m && room->enclosed > 0.7 &&
-                      (room->covered > 0.5 || (room->enclosed > 0.75 && room->share > 0.6));
+                      (room->covered > 0.5 || (room->enclosed > 0.85 && room->share > 0.6));
     return RETEX_OK;
 }
 

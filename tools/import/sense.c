@@ -83,14 +83,16 @@ static int find_unit(Import *import, Sense *sense, int is_said, RetexError *err)
         return RETEX_OK;
     }
     const Unit *unit = unit_of(height);
-    if (!unit && !is_said && !(room->enclosed > 0.9 && room->is_furnished)) { /* a cupboard has compartments too */
+    const int may_be_feet = height > 6.5 && height < 14;
+    /* Cupboards have compartments too, and the hulls of sofas are furnished with cushions. */
+    if (!unit && !is_said && !(may_be_feet && room->enclosed > 0.9 && room->is_furnished)) {
         room->is_closed = 0;
         return RETEX_OK;
     }
     if (!unit) {
         import_tell(import, IMPORT_INFO,
                     "the room is %.3g units high: its unit is unknown, and lengths stay; --unit %s", height,
-                    height > 6.5 && height < 20 ? "ft, if it is feet, makes metres" : "or --scale makes metres");
+                    may_be_feet ? "ft, if it is feet, makes metres" : "or --scale makes metres");
         return RETEX_OK;
     }
     if (unit->metres != 1) {

@@ -1,10 +1,10 @@
 """For models.sh: imports models, renders them, and compares with three.js. WORK HEAD SPP NAME…
 
 Both draw the colours of surfaces alone, from the camera that retex-import chose: retex the AOV albedo_mean, three.js
-materials without light. Compared are which pixels show the model at all, and means of colour in 16 x 12 regions that both
-cover, as sRGB. Surfaces that transmit light or that are blended with what is behind them differ by definition: the AOV
-shows the first surface. Such regions, and what else differs, are named in the column `why` of models.csv. In rooms with
-a column `floor`, that target is rendered and gets walnut planks, an image of which is `width` wide."""
+materials without light. Compared are which pixels show the model at all, and means of colour in 16 x 12 regions that
+both cover, as sRGB. Surfaces that transmit light or that are blended with what is behind them differ by definition: the
+AOV shows the first surface. Such regions, and what else differs, are named in the column `why` of models.csv. In rooms
+with a column `floor`, that target is rendered and gets walnut planks, an image of which is `width` wide."""
 import base64
 import csv
 import hashlib
@@ -101,7 +101,7 @@ def from_browser(url, path):
 
 
 def compare(ours, covered, theirs, shown):
-    """Shares: of pixels that one of both shows, of regions whose mean colour differs; and the regions' mean difference."""
+    """Shares of pixels that one of both shows, and of regions whose mean differs; the regions' mean difference."""
     height, width = covered.shape
     found = []
     for j in range(ROWS):
@@ -163,8 +163,8 @@ def one(work, page, row, spp):
         return dict(got, code=code, told=told.splitlines())
     run("retex-combine", "-q", "--auto-exposure", set_file, "-o", f"{work}/{name}-retex.png")
     if row["floor"]:
-        run("retex-combine", "-q", "--auto-exposure", set_file, f"--texture:width={row['width']}", f"Floor={WALNUT}", "-o",
-            f"{work}/{name}-walnut.png")
+        run("retex-combine", "-q", "--auto-exposure", set_file, f"--texture:width={row['width']}", f"Floor={WALNUT}",
+            "-o", f"{work}/{name}-walnut.png")
         write(f"{work}/{name}-floors.png", np.concatenate(
             [read(f"{work}/{name}-{which}.png")[:, :, :3] for which in ("retex", "walnut")], 1))
     depth = aov(set_file, "depth")[:, :, 0]
@@ -180,7 +180,8 @@ def one(work, page, row, spp):
         drawn = page.draw(name, file, camera, height)
     except RuntimeError as error:
         return dict(got, other=str(error).splitlines()[0][:100])
-    flat, lit = from_browser(drawn["flat"], f"{work}/{name}-flat.png"), from_browser(drawn["lit"], f"{work}/{name}-three.png")
+    flat = from_browser(drawn["flat"], f"{work}/{name}-flat.png")
+    lit = from_browser(drawn["lit"], f"{work}/{name}-three.png")
     ours = encode(aov(set_file, "albedo_mean")[:, :, :3])
     write(f"{work}/{name}-albedo.png", np.concatenate([ours, flat[:, :, :3]], 1))
     cover, differs, mean = compare(ours, covered, flat[:, :, :3], flat[:, :, 3] > 0.5)
@@ -213,7 +214,8 @@ def line_of(r):
     if r["code"]:
         return f"| {r['name']} | {r['source']} | {r['licence']} | refused | | | {told} |"
     if "cover" not in r:
-        return f"| {r['name']} | {r['source']} | {r['licence']} | {r['seconds']:.1f} s | three.js: {r['other']} | | {told} |"
+        return (f"| {r['name']} | {r['source']} | {r['licence']} | {r['seconds']:.1f} s | three.js: {r['other']} | | "
+                f"{told} |")
     why = f"{r['why']}; " if r["why"] else ""
     return (f"| {r['name']} | {r['source']} | {r['licence']} | {r['triangles']:,}, {r['seconds']:.1f} s | "
             f"{100 * r['cover']:.1f} % | {100 * r['differs']:.0f} % | {why}{told} |")
@@ -225,8 +227,8 @@ def write_page(work, head, found, spp, missing):
     alike = sum("cover" in r and (r["cover"] < 0.005 and r["differs"] < 0.02) for r in found)
     with open(f"{work}/models.md", "w", encoding="utf-8") as out:
         print(f"# Models of other people\n\n{head}\n", file=out)
-        print(f"{len(found)} models of {len({r['source'] for r in found})} sources, as `retex-import` brings them in "
-              f"without any option but those named: {whole} become scenes, the others are refused in one line. "
+        print(f"{len(found)} models of {len({r['source'] for r in found})} sources, as `retex-import --partial` brings "
+              f"them in: {whole} become scenes, the others are refused in one line. "
               f"{alike} of them show the same colours as three.js in at least 98 % of {COLUMNS} x {ROWS} regions "
               f"(to {DIFFERS}) and the same outline to half a percent of the picture; what differs in the others is "
               "said. The list, with revisions and hashes, is `tests/fidelity/table/models.csv`; the models are not in "
@@ -234,14 +236,14 @@ def write_page(work, head, found, spp, missing):
         print("The AOV shows the first surface, three.js what is behind glass and blended images: such surfaces "
               "differ by definition.\n", file=out)
         for kind, title in (("room", "Rooms"), ("furniture", "Furniture"), ("test", "Tests of extensions")):
-            print(f"## {title}\n\n| model | from | licence | triangles, import | outline differs | regions differ | told |",
-                  file=out)
+            print(f"## {title}\n\n| model | from | licence | triangles, import | outline differs | regions differ | "
+                  "told |", file=out)
             print("|---|---|---|---|---|---|---|", file=out)
             for r in kinds[kind]:
                 print(line_of(r), file=out)
             print("", file=out)
-        print("## Other floors\n\nRooms as `retex-import` shows them, and with walnut on the floor, from one render each, by "
-              "the target of the column `floor` of the list, as in `-t Floor=@140:228/level`.\n", file=out)
+        print("## Other floors\n\nRooms as `retex-import` shows them, and with walnut on the floor, from one render each, "
+              "by the target of the column `floor` of the list, as in `-t Floor=@140:228/level`.\n", file=out)
         for path, names in sheets(work, found, "floors", "models-floors"):
             print(f"{', '.join(names)}:\n\n![rooms with another floor]({'pictures/' + path})\n", file=out)
         print("## Pictures\n\nretex at the left, three.js with lights of its own at the right; of models whose licence "
@@ -263,8 +265,8 @@ def main(work, head, spp, *names):
             continue
         r = one(work, page, row, spp)
         found.append(r)
-        print(f"fidelity-models: {r['name']}: " + (f"outline {100 * r['cover']:.1f} %, regions {100 * r['differs']:.0f} %"
-                                                   if "cover" in r else "; ".join(r["told"])[:200]), file=sys.stderr)
+        what = f"outline {100 * r['cover']:.1f} %, regions {100 * r['differs']:.0f} %" if "cover" in r else r["told"]
+        print(f"fidelity-models: {r['name']}: {what}", file=sys.stderr)
     page.close()
     for name in missing:
         print(f"fidelity-models: {name} is not there, or another file", file=sys.stderr)
