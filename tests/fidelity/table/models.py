@@ -208,8 +208,8 @@ def sheets(work, found, kind, to):
 
 
 def line_of(r):
-    told = "; ".join(line.replace("warning: ", "").replace("|", "/") for line in r["told"]
-                     if not re.match(r"\d+ materials?, ", line))
+    told = "; ".join(re.sub(r"/\S*/models/", "", line.replace("warning: ", "").replace("|", "/").replace("`", "'"))
+                     for line in r["told"] if not re.match(r"\d+ materials?, ", line))
     told = told if len(told) <= 240 else told[:237] + "…"
     if r["code"]:
         return f"| {r['name']} | {r['source']} | {r['licence']} | refused | | | {told} |"
