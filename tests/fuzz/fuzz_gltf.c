@@ -8,7 +8,7 @@
 
 #include <meshoptimizer.h>
 
-#include "import/internal.h"
+#include "import/variants.h"
 #include "lib_fuzz.h"
 
 /* A mesh of positions of 16 bits, normals and UV of 8, which are sparse in part; UV of floats, all of them sparse. */
@@ -25,6 +25,17 @@ static const char model[] =
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":24,\"byteStride\":8},{\"buffer\":0,\"byteOffset\":24,\"byteLength\":"
     "12,\"byteStride\":4},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":2},{\"buffer\":0,\"byteOffset\":38,"
     "\"byteLength\":4}],\"buffers\":[{\"byteLength\":42%s}]}";
+
+/* Variants, of surfaces that share a material and that have none. */
+static const char varied[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"materials\":[{\"name\":\"a\"},{\"name\":\"b\"},{}],\"extensions\":{\"KHR_materials_variants\":{"
+    "\"variants\":[{\"name\":\"A\"},{"
+    "\"name\":\"B\"}]}},\"meshes\":[{\"primitives\":[{\"attributes\":{},\"material\":0,\"extensions\":{"
+    "\"KHR_materials_variants\":{\"mappings\":[{\"material\":1,\"variants\":[0]},{\"material\":2,"
+    "\"variants\":[1,0]}]}}},{"
+    "\"attributes\":{},\"material\":0},{\"attributes\":{},\"extensions\":{\"KHR_materials_variants\":{\"mappings\":[{"
+    "\"material\":1,\"variants\":[1]}]}}}]}]}";
 
 /* A mesh by Draco, one by meshoptimizer, whose nodes are instances of it, and a node that is hidden. The numbers are
  * the places and sizes of what begin() makes: Draco's data, and streams of positions, indices and rotations. */
@@ -129,6 +140,8 @@ static void begin(void)
     snprintf(text, sizeof text, model, "");
     seed_binary(text, zeros, sizeof zeros);
     seed_compressed();
+    seed_binary(varied, zeros, sizeof zeros);
+    fuzz_words(varied, strlen(varied));
 }
 
 static FILE *file_of(const unsigned char *bytes, size_t size)
@@ -204,8 +217,10 @@ static int run(const unsigned char *bytes, size_t size)
     FILE *file = gltf_prepare(&import, file_of(bytes + head, size - head));
     const int changed = import.gltf_prepared != NULL;
     fuzz_must(file || import.gltf_refused[0], "the file can be opened again, or a reason is given");
-    if (!file)
+    if (!file) {
+        gltf_variants_free(&import.variants);
         return 0;
+    }
     const GltfText text = gltf_load(file);
     fuzz_must(!changed || text.json, "what is written in place of a file can be read");
     fuzz_must(!changed || !text.is_repaired, "it is valid UTF-8");
@@ -215,6 +230,7 @@ static int run(const unsigned char *bytes, size_t size)
     fclose(file);
     if (changed)
         fclose(import.gltf_prepared);
+    gltf_variants_free(&import.variants);
     return changed;
 }
 
