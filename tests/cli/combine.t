@@ -132,6 +132,6 @@ $ retex-combine -q - -o y.png </dev/null
 # A scene without targets is a picture: it can be developed, packed and made smaller like one that could be retextured.
 $ echo 'camera { location -3*z look_at 0 } light_source { -9*z, 1 } sphere { 0, 1 pigment { rgb <.8,.4,.2> } }' >p.pov; retex-render -q --size 16x12 --spp 4 p.pov -o plain.exr; retex-render -q --size 16x12 --spp 4 --target 'S=#1' p.pov -o whole.exr
 $ retex-combine -q plain.exr -o plain-is.exr; retex-combine -q whole.exr -o whole-is.exr; retex-diff -q plain-is.exr whole-is.exr --fail-psnr 50
-$ retex-combine -q - -o stream.exr <plain.exr; retex-diff -q stream.exr plain-is.exr --fail-abs 0; retex-combine -q --size 8x6 --exposure 1 plain.exr -o small-is.exr; oiiotool --stats small-is.exr | grep -c 'Avg: 0.000'
+$ retex-combine -q - -o stream.exr <plain.exr; retex-diff -q stream.exr plain-is.exr --fail-abs 0 || echo the stream differs; retex-combine -q --size 8x6 --exposure 1 plain.exr -o small-is.exr; oiiotool --stats small-is.exr | grep -c 'Avg: 0.000'
 > 0
 = 1

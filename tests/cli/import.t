@@ -336,7 +336,7 @@ $ retex-import -q beyond.glb -o beyond; ls -d beyond
 # What Assimp would misread is the reference too: sparse accessors, strides of zero or with a point, names that are not
 # UTF-8 or have NULs, NULs behind the text, chunks behind the others. So are the eighth UV and morph targets
 # at weights of the mesh or of its nodes.
-$ for m in sparse_words.gltf sparse.gltf stride_zero.gltf stride_point.gltf latin.gltf nul.gltf padded.glb unaligned.glb chunk_after.glb eighth.gltf morph.gltf morph_nodes.gltf morph_rest.gltf; do sh look $m; sh same ${m%.*}.exr reference.exr; done; for m in morph morph_nodes; do retex-diff -q --part normal --fail-abs 0.0005 $m.exr reference.exr; done
+$ for m in sparse_words.gltf sparse.gltf stride_zero.gltf stride_point.gltf latin.gltf nul.gltf padded.glb unaligned.glb chunk_after.glb eighth.gltf morph.gltf morph_nodes.gltf morph_rest.gltf; do sh look $m; sh same ${m%.*}.exr reference.exr; done; for m in morph morph_nodes; do retex-diff -q --part normal --fail-abs 0.0005 $m.exr reference.exr || echo $m leans; done
 # What cannot be read ends in one line.
 $ for m in sparse_beyond.gltf stride_huge.gltf longs.gltf comma.gltf chunk_between.glb chunk_before.glb; do retex-import $m -o odd; done; ls -d odd*
 ! retex-import: error: sparse_beyond.gltf: the numbers of accessors[1], TEXCOORD_0, do not lie within their buffer, or are of a type that glTF does not know there

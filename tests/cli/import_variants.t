@@ -38,8 +38,7 @@ $ cat all/all-variants.csv
 > Brass.png,,"rgb(0.8,0.6,0.2)",original,Seat_Brass_finish
 > As_it_is.png,,,original,original
 > Wet_red.png,"rgb(0.1,0.15,0.08)","rgb(0.7,0.05,0.05)",Floor_Wet_floor_finish,original
-$ cd all; sed -i 's/\.png,/.exr,/' all-variants.csv; retex-render -q --spp 256 --size 64x48 -t Floor --finish Floor=original,Floor_Wet_floor_finish -t Seat --finish Seat=original,Seat_Brass_finish all.pov | retex-combine -q - --batch all-variants.csv; for v in Red Print Wet_floor Brass As_it_is Wet_red; do retex-diff -q --fail-psnr 37 $v.exr ../is-$v.exr || echo $v; done; retex-diff -q --fail-psnr 37 Default.exr As_it_is.exr; retex-diff -q --fail-psnr 30 Brass.exr As_it_is.exr; retex-diff -q --fail-psnr 30 Print.exr Red.exr
-= 1
+$ cd all; sed -i 's/\.png,/.exr,/' all-variants.csv; retex-render -q --spp 256 --size 64x48 -t Floor --finish Floor=original,Floor_Wet_floor_finish -t Seat --finish Seat=original,Seat_Brass_finish all.pov | retex-combine -q - --batch all-variants.csv; for v in Red Print Wet_floor Brass As_it_is Wet_red; do retex-diff -q --fail-psnr 37 $v.exr ../is-$v.exr || echo $v; done; retex-diff -q --fail-psnr 37 Default.exr As_it_is.exr || echo Default; for v in Red Print Wet_floor Brass Wet_red; do retex-diff -q --fail-psnr 30 $v.exr As_it_is.exr && echo $v is as it was; done; true
 
 # Mappings that lead nowhere change nothing. Colours of vertices would be lost.
 $ retex-import -q -o astray astray.gltf && ls astray; retex-import -o odd odd.gltf 2>&1 | grep -c variant
