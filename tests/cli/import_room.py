@@ -1,6 +1,7 @@
 """For import_room.t. Without arguments: writes rooms and other models of boxes. `view NAME MODEL`: where the camera of the
-scene NAME/NAME.pov is, and what it sees of MODEL's boxes, by a ray tracer of its own; prints what is wrong. `bounds NAME`:
-the size of all that is placed in the scene."""
+scene NAME/NAME.pov is, and what it sees of MODEL's boxes, by a ray tracer of its own; prints what is wrong. `cut NAME MODEL`:
+whether what stands before the rooms is left out, and nothing else. `bounds NAME`: the size of all that is placed in the
+scene."""
 import base64
 import json
 import math
@@ -20,6 +21,8 @@ ELL_FURNITURE = [('Bed', (4, 0, .1), (5.9, .5, 1.7)), ('Desk', (.1, 0, 4.8), (1.
 MODELS = {
     'room': dict(inside=SHELL, boxes=FURNITURE),
     'ell': dict(inside=ELL, boxes=ELL_FURNITURE, between=[(0, 1)]),
+    # hollow walls, .2 thick, around the room
+    'thick': dict(inside=SHELL, boxes=[('Outside', (-.2, -.2, -.2), (5.2, 2.8, 4.2))] + FURNITURE),
     'plane': dict(inside=[], boxes=[('Ground', (-5, -.1, -5), (5, 0, 5)), ('Vase', (-.2, 0, -.2), (.2, .5, .2))]),
     'solid': dict(inside=[], boxes=[('Block', (0, 0, 0), (3, 2.6, 3))]),
     # a stove in centimetres, with boards within
@@ -81,7 +84,7 @@ def obj(name, faces, scale=1.0, z_up=False, turned=False):
         out.write('\n'.join(lines) + '\n')
 
 
-def gltf(name, faces, scale=1.0, emission=(), camera=None, instances=1):
+def gltf(name, faces, scale=1.0, emission=(), camera=None, instances=1, apart=0.0):
     names = sorted({what for what, _ in faces})
     data, views, accessors, primitives = b'', [], [], []
     for material, what in enumerate(names):
@@ -110,7 +113,7 @@ def gltf(name, faces, scale=1.0, emission=(), camera=None, instances=1):
         materials.append(m)
     used = sorted({e for m in materials for e in m.get('extensions', ())})
     scene = {'asset': {'version': '2.0'}, 'extensionsUsed': used, 'scene': 0, 'scenes': [{'nodes': list(range(instances))}],
-             'nodes': [{'mesh': 0} for _ in range(instances)], 'meshes': [{'primitives': primitives}],
+             'nodes': [{'mesh': 0, 'translation': [i * apart, 0, 0]} for i in range(instances)], 'meshes': [{'primitives': primitives}],
              'materials': materials, 'accessors': accessors, 'bufferViews': views,
              'buffers': [{'byteLength': len(data),
                           'uri': 'data:application/octet-stream;base64,' + base64.b64encode(data).decode()}]}
@@ -141,6 +144,9 @@ def write_models():
     gltf('window.gltf', quads(room, True))
     gltf('glass.gltf', quads(room, 'glass'))
     gltf('two_panes.gltf', quads(room, 'glass') + [(n, q[:1] + q[:0:-1]) for n, q in quads(room, 'glass') if n == 'Pane'])
+    gltf('shared.gltf', faces, instances=2, apart=20)
+    for name, zs in ('panes_before', (4.1, 4.2, -.1)), ('panes_behind', (4.1, -.2, -.1)):
+        gltf(name + '.gltf', faces + [('Pane', [(1, 1, z), (2, 1, z), (2, 2, z), (1, 2, z)]) for z in zs])
     lamp = [('Lamp', [(2, 2.59, 1), (3, 2.59, 1), (3, 2.59, 2), (2, 2.59, 2)])]
     gltf('lamp.gltf', faces + lamp, emission=('Lamp',))
     # within a tray, where it lights nothing
@@ -232,26 +238,58 @@ def judge_view(name, model):
     print('; '.join(wrong) or 'a view')
 
 
-def bounds(name):
-    meshes = {}
-    for of, text in re.findall(r'#declare (\w+) = mesh2 \{\s*vertex_vectors \{ \d+,(.*?)\}',
-                               open('%s/%s-meshes.inc' % (name, name)).read(), re.S):
-        meshes[of] = np.array([[float(c) for c in v.split(',')] for v in re.findall('<([^>]*)>', text)])
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for of, transform in re.findall(r'^object \{ (\w+) \w+ \{ \w+ \}(.*?) \} //', open('%s/%s.pov' % (name, name)).read(),
-                                    re.M):
+def placed(name):
+    """Of each object of a scene its material and triangles, as an array (n, 3 corners, 3)."""
+    meshes, objects = {}, []
+    mesh = r'#declare (\w+) = mesh2 \{\s*vertex_vectors \{ \d+,(.*?)\}.*?face_indices \{ \d+,(.*?)\}'
+    for of, text, faces in re.findall(mesh, open('%s/%s-meshes.inc' % (name, name)).read(), re.S):
+        vertices = np.array([[float(c) for c in v.split(',')] for v in re.findall('<([^>]*)>', text)])
+        meshes[of] = vertices[[[int(c) for c in f.split(',')] for f in re.findall('<([^>]*)>', faces)]]
+    for of, what, transform in re.findall(r'^object \{ (\w+) \w+ \{ (\w+) \}(.*?) \} //',
+                                          open('%s/%s.pov' % (name, name)).read(), re.M):
         points = meshes[of]
         for word, numbers in re.findall(r'(matrix|scale|translate) <?([-0-9., e]+)>?', transform):
             n = np.array([float(c) for c in numbers.split(',')])
             points = (points @ n.reshape(4, 3)[:3] + n.reshape(4, 3)[3] if word == 'matrix' else
                       points * n if word == 'scale' else points + n)
-        low, high = np.minimum(low, points.min(0)), np.maximum(high, points.max(0))
-    print('%.4g x %.4g x %.4g' % tuple(high - low))
+        objects.append((what, points))
+    return objects
+
+
+def bounds(name):
+    points = np.concatenate([points for _, points in placed(name)]).reshape(-1, 3)
+    print('%.4g x %.4g x %.4g' % tuple(points.max(0) - points.min(0)))
+
+
+def judge_cut(name, model):
+    """Of walls and ceilings those whose front the camera sees are there, of what is around those whose back it sees, and
+    all of what stands in the room."""
+    eye, wrong = read_camera(name)[0], []
+    objects = placed(name)
+    if not all(high[1] < eye[1] for _, _, high in model['inside']):
+        wrong.append('the eye is %g above the floor' % eye[1])
+    for i, (what, corners) in enumerate(quads(model)):
+        corners = np.array(corners, float) * (1, 1, -1)
+        normal = -np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        area, normal = np.linalg.norm(normal), normal / np.linalg.norm(normal)
+        is_front = normal @ (eye - corners[0]) > 0
+        is_to_be = not is_front if what == 'Outside' else is_front or what not in ('Walls', 'Floor')
+        triangles = np.concatenate([points for of, points in objects if of == what] or [np.empty((0, 3, 3))])
+        middles = triangles.mean(1)
+        on = (abs((triangles - corners[0]) @ normal).max(1) < 1e-4) & \
+             ((middles > corners.min(0) - 1e-4) & (middles < corners.max(0) + 1e-4)).all(1)
+        edges = triangles[on][:, 1:] - triangles[on][:, :1]
+        there = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2
+        if abs(there - (area if is_to_be else 0)) > 1e-3 * area:
+            wrong.append('%g of face %d (%s) is there' % (there / area, i, what))
+    print('; '.join(wrong) or 'cut')
 
 
 if len(sys.argv) == 1:
     write_models()
 elif sys.argv[1] == 'view':
     judge_view(sys.argv[2], MODELS[sys.argv[3]])
+elif sys.argv[1] == 'cut':
+    judge_cut(sys.argv[2], MODELS[sys.argv[3]])
 else:
     bounds(sys.argv[2])

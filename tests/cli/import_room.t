@@ -86,6 +86,34 @@ $ for m in plane solid hull shelves two_walls; do retex-import $m.obj -o $m 2>&1
 $ awk '/^  location/ { gsub(/[<>,]/, ""); print ($2 > 4), ($4 > 0) }' two_walls/two_walls.pov
 > 1 1
 
+# From above into rooms, without walls and ceilings that stand before them: which ones follows from where their fronts are.
+# All else stays.
+$ for m in room room_cm turned thick ell dark twice; do retex-import -f -q --camera cutaway $(ls $m.obj $m.gltf 2>/dev/null) -o x && /usr/bin/python3 $TESTS/import_room.py cut x $(case $m in thick|ell) echo $m;; *) echo room;; esac); done
+> cut
+> cut
+> cut
+> cut
+> cut
+> cut
+> cut
+$ retex-import -f --camera cutaway dark.gltf -o x 2>&1 | sed 's/from [-0-9.,]* to [-0-9.,]*/from A to B/'
+> retex-import: the view is into the rooms from above, from A to B 40 degrees; 6 triangles before the rooms are left out
+> retex-import: no light in the model: a soft sky lights it
+> retex-import: 6 materials, 6 meshes, 6 objects, 54 triangles
+> retex-import: wrote x/x.pov
+# Glass, and meshes that are placed several times, stay or go as a whole.
+$ for m in panes_before panes_behind shared; do retex-import -f -q --camera cutaway $m.gltf -o x; echo $(grep -c '^object.*Pane' x/x.pov) $(grep -c '^object' x/x.pov); done
+> 0 6
+> 1 7
+> 0 11
+$ for m in plane solid hull; do retex-import --camera cutaway $m.obj -o y; echo $?; done
+> 2
+> 2
+> 2
+! retex-import: error: --camera cutaway: plane.obj: there is no room in it
+! retex-import: error: --camera cutaway: solid.obj: there is no room in it
+! retex-import: error: --camera cutaway: hull.obj: there is no room in it
+
 # Cameras of the model come first; words stand for views, and a camera of such a name has its number.
 $ retex-import -f -q camera.gltf -o x && grep '^camera' x/x.pov; retex-import -f -q --camera auto camera.gltf -o x && grep '^camera' x/x.pov; retex-import -f -q --camera 1 camera.gltf -o x && grep '^camera' x/x.pov
 > camera { Camera_inside }

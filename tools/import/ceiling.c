@@ -18,7 +18,7 @@ static const ImportMaterial *material_of(const Import *import, uint32_t object)
 static int is_room(const Import *import)
 {
     const Sense *sense = import->sense;
-    return sense && sense->space && sense->room.is_closed && sense->room.covered > 0.5;
+    return sense && sense->space && !import->cutaway && sense->room.is_closed && sense->room.covered > 0.5;
 }
 
 /* How many sides of a triangle shine into free space: what is inside of a device lights nothing. */

@@ -191,15 +191,15 @@ int doubles_find_objects(Import *import, RetexError *err)
     objects.capacity = objects.count;
     objects.count = 0;
     objects.list = malloc((objects.capacity + 1) * sizeof *objects.list);
-    import->is_double = calloc(objects.capacity + 1, 1);
-    done = done && objects.list && import->is_double && import_visit_nodes(import, note_object, &objects);
+    import->is_dropped = calloc(objects.capacity + 1, 1);
+    done = done && objects.list && import->is_dropped && import_visit_nodes(import, note_object, &objects);
     if (done)
         qsort(objects.list, objects.count, sizeof *objects.list, compare_objects);
     for (size_t i = 1; done && i < objects.count; i++) {
         const Object *a = &objects.list[i - 1], *b = &objects.list[i];
         if (a->mesh != b->mesh || memcmp(&a->placed, &b->placed, sizeof a->placed) != 0)
             continue;
-        import->is_double[b->number] = 1;
+        import->is_dropped[b->number] = 1;
         dropped++;
     }
     free(objects.list);

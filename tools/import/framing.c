@@ -50,7 +50,7 @@ int framing_is_asked(const Import *import, int *is_asked, RetexError *err)
     *is_asked = 0;
     if (!asked)
         return RETEX_OK;
-    *is_asked = is_word(import, "inside") || is_word(import, "outside");
+    *is_asked = is_word(import, "inside") || is_word(import, "outside") || cutaway_is_asked(import);
     if (*is_asked || !strchr(asked, ':') || !take_place(asked, &framing))
         return RETEX_OK;
     *is_asked = 1;
@@ -134,24 +134,34 @@ static int choose_side(const Import *import, double side[3])
     return is_other;
 }
 
-/* How far from its middle the corners of the scene are all in the picture, with a margin. */
-static double distance_to_fit(const Import *import, const double side[3], double angle)
+/* How far from its middle the corners of a box are all in the picture, with a margin. back: of unit length. */
+static double distance_to_fit(const double low[3], const double high[3], const double back[3], double angle)
 {
-    const double across = tan(angle / 2 * PI / 180) * 0.9, along = across * 3 / 4,
-                 length = sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
-    const double back[3] = {side[0] / length, side[1] / length, side[2] / length}, level = hypot(back[0], back[2]);
+    const double across = tan(angle / 2 * PI / 180) * 0.9, along = across * 3 / 4, level = hypot(back[0], back[2]);
     const double right[3] = {-back[2] / level, 0, back[0] / level};
     const double up[3] = {-back[1] * right[2], back[0] * right[2] - back[2] * right[0], back[1] * right[0]};
     double distance = 0;
     for (int corner = 0; corner < 8; corner++) {
         double x = 0, y = 0, z = 0;
         for (int k = 0; k < 3; k++) {
-            const double half = (import->high[k] - import->low[k]) / 2, c = corner >> k & 1 ? half : -half;
+            const double half = (high[k] - low[k]) / 2, c = corner >> k & 1 ? half : -half;
             x += c * right[k], y += c * up[k], z += c * back[k];
         }
         distance = fmax(distance, z + fmax(fabs(x) / across, fabs(y) / along));
     }
     return distance;
+}
+
+void framing_fit(const double low[3], const double high[3], const double side[3], double angle, double eye[3],
+                 double target[3])
+{
+    const double length = sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
+    const double back[3] = {side[0] / length, side[1] / length, side[2] / length};
+    const double distance = distance_to_fit(low, high, back, angle);
+    for (int k = 0; k < 3; k++) {
+        target[k] = low[k] + (high[k] - low[k]) / 2;
+        eye[k] = target[k] + back[k] * distance;
+    }
 }
 
 /* So that the scene fills the picture. Returns 1 if it is not the usual side. */
@@ -160,13 +170,15 @@ static int frame_outside(const Import *import, Framing *framing)
     double side[3];
     const int is_other = choose_side(import, side);
     framing->angle = 40;
-    const double distance = distance_to_fit(import, side, framing->angle);
-    const double length = sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
-    for (int k = 0; k < 3; k++) {
-        framing->to[k] = import->low[k] + (import->high[k] - import->low[k]) / 2;
-        framing->at[k] = framing->to[k] + side[k] / length * distance;
-    }
+    framing_fit(import->low, import->high, side, framing->angle, framing->at, framing->to);
     return is_other;
+}
+
+static void frame_cutaway(const Cutaway *cutaway, Framing *framing)
+{
+    memcpy(framing->at, cutaway->eye, sizeof framing->at);
+    memcpy(framing->to, cutaway->target, sizeof framing->to);
+    framing->angle = cutaway->angle;
 }
 
 /* ---- from inside ---- */
@@ -209,6 +221,14 @@ static void tell_inside(const Import *import, const Framing *f, const RoomView *
     tell(import, f, where, more);
 }
 
+static void tell_cutaway(const Import *import, const Framing *f)
+{
+    char more[120];
+    snprintf(more, sizeof more, "; %ld triangle%s before the rooms %s left out", import->cutaway->count,
+             import->cutaway->count == 1 ? "" : "s", import->cutaway->count == 1 ? "is" : "are");
+    tell(import, f, "the view is into the rooms from above", more);
+}
+
 static void tell_outside(const Import *import, const Framing *f, int is_other)
 {
     tell(import, f, is_other ? "the view is from outside, on the side that is open" : "the view is from outside", "");
@@ -225,6 +245,11 @@ static int frame(const Import *import, Framing *framing, RetexError *err)
     RoomView view;
     if (asked && strchr(asked, ':') && take_place(asked, framing))
         return RETEX_OK;
+    if (import->cutaway) {
+        frame_cutaway(import->cutaway, framing);
+        tell_cutaway(import, framing);
+        return RETEX_OK;
+    }
     if (room && (is_asked || (room->is_closed && !is_word(import, "outside"))) &&
         frame_inside(import, framing, &view, &why)) {
         tell_inside(import, framing, &view);

@@ -274,7 +274,7 @@ static void write_object(Import *import, const struct aiNode *node, const Affine
     char plain[NAME_SIZE];
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         const unsigned index = node->mMeshes[i];
-        if (import->is_double[import->walked++] || !affine_is_finite(&placed))
+        if (import->is_dropped[import->walked++] || !affine_is_finite(&placed))
             continue;
         if (index >= import->scene->mNumMeshes || !import->meshes[index][0])
             continue;
@@ -354,6 +354,8 @@ static int write_scene(Import *import, RetexError *err)
     if (!code)
         code = doubles_drop(import, err);
     if (!code)
+        code = cutaway_find(import, err);
+    if (!code)
         code = write_meshes(import, err);
     FILE *out = code ? NULL : open_output(import, ".pov", path, err);
     if (!out) {
@@ -426,6 +428,7 @@ int import_model(const ImportOptions *options, RetexError *err)
     }
     rmdir(folder); /* where no image is in it */
     /* the process ends now, and with it what Assimp has */
+    free(import.cutaway);
     sense_free(&import);
     images_free(&import);
     gltf_free(&import.gltf);
@@ -435,7 +438,7 @@ int import_model(const ImportOptions *options, RetexError *err)
     names_free(&import.lost_images);
     free(import.light_places);
     free(import.camera_places);
-    free(import.is_double);
+    free(import.is_dropped);
     free(import.materials);
     free(import.meshes);
     return code;

@@ -16,7 +16,7 @@ typedef struct ImportOptions {
     const char *name;        /* of the scene; the file is NAME.pov */
     const char *folder;      /* to write into: it exists and is empty; NULL: list_variants */
     const char *sky;         /* a picture of the sky, or NULL */
-    const char *camera;      /* name or number from 1, auto, inside, outside, or where it is; NULL: auto */
+    const char *camera;      /* name or number from 1, auto, inside, outside, cutaway, or where it is; NULL: auto */
     const char *const *also; /* more folders that may be read, of -I */
     int nalso;
     const char *variant;     /* of a glTF file, or NULL: its own materials */

@@ -138,6 +138,12 @@ typedef struct Variants {
     char *is_apart; /* by variant: it needs a scene of its own */
 } Variants;
 
+/* A view into rooms from above, of a model without what stands before them. */
+typedef struct Cutaway {
+    double eye[3], target[3], angle; /* of the camera, in the scene */
+    long count;                      /* of triangles that are left out */
+} Cutaway;
+
 typedef struct ImportPlace {
     Affine world; /* z not mirrored */
     int is_known; /* 0: left out, which is told */
@@ -165,8 +171,9 @@ struct Import {
     Sense *sense; /* of sense_find, or NULL */
     ImportMaterial *materials;
     char (*meshes)[NAME_SIZE]; /* identifiers; "" = without surface */
-    unsigned char *is_double;  /* objects in the order of a walk: 1: the same one is there already */
+    unsigned char *is_dropped; /* objects in the order of a walk: the same one is there already, or it is cut away */
     unsigned long walked;      /* objects that write_object has seen */
+    Cutaway *cutaway;          /* NULL: not asked for */
     double low[3], high[3];    /* of the scene as written */
     long triangles, objects;
     int emits; /* some material shines enough to light the scene */
@@ -336,7 +343,17 @@ int ceiling_emits(const Import *import);
 /* Whether the model is a room that no sky can light. */
 int ceiling_is_needed(const Import *import, int *is_needed, RetexError *err);
 int ceiling_write(Import *import, FILE *out, RetexError *err);
+/* cutaway.c */
+/* Whether the options ask for it. */
+int cutaway_is_asked(const Import *import);
+/* Place the camera, into import->cutaway, and drop what stands before the rooms, where it is asked for. */
+int cutaway_find(Import *import, RetexError *err);
+
 /* framing.c */
+/* Where a camera sees all of a box, from a side: a vector from its middle, of any length. angle: degrees, from left to
+ * right. */
+void framing_fit(const double low[3], const double high[3], const double side[3], double angle, double eye[3],
+                 double target[3]);
 /* Whether --camera asks for a view that is none of the model's: a place, or the words inside and outside. */
 int framing_is_asked(const Import *import, int *is_asked, RetexError *err);
 /* A view of the scene: what is asked for, else from inside of a room and from outside of what is none. */

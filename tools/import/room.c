@@ -209,7 +209,7 @@ static int find_height(Room *room, RetexError *err)
 
 /* ---- the region ---- */
 
-static int is_enclosed(const RoomCell *cell)
+int room_is_enclosed(const RoomCell *cell)
 {
     return cell->is_floor && (double)cell->enclosed > (cell->is_covered ? 0.5 : 0.6);
 }
@@ -239,7 +239,7 @@ static double flood(const Room *room, int from, int number, int *regions, int *s
         sum += (double)room->cells[at].enclosed;
         for (int k = 0; k < 4; k++) {
             const int to = beside[k];
-            if (to < 0 || regions[to] >= 0 || !is_enclosed(&room->cells[to]) || !is_free_between(room, at, to))
+            if (to < 0 || regions[to] >= 0 || !room_is_enclosed(&room->cells[to]) || !is_free_between(room, at, to))
                 continue;
             regions[to] = number;
             stack[open++] = to;
@@ -258,7 +258,7 @@ static int find_region(Room *room, RetexError *err)
     for (int i = 0; i < count; i++)
         regions[i] = -1;
     for (int i = 0; i < count; i++)
-        if (regions[i] < 0 && is_enclosed(&room->cells[i])) {
+        if (regions[i] < 0 && room_is_enclosed(&room->cells[i])) {
             const double sum = flood(room, i, number, regions, regions + count);
             if (sum > most)
                 most = sum, best = number;

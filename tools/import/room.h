@@ -40,6 +40,8 @@ int room_find(Room *room, const Space *space, double metre, int is_sure, RetexEr
 void room_free(Room *room);
 /* The middle of a cell, at a height above the floor. */
 void room_point(const Room *room, int cell, double height, double point[3]);
+/* Whether a cell has free floor with walls around. */
+int room_is_enclosed(const RoomCell *cell);
 /* Which cell is below a point, or -1. */
 int room_cell_at(const Room *room, double x, double z);
 /* Of all directions from places in the room, the share in which light comes from outside; what passes[tag] is of lets

@@ -48,7 +48,8 @@ static int is_needed(const Import *import)
     const ImportOptions *options = import->options;
     const int cameras = import->is_gltf ? import->gltf.ncameras : (int)import->scene->mNumCameras;
     const int lights = import->is_gltf ? import->gltf.nlights : (int)import->scene->mNumLights;
-    return !cameras || !lights || (options->camera && strcmp(options->camera, "inside") == 0) || !options->unit;
+    const int is_asked = options->camera && strcmp(options->camera, "inside") == 0;
+    return !cameras || !lights || is_asked || cutaway_is_asked(import) || !options->unit;
 }
 
 /* z is up: the world turns. Lights and cameras are placed after this, but for glTF, whose axes are known. */

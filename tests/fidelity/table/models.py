@@ -189,6 +189,19 @@ def one(work, page, row, spp):
     return dict(got, cover=cover, differs=differs, mean=mean, triangles=drawn["triangles"])
 
 
+def from_above(work, row, spp):
+    """A room without what stands before it."""
+    name, folder = row["name"], f"{work}/scenes/{row['name']}-cutaway"
+    shutil.rmtree(folder, ignore_errors=True)
+    code, _, _ = run("retex-import", "--partial", "--camera", "cutaway", "-o", folder, *row["options"].split(),
+                     f"{work}/models/{name}/{os.path.basename(row['path'])}")
+    if code:
+        return
+    run("retex-render", "-q", "--denoise", "--size", f"{WIDTH}x{WIDTH * 3 // 4}", "--spp", str(spp),
+        f"{folder}/{name}-cutaway.pov", "-o", f"{folder}.exr")
+    run("retex-combine", "-q", "--auto-exposure", f"{folder}.exr", "-o", f"{work}/{name}-cutaway.png")
+
+
 def sheets(work, found, kind, to):
     """Pictures of those that may be shown, in pairs, a few to a sheet."""
     shown = [r["name"] for r in found if FREE.search(r["licence"]) and os.path.exists(f"{work}/{r['name']}-{kind}.png")]
@@ -246,6 +259,10 @@ def write_page(work, head, found, spp, missing):
               "by the target of the column `floor` of the list, as in `-t Floor=@140:228/level`.\n", file=out)
         for path, names in sheets(work, found, "floors", "models-floors"):
             print(f"{', '.join(names)}:\n\n![rooms with another floor]({'pictures/' + path})\n", file=out)
+        print("## From above\n\nClosed rooms by `retex-import --camera cutaway`, which leaves out what stands before "
+              "them.\n", file=out)
+        for path, names in sheets(work, found, "cutaway", "models-cutaway"):
+            print(f"{', '.join(names)}:\n\n![rooms from above]({'pictures/' + path})\n", file=out)
         print("## Pictures\n\nretex at the left, three.js with lights of its own at the right; of models whose licence "
               "allows it.\n", file=out)
         for path, names in sheets(work, found, "pair", "models"):
@@ -265,6 +282,8 @@ def main(work, head, spp, *names):
             continue
         r = one(work, page, row, spp)
         found.append(r)
+        if any("view is from inside" in line for line in r["told"]):
+            from_above(work, row, spp)
         what = f"outline {100 * r['cover']:.1f} %, regions {100 * r['differs']:.0f} %" if "cover" in r else r["told"]
         print(f"fidelity-models: {r['name']}: {what}", file=sys.stderr)
     page.close()
