@@ -22,7 +22,7 @@ MODELS = {
     'room': dict(inside=SHELL, boxes=FURNITURE),
     'ell': dict(inside=ELL, boxes=ELL_FURNITURE, between=[(0, 1)]),
     # hollow walls, .2 thick, around the room
-    'thick': dict(inside=SHELL, boxes=[('Outside', (-.2, -.2, -.2), (5.2, 2.8, 4.2))] + FURNITURE),
+    'thick': dict(inside=SHELL, boxes=[('Outside', (-.2, -.005, -.2), (5.2, 2.8, 4.2))] + FURNITURE),
     'plane': dict(inside=[], boxes=[('Ground', (-5, -.1, -5), (5, 0, 5)), ('Vase', (-.2, 0, -.2), (.2, .5, .2))]),
     'solid': dict(inside=[], boxes=[('Block', (0, 0, 0), (3, 2.6, 3))]),
     # a stove in centimetres, with boards within

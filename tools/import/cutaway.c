@@ -53,7 +53,9 @@ static Range free_column(const Room *room, int cell, double beside, double *look
         return (Range){at->floor, (float)((double)at->floor + reach)};
     }
     *look = fmax(top, beside) + 0.03 * room->height;
-    return share > -0.03 && share < 0.8 ? (Range){(float)top, (float)(room->floor + 0.95 * room->height)} : (Range){0, 0};
+    if (!(share > -0.03 && share < 0.8))
+        return (Range){0, 0};
+    return (Range){(float)top, (float)(room->floor + 0.95 * room->height)};
 }
 
 /* Spread to all that is seen from cells beside. */
