@@ -22,12 +22,9 @@
  * coherent rays. */
 #include <float.h>
 #include <string.h>
-#include "accel/embree.h"
+#include "accel/lanes.h"
 #include "shape/csg.h"
 #include "shape/shape.h"
-
-#define FLOAT_ERROR_BOUND 1e-3   /* bound of the relative error of a distance in float, for grazing triangles too */
-#define FLOAT_ERROR_TYPICAL 1e-6 /* usual relative error of a distance in float */
 
 /* A ray in double and its nearest hit so far. */
 typedef struct QueryRay {
@@ -565,73 +562,111 @@ Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source
 typedef struct Packet {
     _Alignas(64) struct RTCRayHit16 rays;
     _Alignas(64) int valid[ACCEL_PACKET];
-    QueryRay query_ray[ACCEL_PACKET];
+    LaneRays lanes;
+    QueryRay query_rays[ACCEL_PACKET];
 } Packet;
 
 /* Embree skips invalid lanes only if it has packets of this width. With narrower packets it traces every lane that
  * has a range, so invalid lanes get an empty range. */
-static void disable_lane(Packet *p, int i)
+static void start_packet(Packet *p, const Accel *accel, const Ray *rays, int count)
 {
-    struct RTCRay16 *to = &p->rays.ray;
-
-    to->org_x[i] = to->org_y[i] = to->org_z[i] = to->dir_x[i] = to->dir_y[i] = to->dir_z[i] = 1;
-    to->time[i] = to->tnear[i] = 0, to->tfar[i] = -1, to->mask[i] = to->id[i] = to->flags[i] = 0;
-    p->valid[i] = 0;
+    lanes_take(&p->lanes, rays, count);
+    lanes_start(&p->lanes, accel->reach, &p->rays.ray, p->valid);
 }
 
-static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Hit *hit)
+/* For callbacks and planes. */
+static void make_query_ray(Packet *p, int i, const Ray *ray, RayKind kind, unsigned passes, Hit *hit)
 {
-    struct RTCRay16 *to = &p->rays.ray;
+    p->query_rays[i] = (QueryRay){.ray = *ray,
+                                  .hit = hit,
+                                  .size = p->lanes.size[i],
+                                  .rounding = p->lanes.rounding[i],
+                                  .kind = (unsigned)kind,
+                                  .passes = passes};
+}
 
-    if (!start_ray(&p->query_ray[i], accel, ray, kind, passes, no_outer, hit, &to->tnear[i], &to->tfar[i])) {
-        disable_lane(p, i);
-        return;
+static void intersect_lanes(Packet *p, const Accel *accel, Query *query, int side_by_side)
+{
+    for (int i = 0; i < ACCEL_PACKET; i++)
+        p->rays.hit.geomID[i] = p->rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+#if defined(RETEX_EMBREE4)
+    struct RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &query->context;
+    args.flags = side_by_side ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcIntersect16(p->valid, accel->scene, &p->rays, &args);
+#else
+    (void)side_by_side;
+    rtcIntersect16(p->valid, accel->scene, &query->context, &p->rays);
+#endif
+}
+
+static int has_triangle(const Packet *p, const Accel *accel, int i)
+{
+    return p->rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID && p->rays.hit.geomID[i] != accel->curved_geometry;
+}
+
+/* As refine_triangle_hit, of lanes that have a triangle. */
+static void refine_lanes(const Packet *p, const Accel *accel, int count, LaneTriangles *to)
+{
+    for (int i = 0; i < count; i++)
+        if (has_triangle(p, accel, i))
+            __builtin_prefetch(&accel->triangles[p->rays.hit.primID[i]]);
+    for (int i = 0; i < ACCEL_PACKET; i++) {
+        static const Triangle none = {.normal = {0, 0, 0}};
+        const Triangle *triangle = i < count && has_triangle(p, accel, i) ? &accel->triangles[p->rays.hit.primID[i]] : &none;
+        to->normal[0][i] = triangle->normal.x, to->normal[1][i] = triangle->normal.y;
+        to->normal[2][i] = triangle->normal.z;
+        to->offset[i] = triangle->offset, to->reported[i] = p->rays.ray.tfar[i];
     }
-    to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
-    to->dir_x[i] = (float)ray->direction.x, to->dir_y[i] = (float)ray->direction.y;
-    to->dir_z[i] = (float)ray->direction.z;
-    to->time[i] = 0, to->mask[i] = 0xffffffffu, to->id[i] = (unsigned)i, to->flags[i] = 0;
-    p->valid[i] = -1;
+    lanes_refine(&p->lanes, to);
 }
 
-static void disable_lanes_from(Packet *p, int count)
+/* Whether a lane's triangle is its nearest hit, which is recorded. */
+static int is_nearest(const Packet *p, const Accel *accel, const LaneTriangles *triangles, int i, RayKind kind, Hit *hit)
 {
-    for (int i = count; i < ACCEL_PACKET; i++)
-        disable_lane(p, i);
+    const Triangle *triangle = &accel->triangles[p->rays.hit.primID[i]];
+    if (!triangles->sure[i] || !(accel->flags[triangle->primitive] & (unsigned)kind) ||
+        (hit->primitive >= 0 && fabs(triangles->t[i] - hit->t) <= triangles->tolerance[i]))
+        return 0;
+    if (hit->primitive >= 0 && triangles->t[i] > hit->t)
+        return 1;
+    *hit = (Hit){.t = triangles->t[i],
+                 .primitive = triangle->primitive,
+                 .face = triangle->face,
+                 .normal = triangle->normal,
+                 .b1 = p->rays.hit.u[i],
+                 .b2 = p->rays.hit.v[i]};
+    return 1;
 }
 
 void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
                             Hit *hits)
 {
+    const int has_shapes = accel->ncurved + accel->nplanes > 0;
     Packet p;
     Query query;
+    LaneTriangles triangles;
 
-    start_query(&query, accel, side_by_side, p.query_ray);
+    start_query(&query, accel, side_by_side, p.query_rays);
+    start_packet(&p, accel, rays, count);
     for (int i = 0; i < count; i++)
-        start_lane(&p, i, accel, &rays[i], kinds[i], 0, &hits[i]);
-    disable_lanes_from(&p, count);
-    for (int i = 0; i < ACCEL_PACKET; i++)
-        p.rays.hit.geomID[i] = p.rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-#if defined(RETEX_EMBREE4)
-    struct RTCIntersectArguments args;
-    rtcInitIntersectArguments(&args);
-    args.context = &query.context;
-    args.flags = side_by_side ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    rtcIntersect16(p.valid, accel->scene, &p.rays, &args);
-#else
-    rtcIntersect16(p.valid, accel->scene, &query.context, &p.rays);
-#endif
-    for (int i = 0; i < count; i++)
-        if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID && p.rays.hit.geomID[i] != accel->curved_geometry)
-            __builtin_prefetch(&accel->triangles[p.rays.hit.primID[i]]);
+        hits[i].primitive = -1;
+    for (int i = 0; i < count && has_shapes; i++)
+        make_query_ray(&p, i, &rays[i], kinds[i], 0, &hits[i]);
+    intersect_lanes(&p, accel, &query, side_by_side);
+    refine_lanes(&p, accel, count, &triangles);
     for (int i = 0; i < count; i++) {
         if (!p.valid[i])
             continue;
-        if (refine_triangle_hit(accel, &p.query_ray[i], &rays[i], p.rays.hit.geomID[i], p.rays.hit.primID[i],
-                                p.rays.ray.tfar[i], p.rays.hit.u[i], p.rays.hit.v[i]))
-            test_planes(accel, &p.query_ray[i]);
-        else
+        if (has_triangle(&p, accel, i) && !is_nearest(&p, accel, &triangles, i, kinds[i], &hits[i])) {
             intersect_in_double(accel, &rays[i], kinds[i], no_outer, &hits[i]);
+            continue;
+        }
+        if (accel->nplanes && hits[i].primitive >= 0)
+            p.query_rays[i].ray.tmax = hits[i].t * (1 + DBL_EPSILON);
+        if (accel->nplanes)
+            test_planes(accel, &p.query_rays[i]);
     }
 }
 
@@ -642,10 +677,10 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
     Query query;
 
     /* one by one: most go to different lights, and even those to one point gain at most a twentieth side by side */
-    start_query(&query, accel, 0, p.query_ray);
+    start_query(&query, accel, 0, p.query_rays);
+    start_packet(&p, accel, rays, count);
     for (int i = 0; i < count; i++)
-        start_lane(&p, i, accel, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT, NULL);
-    disable_lanes_from(&p, count);
+        make_query_ray(&p, i, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT, NULL);
 #if defined(RETEX_EMBREE4)
     struct RTCOccludedArguments args;
     rtcInitOccludedArguments(&args);
@@ -656,9 +691,9 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
     rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
 #endif
     for (int i = 0; i < count; i++) {
-        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.query_ray[i]));
+        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.query_rays[i]));
         visibilities[i] = blocked                 ? VISIBILITY_BLOCKED
-                          : p.query_ray[i].passed ? VISIBILITY_TRANSPARENT
+                          : p.query_rays[i].passed ? VISIBILITY_TRANSPARENT
                                                   : VISIBILITY_CLEAR;
     }
 }
