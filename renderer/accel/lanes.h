@@ -1,5 +1,5 @@
-/* What is computed for a whole packet of rays before and after Embree traces it; private to renderer/accel. query.c does
- * the same for single rays, and has the reasons. */
+/* What is computed for a whole packet of rays before and after Embree traces it; private to renderer/accel. query.c
+ * does the same for single rays, and has the reasons. */
 #ifndef RENDERER_ACCEL_LANES_H
 #define RENDERER_ACCEL_LANES_H
 

@@ -614,7 +614,8 @@ static void refine_lanes(const Packet *p, const Accel *accel, int count, LaneTri
             __builtin_prefetch(&accel->triangles[p->rays.hit.primID[i]]);
     for (int i = 0; i < ACCEL_PACKET; i++) {
         static const Triangle none = {.normal = {0, 0, 0}};
-        const Triangle *triangle = i < count && has_triangle(p, accel, i) ? &accel->triangles[p->rays.hit.primID[i]] : &none;
+        const int is_one = i < count && has_triangle(p, accel, i);
+        const Triangle *triangle = is_one ? &accel->triangles[p->rays.hit.primID[i]] : &none;
         to->normal[0][i] = triangle->normal.x, to->normal[1][i] = triangle->normal.y;
         to->normal[2][i] = triangle->normal.z;
         to->offset[i] = triangle->offset, to->reported[i] = p->rays.ray.tfar[i];
@@ -623,7 +624,8 @@ static void refine_lanes(const Packet *p, const Accel *accel, int count, LaneTri
 }
 
 /* Whether a lane's triangle is its nearest hit, which is recorded. */
-static int is_nearest(const Packet *p, const Accel *accel, const LaneTriangles *triangles, int i, RayKind kind, Hit *hit)
+static int is_nearest(const Packet *p, const Accel *accel, const LaneTriangles *triangles, int i, RayKind kind,
+                      Hit *hit)
 {
     const Triangle *triangle = &accel->triangles[p->rays.hit.primID[i]];
     if (!triangles->sure[i] || !(accel->flags[triangle->primitive] & (unsigned)kind) ||

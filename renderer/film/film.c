@@ -215,14 +215,6 @@ void film_tile_begin(FilmPixel *p, int spp)
     p->spp = spp;
 }
 
-Rgb film_pixel_take(FilmPixel *p)
-{
-    Rgb sum = rgb((float)p->beauty[0], (float)p->beauty[1], (float)p->beauty[2]);
-    p->beauty[0] = p->beauty[1] = p->beauty[2] = 0;
-    p->paths = 0;
-    return sum;
-}
-
 void film_pixel_end(FilmPixel *p, int x, int y)
 {
     Film *film = p->film;

@@ -27,7 +27,6 @@ void film_hit_limits(const FilmPixel *pixel, int *orders, int *most_hits);
 void film_path_end(FilmPixel *pixel, const TargetTree *hits);
 /* Begin a tile whose pixels have another number of samples than FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);
-Rgb film_pixel_take(FilmPixel *pixel); /* instead of film_pixel_end, for films without hits: the sum of light */
 void film_pixel_end(FilmPixel *pixel, int x, int y); /* store and reset */
 void film_tile_end(FilmPixel *pixel, int tile);      /* the last tile of a band finishes it */
 int film_failed(const Film *film); /* 1 if a band could not be stored: film_finish fails and says why */

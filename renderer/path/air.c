@@ -64,7 +64,7 @@ static int pass_fog(PathWorker *w, Path *path, const Ray *ray, double distance)
 
 static int pass_rainbows(PathWorker *w, Path *path, const Ray *ray, double distance)
 {
-    const Sampler sampler = {w->key[path->half], path->sample};
+    const Sampler sampler = {path->key, path->sample};
     const unsigned segment = (unsigned)(path->segments + path->straight) % JITTER_SEGMENTS;
     float u, unused;
     Rgb passing, own;

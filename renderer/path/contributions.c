@@ -44,7 +44,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->segments = 1, path->straight = 0, path->sharp = path->delta = 1;
     path->media = c->camera, path->media_weight = splat(1), path->kind = RAY_CAMERA;
     path->specular = 0, path->light_group = NULL;
-    path->sample = sampler->sample;
+    path->key = sampler->key, path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
     split_start(&w->split, &path->split, (int)(path->control - w->controls));
     if (w->control)

@@ -16,7 +16,7 @@ void path_take_wavelength(PathWorker *w, Path *path, float wavelength)
 
 void disperse(PathWorker *w, Path *path, Vertex *v, Vec3 wo)
 {
-    const Sampler sampler = {w->key[path->half], path->sample};
+    const Sampler sampler = {path->key, path->sample};
     Bsdf *b = &v->s.bsdf;
     float u, unused;
     sampler_pair(&sampler, DIMENSION_WAVELENGTH, &u, &unused);

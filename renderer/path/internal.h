@@ -25,7 +25,7 @@ typedef struct Path {
     int sharp;                       /* so far every bounce was specular, or nearly so */
     int delta;                       /* so far every bounce was in a delta lobe */
     RayKind kind;
-    uint32_t sample; /* in its half of the pixel's */
+    uint32_t key, sample; /* of its sample numbers: of seed and pixel; in its half of the pixel's */
     int half;
     int specular;                /* what bent it since it left a surface that scatters widely, see SPECULAR_… */
     const LightGroup *light_group; /* of that surface: which light sources shine on it */

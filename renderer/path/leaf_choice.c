@@ -3,9 +3,9 @@
  * targets are hits in series with that of the leaf. */
 #include "path/internal.h"
 
-static double leaf_number(const PathWorker *w, const Path *path, unsigned texture)
+static double leaf_number(const Path *path, unsigned texture)
 {
-    const Sampler sampler = {w->key[path->half], path->sample};
+    const Sampler sampler = {path->key, path->sample};
     const unsigned vertex = (unsigned)(path->segments + path->straight);
     float u, v;
     sampler_pair(&sampler, DIMENSION_TEXTURE + vertex * TEXTURES_PER_VERTEX + texture, &u, &v);
@@ -36,7 +36,7 @@ void choose_leaf(PathWorker *w, Path *path, Shading *s, Vec3 wo)
     Leaves leaves;
     float weight;
     leaves_at(&leaves, &whole, wo, 1);
-    const double u = leaves.count > 1 ? leaf_number(w, path, TEXTURE_VERTEX) : 0;
+    const double u = leaves.count > 1 ? leaf_number(path, TEXTURE_VERTEX) : 0;
     const Leaf *leaf = leaves_choose(&leaves, u, &weight);
     const Rgb tint = rgb_scale(leaf->tint, weight);
     pass_layers(w, path, &whole, &leaves, leaf->above);
@@ -58,7 +58,7 @@ int choose_leaf_of_light(PathWorker *w, const Path *path, Shading *s, Vec3 wo, i
     Shading layer;
     float weight;
     leaves_at(&leaves, &whole, wo, 1);
-    const double u = leaves.count > 1 ? leaf_number(w, path, texture) : 0;
+    const double u = leaves.count > 1 ? leaf_number(path, texture) : 0;
     const Leaf *leaf = passing ? leaves_choose_passing(&leaves, u, &weight) : leaves_choose(&leaves, u, &weight);
     if (!leaf)
         return 0;

@@ -12,7 +12,7 @@
 
 float media_draw(PathWorker *w, const Path *path)
 {
-    return unit_float(hash_pair(hash_pair(w->key[path->half] ^ 0x6d656469u, path->sample), w->draws++));
+    return unit_float(hash_pair(hash_pair(path->key ^ 0x6d656469u, path->sample), w->draws++));
 }
 
 static float largest4(Float4 v)

@@ -15,9 +15,9 @@ enum { PAIR_DISTANCE, PAIR_SOURCE, PAIR_SOURCE_POINT, PAIR_LIGHT, PAIR_LIGHT_POI
 
 /* ---- numbers and colours ---- */
 
-static void segment_pair(const PathWorker *w, const Path *path, unsigned pair, float *u, float *v)
+static void segment_pair(const Path *path, unsigned pair, float *u, float *v)
 {
-    const Sampler sampler = {w->key[path->half], path->sample};
+    const Sampler sampler = {path->key, path->sample};
     const unsigned segment = (unsigned)(path->segments + path->straight);
     sampler_pair(&sampler, DIMENSION_MEDIA + segment * PAIRS_PER_SEGMENT + pair, u, v);
 }
@@ -134,11 +134,11 @@ static void add_source_light(PathWorker *w, Path *path, const Ray *ray, const Me
     Factor factors[SHADOW_FACTORS_MAX];
     float u_source, u_point1, u_point2, u_distance, probability;
     double begin, end;
-    segment_pair(w, path, PAIR_SOURCE, &u_distance, &u_source);
+    segment_pair(path, PAIR_SOURCE, &u_distance, &u_source);
     const Light *light = pick_source(w->context->scene, ray, most, u_source, &probability);
     if (!light || !source_lit_part(light, ray, most, &begin, &end))
         return;
-    segment_pair(w, path, PAIR_SOURCE_POINT, &u_point1, &u_point2);
+    segment_pair(path, PAIR_SOURCE_POINT, &u_point1, &u_point2);
     const SourceDistance distance = source_distance(light, ray, set, begin, end);
     const double t = source_distance_sample(&distance, u_distance), density = source_distance_density(&distance, t);
     const Vec3 p = vec_mad(from, ray->direction, t);
@@ -169,8 +169,8 @@ static void add_other_light(PathWorker *w, Path *path, const Medium *medium, Vec
     DirectLightSample sample = {.found = 1};
     LightSample *light = &sample.light;
     float u1, u2, u_point1, u_point2;
-    segment_pair(w, path, PAIR_LIGHT, &u1, &u2);
-    segment_pair(w, path, PAIR_LIGHT_POINT, &u_point1, &u_point2);
+    segment_pair(path, PAIR_LIGHT, &u1, &u2);
+    segment_pair(path, PAIR_LIGHT_POINT, &u_point1, &u_point2);
     const LightPick pick = lights_pick(c->lights, &context, u1, u2);
     if (!lights_sample(c->lights, &context, &pick, u_point1, u_point2, light) || light->source)
         return;
@@ -234,7 +234,7 @@ static MediumEvent scatter_at(PathWorker *w, Path *path, Ray *ray, const MediumS
         fprintf(c->trace, "scattered at %.6g %.6g %.6g distance %.6g weight %.5g %.5g %.5g\n", p.x, p.y, p.z, t,
                 (weight * share)[0], (weight * share)[1], (weight * share)[2]);
     add_other_light(w, path, medium, p, before);
-    segment_pair(w, path, PAIR_DIRECTION, &u1, &u2);
+    segment_pair(path, PAIR_DIRECTION, &u1, &u2);
     *ray = (Ray){p, phase_sample(medium, before, u1, u2, &pdf), 0, INFINITY};
     path->kind = RAY_BOUNCE;
     path->prev_context = (LightSampleContext){p, {0, 0, 0}, NULL};
@@ -276,7 +276,7 @@ static MediumEvent cross_uniform(PathWorker *w, Path *path, Ray *ray, const Medi
                                         rgb_of4(uniform_glow(&set->sums, distance)), NULL, 0, NULL});
     if (is_black4(scattering))
         return pass(w, path, exp4(extinction * splat(-(float)distance)));
-    segment_pair(w, path, PAIR_DISTANCE, &u, &v);
+    segment_pair(path, PAIR_DISTANCE, &u, &v);
     int channel = 0;
     for (; channel < 2 && u >= shares[channel]; channel++)
         u -= shares[channel];

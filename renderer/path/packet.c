@@ -1,6 +1,8 @@
-/* Many paths of a pixel side by side. Each takes the steps of trace_path, by the same functions and with the same
- * numbers; but a step is taken by all paths of a packet before the next one is: rays are traced together, and memory is
- * asked for before it is needed. All rays of a segment are traced before anything is shaded: tracing and shading
+/* Many paths side by side, of a pixel or of several. Each takes the steps of trace_path, by the same functions and with
+ * the same numbers; but a step is taken by all paths of a packet before the next one is: rays are traced together, and
+ * memory is asked for before it is needed.
+ *
+ * All rays of a segment are traced before anything is shaded: tracing and shading
  * together are more code than a processor's first cache holds.
  *
  * Of matte surfaces, as most are, the direct-light sample and the BSDF sample are computed for a whole packet at once,
@@ -28,7 +30,7 @@ typedef struct Packet {
     int count;
     Vertex vertices[ACCEL_PACKET];
     int scatters[ACCEL_PACKET]; /* by lane: the path met a surface */
-    VertexSamples numbers[2];   /* by half of the samples */
+    VertexSamples numbers;
     int matte[ACCEL_PACKET];    /* by lane: its lane among the matte ones, or -1 */
     /* by lane of the matte ones: */
     MattePacket mattes;
@@ -193,7 +195,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
     w->segments++;
     const int goes_on = !w->context->has_air || path_pass_air(w, path, ray, hit);
     if (hit->primitive >= 0) {
-        find_colors(w, path, v, ray, hit, &p->numbers[path->half], lane);
+        find_colors(w, path, v, ray, hit, &p->numbers, lane);
         if (!add_matte(w, p, lane)) {
             find_bsdf(w, path, v, ray, hit);
             if (!v->is_last)
@@ -208,11 +210,10 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
 
 static void shade(PathWorker *w, Packet *p, const Hit *hits, int step)
 {
-    uint32_t samples[VERTEX_LANES] = {0};
+    uint32_t keys[VERTEX_LANES] = {0}, samples[VERTEX_LANES] = {0};
     for (int i = 0; i < p->count; i++)
-        samples[i] = p->paths[i]->sample;
-    for (int half = 0; half < w->context->halves; half++)
-        vertex_samples(&w->keys[half], w->key[half], samples, (unsigned)step, &p->numbers[half]);
+        keys[i] = p->paths[i]->key, samples[i] = p->paths[i]->sample;
+    vertex_samples(keys, samples, (unsigned)step, &p->numbers);
     find_surfaces(w->context->scene, p, hits);
     p->mattes.count = 0;
     for (int i = 0; i < p->count; i++)
@@ -301,26 +302,39 @@ static void trace_wavefront(PathWorker *w, Wavefront *wave)
     }
 }
 
-void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count)
+/* From the camera to their ends. */
+static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const Sampler *samplers, int count)
 {
-    Wavefront wave;
-    wave.count = count;
+    wave->count = count;
     w->split.count = w->split.nlamp_light = 0;
     for (int i = 0; i < count; i++) {
-        Path *path = wave.live[i] = &wave.paths[i];
-        wave.rays[i] = rays[i];
+        Path *path = wave->live[i] = &wave->paths[i];
+        wave->rays[i] = rays[i];
         path->half = w->context->halves == 2 ? i & 1 : 0;
         path->control = &w->controls[i];
-        w->key[path->half] = samplers[i].key;
         path_start(w, path, &rays[i], &samplers[i]);
     }
     if (w->context->scene->has_media)
         for (int i = 0; i < count; i++)
-            w->draws = 0, trace_path(w, &wave.paths[i], rays[i]);
+            w->draws = 0, trace_path(w, &wave->paths[i], rays[i]);
     else if (count == 1 && !w->context->matte) /* contributions of matte surfaces are rounded in another order */
-        trace_path(w, &wave.paths[0], rays[0]);
+        trace_path(w, &wave->paths[0], rays[0]);
     else
-        trace_wavefront(w, &wave);
+        trace_wavefront(w, wave);
+}
+
+void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count)
+{
+    Wavefront wave;
+    trace_paths(w, &wave, rays, samplers, count);
     for (int i = 0; i < count; i++)
         path_end(w, &wave.paths[i]);
+}
+
+void path_trace_light(PathWorker *w, const Ray *rays, const Sampler *samplers, int count, double (*light)[3])
+{
+    Wavefront wave;
+    trace_paths(w, &wave, rays, samplers, count);
+    for (int i = 0; i < count; i++)
+        memcpy(light[i], wave.paths[i].light, sizeof light[i]);
 }

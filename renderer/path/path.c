@@ -2,7 +2,7 @@
  * Russian roulette on a throughput that does not depend on textures.
  *
  * trace_path tells it from top to bottom, for one path. Most paths go by packet.c, which takes the same steps for many
- * paths of a pixel at once. */
+ * paths at once. */
 #include <string.h>
 #include "light/environment.h"
 #include "light/source.h"
@@ -20,9 +20,9 @@ static int is_first_hit(const Path *path)
 }
 
 /* Tell the film of a target that the camera sees directly. */
-static void tell_place(const PathWorker *w, Path *path, const Shading *s)
+static void tell_place(Path *path, const Shading *s)
 {
-    const Sampler sampler = {w->key[path->half], path->sample};
+    const Sampler sampler = {path->key, path->sample};
     SeenTarget *seen = &path->split.tree.seen;
     seen->target = s->surface.target;
     seen->uv = s->uv;
@@ -43,7 +43,7 @@ void find_colors(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit
     else
         shading_color(&v->s, &v->place, w->variants, c->nvariants);
     if (c->places && v->s.surface.target >= 0 && is_first_hit(path))
-        tell_place(w, path, &v->s);
+        tell_place(path, &v->s);
 }
 
 /* Make it a white diffuse surface, of the same bumps. */
@@ -295,7 +295,7 @@ static MediumEvent cross_media(PathWorker *w, Path *path, Ray *ray, const Hit *h
 void trace_path(PathWorker *w, Path *path, Ray ray)
 {
     const PathContext *c = w->context;
-    const uint32_t samples[VERTEX_LANES] = {path->sample};
+    const uint32_t keys[VERTEX_LANES] = {path->key}, samples[VERTEX_LANES] = {path->sample};
     VertexSamples numbers;
     Vertex v = {.place = {0}};
     BsdfSample next;
@@ -318,7 +318,7 @@ void trace_path(PathWorker *w, Path *path, Ray ray)
 
         /* Find the colours and the BSDF of the surface. */
         if (hit.primitive >= 0) {
-            vertex_samples(&w->keys[path->half], w->key[path->half], samples, vertex, &numbers);
+            vertex_samples(keys, samples, vertex, &numbers);
             surface_at(&v.s.surface, c->scene, &ray, &hit);
             find_colors(w, path, &v, &ray, &hit, &numbers, 0);
             find_bsdf(w, path, &v, &ray, &hit);

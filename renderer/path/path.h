@@ -61,8 +61,6 @@ typedef struct PathWorker {
     Rgb constants[RETEX_MAX_TARGETS];        /* of the current pixel */
     SplitSink split; /* of sets */
     uint32_t draws; /* random numbers that the current path took in media */
-    PixelKeys keys[2];
-    uint32_t key[2]; /* of the sample numbers of the current paths, by half of the samples */
     long segments, shadow_rays;
     /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; what all paths have
      * that are traced side by side. */
@@ -76,5 +74,8 @@ void path_worker_close(PathWorker *worker);
 /* Trace up to PATHS_MAX paths of one pixel, side by side; the result is the same as of one after the other. The
  * first is of the first half of the samples. With PathContext.trace it is one path at a time. */
 void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
+/* The same of any pixels, where nothing is asked for but the light of each path: without split, control film and
+ * observer. The film is told nothing. */
+void path_trace_light(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count, double (*light)[3]);
 
 #endif

@@ -35,7 +35,7 @@ static void walk_begin(Walk *walk, const PathWorker *w, const Path *path, const 
     const Rgb l = finish->mean_free_path;
     const double least = LEAST_LENGTH * (double)rgb_max(l);
     *walk = (Walk){.context = w->context, .length = {fmax(l.r, least), fmax(l.g, least), fmax(l.b, least)}};
-    walk->key = hash_pair(hash_pair(w->key[path->half] ^ 0x53554253u, path->sample),
+    walk->key = hash_pair(hash_pair(path->key ^ 0x53554253u, path->sample),
                           (uint32_t)(path->segments + path->straight));
     walk->color = (int)(3 * walk_number(walk));
     for (int c = 0; c < 3; c++)

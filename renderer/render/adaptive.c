@@ -8,10 +8,8 @@
 struct Adaptive {
     PathContext context;
     PathWorker worker;
-    Film *film; /* a film of one pixel, for its sums */
+    Film *film; /* a film of one pixel, which counts what is dropped */
     FilmPixel *pixel;
-    double sum, squares; /* sums over the pixel's samples so far */
-    int samples;
     double mean[PIXELS_MAX], variance[PIXELS_MAX];
     int count;
 };
@@ -49,21 +47,16 @@ PathWorker *adaptive_worker(Adaptive *adaptive)
     return &adaptive->worker;
 }
 
-void adaptive_path_end(Adaptive *a)
+void adaptive_pixel_end(Adaptive *a, const double light[ADAPTIVE_PILOT][3])
 {
-    Rgb beauty = film_pixel_take(a->pixel);
-    double l = rgb_luminance(beauty);
-    a->sum += l, a->squares += l * l;
-    a->samples++;
-}
-
-void adaptive_pixel_end(Adaptive *a)
-{
-    double n = a->samples, mean = a->sum / n, variance = n > 1 ? (a->squares / n - mean * mean) * n / (n - 1) : 0;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < ADAPTIVE_PILOT; i++) {
+        const double l = rgb_luminance(rgb((float)light[i][0], (float)light[i][1], (float)light[i][2]));
+        sum += l, squares += l * l;
+    }
+    const double n = ADAPTIVE_PILOT, mean = sum / n, variance = (squares / n - mean * mean) * n / (n - 1);
     a->mean[a->count] = mean;
     a->variance[a->count++] = variance > 0 ? variance : 0;
-    a->sum = a->squares = 0;
-    a->samples = 0;
 }
 
 int adaptive_tile_samples(Adaptive *a, double noise, int most)

@@ -68,23 +68,51 @@ static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int
     }
 }
 
-/* Samples per pixel of a tile. */
-static int tile_samples(const Render *r, int thread, int x0, int y0)
+/* Some pixels of a tile, by their numbers in it. */
+typedef struct PixelRun {
+    int x0, y0, across; /* of the tile */
+    int first, count;
+} PixelRun;
+
+static int run_x(const PixelRun *run, int k)
 {
-    Sampler sampler;
+    return run->x0 + (run->first + k) % run->across;
+}
+
+static int run_y(const PixelRun *run, int k)
+{
+    return run->y0 + (run->first + k) / run->across;
+}
+
+/* The light of all their samples, pixel by pixel, traced side by side. */
+static void trace_run(const Render *r, PathWorker *worker, const PixelRun *run, uint32_t seed, int spp,
+                      double light[PATHS_MAX][3])
+{
+    Ray rays[PATHS_MAX];
+    Sampler samplers[PATHS_MAX];
+    for (int k = 0; k < run->count; k++) {
+        const PixelStart start = start_pixel(r, seed, r->x0 + run_x(run, k), r->y0 + run_y(run, k));
+        for (int s = 0; s < spp; s++)
+            rays[k * spp + s] = start_sample(r, &start, s, &samplers[k * spp + s]);
+    }
+    path_trace_light(worker, rays, samplers, run->count * spp, light);
+}
+
+/* Samples per pixel of a tile. */
+static int tile_samples(const Render *r, int thread, int x0, int y0, int across, int down)
+{
+    enum { TOGETHER = PATHS_MAX / ADAPTIVE_PILOT };
     Adaptive *pilot = r->pilots ? r->pilots[thread] : NULL;
+    double light[PATHS_MAX][3];
     if (!pilot)
         return r->params.spp;
-    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w && !render_is_stopped(r); x++) {
-            const PixelStart start = start_pixel(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y);
-            for (int s = 0; s < ADAPTIVE_PILOT; s++) {
-                Ray ray = start_sample(r, &start, s, &sampler);
-                path_trace(adaptive_worker(pilot), &ray, &sampler, 1);
-                adaptive_path_end(pilot);
-            }
-            adaptive_pixel_end(pilot);
-        }
+    for (int first = 0; first < across * down && !render_is_stopped(r); first += TOGETHER) {
+        const int left = across * down - first;
+        const PixelRun run = {x0, y0, across, first, left < TOGETHER ? left : TOGETHER};
+        trace_run(r, adaptive_worker(pilot), &run, hash_pair(r->params.seed, 3), ADAPTIVE_PILOT, light);
+        for (int k = 0; k < run.count; k++)
+            adaptive_pixel_end(pilot, light + k * ADAPTIVE_PILOT);
+    }
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
@@ -128,22 +156,49 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
         end_guides(r, thread, spp, x, y);
 }
 
+/* How many pixels are traced side by side: those of few samples fill no packets. */
+static int pixels_together(const Render *r, int spp)
+{
+    const int is_light_alone = !r->context.split && !r->control && !r->pixel_guides && !r->context.trace;
+    return is_light_alone && spp <= PATHS_MAX / 2 ? PATHS_MAX / spp : 1;
+}
+
+/* As render_pixel, of several. */
+static void render_run(Render *r, int thread, const PixelRun *run, int spp)
+{
+    double light[PATHS_MAX][3];
+    FilmPixel *pixel = r->pixels[thread];
+    trace_run(r, &r->workers[thread], run, r->params.seed, spp, light);
+    for (int k = 0; k < run->count; k++) {
+        for (int s = 0; s < spp; s++) {
+            film_add_light(pixel, light[k * spp + s]);
+            film_path_end(pixel, NULL);
+        }
+        film_pixel_end(pixel, run_x(run, k), run_y(run, k));
+    }
+}
+
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;
     int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
     if (film_failed(r->film) || render_is_stopped(r) || !render_is_wanted(r, tile / r->tiles_x))
         return;
-    int spp = tile_samples(r, thread, x0, y0);
+    const int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
+              down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
+    const int spp = tile_samples(r, thread, x0, y0, across, down), together = pixels_together(r, spp);
     film_tile_begin(r->pixels[thread], spp);
-    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
-            render_pixel(r, thread, spp, x, y);
+    for (int first = 0; first < across * down && !render_is_stopped(r); first += together) {
+        const int left = across * down - first;
+        const PixelRun run = {x0, y0, across, first, left < together ? left : together};
+        if (together > 1)
+            render_run(r, thread, &run, spp);
+        else
+            render_pixel(r, thread, spp, run_x(&run, 0), run_y(&run, 0));
+    }
     if (render_is_stopped(r)) /* a stopped render: pixels of the tile may lack samples */
         return;
     film_tile_end(r->pixels[thread], tile);
-    int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
-        down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
     atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && done < r->wanted && r->params.progress) /* render_paths tells of the end */

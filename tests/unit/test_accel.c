@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-#include "accel/accel.h"
+#include "accel/lanes.h"
 #include "shape/shape.h"
 
 static uint64_t seed = 1;
@@ -460,6 +460,47 @@ static void bad_rays(void **state)
     accel_close(&accel);
 }
 
+/* The kernels over lanes have the same bits at every level of vectors. */
+static void lanes_are_the_same_at_every_level(void **state)
+{
+    static const double odd[] = {0, 1, -1, 1e-300, 1e17, 1e19, -1e300, INFINITY, NAN};
+    enum { ODD = sizeof odd / sizeof *odd };
+    (void)state;
+    for (int n = 0; n < 3000; n++) {
+        Ray rays[ACCEL_PACKET];
+        LaneRays lanes, lanes_plain;
+        LaneTriangles found = {.offset = {0}}, found_plain;
+        struct RTCRay16 to, to_plain;
+        int valid[ACCEL_PACKET], valid_plain[ACCEL_PACKET];
+        for (int i = 0; i < ACCEL_PACKET; i++) {
+            rays[i] = (Ray){vec_scale(direction(), 4 * uniform()), direction(), uniform() - 0.5, 3 * uniform()};
+            double *number = &rays[i].origin.x + (size_t)(8 * uniform());
+            if (uniform() < 0.1)
+                *number = odd[(size_t)(ODD * uniform())];
+            for (int k = 0; k < 3; k++)
+                found.normal[k][i] = uniform() - 0.5;
+            found.offset[i] = uniform() < 0.1 ? 0 : 4 * uniform() - 2;
+        }
+        memset(&lanes, 0, sizeof lanes);
+        lanes_take(&lanes, rays, 1 + n % ACCEL_PACKET);
+        lanes_plain = lanes;
+        lanes_start(&lanes, 3, &to, valid), lanes_start_plain(&lanes_plain, 3, &to_plain, valid_plain);
+        assert_memory_equal(&lanes, &lanes_plain, sizeof lanes);
+        assert_memory_equal(&to, &to_plain, sizeof to);
+        assert_memory_equal(valid, valid_plain, sizeof valid);
+        found_plain = found;
+        lanes_refine(&lanes, &found);
+        for (int i = 0; i < ACCEL_PACKET; i++) /* near what Embree would report */
+            found.reported[i] = (float)(found.t[i] * (1 + (uniform() - 0.5) * 4e-6));
+        memcpy(found_plain.reported, found.reported, sizeof found.reported);
+        lanes_refine(&lanes, &found), lanes_refine_plain(&lanes, &found_plain);
+        for (int i = 0; i < ACCEL_PACKET; i++) { /* the sign of a NaN is no bit that counts */
+            assert_true(found.t[i] == found_plain.t[i] || (isnan(found.t[i]) && isnan(found_plain.t[i])));
+            assert_int_equal(found.sure[i], found_plain.sure[i]);
+        }
+    }
+}
+
 /* Packets of any number find what single rays find: triangles, curved shapes, planes, nothing, rays that are none. */
 static void packets_are_single_rays(void **state)
 {
@@ -518,6 +559,7 @@ int main(void)
         cmocka_unit_test(bad_geometry),
         cmocka_unit_test(bad_rays),
         cmocka_unit_test(packets_are_single_rays),
+        cmocka_unit_test(lanes_are_the_same_at_every_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,14 +36,11 @@ static double expected_noise(void)
 
 static void show_tile(Adaptive *adaptive)
 {
-    FilmPixel *film = adaptive_worker(adaptive)->pixel;
     for (int p = 0; p < PIXELS; p++) {
-        for (int s = 0; s < ADAPTIVE_PILOT; s++) {
-            const double v = value_of(p, s), light[3] = {v, v, v};
-            film_add_light(film, light);
-            adaptive_path_end(adaptive);
-        }
-        adaptive_pixel_end(adaptive);
+        double light[ADAPTIVE_PILOT][3];
+        for (int s = 0; s < ADAPTIVE_PILOT; s++)
+            light[s][0] = light[s][1] = light[s][2] = value_of(p, s);
+        adaptive_pixel_end(adaptive, light);
     }
 }
 

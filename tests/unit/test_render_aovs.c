@@ -42,6 +42,35 @@ static void crops_are_cut_from_the_whole(void **state)
     stage_close(&s);
 }
 
+/* Pictures alone trace pixels together; each is what it is alone, with any number of samples. */
+static void pixels_together_are_pixels_alone(void **state)
+{
+    (void)state;
+    enum { W = 21, H = 19 }; /* tiles of several sizes */
+    static const int samples[] = {1, 3, 7, 16, 50, 64, 65};
+    for (size_t n = 0; n < sizeof samples / sizeof *samples; n++) {
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *whole = NULL;
+        Stage s;
+        stage_open_targets(&s);
+        s.scene->width = W, s.scene->height = H;
+        p.spp = samples[n], p.nthreads = 2, p.plain = 1;
+        assert_int_equal(render_scene(&whole, s.scene, &p, NULL, NULL), 0);
+        const RetexImage *all = &whole->parts[0].image;
+        for (int i = 0; i < 12; i++) {
+            RetexSet *alone = NULL;
+            p.crop[0] = (5 * i + 3) % W, p.crop[1] = (7 * i + 2) % H, p.crop[2] = p.crop[3] = 1;
+            assert_int_equal(render_scene(&alone, s.scene, &p, NULL, NULL), 0);
+            const RetexImage *one = &alone->parts[0].image;
+            const float *of_all = all->pixels + retex_image_index(all, p.crop[0], p.crop[1]);
+            assert_memory_equal(one->pixels, of_all, 3 * sizeof(float));
+            retex_set_close(&alone);
+        }
+        retex_set_close(&whole);
+        stage_close(&s);
+    }
+}
+
 /* From inside a sphere of radius 2, over a plane at y = -1: what the ray through each pixel's centre meets. */
 static void aovs_are_of_the_first_hit(void **state)
 {
@@ -114,6 +143,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crops_are_cut_from_the_whole),
+        cmocka_unit_test(pixels_together_are_pixels_alone),
         cmocka_unit_test(aovs_are_of_the_first_hit),
         cmocka_unit_test(irradiance_knows_no_material),
     };

@@ -61,20 +61,20 @@ static void dimensions_do_not_correlate(void **state)
     assert_true(fabs(sum / N) < 0.0005);
 }
 
-/* All numbers of a packet's vertices are the pairs one by one, with vectors or without; keys are kept from packet to
- * packet and forgotten with the pixel. */
+/* All numbers of a packet's vertices are the pairs one by one, with vectors or without, whatever pixels they are of. */
 static void vertices_are_pairs(void **state)
 {
     (void)state;
-    PixelKeys keys = {0}, plain_keys = {0};
     for (uint32_t n = 0; n < 100; n++) {
-        uint32_t sample[VERTEX_LANES], key = sampler_start(5, n / 10, 3, 0).key;
-        for (uint32_t lane = 0; lane < VERTEX_LANES; lane++)
+        uint32_t sample[VERTEX_LANES], key[VERTEX_LANES];
+        for (uint32_t lane = 0; lane < VERTEX_LANES; lane++) {
             sample[lane] = hash_pair(n, lane) >> (n % 32);
-        for (unsigned vertex = 0; vertex < VERTEX_KEYS_MAX + 3; vertex++) {
+            key[lane] = sampler_start(5, n / 10 + lane / (1 + n % 16), 3, 0).key;
+        }
+        for (unsigned vertex = 0; vertex < 20; vertex++) {
             VertexSamples all, plain;
-            vertex_samples(&keys, key, sample, vertex, &all);
-            vertex_samples_plain(&plain_keys, key, sample, vertex, &plain);
+            vertex_samples(key, sample, vertex, &all);
+            vertex_samples_plain(key, sample, vertex, &plain);
             assert_memory_equal(&all, &plain, sizeof all);
             const float *of[DIMENSIONS_PER_VERTEX][2] = {[VERTEX_LOBE] = {all.lobe, all.roulette},
                                                          [VERTEX_DIRECTION] = {all.direction_u, all.direction_v},
@@ -82,7 +82,7 @@ static void vertices_are_pairs(void **state)
                                                          [VERTEX_LIGHT_POINT] = {all.light_point_u, all.light_point_v}};
             for (uint32_t i = 0; i < VERTEX_LANES * DIMENSIONS_PER_VERTEX; i++) {
                 uint32_t lane = i % VERTEX_LANES, pair = i / VERTEX_LANES;
-                Sampler s = {key, sample[lane]};
+                Sampler s = {key[lane], sample[lane]};
                 float u, v;
                 sampler_pair(&s, DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX + pair, &u, &v);
                 assert_true(u == of[pair][0][lane] && v == of[pair][1][lane]);
