@@ -5,15 +5,8 @@
 #include "pattern/pattern.h"
 #include "shade/pigment.h"
 
-#define TABLE_WIDTH 1024 /* over longitude; the height is half of it, over the polar angle */
-#define TABLE_HEIGHT 512
-
-struct Environment {
-    float mean;
-    float conditional[TABLE_HEIGHT][TABLE_WIDTH + 1]; /* running sums of a row, from 0 to 1 */
-    float marginal[TABLE_HEIGHT + 1];
-    float density[TABLE_HEIGHT][TABLE_WIDTH]; /* per solid angle */
-};
+#define TABLE_WIDTH SKY_TABLE_WIDTH
+#define TABLE_HEIGHT SKY_TABLE_HEIGHT
 
 /* Of the background, as surfaces see it. */
 static Rgb background_light(const Scene *scene)
@@ -138,102 +131,28 @@ int sky_shines(const Scene *scene)
     return 0;
 }
 
-static void normalize_sums(float *sums, int count)
+int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err)
 {
-    float total = sums[count];
-    for (int k = 1; k <= count; k++)
-        sums[k] = total > 0 ? sums[k] / total : (float)k / (float)count;
-    sums[count] = 1;
-}
-
-int environment_create(Environment **environment, const Scene *scene, RetexError *err)
-{
-    *environment = NULL;
+    *table = NULL;
     if (!scene->sky && rgb_is_black(background_light(scene)))
         return RETEX_OK;
-    Environment *e = malloc(sizeof *e);
-    if (!e)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
     const int looked_at = columns_looked_at(scene);
+    float *luminances = malloc(sizeof(float) * TABLE_WIDTH * TABLE_HEIGHT);
     Longitudes longitudes;
-    double total = 0;
     find_longitudes(&longitudes);
-    for (int y = 0; y < TABLE_HEIGHT; y++) {
-        double area = (cos(PI * y / TABLE_HEIGHT) - cos(PI * (y + 1) / TABLE_HEIGHT)) * 2 * PI / TABLE_WIDTH, row = 0;
-        float *luminances = e->density[y];
-        row_luminances(scene, &longitudes, y, looked_at, luminances);
-        e->conditional[y][0] = 0;
-        for (int x = 0; x < TABLE_WIDTH; x++) {
-            row += luminances[x] = luminances[x < looked_at ? x : 0];
-            e->conditional[y][x + 1] = (float)row;
-        }
-        normalize_sums(e->conditional[y], TABLE_WIDTH);
-        total += row * area;
-        e->marginal[y + 1] = (float)total;
+    for (int y = 0; luminances && y < TABLE_HEIGHT; y++) {
+        float *row = luminances + (size_t)y * TABLE_WIDTH;
+        row_luminances(scene, &longitudes, y, looked_at, row);
+        for (int x = looked_at; x < TABLE_WIDTH; x++)
+            row[x] = row[0];
     }
-    e->marginal[0] = 0;
-    normalize_sums(e->marginal, TABLE_HEIGHT);
-    e->mean = (float)(total / (4 * PI));
-    if (!(total > 0)) {
-        free(e);
-        return RETEX_OK;
-    }
-    for (int y = 0; y < TABLE_HEIGHT; y++)
-        for (int x = 0; x < TABLE_WIDTH; x++)
-            e->density[y][x] = (float)(e->density[y][x] / total);
-    *environment = e;
+    *table = luminances ? sky_table_create(luminances) : NULL;
+    free(luminances);
+    if (!*table)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
+    if (!(sky_table_mean(*table) > 0))
+        sky_table_close(table);
     return RETEX_OK;
-}
-
-void environment_close(Environment **environment)
-{
-    free(*environment);
-    *environment = NULL;
-}
-
-/* Largest k with sums[k] <= u. */
-static int find_cell(const float *sums, int count, float u)
-{
-    int low = 0, high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (sums[middle] <= u)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-Vec3 environment_sample(const Environment *e, float u1, float u2, float *pdf)
-{
-    int y = find_cell(e->marginal, TABLE_HEIGHT, u2), x = find_cell(e->conditional[y], TABLE_WIDTH, u1);
-    float width = e->conditional[y][x + 1] - e->conditional[y][x], height = e->marginal[y + 1] - e->marginal[y];
-    double fx = width > 0 ? (u1 - e->conditional[y][x]) / width : 0.5,
-           fy = height > 0 ? (u2 - e->marginal[y]) / height : 0.5;
-    /* uniform in solid angle within the cell: cos(theta) is linear */
-    double c0 = cos(PI * y / TABLE_HEIGHT), c1 = cos(PI * (y + 1) / TABLE_HEIGHT), c = c0 + (c1 - c0) * fy;
-    double phi = 2 * PI * (x + fx) / TABLE_WIDTH, s = sqrt(fmax(0, 1 - c * c));
-    *pdf = e->density[y][x];
-    return vec3(s * cos(phi), c, s * sin(phi));
-}
-
-float environment_pdf(const Environment *e, Vec3 direction)
-{
-    double phi = atan2(direction.z, direction.x);
-    if (phi < 0)
-        phi += 2 * PI;
-    int x = (int)(phi / (2 * PI) * TABLE_WIDTH), y = (int)(acos(fmax(-1, fmin(1, direction.y))) / PI * TABLE_HEIGHT);
-    if (x >= TABLE_WIDTH)
-        x = TABLE_WIDTH - 1;
-    if (y >= TABLE_HEIGHT)
-        y = TABLE_HEIGHT - 1;
-    return e->density[y][x];
-}
-
-float environment_mean(const Environment *e)
-{
-    return e->mean;
 }
 
 /* ---- in the list of lights ---- */
@@ -241,42 +160,41 @@ float environment_mean(const Environment *e)
 /* A uniform sky is sampled as well by the BSDF alone, without noise where nothing occludes it. */
 static int add_sky(LightEntries *list, RetexError *err)
 {
-    Environment *environment = NULL;
-    int code = list->scene->sky ? environment_create(&environment, list->scene, err) : RETEX_OK;
-    if (environment)
+    SkyTable *table = NULL;
+    int code = list->scene->sky ? sky_table_of(&table, list->scene, err) : RETEX_OK;
+    if (table)
         code = light_entries_add(list,
                                  &(LightEntry){.ops = &entry_sky,
                                                .lamp = list->scene->sky_lamp,
-                                               .strength = environment->mean * (float)PI,
+                                               .strength = sky_table_mean(table) * (float)PI,
                                                .is_infinite = 1,
-                                               .data = environment},
+                                               .data = table},
                                  err);
     if (code)
-        environment_close(&environment);
+        sky_table_close(&table);
     return code;
 }
 
 static void close_sky(LightEntry *e)
 {
-    Environment *environment = e->data;
-    environment_close(&environment);
+    SkyTable *table = e->data;
+    sky_table_close(&table);
 }
 
 static int sample_sky(const LightEntry *e, const LightPick *pick, Vec3 position, float u1, float u2,
                       LightSample *sample)
 {
     (void)pick, (void)position;
-    sample->source = NULL, sample->surface.primitive = NULL, sample->shadowless = 0;
-    sample->direction = environment_sample(e->data, u1, u2, &sample->pdf);
+    sample->source = NULL, sample->surface.primitive = NULL, sample->shadowless = 0, sample->is_sky = 1;
+    sample->direction = sky_table_sample(e->data, u1, u2, &sample->pdf);
     sample->distance = INFINITY;
-    sample->radiance = sky_radiance(e->scene, sample->direction, 0);
     return sample->pdf > 0;
 }
 
 static double sky_pdf(const LightEntry *e, Vec3 from, Vec3 direction, const Surface *surface, int *face)
 {
     (void)from, (void)surface, (void)face;
-    return environment_pdf(e->data, direction);
+    return sky_table_pdf(e->data, direction);
 }
 
 const LightEntryOps entry_sky = {.add = add_sky, .close = close_sky, .sample = sample_sky, .pdf = sky_pdf};

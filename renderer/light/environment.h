@@ -2,6 +2,7 @@
 #ifndef RENDERER_LIGHT_ENVIRONMENT_H
 #define RENDERER_LIGHT_ENVIRONMENT_H
 
+#include "light/sky_table.h"
 #include "scene/scene.h"
 
 /* Radiance of sky and background in a direction: that they are seen with, or that surfaces are lit with. */
@@ -9,12 +10,7 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction, int seen);
 /* 0: it is black in all directions, as far as the table of the sky tells. Quick where it is not. */
 int sky_shines(const Scene *scene);
 
-typedef struct Environment Environment;
-/* *environment is NULL where the sky is black. */
-int environment_create(Environment **environment, const Scene *scene, RetexError *err);
-void environment_close(Environment **environment);
-Vec3 environment_sample(const Environment *environment, float u1, float u2, float *pdf);
-float environment_pdf(const Environment *environment, Vec3 direction);
-float environment_mean(const Environment *environment); /* mean luminance over the sphere */
+/* *table is NULL where the sky is black. */
+int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err);
 
 #endif

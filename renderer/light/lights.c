@@ -2,6 +2,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include "light/lights.h"
+#include "light/sky_table.h"
 #include "shade/bsdf.h"
 #include "shade/texture.h"
 
@@ -412,8 +413,14 @@ int lights_sample(const Lights *lights, const LightSampleContext *point, const L
         return 0;
     const LightEntry *e = &lights->list.entries[pick->entry];
     sample->pick_probability = pick->probability;
-    sample->lamp = e->lamp;
+    sample->lamp = e->lamp, sample->is_sky = 0;
     return e->ops->sample(e, pick, point->position, u1, u2, sample);
+}
+
+void lights_prefetch(const Lights *lights, const float *u1, const float *u2, int count)
+{
+    if (lights->sky >= 0 && is_exact(&lights->all))
+        sky_table_prefetch(lights->list.entries[lights->sky].data, u1, u2, count);
 }
 
 /* Of the k-th entry, or 0 where k is below 0. */

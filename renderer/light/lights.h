@@ -18,6 +18,9 @@ int lights_count(const Lights *lights);
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part);
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
+/* Ask memory for what lights_sample will read of the sky, where it is one of few lights. count: at most
+ * SKY_TABLE_PREFETCH. */
+void lights_prefetch(const Lights *lights, const float *u1, const float *u2, int count);
 int lights_lamp(const Lights *lights, const LightPick *pick); /* of the light that was picked */
 /* The picked face of a mesh, if its radiance is uniform and rays of paths see it; else NULL. Such a face is sampled by
  * the matte kernel (path/matte.h) instead of lights_sample. *density: of points on the face, by area. */

@@ -13,10 +13,11 @@ typedef struct LightSample {
     Vec3 direction;      /* from the lit point, unit length */
     double distance;     /* INFINITY for the sky */
     Rgb radiance;        /* not divided by pick_probability and pdf. Of a light source: irradiance on a surface that
-                            faces it. Of an emitting shape the caller evaluates it at `surface` */
+                            faces it. Of an emitting shape the caller evaluates it at `surface`, and that of the sky
+                            once nothing blocks its ray: is_sky tells that it is still to be looked up */
     float pick_probability; /* of having picked this light */
     float pdf;           /* per solid angle, without pick_probability; 0 for a light source */
-    int shadowless;
+    int shadowless, is_sky;
     int lamp;            /* of the scene's lamps */
     /* NULL, or the light source that it is, which no path hits; and where its shadow ray goes: to a point of the grid
      * of an area_light, while its light comes from the middle. */

@@ -159,8 +159,9 @@ Rgb media_transmittance(PathWorker *worker, const Path *path, const Media *media
 Rgb media_fade(const Media *media, double distance, const Surface *met);
 /* A ray passes through a surface: it enters or leaves an interior. */
 void media_cross(Media *media, const Surface *surface);
-/* Trace the shadow ray of a direct-light sample. What dims light on it goes into the sample's radiance and, where
- * targets do it, into factors. Returns how many of these there are, or -1 where the light is not visible. */
+/* Trace the shadow ray of a direct-light sample. The sky's radiance is looked up here; what dims light goes into
+ * the sample's radiance and, where targets do it, into factors. Returns how many of these there are, or -1 where the
+ * light is not visible. */
 int trace_shadow_ray(PathWorker *worker, const Path *path, const Surface *from, DirectLightSample *light,
                      Factor *factors, int most_factors);
 /* Density with which the path itself, going on along the shadow ray, would find the light, where pdf is that of the

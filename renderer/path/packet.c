@@ -138,6 +138,7 @@ static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
         return;
     sample.ray = matte_shadow_ray(lights, k);
     sample.light.source = NULL, sample.light.shadowless = 0, sample.light.radiance = rgb_grey(1);
+    sample.light.is_sky = 0;
     sample.transmitted = 0, sample.traced = p->traced[k], sample.visibility = p->visibilities[k];
     Factor factors[SHADOW_FACTORS_MAX + 1];
     int passed = trace_shadow_ray(w, path, &v->s.surface, &sample, factors + 1, SHADOW_FACTORS_MAX);
@@ -208,12 +209,23 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
     p->scatters[lane] = add_emission(w, path, v, ray, hit) & goes_on;
 }
 
+static void prefetch_lights(const PathContext *c, const Packet *p, const Hit *hits)
+{
+    float u[ACCEL_PACKET], v[ACCEL_PACKET];
+    int n = 0;
+    for (int i = 0; i < p->count; i++)
+        if (hits[i].primitive >= 0)
+            u[n] = p->numbers.light_point_u[i], v[n++] = p->numbers.light_point_v[i];
+    lights_prefetch(c->lights, u, v, n);
+}
+
 static void shade(PathWorker *w, Packet *p, const Hit *hits, int step)
 {
     uint32_t keys[VERTEX_LANES] = {0}, samples[VERTEX_LANES] = {0};
     for (int i = 0; i < p->count; i++)
         keys[i] = p->paths[i]->key, samples[i] = p->paths[i]->sample;
     vertex_samples(keys, samples, (unsigned)step, &p->numbers);
+    prefetch_lights(w->context, p, hits);
     find_surfaces(w->context->scene, p, hits);
     p->mattes.count = 0;
     for (int i = 0; i < p->count; i++)

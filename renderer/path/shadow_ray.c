@@ -1,4 +1,5 @@
 /* Shadow rays: which lights a vertex sees, and how fading interiors and transparent surfaces dim them. */
+#include "light/environment.h"
 #include "path/internal.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
@@ -215,6 +216,8 @@ int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, Direc
     }
     if (t->visibility == VISIBILITY_BLOCKED)
         return -1;
+    if (t->light.is_sky) /* only now: the sky's picture is large, and most of these rays are blocked in a room */
+        *light = sky_radiance(w->context->scene, t->light.direction, 0);
     if (t->visibility == VISIBILITY_TRANSPARENT || t->transmitted)
         return trace_through_media(w, path, from, t, &(ShadowFactors){factors, 0, most_factors, light});
     dim(w, path, &path->media, &t->ray, t->ray.tmax - t->ray.tmin, NULL, source, light);

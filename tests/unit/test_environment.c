@@ -5,16 +5,16 @@
 #include "light/environment.h"
 
 /* As it is written, or turned by next to nothing, so that no row is taken as level. */
-static Environment *sky(Scene **scene, const char *pigment, const char *turn)
+static SkyTable *sky(Scene **scene, const char *pigment, const char *turn)
 {
     char text[1024];
-    Environment *environment;
+    SkyTable *environment;
     RetexError err = {0};
 
     snprintf(text, sizeof text, V37 "sky_sphere{pigment{%s color_map{[0 rgb <.1,.2,.4>] [.6 rgb 1] [1 rgb 2]} %s}}",
              pigment, turn);
     *scene = parse(text);
-    test_must(environment_create(&environment, *scene, &err), &err);
+    test_must(sky_table_of(&environment, *scene, &err), &err);
     return environment;
 }
 
@@ -31,20 +31,20 @@ static void densities_are_those_of_luminance(void **unused)
     (void)unused;
     for (size_t i = 0; i < sizeof pigments / sizeof *pigments; i++) {
         Scene *scenes[2];
-        Environment *written = sky(&scenes[0], pigments[i], ""),
+        SkyTable *written = sky(&scenes[0], pigments[i], ""),
                     *turned = sky(&scenes[1], pigments[i], "rotate <1e-290,0,1e-290>");
-        const double mean = environment_mean(written);
+        const double mean = sky_table_mean(written);
         int far = 0, other = 0;
         for (int k = 0; k < 4000; k++) {
             const double y = 2 * test_random(&state) - 1, phi = 2 * PI * test_random(&state), rho = sqrt(1 - y * y);
             const Vec3 d = {rho * cos(phi), y, rho * sin(phi)};
             const double of_sky = rgb_luminance(sky_radiance(scenes[0], d, 0)) / (4 * PI * mean);
-            other += fabs(environment_pdf(written, d) - environment_pdf(turned, d)) > 0.02 * environment_pdf(turned, d);
-            far += fabs(environment_pdf(written, d) - of_sky) > 0.05 * of_sky;
+            other += fabs(sky_table_pdf(written, d) - sky_table_pdf(turned, d)) > 0.02 * sky_table_pdf(turned, d);
+            far += fabs(sky_table_pdf(written, d) - of_sky) > 0.05 * of_sky;
         }
         assert_true(far < 80 && other < 80);
-        environment_close(&written);
-        environment_close(&turned);
+        sky_table_close(&written);
+        sky_table_close(&turned);
         scene_close(&scenes[0]);
         scene_close(&scenes[1]);
     }

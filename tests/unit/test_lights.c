@@ -549,19 +549,19 @@ static void skies_are_sampled_by_luminance(void **state)
         char text[1000];
         snprintf(text, sizeof text, "%s sky_sphere { %s }", HEAD, skies[k].pigments);
         Scene *scene = test_scene(text);
-        Environment *sky;
+        SkyTable *sky;
         double whole = 0, off = 0;
-        assert_int_equal(environment_create(&sky, scene, NULL), 0);
+        assert_int_equal(sky_table_of(&sky, scene, NULL), 0);
         for (int i = 0; i < N * N; i++) {
             const double z = 1 - 2 * (i / N + 0.5) / N, phi = 2 * PI * (i % N + 0.5) / N, r = sqrt(1 - z * z);
             const Vec3 d = vec3(r * cos(phi), z, r * sin(phi));
-            const double pdf = (double)environment_pdf(sky, d) * 4 * PI;
+            const double pdf = (double)sky_table_pdf(sky, d) * 4 * PI;
             whole += pdf;
-            off += fabs(pdf - (double)(rgb_luminance(sky_radiance(scene, d, 0)) / environment_mean(sky)));
+            off += fabs(pdf - (double)(rgb_luminance(sky_radiance(scene, d, 0)) / sky_table_mean(sky)));
         }
         if (!(fabs(whole / N / N - 1) < 0.05 && off / N / N < skies[k].within))
             fail_msg("sky %zu: densities add up to %.4f, and are %.4f off", k, whole / N / N, off / N / N);
-        environment_close(&sky);
+        sky_table_close(&sky);
         scene_close(&scene);
     }
 }
