@@ -1,9 +1,11 @@
 /* The sky as a light: its radiance, and a table over the sphere for sampling directions by luminance. */
 #include <stdlib.h>
+#include <string.h>
 #include "light/entry.h"
 #include "light/environment.h"
 #include "pattern/pattern.h"
 #include "shade/pigment.h"
+#include "shade/working_space.h"
 
 #define TABLE_WIDTH SKY_TABLE_WIDTH
 #define TABLE_HEIGHT SKY_TABLE_HEIGHT
@@ -29,16 +31,21 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction, int seen)
     return sum;
 }
 
-/* Sines and cosines of the longitudes that cells are looked at, two in each column. */
-typedef struct Longitudes {
-    double sine[2 * TABLE_WIDTH], cosine[2 * TABLE_WIDTH];
-} Longitudes;
+/* Sines and cosines of the angles that cells are looked at, two in each column and row. */
+typedef struct Angles {
+    double sine[2 * TABLE_WIDTH], cosine[2 * TABLE_WIDTH]; /* of longitudes */
+    double polar_sine[2 * TABLE_HEIGHT], polar_cosine[2 * TABLE_HEIGHT];
+} Angles;
 
-static void find_longitudes(Longitudes *longitudes)
+static void find_angles(Angles *angles)
 {
     for (int i = 0; i < 2 * TABLE_WIDTH; i++) {
         const double phi = 2 * PI * (0.5 * i + 0.25) / TABLE_WIDTH;
-        longitudes->sine[i] = sin(phi), longitudes->cosine[i] = cos(phi);
+        angles->sine[i] = sin(phi), angles->cosine[i] = cos(phi);
+    }
+    for (int j = 0; j < 2 * TABLE_HEIGHT; j++) {
+        const double theta = PI * (0.5 * j + 0.25) / TABLE_HEIGHT;
+        angles->polar_sine[j] = sin(theta), angles->polar_cosine[j] = cos(theta);
     }
 }
 
@@ -60,26 +67,34 @@ static int sky_has_image(const Scene *scene)
     return 0;
 }
 
-/* Luminances of a row's cells, only of the first count. In pictures a cell's is the mean of four points, so that a
- * small sun between centres is not missed; of patterns, which take long, it is that of one of the four in turn. */
-static void row_luminances(const Scene *scene, const Longitudes *longitudes, int y, int count, float *luminances)
+/* Of a cell: the mean of its points from `first` on and before `end`, of four. */
+static float cell_luminance(const Scene *scene, const Angles *angles, int x, int y, int first, int end)
+{
+    float sum = 0;
+    for (int k = first; k < end; k++) {
+        const int i = 2 * x + (k & 1), j = 2 * y + (k >> 1);
+        const double sine = angles->polar_sine[j];
+        const Vec3 direction = {sine * angles->cosine[i], angles->polar_cosine[j], sine * angles->sine[i]};
+        sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction, 0)));
+    }
+    return sum / (float)(end - first);
+}
+
+/* In pictures a cell's is the mean of four points, so that a small sun between centres is not missed; of patterns,
+ * which take long, it is that of one of the four in turn. */
+static float pattern_luminance(const Scene *scene, const Angles *angles, int x, int y)
+{
+    const int k = (x + 2 * y) & 3;
+    return cell_luminance(scene, angles, x, y, k, k + 1);
+}
+
+/* Luminances of a row's cells, only of the first count. */
+static void row_luminances(const Scene *scene, const Angles *angles, int y, int count, float *luminances)
 {
     const int whole = count == 1 || sky_has_image(scene);
-    double sine[2], cosine[2];
-    for (int k = 0; k < 2; k++) {
-        const double theta = PI * (y + 0.25 + 0.5 * k) / TABLE_HEIGHT;
-        sine[k] = sin(theta), cosine[k] = cos(theta);
-    }
-    for (int x = 0; x < count; x++) {
-        const int first = whole ? 0 : (x + 2 * y) & 3, end = whole ? 4 : first + 1;
-        float sum = 0;
-        for (int k = first; k < end; k++) {
-            const int i = 2 * x + (k & 1), j = k >> 1;
-            const Vec3 direction = {sine[j] * longitudes->cosine[i], cosine[j], sine[j] * longitudes->sine[i]};
-            sum += fmaxf(0, rgb_luminance(sky_radiance(scene, direction, 0)));
-        }
-        luminances[x] = sum / (float)(end - first);
-    }
+    for (int x = 0; x < count; x++)
+        luminances[x] = whole ? cell_luminance(scene, angles, x, y, 0, 4)
+                              : pattern_luminance(scene, angles, x, y);
 }
 
 /* Whether the pigment depends on the height alone, to the bit: as most skies do. */
@@ -120,10 +135,10 @@ int sky_shines(const Scene *scene)
 {
     const int count = columns_looked_at(scene);
     float luminances[TABLE_WIDTH];
-    Longitudes longitudes;
-    find_longitudes(&longitudes);
+    Angles angles;
+    find_angles(&angles);
     for (int y = 0; y < TABLE_HEIGHT; y++) {
-        row_luminances(scene, &longitudes, y, count, luminances);
+        row_luminances(scene, &angles, y, count, luminances);
         for (int x = 0; x < count; x++)
             if (luminances[x] > 0)
                 return 1;
@@ -131,21 +146,149 @@ int sky_shines(const Scene *scene)
     return 0;
 }
 
+/* ---- patterns: as coarse as they are smooth ---- */
+
+#define BLOCK 4     /* cells a side that are looked at once, where the sky is smooth */
+#define ROUGH 1.5f  /* ratio of blocks side by side from which on each of their cells is looked at */
+#define BRIGHT 24.0f /* times the mean: a sky that may be brighter somewhere has no blocks, which might miss a sun */
+#define EDGE 8.0f    /* no cell has less than a cell beside it, over this */
+#define BLOCKS_WIDE (TABLE_WIDTH / BLOCK)
+#define BLOCKS_HIGH (TABLE_HEIGHT / BLOCK)
+
+static float brightest_color(const WorkingSpace *space, Rgbft c)
+{
+    const float most = rgb_max(working_decode(space, rgb(c.r, c.g, c.b)));
+    const int adds_light = c.filter < 0 || c.transmit < 0 || c.filter + c.transmit > 1 || (c.filter > 0 && most > 1);
+    return adds_light ? INFINITY : most;
+}
+
+/* No luminance of the pigment is larger. INFINITY: that is not known. */
+static float brightest(const Pigment *pigment)
+{
+    float most = 0;
+    if (pigment->kind == PIGMENT_COLOR)
+        return brightest_color(NULL, pigment->color);
+    if (pigment->kind == PIGMENT_IMAGE)
+        return INFINITY;
+    for (int i = 0; i < pigment->map.count; i++) {
+        const ColorMapEntry *e = &pigment->map.entries[i];
+        if (pigment->kind == PIGMENT_AVERAGE && e->value < 0)
+            return INFINITY;
+        most = fmaxf(most, e->pigment ? brightest(e->pigment) : brightest_color(pigment->space, e->color));
+    }
+    return most;
+}
+
+/* Layers blend: none makes what is below it brighter. */
+static float brightest_of_sky(const Scene *scene)
+{
+    float most = rgb_max(background_light(scene));
+    for (int k = 0; k < scene->sky->npigments; k++)
+        most = fmaxf(most, brightest(scene->sky->pigments[k]) * rgb_max(scene->sky->emission));
+    return most;
+}
+
+/* Whether a block and those about it are much the same. Columns wrap around. */
+static int is_smooth(float (*blocks)[BLOCKS_WIDE], int i, int j)
+{
+    float least = INFINITY, most = 0;
+    for (int k = 0; k < 9; k++) {
+        const int y = j + k / 3 - 1;
+        const float at = y < 0 || y >= BLOCKS_HIGH ? blocks[j][i] : blocks[y][(i + k % 3 - 1) & (BLOCKS_WIDE - 1)];
+        least = fminf(least, at), most = fmaxf(most, at);
+    }
+    return most <= ROUGH * least;
+}
+
+/* Look at one cell of each block. Returns their mean. */
+static double look_at_blocks(const Scene *scene, const Angles *angles, float (*blocks)[BLOCKS_WIDE])
+{
+    double sum = 0, weights = 0;
+    for (int j = 0; j < BLOCKS_HIGH; j++)
+        for (int i = 0; i < BLOCKS_WIDE; i++) {
+            const double weight = sin(PI * (j + 0.5) / BLOCKS_HIGH);
+            blocks[j][i] = cell_luminance(scene, angles, BLOCK * i + BLOCK / 2, BLOCK * j + BLOCK / 2, 0, 1);
+            sum += weight * (double)blocks[j][i], weights += weight;
+        }
+    return sum / weights;
+}
+
+/* Between the looks at the blocks about the middle of a cell, linearly. */
+static float smooth_luminance(float (*blocks)[BLOCKS_WIDE], int x, int y)
+{
+    const float u = ((float)x + 0.25f) / BLOCK + 0.5f, v = fmaxf(((float)y + 0.25f) / BLOCK + 0.5f, 1);
+    const int i = (int)u, j = (int)v < BLOCKS_HIGH ? (int)v : BLOCKS_HIGH - 1; /* behind it */
+    const int left = (i - 1) & (BLOCKS_WIDE - 1), right = i & (BLOCKS_WIDE - 1);
+    const float s = u - (float)i, t = fminf(v - (float)j, 1);
+    return (1 - t) * ((1 - s) * blocks[j - 1][left] + s * blocks[j - 1][right]) +
+           t * ((1 - s) * blocks[j][left] + s * blocks[j][right]);
+}
+
+static void pattern_luminances(const Scene *scene, const Angles *angles, float *luminances)
+{
+    float blocks[BLOCKS_HIGH][BLOCKS_WIDE];
+    const int has_blocks =
+        (double)brightest_of_sky(scene) <= (double)BRIGHT * look_at_blocks(scene, angles, blocks);
+    for (int j = 0; j < BLOCKS_HIGH; j++)
+        for (int i = 0; i < BLOCKS_WIDE; i++) {
+            const int whole = has_blocks && is_smooth(blocks, i, j);
+            for (int k = 0; k < BLOCK * BLOCK; k++) {
+                const int x = BLOCK * i + k % BLOCK, y = BLOCK * j + k / BLOCK;
+                luminances[y * TABLE_WIDTH + x] =
+                    whole ? smooth_luminance(blocks, x, y) : pattern_luminance(scene, angles, x, y);
+            }
+        }
+}
+
+/* The edge of a sun goes through cells whose one point is beside it: paths that find it there must not be so few that
+ * each is a spot in the picture. */
+static void widen_edges(float *luminances)
+{
+    float rows[3][TABLE_WIDTH], *above = rows[0], *here = rows[1], *below = rows[2];
+    memcpy(here, luminances, sizeof rows[0]);
+    memcpy(above, here, sizeof rows[0]);
+    for (int y = 0; y < TABLE_HEIGHT; y++) {
+        const int next = y + 1 < TABLE_HEIGHT ? y + 1 : y;
+        float *swap = above;
+        memcpy(below, luminances + (size_t)next * TABLE_WIDTH, sizeof rows[0]);
+        for (int x = 0; x < TABLE_WIDTH; x++) {
+            float most = 0;
+            for (int k = -1; k <= 1; k++) {
+                const int column = (x + k) & (TABLE_WIDTH - 1);
+                most = fmaxf(most, fmaxf(fmaxf(above[column], below[column]), here[column]));
+            }
+            luminances[y * TABLE_WIDTH + x] = fmaxf(here[x], most / EDGE);
+        }
+        above = here, here = below, below = swap;
+    }
+}
+
+static void find_luminances(const Scene *scene, float *luminances)
+{
+    const int looked_at = columns_looked_at(scene);
+    Angles angles;
+    find_angles(&angles);
+    if (looked_at > 1 && !sky_has_image(scene)) {
+        pattern_luminances(scene, &angles, luminances);
+        widen_edges(luminances);
+        return;
+    }
+    for (int y = 0; y < TABLE_HEIGHT; y++) {
+        float *row = luminances + (size_t)y * TABLE_WIDTH;
+        row_luminances(scene, &angles, y, looked_at, row);
+        for (int x = looked_at; x < TABLE_WIDTH; x++)
+            row[x] = row[0];
+    }
+}
+
 int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err)
 {
     *table = NULL;
     if (!scene->sky && rgb_is_black(background_light(scene)))
         return RETEX_OK;
-    const int looked_at = columns_looked_at(scene);
     float *luminances = malloc(sizeof(float) * TABLE_WIDTH * TABLE_HEIGHT);
-    Longitudes longitudes;
-    find_longitudes(&longitudes);
-    for (int y = 0; luminances && y < TABLE_HEIGHT; y++) {
-        float *row = luminances + (size_t)y * TABLE_WIDTH;
-        row_luminances(scene, &longitudes, y, looked_at, row);
-        for (int x = looked_at; x < TABLE_WIDTH; x++)
-            row[x] = row[0];
-    }
+    if (luminances)
+        find_luminances(scene, luminances);
     *table = luminances ? sky_table_create(luminances) : NULL;
     free(luminances);
     if (!*table)
