@@ -281,7 +281,7 @@ static void find_luminances(const Scene *scene, float *luminances)
     }
 }
 
-int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err)
+int sky_table_of(SkyTable **table, const Scene *scene, int for_mis, RetexError *err)
 {
     *table = NULL;
     if (!scene->sky && rgb_is_black(background_light(scene)))
@@ -289,7 +289,7 @@ int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err)
     float *luminances = malloc(sizeof(float) * TABLE_WIDTH * TABLE_HEIGHT);
     if (luminances)
         find_luminances(scene, luminances);
-    *table = luminances ? sky_table_create(luminances) : NULL;
+    *table = luminances ? sky_table_create(luminances, for_mis) : NULL;
     free(luminances);
     if (!*table)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the table of the sky");
@@ -304,7 +304,7 @@ int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err)
 static int add_sky(LightEntries *list, RetexError *err)
 {
     SkyTable *table = NULL;
-    int code = list->scene->sky ? sky_table_of(&table, list->scene, err) : RETEX_OK;
+    int code = list->scene->sky ? sky_table_of(&table, list->scene, 1, err) : RETEX_OK;
     if (table)
         code = light_entries_add(list,
                                  &(LightEntry){.ops = &entry_sky,

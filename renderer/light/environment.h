@@ -10,7 +10,7 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction, int seen);
 /* 0: it is black in all directions, as far as the table of the sky tells. Quick where it is not. */
 int sky_shines(const Scene *scene);
 
-/* *table is NULL where the sky is black. */
-int sky_table_of(SkyTable **table, const Scene *scene, RetexError *err);
+/* *table is NULL where the sky is black. for_mis: as of sky_table_create. */
+int sky_table_of(SkyTable **table, const Scene *scene, int for_mis, RetexError *err);
 
 #endif

@@ -12,6 +12,13 @@
 #define LINE 64   /* bytes that come from memory together */
 #define LINES 2   /* so many of a long part of a row are asked for, besides its last */
 
+/* What paths find of the sky as well need not be sampled by lights: an even part of its luminance is left out (Karlik
+ * et al. 2019, MIS Compensation). By the power heuristic half of the mean is best; a sun's share of the mean does not
+ * count, as where it does not shine the rest is all the light there is. A tenth is kept of every cell, because paths do
+ * not find all: objects without shadow hide sky from them. */
+#define LEFT_OUT 0.5f
+#define KEPT 0.1f
+
 typedef struct Cell {
     float sum;     /* of the cells before it, as a share of the row's */
     float density; /* per solid angle */
@@ -69,21 +76,40 @@ static float share(float sum, float total, int k, int count)
     return k == count ? 1 : total > 0 ? sum / total : (float)k / (float)count;
 }
 
-/* Returns the sum of its luminances. */
-static double sum_row(Cell *cells, const float *luminances)
+static double cell_area(const SkyTable *t, int y)
+{
+    return (t->cosines[y] - t->cosines[y + 1]) * 2 * PI / WIDTH;
+}
+
+/* Over the sphere, of luminances that count as no more than `most`. */
+static float mean_luminance(const SkyTable *t, const float *luminances, float most)
+{
+    double sum = 0;
+    for (int y = 0; y < HEIGHT; y++) {
+        double row = 0;
+        for (int x = 0; x < WIDTH; x++)
+            row += fminf(luminances[y * WIDTH + x], most);
+        sum += row * cell_area(t, y);
+    }
+    return (float)(sum / (4 * PI));
+}
+
+/* Of luminances, of which some is left out. Returns the sum of the rest. */
+static double sum_row(Cell *cells, const float *luminances, float left_out)
 {
     double sum = 0;
     for (int x = 0; x < WIDTH; x++) {
+        const float rest = fmaxf(luminances[x] - left_out, KEPT * luminances[x]);
         cells[x].sum = (float)sum;
-        cells[x].density = luminances[x];
-        sum += luminances[x];
+        cells[x].density = rest;
+        sum += rest;
     }
     for (int x = 0; x <= WIDTH; x++)
         cells[x].sum = share(cells[x].sum, (float)sum, x, WIDTH);
     return sum;
 }
 
-SkyTable *sky_table_create(const float *luminances)
+SkyTable *sky_table_create(const float *luminances, int for_mis)
 {
     SkyTable *t = malloc(sizeof *t);
     double total = 0;
@@ -91,17 +117,17 @@ SkyTable *sky_table_create(const float *luminances)
         return NULL;
     for (int y = 0; y <= HEIGHT; y++)
         t->cosines[y] = cos(PI * y / HEIGHT);
+    t->mean = mean_luminance(t, luminances, INFINITY);
+    const float left_out = for_mis ? LEFT_OUT * mean_luminance(t, luminances, t->mean) : 0;
     for (int y = 0; y < HEIGHT; y++) {
-        const double area = (t->cosines[y] - t->cosines[y + 1]) * 2 * PI / WIDTH; /* of a cell */
         t->marginal[y] = (float)total;
-        total += sum_row(t->cells[y], luminances + (size_t)y * WIDTH) * area;
+        total += sum_row(t->cells[y], luminances + (size_t)y * WIDTH, left_out) * cell_area(t, y);
     }
     for (int y = 0; y <= HEIGHT; y++)
         t->marginal[y] = share(t->marginal[y], (float)total, y, HEIGHT);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             t->cells[y][x].density = (float)(t->cells[y][x].density / total);
-    t->mean = (float)(total / (4 * PI));
     set_guides(t);
     return t;
 }

@@ -9,8 +9,9 @@
 
 typedef struct SkyTable SkyTable;
 
-/* luminances: of the cells, row by row, none below 0. NULL: out of memory. */
-SkyTable *sky_table_create(const float *luminances);
+/* luminances: of the cells, row by row, none below 0. for_mis: densities are larger where the sky is brighter than
+ * elsewhere, for directions that paths sample too; else they are proportional to luminance. NULL: out of memory. */
+SkyTable *sky_table_create(const float *luminances, int for_mis);
 void sky_table_close(SkyTable **table);
 float sky_table_mean(const SkyTable *table); /* luminance, over the sphere; where it is 0 nothing can be sampled */
 /* u1, u2: in [0,1). *pdf: per solid angle. */

@@ -14,7 +14,7 @@ static SkyTable *sky(Scene **scene, const char *pigment, const char *turn)
     snprintf(text, sizeof text, V37 "sky_sphere{pigment{%s color_map{[0 rgb <.1,.2,.4>] [.6 rgb 1] [1 rgb 2]} %s}}",
              pigment, turn);
     *scene = parse(text);
-    test_must(sky_table_of(&environment, *scene, &err), &err);
+    test_must(sky_table_of(&environment, *scene, 0, &err), &err);
     return environment;
 }
 
@@ -70,7 +70,7 @@ static void small_suns_are_found(void **unused)
                  (size + 1) / 2, (size + 1) / 2, -theta * 180 / PI, -phi * 180 / PI);
         Scene *scene = parse(text);
         assert_true(sky_radiance(scene, d, 0).r > 9e5f);
-        test_must(sky_table_of(&table, scene, &err), &err);
+        test_must(sky_table_of(&table, scene, 0, &err), &err);
         const double there = (double)sky_table_pdf(table, d), wanted = 1e6 / (4 * PI * (double)sky_table_mean(table));
         assert_true(fabs(there / wanted - 1) < 1e-3);
         for (int k = 0; k < 9; k++) {

@@ -551,7 +551,7 @@ static void skies_are_sampled_by_luminance(void **state)
         Scene *scene = test_scene(text);
         SkyTable *sky;
         double whole = 0, off = 0;
-        assert_int_equal(sky_table_of(&sky, scene, NULL), 0);
+        assert_int_equal(sky_table_of(&sky, scene, 0, NULL), 0);
         for (int i = 0; i < N * N; i++) {
             const double z = 1 - 2 * (i / N + 0.5) / N, phi = 2 * PI * (i % N + 0.5) / N, r = sqrt(1 - z * z);
             const Vec3 d = vec3(r * cos(phi), z, r * sin(phi));
