@@ -329,6 +329,7 @@ static int make_frame(Arguments *a)
     const int keeps = keeps_data(a, a->output);
     a->render.denoise_data = a->denoise || keeps;
     a->render.stored = keeps && !a->denoise;
+    a->render.rounded = !a->full_precision;
     const double started = retex_clock_seconds();
     if (!code)
         code = open_scene(a, &scene, &err);

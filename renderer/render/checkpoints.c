@@ -127,9 +127,11 @@ int checkpoint_open(RetexBandStore **store, const RenderParams *p, int width, in
         return open_shard(store, p, width, height, err);
     if (p->resume)
         return retex_band_store_open(store, width, height, p->key, p->checkpoint, 1, err);
-    const int code = p->nmerged ? check_merged(p, width, height, err) : RETEX_OK;
+    int code = p->nmerged ? check_merged(p, width, height, err) : RETEX_OK;
     if (!code && (p->stored || p->nmerged))
-        return retex_band_store_create(store, width, height, p->key, p->output, err);
+        code = retex_band_store_create(store, width, height, p->key, p->output, err);
+    if (!code && *store && p->rounded)
+        retex_band_store_set_fast(*store);
     return code;
 }
 

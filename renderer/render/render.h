@@ -42,6 +42,8 @@ typedef struct RenderParams {
                                 which does not tell how noisy it is; default 0 */
     int stored;             /* 1: render_scene leaves parts of the set in a band store (retex/host/band_store.h), for
                                 retex_set_write or retex_set_load; default 0 */
+    int rounded;             /* 1: the set will be rounded (retex_set_round), so that its images are compressed again:
+                                until then they are compressed fast; default 0 */
     const char *output;      /* what the result will be written to, so that the band store is near it; NULL = nothing */
     uint64_t key;            /* tells this render from others: of the files below those with another are refused */
     const char *checkpoint;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */

@@ -187,6 +187,39 @@ static void a_band_store_needs_no_folder_of_the_output(void **state)
     retex_band_store_close(&store);
 }
 
+/* Bands of a store that compresses fast come back like others, of both kinds of compression. Its streams tell by their
+ * headers (RFC 1950: the level) that it does. */
+static void fast_bands_come_back(void **state)
+{
+    (void)state;
+    static float pixels[WIDTH * RETEX_BAND_ROWS * 3], back[WIDTH * RETEX_BAND_ROWS * 3];
+    RetexError err;
+    for (int k = 0; k < WIDTH * RETEX_BAND_ROWS * 3; k++)
+        pixels[k] = (float)(k / 3 % 64) / 64;
+    for (int fast = 0; fast < 2; fast++) {
+        RetexBandStore *store;
+        unsigned char head[2];
+        int number[2];
+        test_must(retex_band_store_create(&store, WIDTH, HEIGHT, 0, NULL, &err), &err);
+        if (fast)
+            retex_band_store_set_fast(store);
+        test_must(retex_band_store_add(store, "half", "RGB", RETEX_HALF, &number[0], &err), &err);
+        test_must(retex_band_store_add(store, "float", "RGB", RETEX_FLOAT, &number[1], &err), &err);
+        for (int k = 0; k < 2; k++) {
+            test_must(retex_band_store_put(store, number[k], 1, pixels, &err), &err);
+            test_must(retex_band_store_load_band(store, number[k], 1, back, &err), &err);
+            assert_memory_equal(back, pixels, sizeof back);
+            const RetexBandStoreChunk *chunk = retex_band_store_chunk(store, number[k], 1);
+            assert_in_range(chunk->bytes, 10, 2000);
+            assert_int_equal(chunk->pxr24, k);
+            assert_int_equal(pread(store->descriptor, head, sizeof head, (off_t)chunk->offset), 2);
+            assert_int_equal((head[0] << 8 | head[1]) % 31, 0);
+            assert_int_equal(head[1] >> 6 == 0, fast);
+        }
+        retex_band_store_close(&store);
+    }
+}
+
 static void flip(const RetexBandStore *store, uint64_t at)
 {
     unsigned char byte;
@@ -278,6 +311,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_damaged_is_not_read_back, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(checkpoints_have_a_size_and_a_key, make_folder, remove_folder),
         cmocka_unit_test(what_is_empty_is_known),
+        cmocka_unit_test(fast_bands_come_back),
         cmocka_unit_test(statistics_of_bands_add_up),
         cmocka_unit_test(a_band_store_needs_no_folder_of_the_output),
     };

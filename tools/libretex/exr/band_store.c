@@ -105,6 +105,11 @@ void retex_band_store_set_plain(RetexBandStore *store)
     store->plain = 1;
 }
 
+void retex_band_store_set_fast(RetexBandStore *store)
+{
+    store->fast = 1;
+}
+
 void retex_band_store_close(RetexBandStore **result)
 {
     RetexBandStore *store = result ? *result : NULL;
@@ -334,6 +339,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     int status = 0;
 
     if (prepare(scratch, &shape)) {
+        scratch->chunk.zip.zlib.fast = store->fast;
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (nonzero || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */

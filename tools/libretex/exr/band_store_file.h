@@ -25,6 +25,7 @@ struct RetexBandStore {
     uint64_t key;
     int descriptor;
     int plain;           /* 1: bands are not compressed */
+    int fast;            /* 1: they are compressed fast */
     RetexTemporaryName shown; /* the file's name, for messages */
     RetexBandStats *stats;     /* by band, valid */
     char *committed;           /* where committed is 1 */
