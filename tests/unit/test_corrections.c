@@ -396,12 +396,14 @@ static void light_of_one_edit_is_complete(void **state)
         RetexEdited *edited;
         RetexEditedLight light[3];
         RetexError err = {0};
+        int lit[256];
         const int ntargets = seed % 2 ? 2 : 3;
         make(&f, &truth, seed <= 6 ? &footprints_layout : &paper_layout, ntargets, seed);
         test_must(retex_edited_open(&edited, f.set, &err), &err);
         for (int t = 0; t < ntargets; t++) {
             assert_int_equal(retex_edited_powers(edited, t), 3);
-            retex_edited_light(edited, f.set, t, 0, light[t]);
+            assert_in_range(retex_edited_light_count(edited), 1, sizeof lit / sizeof *lit);
+            retex_edited_light(edited, f.set, t, 0, lit, retex_edited_find_lit(edited, f.set, 0, lit), light[t]);
         }
         retex_edited_close(&edited);
         remove_corrections(f.set);

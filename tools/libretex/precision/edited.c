@@ -129,10 +129,23 @@ int retex_edited_terms(const RetexEdited *edited, int target, int power, const i
     return list->first[power + 1] - list->first[power];
 }
 
-int retex_edited_light_terms(const RetexEdited *edited, const int **terms)
+int retex_edited_light_count(const RetexEdited *edited)
 {
-    *terms = edited->light;
     return edited->nlight;
+}
+
+static int is_black(const float *radiance)
+{
+    return radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0;
+}
+
+int retex_edited_find_lit(const RetexEdited *edited, const RetexSet *rows, size_t at, int *lit)
+{
+    int count = 0;
+    for (int t = 0; t < edited->nlight; t++)
+        if (!is_black(retex_pixel_at(rows, rows->terms[edited->light[t]].radiance, at)))
+            lit[count++] = edited->light[t];
+    return count;
 }
 
 /* ---- one pixel ---- */
@@ -186,29 +199,48 @@ static int multiply(RetexEditedLight polynomial, int powers, const Factor *facto
     return powers + more;
 }
 
-void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, RetexEditedLight light)
+/* The mixtures of a pixel that were asked for. */
+typedef struct KnownMixtures {
+    char known[RETEX_MIXTURES_MAX];
+    Factor of[RETEX_MIXTURES_MAX];
+} KnownMixtures;
+
+static const Factor *find_mixture(KnownMixtures *all, const RetexSet *rows, int mixture, int target, size_t at)
+{
+    if (!all->known[mixture])
+        all->of[mixture] = mixture_factor(rows, &rows->mixtures[mixture], target, at);
+    all->known[mixture] = 1;
+    return &all->of[mixture];
+}
+
+void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, const int *lit,
+                        int nlit, RetexEditedLight light)
 {
     const int most = edited->of[target].powers;
-    Factor mixtures[RETEX_MIXTURES_MAX];
+    KnownMixtures mixtures;
     memset(light, 0, sizeof(RetexEditedLight));
     if (most < 0)
         return;
-    for (int m = 0; m < rows->nmixtures; m++)
-        mixtures[m] = mixture_factor(rows, &rows->mixtures[m], target, at);
-    for (int t = 0; t < edited->nlight; t++) {
-        const RetexTerm *term = &rows->terms[edited->light[t]];
+    memset(mixtures.known, 0, (size_t)rows->nmixtures);
+    for (int t = 0; t < nlit; t++) {
+        const RetexTerm *term = &rows->terms[lit[t]];
         const float *radiance = retex_pixel_at(rows, term->radiance, at);
-        RetexEditedLight product = {{(double)radiance[0], (double)radiance[1], (double)radiance[2]}};
+        RetexEditedLight product;
         int powers = 0;
-        if (radiance[0] == 0 && radiance[1] == 0 && radiance[2] == 0)
+        if (is_black(radiance))
             continue;
+        for (int c = 0; c < 3; c++)
+            product[0][c] = (double)radiance[c];
         for (int k = 0; k < term->nfactors; k++) {
             const RetexFactor factor = term->factors[k];
             Factor own = {0, {0, 0, 0}};
             if (factor.kind == RETEX_FACTOR_FOOTPRINT)
                 add_footprint(&own, rows, factor.index, 1, target, at);
-            powers =
-                multiply(product, powers, factor.kind == RETEX_FACTOR_MIXTURE ? &mixtures[factor.index] : &own, most);
+            powers = multiply(product, powers,
+                              factor.kind == RETEX_FACTOR_MIXTURE
+                                  ? find_mixture(&mixtures, rows, factor.index, target, at)
+                                  : &own,
+                              most);
         }
         for (int n = 0; n <= powers; n++)
             for (int c = 0; c < 3; c++)

@@ -24,11 +24,14 @@ int retex_edited_powers(const RetexEdited *edited, int target);
 /* The corrections of a target with so many factors: a list of terms. */
 int retex_edited_terms(const RetexEdited *edited, int target, int power, const int **terms);
 
-/* The terms that are light of all lamps. */
-int retex_edited_light_terms(const RetexEdited *edited, const int **terms);
+/* The terms that are light of all lamps: how many there are. */
+int retex_edited_light_count(const RetexEdited *edited);
+/* Those of them that are not black in pixel `at` of rows of the set, in their order; few are. Returns their number. */
+int retex_edited_find_lit(const RetexEdited *edited, const RetexSet *rows, size_t at, int *lit);
 
-/* The polynomial in pixel `at` of rows of the set, without corrections. */
-void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, RetexEditedLight light);
+/* The polynomial in a pixel, without corrections. lit: all terms that are not black there, and maybe others. */
+void retex_edited_light(const RetexEdited *edited, const RetexSet *rows, int target, size_t at, const int *lit,
+                        int nlit, RetexEditedLight light);
 /* 1 if every factor of the term has a place in the pixel, without which it is black. */
 int retex_edited_is_seen(const RetexSet *rows, const RetexTerm *term, size_t at);
 

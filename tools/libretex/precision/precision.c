@@ -49,6 +49,7 @@ typedef struct Scratch {
     double *light;      /* by footprint: light that it multiplies in the pixel */
     double *mixed;      /* by mixture */
     int *order;         /* of footprints */
+    int *lit;           /* terms of light that are not black in the pixel */
     double *whites;     /* of a row, by parameter, then column: the largest channel of all light of the lamp */
     double *colors;     /* of a row */
 } Scratch;
@@ -467,7 +468,8 @@ static void round_pixel(const RetexPrecision *p, Scratch *s, const RetexSet *row
                              .has_noise = p->has_noise,
                              .has_finishes = p->has_finishes,
                              .whites = s->whites + at % (size_t)rows->width,
-                             .noise = s->deviations};
+                             .noise = s->deviations,
+                             .lit = s->lit};
     take_noise(p, s, rows, pixel);
     retex_pixel_light_keep(&light);
     gather_light(p, s, rows, at);
@@ -489,6 +491,7 @@ static void close_scratch(Scratch *s)
     free(s->light);
     free(s->mixed);
     free(s->order);
+    free(s->lit);
     free(s->whites);
     free(s->colors);
 }
@@ -501,9 +504,10 @@ static int open_scratch(Scratch *s, const RetexPrecision *p, const RetexSet *row
                    .light = malloc(sizeof *s->light * (size_t)(p->nfootprints + 1)),
                    .mixed = malloc(sizeof *s->mixed * (size_t)(p->nmixtures + 1)),
                    .order = malloc(sizeof *s->order * (size_t)(p->nfootprints + 1)),
+                   .lit = malloc(sizeof *s->lit * (size_t)(retex_edited_light_count(p->edited) + 1)),
                    .whites = malloc(sizeof *s->whites * (size_t)rows->width * (size_t)(rows->nparameters + 1)),
                    .colors = malloc(sizeof *s->colors * 3 * (size_t)rows->width)};
-    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order && s->whites && s->colors)
+    if (s->noise && s->row && s->deviations && s->light && s->mixed && s->order && s->lit && s->whites && s->colors)
         return RETEX_OK;
     close_scratch(s);
     return retex_fail(err, RETEX_ENOMEM, "no memory to round a set");

@@ -39,10 +39,9 @@ static double largest_channel(const double sum[3])
 static double white_pixel(const RetexPixelLight *p)
 {
     double sum[3] = {0, 0, 0};
-    const int *terms, count = retex_edited_light_terms(p->edited, &terms);
-    for (int t = 0; t < count; t++)
+    for (int t = 0; t < p->nlit; t++)
         for (int c = 0; c < 3; c++)
-            sum[c] += (double)radiance_of(p, terms[t])[c];
+            sum[c] += (double)radiance_of(p, p->lit[t])[c];
     return largest_channel(sum);
 }
 
@@ -181,7 +180,7 @@ static void correct(const RetexPixelLight *p, int target)
     const double unit = retex_round_unit(retex_precision_step(RETEX_PRECISION_CORRECTION, p->white, noise / p->white));
     RetexEditedLight after;
     double lost[3] = {0, 0, 0};
-    retex_edited_light(p->edited, p->rows, target, p->at, after);
+    retex_edited_light(p->edited, p->rows, target, p->at, p->lit, p->nlit, after); /* what is black stays so */
     for (int n = retex_edited_powers(p->edited, target); n >= 0; n--) {
         for (int c = 0; c < 3; c++)
             lost[c] = (n > 0 ? CARRIED : 0) * lost[c] + p->before[target][n][c] - after[n][c];
@@ -193,9 +192,10 @@ static void correct(const RetexPixelLight *p, int target)
 
 void retex_pixel_light_keep(RetexPixelLight *p)
 {
+    p->nlit = retex_edited_find_lit(p->edited, p->rows, p->at, p->lit);
     p->white = white_pixel(p);
     for (int t = 0; t < p->rows->ntargets; t++)
-        retex_edited_light(p->edited, p->rows, t, p->at, p->before[t]);
+        retex_edited_light(p->edited, p->rows, t, p->at, p->lit, p->nlit, p->before[t]);
 }
 
 void retex_pixel_light_round(RetexPixelLight *p)

@@ -19,6 +19,7 @@ typedef struct RetexPixelLight {
     const double *noise;  /* by signal, then of all together */
     double white;         /* the largest channel of the sum of all terms of light */
     const double *whites; /* the same of each lamp's, by parameter, a row of the set apart */
+    int *lit, nlit;       /* terms that are not black; memory for retex_edited_light_count */
     RetexEditedLight before[RETEX_MAX_TARGETS];
 } RetexPixelLight;
 
