@@ -356,15 +356,22 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
 
 /* ---- broad clusters and interreflections of a pixel that is complete ---- */
 
+/* Of the UV of a place. */
+typedef struct UvCovariance {
+    double uu, uv, vv;
+} UvCovariance;
+
 /* Few places of a pixel, which merge by what a texture with features of a size would change by that. */
 typedef struct Places {
     const int *periodic;
     double feature;
     double weight, squares; /* of all paths: sums of weights and of their squares */
     int count;
-    unsigned changed; /* bits: places that are not as the arrays below were computed */
+    unsigned changed, moved; /* bits: places that are not as the arrays below were computed, and those of which only the
+                                places after them are others */
     const RetexUvStats *of[FILM_CLUSTERS_MAX];
     double variance[FILM_CLUSTERS_MAX];                  /* light_variance */
+    UvCovariance covariance[FILM_CLUSTERS_MAX];
     double error2[FILM_CLUSTERS_MAX][FILM_CLUSTERS_MAX]; /* of merging [i][k], i < k */
 } Places;
 
@@ -375,11 +382,18 @@ static void add_place(Places *places, const RetexUvStats *uv, double squares)
     places->weight += uv->weight, places->squares += squares;
 }
 
-/* Place b became a part of place a, and the last one took its index. */
+/* Place b became a part of place a, and the last one took its index. Merging is rounded by the order of the two: what
+ * is known of the last one stays known with those that are before it still. */
 static void remove_place(Places *places, int a, int b)
 {
-    places->changed |= 1u << a | 1u << b;
-    places->count--;
+    const int last = --places->count;
+    places->changed |= 1u << a;
+    if (b == last)
+        return;
+    places->moved |= 1u << b;
+    places->variance[b] = places->variance[last], places->covariance[b] = places->covariance[last];
+    for (int i = 0; i < b; i++)
+        places->error2[i][b] = places->error2[i][last];
 }
 
 /* The determinant of the covariance of two places, which are seen as normal distributions, and of the texture. */
@@ -390,11 +404,11 @@ static double covariance_determinant(double uu, double uv, double vv, double f)
 
 /* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
  * their distance d in features. */
-static double texture_covariance(const RetexUvStats *a, const RetexUvStats *b, double feature, const int periodic[2])
+static inline double texture_covariance(const RetexUvStats *a, const UvCovariance *own, const RetexUvStats *b,
+                                        const UvCovariance *other, double feature, const int periodic[2])
 {
     const double f = feature * feature;
-    const double uu = a->m2[0] / a->weight + b->m2[0] / b->weight, uv = a->m2[1] / a->weight + b->m2[1] / b->weight;
-    const double vv = a->m2[2] / a->weight + b->m2[2] / b->weight;
+    const double uu = own->uu + other->uu, uv = own->uv + other->uv, vv = own->vv + other->vv;
     const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
     const double v = retex_uv_stats_difference(a->mean[1], b->mean[1], periodic[1]);
     const double det = covariance_determinant(uu, uv, vv, f);
@@ -409,30 +423,40 @@ static double light_variance(const RetexUvStats *a, double feature)
     return a->weight * a->weight * f / sqrt(covariance_determinant(a->m2[0] * two, a->m2[1] * two, a->m2[2] * two, f));
 }
 
+static UvCovariance covariance_of(const RetexUvStats *a)
+{
+    return (UvCovariance){a->m2[0] / a->weight, a->m2[1] / a->weight, a->m2[2] / a->weight};
+}
+
 /* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. */
 static double merging_error2(const Places *places, int i, int k)
 {
     const RetexUvStats *a = places->of[i], *b = places->of[k];
+    const UvCovariance *of_a = &places->covariance[i], *of_b = &places->covariance[k];
+    const int *periodic = places->periodic;
     const double p = a->weight, q = b->weight, feature = places->feature;
     RetexUvStats both = *a;
-    retex_uv_stats_merge(&both, b, places->periodic);
+    retex_uv_stats_merge(&both, b, periodic);
+    const UvCovariance of_both = covariance_of(&both);
     return places->variance[i] + places->variance[k] + light_variance(&both, feature) +
-           2 * p * q * texture_covariance(a, b, feature, places->periodic) -
+           2 * p * q * texture_covariance(a, of_a, b, of_b, feature, periodic) -
            2 * both.weight *
-               (p * texture_covariance(a, &both, feature, places->periodic) +
-                q * texture_covariance(b, &both, feature, places->periodic));
+               (p * texture_covariance(a, of_a, &both, &of_both, feature, periodic) +
+                q * texture_covariance(b, of_b, &both, &of_both, feature, periodic));
 }
 
 static void update_errors(Places *places)
 {
     for (int k = 0; k < places->count; k++) {
-        if (places->changed >> k & 1)
+        if (places->changed >> k & 1) {
             places->variance[k] = light_variance(places->of[k], places->feature);
+            places->covariance[k] = covariance_of(places->of[k]);
+        }
         for (int i = 0; i < k; i++)
-            if ((places->changed >> i | places->changed >> k) & 1)
+            if ((places->changed >> i | places->moved >> i | places->changed >> k) & 1)
                 places->error2[i][k] = merging_error2(places, i, k);
     }
-    places->changed = 0;
+    places->changed = places->moved = 0;
 }
 
 /* The two places that such a texture tells apart least. Returns what merging them changes, squared. */
