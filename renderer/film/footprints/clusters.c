@@ -48,17 +48,30 @@ static void merge_interreflections(InterreflectionCluster *into, const Interrefl
     merge_albedo(&into->albedo, &from->albedo);
 }
 
+/* What it costs to merge two of them, as retex_uv_stats_variation_gain. */
+static double merge_interreflections_cost(const InterreflectionCluster *a, const InterreflectionCluster *b,
+                                          const int periodic[2])
+{
+    return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, b->uv.m2[0] + b->uv.m2[2], periodic) -
+           a->varies - b->varies;
+}
+
 /* The two of a pixel's interreflections, when it has as many as it may gather, that cost the least to merge. Returns
  * the cost. */
-static double find_interreflections(const InterreflectionCluster *clusters, const int periodic[2], int *a, int *b)
+static double find_interreflections(TargetClusters *target, const int periodic[2], int *a, int *b)
 {
+    const InterreflectionCluster *clusters = target->interreflections;
+    const unsigned changed = target->interreflections_changed;
     double least = INFINITY;
     for (int i = 0; i < INTERREFLECTION_GATHERED; i++)
         for (int k = i + 1; k < INTERREFLECTION_GATHERED; k++) {
-            const double cost = retex_uv_stats_variation_gain(&clusters[i].uv, &clusters[k].uv, periodic);
-            if (cost < least)
-                least = cost, *a = i, *b = k;
+            double *cost = &target->interreflections_costs[i][k];
+            if ((changed >> i | changed >> k) & 1)
+                *cost = merge_interreflections_cost(&clusters[i], &clusters[k], periodic);
+            if (*cost < least)
+                least = *cost, *a = i, *b = k;
         }
+    target->interreflections_changed = 0;
     return least;
 }
 
@@ -74,23 +87,27 @@ void clusters_add_interreflection(TargetClusters *target, const Interreflection 
         if (clusters[k].uv.weight == 0) {
             clusters[k] = one;
             target->interreflections_bound = -INFINITY;
+            target->interreflections_changed |= 1u << k;
             return;
         }
         gain[k] = retex_uv_stats_merged_variation(&clusters[k].uv, l->weight, l->uv, 0, periodic) - clusters[k].varies;
         if (gain[k] <= 0) {
             merge_interreflections(&clusters[k], &one, periodic);
+            target->interreflections_changed |= 1u << k;
             return;
         }
         nearest = gain[k] < gain[nearest] ? k : nearest;
     }
     if (target->interreflections_bound <= gain[nearest])
-        target->interreflections_bound = find_interreflections(clusters, periodic, &a, &b);
+        target->interreflections_bound = find_interreflections(target, periodic, &a, &b);
     if (target->interreflections_bound < gain[nearest]) {
         merge_interreflections(&clusters[a], &clusters[b], periodic);
         clusters[b] = one;
         target->interreflections_bound = -INFINITY;
+        target->interreflections_changed |= 1u << a | 1u << b;
     } else {
         merge_interreflections(&clusters[nearest], &one, periodic);
+        target->interreflections_changed |= 1u << nearest;
         target->interreflections_bound = lowered_bound(target->interreflections_bound, gain[nearest], periodic);
     }
 }
@@ -396,10 +413,16 @@ static void remove_place(Places *places, int a, int b)
         places->error2[i][b] = places->error2[i][last];
 }
 
+/* As fmax, which is a call. */
+static inline double at_least_0(double x)
+{
+    return x > 0 ? x : 0;
+}
+
 /* The determinant of the covariance of two places, which are seen as normal distributions, and of the texture. */
 static double covariance_determinant(double uu, double uv, double vv, double f)
 {
-    return f * f + f * (uu + vv) + fmax(uu * vv - uv * uv, 0); /* on a line far away: nothing but rounding */
+    return f * f + f * (uu + vv) + at_least_0(uu * vv - uv * uv); /* on a line far away: nothing but rounding */
 }
 
 /* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
@@ -412,7 +435,7 @@ static inline double texture_covariance(const RetexUvStats *a, const UvCovarianc
     const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
     const double v = retex_uv_stats_difference(a->mean[1], b->mean[1], periodic[1]);
     const double det = covariance_determinant(uu, uv, vv, f);
-    const double distance2 = fmax((vv + f) * u * u - 2 * uv * u * v + (uu + f) * v * v, 0) / det;
+    const double distance2 = at_least_0((vv + f) * u * u - 2 * uv * u * v + (uu + f) * v * v) / det;
     return f / sqrt(det) * exp(-distance2 / 2);
 }
 

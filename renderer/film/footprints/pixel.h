@@ -122,7 +122,9 @@ typedef struct TargetClusters {
     Clusters sharp, broad;
     int specular; /* a mirror or glass shows it: there may be extra sharp clusters */
     InterreflectionCluster interreflections[INTERREFLECTION_GATHERED];
-    double interreflections_bound; /* merge_bound of interreflections */
+    double interreflections_bound; /* as merge_bound of Clusters, of interreflections, */
+    unsigned interreflections_changed; /* changed, */
+    double interreflections_costs[INTERREFLECTION_GATHERED][INTERREFLECTION_GATHERED]; /* and costs */
     EditedLight edited;            /* of corrected targets */
 } TargetClusters;
 
