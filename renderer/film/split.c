@@ -47,9 +47,9 @@ static inline FactorParts factor_parts(const SplitSink *s, const Factor *f)
 }
 
 /* The factor by finish, or NULL: it is the same in all combinations. */
-static inline const FinishFactor *by_finish(const SplitSink *s, const Factor *f)
+static inline const FinishFactor *by_finish(int ncombinations, const Factor *f)
 {
-    return s->ncombinations > 1 ? f->finishes : NULL;
+    return ncombinations > 1 ? f->finishes : NULL;
 }
 
 /* Whether a hit keeps the factor apart: then it is counted. Else it is to be multiplied in as a whole, with the
@@ -100,12 +100,13 @@ static inline TargetNode *find_current_hit(SplitSink *s, SplitPath *p, const Fac
 
 /* Where one of d and i is black in all finishes, the other is multiplied into `rest` and 1 stays in its place: so
  * `rest` is black wherever no texture can make the contribution other than black. */
-void split_multiply(SplitSink *s, SplitPath *p, const Factor *f)
+static inline __attribute__((always_inline)) void multiply(SplitSink *s, SplitPath *p, int ncombinations,
+                                                           const Factor *f)
 {
     const FactorParts parts = factor_parts(s, f);
     const int is_hit = keep_as_hit(s, p, &p->counts, &p->folded, f, parts);
-    p->met |= by_finish(s, f) != NULL;
-    for (int c = 0; c < s->ncombinations; c++) {
+    p->met |= by_finish(ncombinations, f) != NULL;
+    for (int c = 0; c < ncombinations; c++) {
         const FinishFactor by = factor_of_combination(f, s->scene, c);
         const Float4 whole = by.d * f->albedo + by.i;
         p->throughput[c].all *= whole;
@@ -113,7 +114,7 @@ void split_multiply(SplitSink *s, SplitPath *p, const Factor *f)
             p->throughput[c].rest *= !is_hit ? whole : !parts.i ? by.d : by.i;
     }
     if (is_hit) {
-        const int differs = by_finish(s, f) && parts.d && parts.i;
+        const int differs = by_finish(ncombinations, f) && parts.d && parts.i;
         p->last = find_current_hit(s, p, f);
         p->last_finishes = differs ? p->own_finishes : NULL;
         if (differs)
@@ -122,6 +123,15 @@ void split_multiply(SplitSink *s, SplitPath *p, const Factor *f)
         p->last_i = !parts.d ? splat(1) : f->i;
     }
     p->current_hit = NULL;
+}
+
+/* Most scenes have no finishes to choose from: code of their own has no loops over combinations. */
+void split_multiply(SplitSink *s, SplitPath *p, const Factor *f)
+{
+    if (s->ncombinations == 1)
+        multiply(s, p, 1, f);
+    else
+        multiply(s, p, s->ncombinations, f);
 }
 
 /* ---- light ---- */
@@ -161,18 +171,18 @@ typedef struct ContributionHits {
 } ContributionHits;
 
 /* Sort a contribution's factors; light: its throughput, to which they are added. */
-static void find_hits(const SplitSink *s, const SplitPath *p, const Contribution *c, ContributionHits *hits,
-                      SplitThroughput *light)
+static inline void find_hits(const SplitSink *s, const SplitPath *p, int ncombinations, const Contribution *c,
+                             ContributionHits *hits, SplitThroughput *light)
 {
     TargetCounts counts = p->counts;
     hits->count = 0, hits->folded = p->folded, hits->met = p->met;
-    for (int k = 0; k < s->ncombinations; k++)
+    for (int k = 0; k < ncombinations; k++)
         light[k] = (SplitThroughput){p->throughput[k].rest * color4(c->light), p->throughput[k].all * color4(c->light)};
     for (int n = 0; n < c->nfactors; n++) {
         const Factor *f = &c->factors[n];
         const int is_hit = keep_as_hit(s, p, &counts, &hits->folded, f, factor_parts(s, f));
-        hits->met |= by_finish(s, f) != NULL;
-        for (int k = 0; k < s->ncombinations; k++) {
+        hits->met |= by_finish(ncombinations, f) != NULL;
+        for (int k = 0; k < ncombinations; k++) {
             const FinishFactor by = factor_of_combination(f, s->scene, k);
             const Float4 whole = by.d * f->albedo + by.i;
             light[k].all *= whole;
@@ -184,7 +194,7 @@ static void find_hits(const SplitSink *s, const SplitPath *p, const Contribution
     }
 }
 
-static void add_hits(SplitSink *s, SplitPath *p, ContributionHits *hits)
+static inline void add_hits(SplitSink *s, SplitPath *p, int ncombinations, ContributionHits *hits)
 {
     hits->last = p->last, hits->by_finish = p->last_finishes;
     hits->by = p->last ? (FinishFactor){p->last_d, p->last_i} : (FinishFactor){splat(0), splat(1)};
@@ -192,7 +202,7 @@ static void add_hits(SplitSink *s, SplitPath *p, ContributionHits *hits)
         const Factor *f = hits->of[k];
         hits->last = k == 0 ? find_current_hit(s, p, f)
                             : add_hit(s, p, f, hits->last, hits->by.d, hits->by.i, hits->by_finish);
-        hits->by = (FinishFactor){f->d, f->i}, hits->by_finish = by_finish(s, f);
+        hits->by = (FinishFactor){f->d, f->i}, hits->by_finish = by_finish(ncombinations, f);
     }
 }
 
@@ -202,24 +212,25 @@ static void add_folded(const SplitSink *s, const ContributionHits *hits, Float4 
         film_add_folded(s->pixel, rgb_of4(light), rgb_of4(hits->last ? with_white_targets(hits->last, d, i) : i));
 }
 
-int split_add(SplitSink *s, SplitPath *p, const Contribution *c)
+static inline __attribute__((always_inline)) int add(SplitSink *s, SplitPath *p, int ncombinations,
+                                                     const Contribution *c)
 {
     const Scene *scene = s->scene;
-    const Float4 share = splat(1 / (float)s->ncombinations);
+    const Float4 share = splat(1 / (float)ncombinations);
     SplitThroughput light[COMBINATIONS_MAX];
     ContributionHits hits;
     Float4 d = splat(0), i = splat(0), all = splat(0);
     int is_black = 1;
-    find_hits(s, p, c, &hits, light);
-    for (int k = 0; k < s->ncombinations; k++) {
+    find_hits(s, p, ncombinations, c, &hits, light);
+    for (int k = 0; k < ncombinations; k++) {
         if (!rgb_is_finite(rgb_of4(light[k].all + light[k].rest)))
             return 0;
         is_black &= is_black4(light[k].rest);
     }
     if (is_black)
         return 1;
-    add_hits(s, p, &hits);
-    for (int k = 0; k < s->ncombinations; k++) {
+    add_hits(s, p, ncombinations, &hits);
+    for (int k = 0; k < ncombinations; k++) {
         const FinishFactor by = hits.by_finish ? hits.by_finish[scene->finish_of[k][hits.last->at.target]] : hits.by;
         const Float4 scaled = light[k].rest * share, own_d = by.d * scaled, own_i = by.i * scaled;
         d += own_d, i += own_i, all += light[k].all * share;
@@ -235,4 +246,9 @@ int split_add(SplitSink *s, SplitPath *p, const Contribution *c)
         p->tree.without_hit += i, p->tree.nwithout_hit++;
     add_folded(s, &hits, all, d, i);
     return 1;
+}
+
+int split_add(SplitSink *s, SplitPath *p, const Contribution *c)
+{
+    return s->ncombinations == 1 ? add(s, p, 1, c) : add(s, p, s->ncombinations, c);
 }

@@ -9,7 +9,10 @@ void corrections_add(FootprintPixel *p, const FirstHit *hit)
     for (int t = 0; t < corrected_targets(p->film->scene); t++) {
         EditedLight *sum = &p->targets[t].edited;
         const Float4 *edited = light->edited[t];
-        if (t == hit->target) {
+        if (!light->used) { /* it meets no target but this one */
+            if (t != hit->target)
+                sum->without += light->c[0] * hit->albedo;
+        } else if (t == hit->target) {
             Float4 *with = sum->with[hit->sharp ? 0 : 1];
             for (int n = 0; n <= CORRECTION_POWERS; n++)
                 with[correction_power(n + 1) - 1] += edited[n];

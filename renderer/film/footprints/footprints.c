@@ -57,13 +57,26 @@ static inline void add_coefficient(HitLight *sum, int k, Float4 value)
     sum->used |= 1u << k;
 }
 
+/* Before the first light with further hits is added. */
+static inline void open_edited(const FootprintFilm *film, HitLight *sum)
+{
+    if (sum->used)
+        return;
+    for (int t = 0; t < corrected_targets(film->scene); t++)
+        for (int n = 0; n <= CORRECTION_POWERS; n++)
+            sum->edited[t][n] = splat(0);
+}
+
 /* Add light times the factor of a hit, without its texture. */
 static inline void add_times(const FootprintFilm *film, HitLight *sum, const HitLight *light, Float4 by)
 {
+    sum->c[0] += light->c[0] * by;
+    if (!light->used)
+        return;
+    open_edited(film, sum);
     for (int t = 0; t < corrected_targets(film->scene); t++)
         for (int n = 0; n <= CORRECTION_POWERS; n++)
             sum->edited[t][n] += light->edited[t][n] * by;
-    sum->c[0] += light->c[0] * by;
     sum->original += light->original * by;
     sum->half += light->half * by;
     for (unsigned left = light->used; left; left &= left - 1) {
@@ -79,9 +92,10 @@ static inline void add_textured(const FootprintFilm *film, HitLight *sum, const 
     const Plan *plan = &film->plan;
     const int target = hit->target;
     const Float4 original = color4(hit->albedo);
+    open_edited(film, sum);
     for (int t = 0; t < corrected_targets(film->scene); t++)
-        for (int n = 0; n <= CORRECTION_POWERS; n++) {
-            const Float4 all = light->edited[t][n] + (n ? splat(0) : light->c[0]);
+        for (int n = 0; n <= (light->used ? CORRECTION_POWERS : 0); n++) {
+            const Float4 all = (light->used ? light->edited[t][n] : splat(0)) + (n ? splat(0) : light->c[0]);
             if (t == target)
                 sum->edited[t][correction_power(n + 1)] += all;
             else
@@ -96,20 +110,19 @@ static inline void add_textured(const FootprintFilm *film, HitLight *sum, const 
     }
 }
 
-static inline void start_light(const FootprintFilm *film, HitLight *light, Float4 value)
+static inline void start_light(HitLight *light, Float4 value)
 {
     light->c[0] = value;
-    memset(light->edited, 0, (size_t)corrected_targets(film->scene) * sizeof *light->edited);
     light->original = light->half = splat(0);
     light->used = 0;
 }
 
 /* Set the light of a hit, D and I, and what the hits before it, towards the camera, do to light that comes from it. */
-static inline void start_node(const FootprintFilm *film, Node *node, FinishFactor light, FinishFactor by,
+static inline void start_node(Node *node, FinishFactor light, FinishFactor by,
                               const Node *before)
 {
-    start_light(film, &node->dependent, light.d);
-    start_light(film, &node->independent, light.i);
+    start_light(&node->dependent, light.d);
+    start_light(&node->independent, light.i);
     node->white = target_factor_white(light.d, light.i);
     if (!before) {
         node->none = node->original = node->half = splat(1);
@@ -169,10 +182,13 @@ static int add_first(FootprintPixel *p, const SeenTarget *seen, const TargetNode
 
 static void scale_light(const FootprintFilm *film, HitLight *light, Float4 by)
 {
+    light->c[0] *= by;
+    if (!light->used)
+        return;
     for (int t = 0; t < corrected_targets(film->scene); t++)
         for (int n = 0; n <= CORRECTION_POWERS; n++)
             light->edited[t][n] *= by;
-    light->c[0] *= by, light->original *= by, light->half *= by;
+    light->original *= by, light->half *= by;
     for (unsigned left = light->used; left; left &= left - 1)
         light->c[__builtin_ctz(left)] *= by;
 }
@@ -211,7 +227,7 @@ static void end_single(FootprintPixel *p, const TargetTree *path, Float4 *indep,
 {
     const TargetNode *hit = path->last;
     HitLight light;
-    start_light(p->film, &light, hit->dependent);
+    start_light(&light, hit->dependent);
     *indep += hit->independent;
     *white += target_factor_white(hit->dependent, hit->independent);
     if (add_first(p, &path->seen, hit, &light))
@@ -227,7 +243,7 @@ static void gather_path(FootprintPixel *p, const TargetTree *path, const TargetN
     for (int k = 0; k < path->count; k++) {
         const TargetNode *before = hits[k]->before;
         p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
-        start_node(p->film, &p->nodes[k], light ? light[k] : (FinishFactor){hits[k]->dependent, hits[k]->independent},
+        start_node(&p->nodes[k], light ? light[k] : (FinishFactor){hits[k]->dependent, hits[k]->independent},
                    target_node_before(hits[k], scene, combination), before ? &p->nodes[before->number] : NULL);
     }
     for (int k = path->count - 1; k >= 0; k--)
@@ -285,7 +301,7 @@ static __attribute__((noinline)) void end_combined(FootprintPixel *p, const Targ
         for (int k = 0; k < path->count; k++) {
             Node *node = &p->nodes[k];
             if (c == 0)
-                start_light(p->film, &sums[k].first, splat(0));
+                start_light(&sums[k].first, splat(0));
             if (!hits[k]->before) {
                 *indep += node->independent.c[0], *white += node->white;
             } else {

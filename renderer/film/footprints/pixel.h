@@ -36,8 +36,8 @@ typedef Float4 Powers[CORRECTION_POWERS + 1];
 typedef struct HitLight {
     Coefficients c; /* [0], and those in use; the others are not set */
     Float4 original, half;
-    unsigned used;                    /* bits, of those after the first */
-    Powers edited[RETEX_MAX_TARGETS]; /* of corrected targets; the others are not set */
+    unsigned used;                    /* bits, of those after the first; 0: there is nothing but c[0] */
+    Powers edited[RETEX_MAX_TARGETS]; /* of corrected targets, where `used` is not 0; the others are not set */
 } HitLight;
 
 /* A hit of one path as the first hit of monomials, and their light. */
