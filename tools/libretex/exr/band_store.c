@@ -46,8 +46,11 @@ static RetexBandStore *band_store_new(int width, int height, uint64_t key)
     store->descriptor = -1;
     store->stats = calloc((size_t)store->nbands, sizeof *store->stats);
     store->committed = calloc((size_t)store->nbands, 1);
+    store->pool = calloc(1, sizeof *store->pool);
     pthread_mutex_init(&store->lock, NULL);
-    if (!store->stats || !store->committed)
+    if (store->pool)
+        pthread_mutex_init(&store->pool->lock, NULL);
+    if (!store->stats || !store->committed || !store->pool)
         retex_band_store_close(&store);
     return store;
 }
@@ -110,6 +113,20 @@ void retex_band_store_set_fast(RetexBandStore *store)
     store->fast = 1;
 }
 
+static void close_pool(RetexBandStorePool *pool)
+{
+    if (!pool)
+        return;
+    for (RetexBandStoreScratch *scratch = pool->unused, *next; scratch; scratch = next) {
+        next = scratch->next;
+        retex_chunk_free(&scratch->chunk);
+        free(scratch->packed);
+        free(scratch);
+    }
+    pthread_mutex_destroy(&pool->lock);
+    free(pool);
+}
+
 void retex_band_store_close(RetexBandStore **result)
 {
     RetexBandStore *store = result ? *result : NULL;
@@ -122,12 +139,7 @@ void retex_band_store_close(RetexBandStore **result)
         free(store->images[i]);
     free(store->stats);
     free(store->committed);
-    for (RetexBandStoreScratch *scratch = store->scratch, *next; scratch; scratch = next) {
-        next = scratch->next;
-        retex_chunk_free(&scratch->chunk);
-        free(scratch->packed);
-        free(scratch);
-    }
+    close_pool(store->pool);
     pthread_mutex_destroy(&store->lock);
     free(store);
     *result = NULL;
@@ -262,31 +274,33 @@ const char *retex_band_store_image_name(const RetexBandStore *store, int image)
 
 /* --- bands --------------------------------------------------------------------------------------------------- */
 
-static RetexBandStoreScratch *acquire_scratch(RetexBandStore *store)
+static RetexBandStoreScratch *acquire_scratch(RetexBandStorePool *pool)
 {
-    pthread_mutex_lock(&store->lock);
-    RetexBandStoreScratch *scratch = store->scratch;
+    pthread_mutex_lock(&pool->lock);
+    RetexBandStoreScratch *scratch = pool->unused;
     if (scratch)
-        store->scratch = scratch->next;
-    pthread_mutex_unlock(&store->lock);
+        pool->unused = scratch->next;
+    pthread_mutex_unlock(&pool->lock);
     return scratch ? scratch : calloc(1, sizeof *scratch);
 }
 
-static void release_scratch(RetexBandStore *store, RetexBandStoreScratch *scratch)
+static void release_scratch(RetexBandStorePool *pool, RetexBandStoreScratch *scratch)
 {
     if (!scratch)
         return;
-    pthread_mutex_lock(&store->lock);
-    scratch->next = store->scratch;
-    store->scratch = scratch;
-    pthread_mutex_unlock(&store->lock);
+    pthread_mutex_lock(&pool->lock);
+    scratch->next = pool->unused;
+    pool->unused = scratch;
+    pthread_mutex_unlock(&pool->lock);
 }
 
 /* Allocates the memory for a chunk. */
-static int prepare(RetexBandStoreScratch *scratch, const RetexChunkShape *shape)
+static int prepare(const RetexBandStore *store, RetexBandStoreScratch *scratch, const RetexChunkShape *shape)
 {
     const size_t bytes = retex_chunk_bytes(shape);
 
+    if (scratch)
+        scratch->chunk.zip.zlib.fast = store->fast;
     if (!scratch || !retex_chunk_reserve(&scratch->chunk, shape))
         return 0;
     if (scratch->packed_bytes < bytes) {
@@ -335,11 +349,10 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     RetexBandStoreImage *image = store->images[number];
     const RetexChunkShape shape = retex_band_store_shape(store, image, band);
     const int nonzero = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
-    RetexBandStoreScratch *scratch = acquire_scratch(store);
+    RetexBandStoreScratch *scratch = acquire_scratch(store->pool);
     int status = 0;
 
-    if (prepare(scratch, &shape)) {
-        scratch->chunk.zip.zlib.fast = store->fast;
+    if (prepare(store, scratch, &shape)) {
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (nonzero || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
@@ -347,7 +360,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
-    release_scratch(store, scratch);
+    release_scratch(store->pool, scratch);
     return status;
 }
 
@@ -433,7 +446,7 @@ int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk
 static int load_band(const RetexBandStore *store, const RetexBandStoreChunk *chunk, const RetexChunkShape *shape,
                      RetexBandStoreScratch *scratch, float *pixels, RetexError *err)
 {
-    if (!prepare(scratch, shape))
+    if (!prepare(store, scratch, shape))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
     const int status = retex_band_store_read(store, chunk, scratch->packed, err);
     if (status)
@@ -449,14 +462,13 @@ int retex_band_store_load_band(const RetexBandStore *store, int number, int band
 {
     const RetexBandStoreImage *image = store->images[number];
     const RetexChunkShape shape = retex_band_store_shape(store, image, band);
-    RetexBandStoreScratch scratch = {.packed = NULL};
-    int status = 0;
 
-    if (image->chunks[band].bytes)
-        status = load_band(store, &image->chunks[band], &shape, &scratch, pixels, err);
-    else
+    if (!image->chunks[band].bytes) {
         memset(pixels, 0, (size_t)shape.width * (size_t)shape.lines * strlen(image->letters) * sizeof *pixels);
-    retex_chunk_free(&scratch.chunk);
-    free(scratch.packed);
+        return 0;
+    }
+    RetexBandStoreScratch *scratch = acquire_scratch(store->pool);
+    const int status = load_band(store, &image->chunks[band], &shape, scratch, pixels, err);
+    release_scratch(store->pool, scratch);
     return status;
 }

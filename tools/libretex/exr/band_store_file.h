@@ -20,6 +20,12 @@ typedef struct RetexBandStoreImage {
     RetexBandStoreChunk chunks[]; /* by band */
 } RetexBandStoreImage;
 
+/* What threads compress and decompress with, which is no part of what a store has. */
+typedef struct RetexBandStorePool {
+    pthread_mutex_t lock;
+    struct RetexBandStoreScratch *unused; /* a list, under lock */
+} RetexBandStorePool;
+
 struct RetexBandStore {
     int width, height, nbands;
     uint64_t key;
@@ -27,12 +33,12 @@ struct RetexBandStore {
     int plain;           /* 1: bands are not compressed */
     int fast;            /* 1: they are compressed fast */
     RetexTemporaryName shown; /* the file's name, for messages */
+    RetexBandStorePool *pool;
     RetexBandStats *stats;     /* by band, valid */
     char *committed;           /* where committed is 1 */
     pthread_mutex_t lock;
     uint64_t end;                 /* end of the file; under lock, as are: */
     uint32_t last_crc;            /* of the last record, or of the header */
-    struct RetexBandStoreScratch *scratch; /* list of those that no thread uses */
     int nimages;
     RetexBandStoreImage *images[RETEX_SET_PARTS_MAX];
 };

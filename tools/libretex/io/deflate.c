@@ -13,29 +13,56 @@
  * 5 % in ten times. */
 enum { ZLIB_LEVEL = 3, ZLIB_LEVEL_MOST = 12 };
 
+/* Levels 1 and 2 are faster still, but their output depends on the address of their memory: the same picture would not
+ * always make the same file. Blocks are of 16384 codes, so that the Huffman codes follow the data. */
+enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
+
+typedef struct RetexDeflater {
+    struct isal_zstream stream;
+    unsigned char level[LEVEL_BYTES];
+} RetexDeflater;
+
+static size_t deflate_piece(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes,
+                            size_t count, int is_last)
+{
+    struct isal_zstream *stream = &deflater->stream;
+    if (count > UINT32_MAX || capacity > UINT32_MAX)
+        return 0;
+    isal_deflate_stateless_init(stream);
+    stream->hist_bits = 0; /* search the whole window of 32 KB; isal_deflate_stateless_init leaves the old value */
+    stream->level = LEVEL, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
+    stream->end_of_stream = is_last, stream->flush = is_last ? NO_FLUSH : FULL_FLUSH;
+    stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
+    stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
+    return isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0 ? stream->total_out : 0;
+}
+
 int retex_zlib_open(RetexZlib *zlib)
 {
     if (!zlib->compressor)
         zlib->compressor = libdeflate_alloc_compressor(ZLIB_LEVEL);
     if (!zlib->decompressor)
         zlib->decompressor = libdeflate_alloc_decompressor();
-    return zlib->compressor && zlib->decompressor;
+    if (zlib->fast && !zlib->deflater)
+        zlib->deflater = malloc(sizeof *zlib->deflater);
+    return zlib->compressor && zlib->decompressor && (zlib->deflater || !zlib->fast);
 }
 
 void retex_zlib_close(RetexZlib *zlib)
 {
     libdeflate_free_compressor(zlib->compressor);
     libdeflate_free_decompressor(zlib->decompressor);
-    *zlib = (RetexZlib){NULL, NULL, 0};
+    free(zlib->deflater);
+    *zlib = (RetexZlib){.fast = 0};
 }
 
 /* RFC 1950 around a raw stream. */
-static size_t compress_fast(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count)
+static size_t compress_fast(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count)
 {
     enum { HEAD = 2, TAIL = 4 };
     if (capacity <= HEAD + TAIL)
         return 0;
-    const size_t raw = retex_deflate(packed + HEAD, capacity - HEAD - TAIL, bytes, count, 1);
+    const size_t raw = deflate_piece(deflater, packed + HEAD, capacity - HEAD - TAIL, bytes, count, 1);
     if (!raw)
         return 0;
     const uint32_t sum = retex_adler32(ADLER32_OF_NONE, bytes, count);
@@ -48,7 +75,7 @@ static size_t compress_fast(unsigned char *packed, size_t capacity, const unsign
 size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capacity, const unsigned char *bytes,
                            size_t count)
 {
-    return zlib->fast ? compress_fast(packed, capacity, bytes, count)
+    return zlib->fast ? compress_fast(zlib->deflater, packed, capacity, bytes, count)
                       : libdeflate_zlib_compress(zlib->compressor, bytes, count, packed, capacity);
 }
 
@@ -69,15 +96,6 @@ int retex_zlib_decompress(RetexZlib *zlib, unsigned char *bytes, size_t count, c
            LIBDEFLATE_SUCCESS;
 }
 
-/* Levels 1 and 2 are faster still, but their output depends on the address of their memory: the same picture would not
- * always make the same file. Blocks are of 16384 codes, so that the Huffman codes follow the data. */
-enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
-
-typedef struct Deflater {
-    struct isal_zstream stream;
-    unsigned char level[LEVEL_BYTES];
-} Deflater;
-
 size_t retex_deflate_bound(size_t bytes)
 {
     return bytes + bytes / 64 + 512; /* stored blocks of 65535 bytes take less */
@@ -85,21 +103,8 @@ size_t retex_deflate_bound(size_t bytes)
 
 size_t retex_deflate(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count, int is_last)
 {
-    Deflater *deflater = malloc(sizeof *deflater);
-    size_t packed_bytes = 0;
-
-    if (!deflater || count > UINT32_MAX || capacity > UINT32_MAX)
-        goto done;
-    struct isal_zstream *stream = &deflater->stream;
-    isal_deflate_stateless_init(stream);
-    stream->hist_bits = 0; /* search the whole window of 32 KB; isal_deflate_stateless_init leaves the old value */
-    stream->level = LEVEL, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
-    stream->end_of_stream = is_last, stream->flush = is_last ? NO_FLUSH : FULL_FLUSH;
-    stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
-    stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
-    if (isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0)
-        packed_bytes = stream->total_out;
-done:
+    RetexDeflater *deflater = malloc(sizeof *deflater);
+    const size_t packed_bytes = deflater ? deflate_piece(deflater, packed, capacity, bytes, count, is_last) : 0;
     free(deflater);
     return packed_bytes;
 }
