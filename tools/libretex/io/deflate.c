@@ -57,7 +57,8 @@ void retex_zlib_close(RetexZlib *zlib)
 }
 
 /* RFC 1950 around a raw stream. */
-static size_t compress_fast(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count)
+static size_t compress_fast(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes,
+                            size_t count)
 {
     enum { HEAD = 2, TAIL = 4 };
     if (capacity <= HEAD + TAIL)
