@@ -119,6 +119,33 @@ $ make_set two.exr && retex-sample -q two.exr --texture 'Floor=rgb(.8,0,0)' | re
 $ retex-combine -q two.exr --texture 'Floor=rgb(.8,0,0)' --texture 'Wall=rgb(0,.5,0)' -o both.exr && retex-diff --fail-abs 1e-6 one-by-one.exr both.exr >out; echo $?
 > 0
 
+# What a pipe carries is compressed, the set's images as its file has them. Streams and sets without compression, which
+# pipes had before, are the same to whoever reads them.
+$ make_set large.exr 400 300; retex-sample -q large.exr --texture floor=brick.jpg -o samples.exr; retex-sample -q large.exr --texture floor=brick.jpg >stream.exr; retex-info --check stream.exr; [ $(wc -c <stream.exr) -lt $(cat large.exr samples.exr | wc -c) ] && echo smaller
+> stream.exr: ok
+> smaller
+$ make_plain stream.exr plain.exr; make_plain large.exr plain-set.exr; retex-sample -q plain-set.exr --texture floor=brick.jpg >from-plain.exr; retex-combine -q large.exr --texture floor=brick.jpg -o fused.exr; for f in stream plain from-plain; do retex-combine -q - -o out.exr <$f.exr; cmp out.exr fused.exr && echo same; done
+> same
+> same
+> same
+$ retex-sample -q large.exr --texture floor=brick.jpg --texture wall=brick.jpg | retex-combine -q - -o both.exr; for f in stream plain; do retex-sample -q - --texture wall=brick.jpg <$f.exr | retex-combine -q - -o out.exr; cmp out.exr both.exr && echo same; done
+> same
+> same
+$ for n in 1 2 7; do retex-sample -q large.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg >$n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
+# Parts of floats that the renderer rounded are compressed by PXR24, others by ZIP.
+$ ln -s "$SCENES" scenes; retex-render -q --size 64x48 --spp 4 -t floor scenes/cornell-box/cornell-box.pov -o r.exr; rm scenes; retex-sample -q r.exr --texture floor=brick.jpg | retex-combine -q - -o out.exr; retex-combine -q r.exr --texture floor=brick.jpg -o fused.exr; cmp out.exr fused.exr && echo same; rm r.exr
+> same
+# Copied chunks are not looked at; the reader of the pipe compares their checksums.
+$ at=$(($(wc -c <large.exr) - 700000)); cp large.exr bad.exr; printf 'XYZW' | dd of=bad.exr bs=1 seek=$at conv=notrunc 2>/dev/null; retex-sample -q bad.exr --texture floor=brick.jpg >bad-stream.exr; echo $?; retex-combine -q - -o x.exr <bad-stream.exr; ls x.exr
+> 0
+! retex-combine: error: standard input: part t1_cross3 is damaged or truncated
+! ls: cannot access 'x.exr': No such file or directory
+= 2
+$ head -c -700000 large.exr >cut.exr; retex-sample -q cut.exr --texture floor=brick.jpg | wc -c
+> 0
+! retex-sample: error: cut.exr: part t1_cross3 is damaged or truncated
+$ rm large.exr plain.exr plain-set.exr from-plain.exr bad.exr cut.exr bad-stream.exr [127].exr both.exr
+
 # A texture that is cut off or damaged is refused, in one line; so is a name that promises another format.
 $ head -c 20000 brick.jpg >cut.jpg; retex-sample -q two.exr --texture floor=cut.jpg -o x.exr
 ! retex-sample: error: cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)

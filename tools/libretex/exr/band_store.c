@@ -329,7 +329,7 @@ static int put_chunk(RetexBandStore *store, int number, int band, const RetexChu
                      RetexBandStoreScratch *scratch, RetexError *err)
 {
     const size_t bytes = retex_chunk_bytes(shape);
-    const int pxr24 = !store->plain && retex_chunk_fits_pxr24(shape, scratch->chunk.raw);
+    const int pxr24 = !store->plain && !store->fast && retex_chunk_fits_pxr24(shape, scratch->chunk.raw);
     RetexBandStoreRecord record = {.kind = pxr24 ? BAND_STORE_PXR24 : BAND_STORE_CHUNK,
                                    .image = (uint32_t)number,
                                    .band = (uint32_t)band,

@@ -31,7 +31,7 @@ struct RetexBandStore {
     uint64_t key;
     int descriptor;
     int plain;           /* 1: bands are not compressed */
-    int fast;            /* 1: they are compressed fast */
+    int fast;            /* 1: they are compressed fast, by ZIP */
     RetexTemporaryName shown; /* the file's name, for messages */
     RetexBandStorePool *pool;
     RetexBandStats *stats;     /* by band, valid */

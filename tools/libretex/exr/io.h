@@ -20,6 +20,13 @@ enum {
     RETEX_EXR_NAME_MAX = 192 /* bytes of a part or channel name, with the final NUL */
 };
 
+/* How much time compression takes. Nothing is lost by any. */
+typedef enum RetexExrCompression {
+    RETEX_EXR_PLAIN,  /* none */
+    RETEX_EXR_SMALL,  /* for files */
+    RETEX_EXR_QUICKLY /* for pipes: larger, in less time */
+} RetexExrCompression;
+
 /* A part to write. */
 typedef struct RetexExrPart {
     char name[RETEX_EXR_NAME_MAX];           /* unique in the file */
@@ -27,7 +34,8 @@ typedef struct RetexExrPart {
     RetexPixelType type;                     /* how samples are stored; see base/half.h for what becomes of floats */
     const RetexImage *image;                 /* borrowed until the encoding is freed, as is: */
     const RetexBandStore *store;             /* holds the pixels if image has none, */
-    int store_image;                         /* as its image of this number */
+    int store_image;                         /* as its image of this number; or */
+    const struct RetexExrStored *stored;     /* its chunks in another file, which are copied; only if compressed */
     uint32_t crc;                            /* filled by retex_exr_encode: see RetexPart */
     const RetexColorTag *color;              /* colours for its header, or NULL; borrowed as image is */
 } RetexExrPart;
@@ -36,8 +44,8 @@ typedef struct RetexExrPart {
  * header is written. */
 typedef struct RetexExrEncoding RetexExrEncoding;
 
-int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, int compress, int nthreads,
-                     RetexError *err);
+int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, RetexExrCompression compress,
+                     int nthreads, RetexError *err);
 /* The same for a file of one part whose rows come later; image->pixels is NULL. Rows may come from any thread and in
  * any order, whole chunks each, every chunk once. The checksum is not computed. */
 int retex_exr_encoding_open(RetexExrEncoding **encoding, const RetexExrPart *part, int compress, RetexError *err);

@@ -16,11 +16,13 @@
 #include "exr/io.h"
 #include "io/output.h"
 #include "exr/band_store_chunks.h"
+#include "exr/stored.h"
 
 typedef struct Band {
     int part, first_line, lines;
-    unsigned char *data;               /* the encoded band; NULL: fetched from the band store when it is written */
+    unsigned char *data;               /* the encoded band; NULL: fetched from where it is when it is written */
     const RetexBandStoreChunk *stored; /* or NULL */
+    uint64_t offset;                   /* of a chunk that is copied */
     size_t bytes;
     int wide;                            /* 1: PXR24 would lose bits of its floats */
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of this band of each plane, in the order of letters */
@@ -29,7 +31,8 @@ typedef struct Band {
 struct RetexExrEncoding {
     RetexExrPart *parts; /* a copy */
     char *pxr24;         /* by part: 1 = compressed by PXR24, 0 = by ZIP */
-    int nparts, compress;
+    int nparts;
+    RetexExrCompression compress;
     RetexChunkScratch scratch; /* for bands that are fetched */
     unsigned char *packed;
     size_t packed_bytes;
@@ -40,7 +43,7 @@ struct RetexExrEncoding {
 typedef struct EncodeWork {
     RetexExrEncoding *encoding;
     RetexChunkScratch *scratch; /* one a thread */
-    int *failed;                /* one a band */
+    int *failed;                /* one a band: a RetexCode */
 } EncodeWork;
 
 static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
@@ -132,6 +135,8 @@ static void look_job(void *context, int index, int thread)
     const RetexChunkShape shape = band_shape(part, band);
 
     (void)thread;
+    if (part->stored)
+        return;
     if (band->stored)
         band->wide = band->stored->bytes && !band->stored->pxr24;
     else
@@ -146,7 +151,9 @@ static void choose_compression(EncodeWork *work, int nthreads)
 
     retex_parallel(nthreads, encoding->nbands, look_job, work);
     for (int i = 0; i < encoding->nparts; i++)
-        encoding->pxr24[i] = encoding->compress && encoding->parts[i].type == RETEX_FLOAT;
+        encoding->pxr24[i] = encoding->parts[i].stored
+                                 ? encoding->parts[i].stored->pxr24
+                                 : encoding->compress && encoding->parts[i].type == RETEX_FLOAT;
     for (int i = 0; i < encoding->nbands; i++)
         if (encoding->bands[i].wide)
             encoding->pxr24[encoding->bands[i].part] = 0;
@@ -159,12 +166,20 @@ static void encode_job(void *context, int index, int thread)
     const RetexExrPart *part = &work->encoding->parts[band->part];
     const int compress = work->encoding->compress, pxr24 = work->encoding->pxr24[band->part];
 
+    int encoded;
+
+    if (part->stored) { /* only its size is needed */
+        if (!retex_exr_stored_chunk(part->stored, band->first_line, &band->offset, &band->bytes))
+            work->failed[index] = RETEX_EFORMAT;
+        return;
+    }
     if (band->stored)
-        work->failed[index] = !encode_stored_band(band, part, compress, pxr24, &work->scratch[thread]);
+        encoded = encode_stored_band(band, part, compress, pxr24, &work->scratch[thread]);
     else
-        work->failed[index] =
-            !encode_band(band, part, part->image->pixels + retex_image_index(part->image, 0, band->first_line),
-                         compress, pxr24, &work->scratch[thread]);
+        encoded = encode_band(band, part, part->image->pixels + retex_image_index(part->image, 0, band->first_line),
+                              compress, pxr24, &work->scratch[thread]);
+    if (!encoded)
+        work->failed[index] = RETEX_ENOMEM;
 }
 
 /* Combines the bands' checksums: planes one after another, each from the top. */
@@ -173,6 +188,8 @@ static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band 
     const RetexExrPart *of = &encoding->parts[part];
     uint32_t crc = CRC32_OF_NONE;
 
+    if (of->stored)
+        return of->stored->crc;
     for (int c = 0; c < of->image->channels; c++)
         for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++) {
             const RetexChunkShape shape = band_shape(of, band);
@@ -188,6 +205,8 @@ uint32_t *retex_exr_band_crcs(const RetexExrEncoding *encoding, int part)
     const Band *band = encoding->bands;
     uint32_t *crcs = calloc((size_t)count, sizeof *crcs);
 
+    if (crcs && of->stored)
+        return memcpy(crcs, of->stored->bands, (size_t)count * sizeof *crcs);
     while (band->part != part)
         band++;
     for (int i = 0; crcs && i < count; i++, band++) {
@@ -207,7 +226,7 @@ static int check_parts(const RetexExrPart *parts, int nparts, int rows_later, Re
                           RETEX_EXR_PARTS_MAX);
     for (int i = 0; i < nparts; i++) {
         const RetexImage *image = parts[i].image;
-        if (!image || (!image->pixels && !parts[i].store && !rows_later) ||
+        if (!image || (!image->pixels && !parts[i].store && !parts[i].stored && !rows_later) ||
             (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
@@ -245,28 +264,35 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
 static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *err)
 {
     EncodeWork work = {encoding, NULL, NULL};
+    const RetexExrStored *damaged = NULL;
     int failed = 0;
 
     nthreads = retex_threads(nthreads);
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
+    for (int i = 0; work.scratch && i < nthreads; i++)
+        work.scratch[i].zip.zlib.fast = encoding->compress == RETEX_EXR_QUICKLY;
     if (work.scratch && work.failed) {
         choose_compression(&work, nthreads);
         retex_parallel(nthreads, encoding->nbands, encode_job, &work);
     } else {
-        failed = 1;
+        failed = RETEX_ENOMEM;
     }
-    for (int i = 0; !failed && i < encoding->nbands; i++)
+    for (int i = 0; !failed && i < encoding->nbands; i++) {
         failed = work.failed[i];
+        damaged = encoding->parts[encoding->bands[i].part].stored;
+    }
     for (int i = 0; work.scratch && i < nthreads; i++)
         retex_chunk_free(&work.scratch[i]);
     free(work.scratch);
     free(work.failed);
+    if (failed == RETEX_EFORMAT)
+        return retex_exr_stored_fail(damaged, err);
     return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
 }
 
-static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, int nparts, int compress,
-                         RetexError *err)
+static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, int nparts,
+                         RetexExrCompression compress, RetexError *err)
 {
     *result = NULL;
     RetexExrEncoding *encoding = calloc(1, sizeof *encoding);
@@ -286,8 +312,8 @@ static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, i
     return status;
 }
 
-int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, int compress, int nthreads,
-                     RetexError *err)
+int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, RetexExrCompression compress,
+                     int nthreads, RetexError *err)
 {
     RetexExrEncoding *encoding = NULL;
     int status = check_parts(parts, nparts, 0, err);
@@ -472,7 +498,7 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
     return code;
 }
 
-/* Fetches a band from the band store into the encoding's own memory. */
+/* Fetches a band from the band store, or from the file where it is stored, into the encoding's own memory. */
 static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *band, RetexError *err)
 {
     const RetexExrPart *part = &encoding->parts[band->part];
@@ -488,6 +514,9 @@ static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *b
         retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
         return NULL;
     }
+    if (part->stored)
+        return retex_exr_stored_read(part->stored, band->offset, band->bytes, encoding->packed, err) ? NULL
+                                                                                                     : encoding->packed;
     if (!band->stored->bytes)
         return memset(encoding->packed, 0, bytes);
     if (retex_band_store_read(part->store, band->stored, encoding->packed, err))

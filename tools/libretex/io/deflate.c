@@ -43,40 +43,41 @@ int retex_zlib_open(RetexZlib *zlib)
         zlib->compressor = libdeflate_alloc_compressor(ZLIB_LEVEL);
     if (!zlib->decompressor)
         zlib->decompressor = libdeflate_alloc_decompressor();
-    if (zlib->fast && !zlib->deflater)
-        zlib->deflater = malloc(sizeof *zlib->deflater);
-    return zlib->compressor && zlib->decompressor && (zlib->deflater || !zlib->fast);
+    return zlib->compressor && zlib->decompressor;
 }
 
 void retex_zlib_close(RetexZlib *zlib)
 {
     libdeflate_free_compressor(zlib->compressor);
     libdeflate_free_decompressor(zlib->decompressor);
-    free(zlib->deflater);
-    *zlib = (RetexZlib){.fast = 0};
+    *zlib = (RetexZlib){.fast = zlib->fast};
 }
 
-/* RFC 1950 around a raw stream. */
-static size_t compress_fast(RetexDeflater *deflater, unsigned char *packed, size_t capacity, const unsigned char *bytes,
-                            size_t count)
+/* Level 0 of ISA-L has one fixed table of Huffman codes; of the same bytes it always makes the same stream. */
+static size_t compress_fast(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count)
 {
-    enum { HEAD = 2, TAIL = 4 };
-    if (capacity <= HEAD + TAIL)
-        return 0;
-    const size_t raw = deflate_piece(deflater, packed + HEAD, capacity - HEAD - TAIL, bytes, count, 1);
-    if (!raw)
-        return 0;
-    const uint32_t sum = retex_adler32(ADLER32_OF_NONE, bytes, count);
-    packed[0] = 0x78, packed[1] = 0x01; /* deflate, 32 KB, fastest */
-    for (int k = 0; k < TAIL; k++)
-        packed[HEAD + raw + (size_t)k] = (unsigned char)(sum >> (24 - 8 * k));
-    return HEAD + raw + TAIL;
+    struct isal_zstream *stream = malloc(sizeof *stream);
+    size_t packed_bytes = 0;
+
+    if (!stream || count > UINT32_MAX || capacity > UINT32_MAX)
+        goto done;
+    isal_deflate_stateless_init(stream);
+    stream->hist_bits = 0; /* as below */
+    stream->gzip_flag = IGZIP_ZLIB;
+    stream->end_of_stream = 1, stream->flush = NO_FLUSH;
+    stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
+    stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
+    if (isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0)
+        packed_bytes = stream->total_out;
+done:
+    free(stream);
+    return packed_bytes;
 }
 
 size_t retex_zlib_compress(RetexZlib *zlib, unsigned char *packed, size_t capacity, const unsigned char *bytes,
                            size_t count)
 {
-    return zlib->fast ? compress_fast(zlib->deflater, packed, capacity, bytes, count)
+    return zlib->fast ? compress_fast(packed, capacity, bytes, count)
                       : libdeflate_zlib_compress(zlib->compressor, bytes, count, packed, capacity);
 }
 

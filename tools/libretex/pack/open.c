@@ -236,7 +236,7 @@ static int read_row(void *reader, int part, int y, const float **row, RetexRowSp
     return code;
 }
 
-static const RetexSetSource pack_methods = {source_close, reader_open, reader_close, read_row};
+static const RetexSetSource pack_methods = {source_close, reader_open, reader_close, read_row, NULL};
 
 RetexPack *retex_pack_of(const RetexSet *set)
 {

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exr/band_store_chunks.h"
 #include "set/samples.h"
 #include "set/transfer.h"
 #include "retexture/polynomial_factors.h"
@@ -111,7 +112,7 @@ static int store_images(SampleWork *work, const char *near, RetexError *err)
     RetexSamples *samples = work->samples;
     int code = retex_band_store_create(&samples->store, set->width, set->height, set->id, near, err);
     if (!code && strcmp(near, "-") == 0)
-        retex_band_store_set_plain(samples->store);
+        retex_band_store_set_fast(samples->store);
     for (int i = 0; i < work->nedited && !code; i++) {
         const int image = work->edited[i].footprint;
         char name[RETEX_NAME_MAX];

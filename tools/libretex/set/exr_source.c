@@ -233,6 +233,12 @@ static int read_row(void *data, int part, int y, const float **row, RetexRowSpan
     return RETEX_OK;
 }
 
+static int stored(RetexSetSource *methods, int part, RetexPixelType type, RetexExrStored *result)
+{
+    const ExrSource *source = (ExrSource *)(void *)methods;
+    return retex_exr_stored_find(result, source->parts.exr, &source->plans[part], type);
+}
+
 static int open_plans(ExrSource *source, RetexError *err)
 {
     const int count = source->parts.count;
@@ -250,7 +256,7 @@ static int open_plans(ExrSource *source, RetexError *err)
 
 int retex_exr_source_open(RetexSetSource **result, const RetexExrSourceParts *parts, RetexError *err)
 {
-    static const RetexSetSource methods = {source_close, reader_open, reader_close, read_row};
+    static const RetexSetSource methods = {source_close, reader_open, reader_close, read_row, stored};
     ExrSource *source = calloc(1, sizeof *source);
     *result = NULL;
     if (!source) {

@@ -3,6 +3,7 @@
 #define RETEX_SET_SOURCE_H
 
 #include "base/row_span.h"
+#include "exr/stored.h"
 #include "set/set.h"
 
 struct RetexSetSource {
@@ -14,6 +15,8 @@ struct RetexSetSource {
      * It belongs to the reader and stays valid until the next call for the same part. Rows are cheapest to read from
      * the top down. */
     int (*read_row)(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
+    /* The chunks of a part as they are stored; 0 where they cannot be copied into an EXR file. NULL: none can. */
+    int (*stored)(RetexSetSource *source, int part, RetexPixelType type, RetexExrStored *stored);
 };
 
 #endif

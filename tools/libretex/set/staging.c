@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <retex/host/band_store.h>
+#include "exr/band_store_chunks.h"
 
 int retex_staging_open(RetexStaging *staging, int most, RetexError *err)
 {
@@ -26,8 +26,8 @@ void retex_staging_close(RetexStaging *staging)
     *staging = (RetexStaging){0};
 }
 
-static int add_stored(RetexStaging *staging, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
-                      RetexError *err)
+static int add_stored(RetexStaging *staging, RetexExrPart *exr, RetexImageTransfer *g, const char *near,
+                      RetexExrCompression compress, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     int code = RETEX_OK;
@@ -35,6 +35,8 @@ static int add_stored(RetexStaging *staging, RetexExrPart *exr, RetexImageTransf
         code = retex_band_store_create(&staging->store, exr->image->width, exr->image->height, 0, near, err);
         if (!code && !compress)
             retex_band_store_set_plain(staging->store);
+        if (!code && compress == RETEX_EXR_QUICKLY)
+            retex_band_store_set_fast(staging->store);
     }
     snprintf(name, sizeof name, "part_%d", staging->count);
     if (!code)
@@ -45,7 +47,7 @@ static int add_stored(RetexStaging *staging, RetexExrPart *exr, RetexImageTransf
 }
 
 int retex_staging_add(RetexStaging *staging, RetexExrPart *exr, int part, int footprint, int width, int height,
-                      const char *near, int compress, RetexError *err)
+                      const char *near, RetexExrCompression compress, RetexError *err)
 {
     const RetexImage *shape = exr->image;
     RetexImage *image = &staging->reduced[staging->count];

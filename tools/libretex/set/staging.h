@@ -18,10 +18,10 @@ int retex_staging_open(RetexStaging *staging, int most, RetexError *err);
 void retex_staging_close(RetexStaging *staging); /* after the parts have been written */
 
 /* Reserve the place where a part of the set, or the samples of a footprint, will be staged, and let the EXR part refer
- * to it; the other index is -1. The band store is created near the file to be written, and uncompressed where that file
+ * to it; the other index is -1. The band store is created near the file to be written, and compressed as that file
  * is. */
 int retex_staging_add(RetexStaging *staging, RetexExrPart *exr, int part, int footprint, int width, int height,
-                      const char *near, int compress, RetexError *err);
+                      const char *near, RetexExrCompression compress, RetexError *err);
 /* Copy all staged images. */
 int retex_staging_fill(RetexStaging *staging, const RetexSet *set, const RetexSamples *samples, int nthreads,
                        RetexError *err);

@@ -12,6 +12,7 @@
 #include "io/output.h"
 #include "set/parts.h"
 #include "set/references.h"
+#include "set/source.h"
 #include "set/staging.h"
 
 typedef struct Choice {
@@ -120,8 +121,11 @@ typedef struct Writing {
     RetexExrPart *parts; /* parts of the view, then of the samples */
     int count;
     RetexStaging staging;
+    RetexExrStored *stored; /* one for each part that is copied as it is stored */
+    int nstored;
     const char *path;
-    int compress, nthreads, width, height;
+    RetexExrCompression compress;
+    int nthreads, width, height;
 } Writing;
 
 static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *letters, RetexPixelType type,
@@ -136,12 +140,22 @@ static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *lett
     return part;
 }
 
-static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
+/* A part that is in an open file. For a pipe its chunks are copied as they are stored, if they can be; whoever reads
+ * the pipe compares the checksums. Files are written from what was decoded and compared. */
+static int add_part_in_source(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
 {
+    RetexSetSource *source = part >= 0 ? w->whole->source : w->samples->source;
+    const int number = part >= 0 ? part : w->samples->footprints[footprint].source_image - 1;
+    RetexExrStored *stored = &w->stored[w->nstored];
+    if (w->compress == RETEX_EXR_QUICKLY && source->stored && source->stored(source, number, exr->type, stored)) {
+        exr->stored = stored;
+        w->nstored++;
+        return RETEX_OK;
+    }
     return retex_staging_add(&w->staging, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
 }
 
-/* Lists all parts with the place of their pixels, after staging those of another open file. */
+/* Lists all parts with the place of their pixels, after copying those of another open file. */
 static int list_parts(Writing *w, RetexError *err)
 {
     int status = 0;
@@ -153,7 +167,7 @@ static int list_parts(Writing *w, RetexError *err)
         if (part->store_image)
             exr->store = w->whole->store, exr->store_image = part->store_image - 1;
         else if (!part->image.pixels)
-            status = stage_part(w, exr, w->view.source[i], -1, err);
+            status = add_part_in_source(w, exr, w->view.source[i], -1, err);
     }
     for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
         const RetexSamples *samples = w->samples;
@@ -164,7 +178,7 @@ static int list_parts(Writing *w, RetexError *err)
         if (samples->footprints[i].store_image)
             exr->store = samples->store, exr->store_image = samples->footprints[i].store_image - 1;
         else if (!samples->images[i].pixels)
-            status = stage_part(w, exr, -1, i, err);
+            status = add_part_in_source(w, exr, -1, i, err);
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
@@ -252,7 +266,8 @@ static int open_writing(Writing *w, RetexError *err)
     const int most = w->view.set.nparts + nsamples + 1;
     w->parts = calloc((size_t)most, sizeof *w->parts);
     w->names = calloc((size_t)nsamples + 1, sizeof *w->names);
-    if (!w->parts || !w->names)
+    w->stored = calloc((size_t)most, sizeof *w->stored);
+    if (!w->parts || !w->names || !w->stored)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
     if (w->samples)
         retex_sample_part_names(w->samples, w->whole, w->names);
@@ -265,6 +280,7 @@ static void close_writing(Writing *w)
     retex_staging_close(&w->staging);
     retex_image_free(&w->blank);
     retex_band_sums_free(&w->sums);
+    free(w->stored);
     free(w->names);
     free(w->parts);
     retex_set_view_free(&w->view);
@@ -281,7 +297,7 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
     if (status)
         return status;
     Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = nthreads};
-    w.compress = own.compress && strcmp(path, "-") != 0;
+    w.compress = !own.compress ? RETEX_EXR_PLAIN : strcmp(path, "-") == 0 ? RETEX_EXR_QUICKLY : RETEX_EXR_SMALL;
     w.width = set ? set->width : samples->width;
     w.height = set ? set->height : samples->height;
     status = open_writing(&w, err);

@@ -14,7 +14,7 @@ extern "C" {
 /* How a set is written. Begin with RETEX_STORE_INIT. */
 typedef struct RetexStoreParams {
     size_t size;
-    int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
+    int compress; /* 1 (default): EXR ZIP or PXR24, without loss; to "-" in less time and somewhat larger; 0: none */
 } RetexStoreParams;
 #define RETEX_STORE_INIT                                                                                               \
     {                                                                                                                  \
@@ -61,7 +61,8 @@ uint64_t retex_set_preload_bytes(const RetexSet *set, const int *corrected);
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept. Of a stream's set only what recombination needs is
  * written when samples are given: beauty, terms, and the footprints that have no sample. Pixels that are still in an
- * open file go through a temporary file near path. */
+ * open file go through a temporary file near path. But to "-" chunks of an open EXR file are copied as they are stored,
+ * with their checksums, which whoever reads the pipe compares. */
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
                     const RetexStoreParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
                     RetexError *err);
