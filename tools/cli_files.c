@@ -213,6 +213,23 @@ int cli_add_output(const char *what, const char *path, RetexError *err)
     return code ? code : add_file(what, path, 1, err);
 }
 
+int cli_open_referred(const Cli *cli, RetexSet **set, const RetexSamples *samples, const char *path, RetexError *err)
+{
+    char here[PATH_MAX], beside[PATH_MAX];
+    const char *roots[2];
+    RetexAccess access = cli->access;
+    access.roots = roots;
+    if (realpath(".", here))
+        roots[access.nroots++] = here;
+    if (strcmp(path, "-") != 0 && realpath(path, beside)) {
+        char *slash = strrchr(beside, '/');
+        slash[slash == beside] = '\0';
+        roots[access.nroots++] = beside;
+    }
+    const int code = retex_samples_open_set(set, samples, access.safe ? &access : NULL, cli->threads, err);
+    return code ? code : cli_add_input("the set", retex_samples_set_path(samples), err);
+}
+
 void cli_reads(const Cli *cli, const char *what, const char *path)
 {
     RetexError err = {0};

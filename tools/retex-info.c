@@ -234,6 +234,8 @@ static void print_samples(FILE *out, const RetexSamples *samples)
         count += retex_samples_have(samples, i);
     fprintf(out, "samples of     %d footprints out of %d, %d x %d pixels\n", count, info.nfootprints, info.width,
             info.height);
+    if (*retex_samples_set_path(samples))
+        fprintf(out, "of the set     %s\n", plain(texture, retex_samples_set_path(samples)));
     for (int i = 0; i < info.ntargets; i++)
         if (*retex_samples_texture(samples, i))
             fprintf(out, "  %-12s %s\n", plain(name, retex_samples_target(samples, i)),

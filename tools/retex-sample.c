@@ -5,6 +5,7 @@
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or a colour, on target NAME; opts: " CLI_TEXTURE_OPTS, 1},
     {"preset", 0, "FILE", "the textures of a preset, as of retex-combine; options go first", 0},
+    {"refer", 0, NULL, "name the set, by its path, size and checksum, instead of carrying it along", 0},
     FRAMES_OPTION,
     {"keep-going", 0, NULL, "continue after a frame that fails", 0},
     {0},
@@ -14,7 +15,7 @@ typedef struct Job {
     const char *set, *preset, *output;
     TextureArgs textures;
     FrameRange frames;
-    int keep_going;
+    int keep_going, refer;
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -24,6 +25,8 @@ static void parse(Cli *cli, Job *job)
             frames_take(cli, option, &job->frames);
         else if (option != &cli_positional && strcmp(option->name, "keep-going") == 0)
             job->keep_going = 1;
+        else if (option != &cli_positional && strcmp(option->name, "refer") == 0)
+            job->refer = 1;
         else if (option != &cli_positional && strcmp(option->name, "preset") == 0)
             job->preset = cli->value;
         else if (option != &cli_positional)
@@ -65,6 +68,24 @@ static void check_files(const Cli *cli, const Job *job)
         cli_fail(cli, &err);
 }
 
+/* Open the set, also one that an earlier retex-sample names. *named: the file that --refer names. */
+static int open_set(const Cli *cli, const Job *job, RetexSet **set, RetexSamples **earlier, const char **named,
+                    RetexError *err)
+{
+    int code = retex_set_open(job->set, set, earlier, cli->threads, err);
+    *named = job->set;
+    if (!code && !*set && *retex_samples_set_path(*earlier)) {
+        *named = retex_samples_set_path(*earlier);
+        code = cli_open_referred(cli, set, *earlier, job->set, err);
+    } else if (!code && !*set) {
+        code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set);
+    } else if (!code && job->refer && *earlier) {
+        code = retex_fail(err, RETEX_EINVAL, "%s is a stream that carries its set: --refer needs the set's file",
+                          strcmp(job->set, "-") == 0 ? "standard input" : job->set);
+    }
+    return code;
+}
+
 /* *set and *samples are the caller's to close. */
 static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, RetexSet **set, RetexSamples **samples,
                         RetexError *err)
@@ -73,9 +94,14 @@ static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, Rete
     const RetexTextureSpec *specs = job->textures.specs;
     const int count = job->textures.count;
     double began = retex_clock_seconds();
-    int code = retex_set_open(job->set, set, &earlier, cli->threads, err);
-    if (!code && !*set)
-        code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set);
+    const char *named = NULL;
+    int code = open_set(cli, job, set, &earlier, &named, err);
+    if (!code && job->refer && !earlier) { /* before any work */
+        RetexSamples *none = NULL;
+        code = retex_samples_create(&none, *set, err);
+        code = code ? code : retex_samples_refer(none, *set, named, err);
+        retex_samples_close(&none);
+    }
     if (!code)
         cli_check_pixels(cli, *set, job->set);
     double read = retex_clock_seconds();
@@ -91,7 +117,9 @@ static int make_samples(const Cli *cli, const Job *job, KeptTextures *kept, Rete
     retex_samples_close(&earlier);
     double sampled = retex_clock_seconds();
     RetexStoreParams store = RETEX_STORE_INIT;
-    int to_pipe = strcmp(job->output, "-") == 0;
+    const int to_pipe = strcmp(job->output, "-") == 0 && !job->refer;
+    if (!code)
+        code = retex_samples_refer(*samples, *set, job->refer ? named : NULL, err);
     if (!code)
         code = retex_set_write(to_pipe ? *set : NULL, *samples, job->output, &store, cli->threads, err);
     if (code)

@@ -43,6 +43,8 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_auto_exposure: ok
 > retex_estimate_error: ok
 > retex_sample_textures: ok
+> retex_samples_refer: ok
+> retex_samples_open_set: ok
 > retex_sample: ok
 > retex_samples_get_info: 48 x 32
 > retex_combine: ok
@@ -61,5 +63,5 @@ $ "$TESTS/../install/older.sh" "$(dirname "$(command -v retex-diff)")/../lib"
 > retex_pack_write: ok
 > retex_web_write: this set cannot be written for browsers: its layout is not footprints
 > retex_denoise: the set lacks the part guide_normal: it was rendered or packed without what denoising needs, or is denoised already
-> 10 files were opened
+> 11 files were opened
 $ retex-combine -q room.exr --texture Wall='rgb(0.1,0.2,0.3)' --texture:scale=3 Floor=wood.png -o expected.exr && cmp expected.exr older.exr

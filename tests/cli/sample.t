@@ -146,6 +146,46 @@ $ head -c -700000 large.exr >cut.exr; retex-sample -q cut.exr --texture floor=br
 ! retex-sample: error: cut.exr: part t1_cross3 is damaged or truncated
 $ rm large.exr plain.exr plain-set.exr from-plain.exr bad.exr cut.exr bad-stream.exr [127].exr both.exr
 
+# --refer: the stream names the set, from whatever folder; pictures are the same. One tool more, packs, and files of samples.
+$ mkdir r r/sub; cp two.exr brick.jpg r; cd r; retex-combine -q two.exr --texture floor=brick.jpg -o fused.exr; cd sub; retex-sample -q ../two.exr --refer --texture floor=../brick.jpg >refer.exr; (cd /; retex-combine -q - -o "$OLDPWD/out.exr") <refer.exr; cmp out.exr ../fused.exr && echo same; retex-info refer.exr | head -2 | sed "s|${PWD%/sub}|THERE|"; retex-combine -q refer.exr -o out.exr; cmp out.exr ../fused.exr && echo same
+> same
+> samples of     3 footprints out of 6, 48 x 32 pixels
+> of the set     THERE/two.exr
+> same
+$ cd r; retex-info --json sub/refer.exr | grep -o '"set":{[^}]*}' | sed "s|$PWD|HERE|" >told; sum=$(grep -a -o '"retex":[0-9]*,"crc32":"[0-9a-f]*"' two.exr | head -1 | cut -d, -f2); echo "\"set\":{\"path\":\"HERE/two.exr\",\"bytes\":$(wc -c <two.exr),$sum}" | cmp - told && echo right
+> right
+$ cd r; retex-combine -q two.exr --texture floor=brick.jpg --texture wall=brick.jpg -o both.exr; for o in --refer -q; do retex-sample -q two.exr --refer --texture floor=brick.jpg | retex-sample -q - $o --texture wall=brick.jpg >then.exr; retex-info then.exr | grep -c 'of the set'; retex-combine -q - -o out.exr <then.exr; cmp out.exr both.exr && echo same; done
+> 1
+> same
+> 0
+> same
+$ cd r; retex-pack -q --lossless two.exr -o two.retex; retex-sample -q two.retex --refer --texture floor=brick.jpg | retex-combine -q - -o out.exr; retex-combine -q two.retex --texture floor=brick.jpg -o pack.exr; cmp out.exr pack.exr && echo same
+> same
+# What is refused: another set, of another size or only of another content; a set that is gone, or no file; standard
+# input, and a stream that carries its set; an output that is the set.
+$ cd r; for n in A B; do make_set $n.exr 48 32 lamp:$n; make_plain $n.exr $n-plain.exr; done; cmp -s A-plain.exr B-plain.exr || stat -c %s A-plain.exr B-plain.exr | uniq | wc -l; cp A-plain.exr set.exr; retex-sample -q set.exr --refer --texture floor=brick.jpg >to-set.exr; retex-combine -q to-set.exr -o a.exr && rm a.exr; for f in B-plain A; do cp $f.exr set.exr; retex-combine -q to-set.exr -o x.exr 2>&1 | sed "s|$PWD|HERE|"; done
+> 1
+> retex-combine: error: HERE/set.exr is not the set that the samples were made for: it has changed
+> retex-combine: error: HERE/set.exr is not the set that the samples were made for: it has changed
+$ cd r; rm set.exr; retex-combine -q to-set.exr -o x.exr 2>&1 | sed "s|$PWD|HERE|"; mkfifo set.exr; retex-combine -q to-set.exr -o x.exr 2>&1 | sed "s|$PWD|HERE|"; retex-sample -q - --refer --texture floor=brick.jpg <two.exr; retex-sample -q two.exr --texture floor=brick.jpg | retex-sample -q - --refer --texture wall=brick.jpg
+> retex-combine: error: cannot read HERE/set.exr: No such file or directory
+> retex-combine: error: HERE/set.exr, the set that the samples name, is no regular file
+! retex-sample: error: standard input cannot be referred to: it is no file
+! retex-sample: error: standard input is a stream that carries its set: --refer needs the set's file
+= 2
+$ cd r; cp two.exr kept.exr; retex-combine -q sub/refer.exr -o two.exr 2>&1 | sed "s|$PWD|HERE|"; cmp two.exr kept.exr; ls x.exr
+> retex-combine: error: two.exr: the output would replace the set, HERE/two.exr
+! ls: cannot access 'x.exr': No such file or directory
+= 2
+# --safe: in the current folder or the samples', or below.
+$ cd r; retex-combine --safe -q - -o x.exr <sub/refer.exr && echo read; cd sub; retex-combine --safe -q - -o x.exr <refer.exr 2>&1 | sed "s|${PWD%/sub}|THERE|"; RETEX_SAFE=1 retex-combine -q refer.exr -o x.exr 2>&1 | sed "s|${PWD%/sub}|THERE|"; retex-sample --safe -q - --texture wall=../brick.jpg -o x.exr <refer.exr 2>&1 | sed "s|${PWD%/sub}|THERE|"; ls x.exr; cp refer.exr ..; retex-combine --safe -q ../refer.exr -o x.exr && echo read
+> read
+> retex-combine: error: THERE/two.exr is outside the folders that may be read (--safe)
+> retex-combine: error: THERE/two.exr is outside the folders that may be read (--safe)
+> retex-sample: error: THERE/two.exr is outside the folders that may be read (--safe)
+> read
+! ls: cannot access 'x.exr': No such file or directory
+
 # A texture that is cut off or damaged is refused, in one line; so is a name that promises another format.
 $ head -c 20000 brick.jpg >cut.jpg; retex-sample -q two.exr --texture floor=cut.jpg -o x.exr
 ! retex-sample: error: cut.jpg: cannot read: the file is truncated (--accept-damaged reads it)

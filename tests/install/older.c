@@ -161,6 +161,10 @@ static void call_textures(const RetexSet *set, const char *argument, const char 
     CALL(retex_auto_exposure, &exposure, set, NULL, textures, params, 1);
     CALL(retex_estimate_error, set, NULL, textures, params, drop_rows, NULL, 1);
     CALL(retex_sample_textures, &samples, set, textures, specs, 2, written, 1);
+    RetexSet *same = NULL;
+    CALL(retex_samples_refer, samples, set, "room.exr");
+    CALL(retex_samples_open_set, &same, samples, access_of_all(), 1);
+    retex_set_close(&same);
     retex_samples_close(&samples);
     CALL(retex_sample, &samples, set, specs, 2, 1);
     RetexSamplesInfo *info = OLDER(RetexSamplesInfo, {.size = sizeof(RetexSamplesInfo)});

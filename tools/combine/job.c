@@ -87,7 +87,9 @@ int job_open(const Cli *cli, Job *job, RetexError *err)
 {
     cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
     int code = retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, err);
-    if (!code && !job->set)
+    if (!code && !job->set && *retex_samples_set_path(job->samples))
+        code = cli_open_referred(cli, &job->set, job->samples, job->set_path, err);
+    else if (!code && !job->set)
         code = retex_fail(err, RETEX_EINVAL, "%s holds samples but no set", job->set_path);
     if (code)
         return code;

@@ -1,4 +1,6 @@
 /* Opens, reads and checks sets, each an EXR file or a pack, and samples. */
+#include <sys/stat.h>
+
 #include <retex/pack.h>
 #include <retex/samples.h>
 #include <retex/set_file.h>
@@ -6,6 +8,7 @@
 #include "io/input.h"
 #include "pack/strips.h"
 #include "set/read.h"
+#include "set/samples.h"
 #include "set/set.h"
 
 static int is_pack(const RetexInput *input)
@@ -17,7 +20,8 @@ static int is_pack(const RetexInput *input)
 }
 
 /* Read the set, the samples, or both: those whose pointer is not NULL. open: 1 = parts of the set are read later. */
-static int read_file(const char *path, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
+static int read_file(const char *path, const RetexAccess *access, RetexSet **set, RetexSamples **samples, int open,
+                     int nthreads, RetexError *err)
 {
     RetexInput *input = NULL;
 
@@ -27,7 +31,8 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
         *samples = NULL;
     if (!set && !samples)
         return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
-    int status = retex_input_open(&input, path, err);
+    int status = retex_input_open_allowed(&input, path, access, err);
+    const uint64_t bytes = status ? 0 : retex_input_size(input);
     if (!status && !is_pack(input))
         status = retex_set_read_exr(&input, set, samples, open, nthreads, err);
     else if (!status && !set)
@@ -36,6 +41,8 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
         status = retex_pack_open(set, &input, err);
     if (!status && !open && set && *set && (*set)->source)
         status = retex_set_load(*set, nthreads, err);
+    if (set && *set)
+        (*set)->file_bytes = bytes;
     if (status && set)
         retex_set_close(set);
     retex_input_close(&input);
@@ -44,12 +51,32 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
 
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
 {
-    return read_file(path, set, samples, 0, nthreads, err);
+    return read_file(path, NULL, set, samples, 0, nthreads, err);
 }
 
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
 {
-    return read_file(path, set, samples, 1, nthreads, err);
+    return read_file(path, NULL, set, samples, 1, nthreads, err);
+}
+
+int retex_samples_open_set(RetexSet **set, const RetexSamples *samples, const RetexAccess *access, int nthreads,
+                           RetexError *err)
+{
+    const RetexSetReference *refers = &samples->refers;
+    struct stat info;
+
+    *set = NULL;
+    if (!refers->path[0])
+        return retex_fail(err, RETEX_EINVAL, "the samples name no set");
+    /* opening a pipe would wait for its writer */
+    if (!access && stat(refers->path, &info) == 0 && !S_ISREG(info.st_mode))
+        return retex_fail(err, RETEX_EINVAL, "%s, the set that the samples name, is no regular file", refers->path);
+    const int status = read_file(refers->path, access, set, NULL, 1, nthreads, err);
+    if (status || ((*set)->file_bytes == refers->bytes && (*set)->file_sum == refers->crc))
+        return status;
+    retex_set_close(set);
+    return retex_fail(err, RETEX_EFORMAT, "%s is not the set that the samples were made for: it has changed",
+                      refers->path);
 }
 
 int retex_set_open_size(const char *path, int width, int height, RetexSet **set, int nthreads, RetexError *err)

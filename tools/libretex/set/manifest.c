@@ -286,7 +286,7 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
 
 /* first: index of the samples' first image in sums. */
 static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts, const RetexBandSums *sums,
-                             int first)
+                             int first, int with_reference)
 {
     json_t *targets = json_array(), *images = json_array();
 
@@ -305,7 +305,13 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
             retex_json_put(&image, "finish", json_integer(of->finish));
         retex_json_add(&images, image);
     }
-    return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
+    json_t *json =
+        json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
+    if (samples->refers.path[0] && with_reference)
+        retex_json_put(&json, "set",
+                       json_pack("{s:o, s:I, s:o}", "path", text(samples->refers.path), "bytes",
+                                 (json_int_t)samples->refers.bytes, "crc32", identity(samples->refers.crc)));
+    return json;
 }
 
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
@@ -322,7 +328,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
     if (root && set)
         write_set(&root, set, sums, &finite);
     if (root && samples)
-        retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0));
+        retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0, !set));
     const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
     char *dumped = root && finite ? json_dumps(root, style) : NULL;
     json_decref(root);

@@ -41,6 +41,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
 typedef enum RetexManifestSum { RETEX_MANIFEST_UNSEALED, RETEX_MANIFEST_RIGHT, RETEX_MANIFEST_WRONG } RetexManifestSum;
 
 RetexManifestSum retex_manifest_sum(const char *json); /* RETEX_MANIFEST_UNSEALED: it has no checksum */
+uint32_t retex_manifest_own_sum(const char *json);     /* of a text that has it */
 void retex_manifest_seal(char *json);                  /* fill in the checksum, where the text has a place for it */
 
 /* Parse a manifest. *set and *samples are created without pixels: their parts, and those images of *samples that

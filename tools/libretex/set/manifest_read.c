@@ -367,6 +367,17 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     samples->images[index] = part.image;
 }
 
+static void read_reference(Reading *reading, const json_t *json, RetexSetReference *reference)
+{
+    const json_int_t bytes = json_integer_value(json_object_get(json, "bytes"));
+
+    retex_reading_text(reading, json, "path", reference->path, sizeof reference->path);
+    reference->crc = get_identity(reading, json, "crc32");
+    reference->bytes = bytes > 0 ? (uint64_t)bytes : 0;
+    if (!reading->status && (reference->path[0] != '/' || !reference->bytes))
+        retex_reading_fail(reading, RETEX_EFORMAT, "refers to a set without an absolute path or a size");
+}
+
 static void read_samples(Reading *reading, const json_t *json, int width, int height, RetexSamples **result,
                          RetexSamplePart **parts)
 {
@@ -384,6 +395,8 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
     samples->height = height;
     samples->nfootprints = 0; /* counted while they are read */
     samples->set_id = get_identity(reading, json, "set_id");
+    if (json_object_get(json, "set"))
+        read_reference(reading, json_object_get(json, "set"), &samples->refers);
     samples->ntargets = (int)json_array_size(targets);
     for (int i = 0; i < samples->ntargets; i++) {
         const json_t *target = json_array_get(targets, (size_t)i);
@@ -459,6 +472,8 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
     else
         read_root(&reading, root, sum, set, samples, sample_parts);
     json_decref(root);
+    if (*set)
+        (*set)->file_sum = retex_manifest_own_sum(json);
     if (reading.status) {
         retex_set_close(set);
         retex_samples_close(samples);

@@ -1,7 +1,11 @@
 /* Samples in memory: see <retex/samples.h>. What is filtered into them is in retexture/sample.c. */
+#include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include <jansson.h>
 #include <retex/host/set_build.h>
 
 #include "base/params.h"
@@ -175,4 +179,42 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
             return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
     }
     return 0;
+}
+
+/* ---- the file of their set ---- */
+
+static int fail_refer(const char *path, const char *why, RetexError *err)
+{
+    return retex_fail(err, RETEX_EINVAL, "%s cannot be referred to: %s", path, why);
+}
+
+int retex_samples_refer(RetexSamples *samples, const RetexSet *set, const char *path, RetexError *err)
+{
+    char resolved[PATH_MAX];
+    struct stat info;
+
+    if (!path) {
+        samples->refers = (RetexSetReference){.bytes = 0};
+        return RETEX_OK;
+    }
+    if (strcmp(path, "-") == 0)
+        return fail_refer("standard input", "it is no file", err);
+    if (!realpath(path, resolved) || stat(resolved, &info) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
+    if (!S_ISREG(info.st_mode) || !set->file_bytes || !set->file_sum)
+        return fail_refer(path, "it is no regular file", err);
+    json_t *name = json_string(resolved);
+    const int is_utf8 = name != NULL;
+    json_decref(name);
+    if (!is_utf8 || strlen(resolved) >= sizeof samples->refers.path)
+        return fail_refer(path, "its name is not UTF-8, or too long", err);
+    memcpy(samples->refers.path, resolved, strlen(resolved) + 1);
+    samples->refers.bytes = set->file_bytes;
+    samples->refers.crc = set->file_sum;
+    return RETEX_OK;
+}
+
+const char *retex_samples_set_path(const RetexSamples *samples)
+{
+    return samples->refers.path;
 }

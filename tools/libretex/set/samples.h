@@ -15,6 +15,13 @@ typedef struct RetexSampleFootprint {
     int source_image; /* 0, or 1 + the number of the image in the source */
 } RetexSampleFootprint;
 
+/* The file of the set that samples were made for, with the checksum of its manifest, which has those of all parts. */
+typedef struct RetexSetReference {
+    char path[4096]; /* absolute; "": none */
+    uint64_t bytes;
+    uint32_t crc;
+} RetexSetReference;
+
 /* Image i belongs to footprint i of the set; further ones are of textures with a map of finishes, first those of
  * footprints, then gates. They are RGB of the size of the footprint's parts, or unallocated where the footprint's
  * target keeps its original; gates have the size of the set, red, green and blue being weights of the second finish and
@@ -28,6 +35,7 @@ struct RetexSamples {
     char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX];
     char textures[RETEX_MAX_TARGETS][256]; /* by target, the texture in words, for people to read; "" = none */
     uint32_t set_id;                       /* id of the set; 0 = unknown */
+    RetexSetReference refers;              /* written with samples alone */
     RetexBandStore *store;                 /* owned, or NULL */
     RetexSetSource *source;                /* owned, or NULL */
 };

@@ -28,6 +28,8 @@ struct RetexSet {
     int nparameters;
     RetexParameter parameters[RETEX_PARAMETERS_MAX];
     RetexBandStore *store;  /* owned; where parts with a store_image are, or NULL */
+    uint64_t file_bytes; /* of the file that the set was read from, and */
+    uint32_t file_sum;   /* the checksum of its manifest; 0: of no file */
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
 };
 

@@ -54,6 +54,13 @@ int retex_sample_textures(RetexSamples **samples, const RetexSet *set, RetexText
  * set. `more` keeps no image and is still the caller's to close. On failure both are as they were. */
 int retex_samples_merge(RetexSamples *samples, RetexSamples *more, int nthreads, RetexError *err);
 
+/* Let samples name the file of their set: retex_set_write then writes its absolute path, its size and the checksum of
+ * its manifest, which has those of all parts, where it writes samples alone. set is as it was read from, or opened in,
+ * that file, which is a regular one. path NULL: name none. */
+int retex_samples_refer(RetexSamples *samples, const RetexSet *set, const char *path, RetexError *err);
+/* The path of the file that samples name; "" = none. It belongs to the samples. */
+const char *retex_samples_set_path(const RetexSamples *samples);
+
 /* 1 if there is an image for that footprint: in memory, in the band store or in the source. */
 int retex_samples_have(const RetexSamples *samples, int footprint);
 /* Bring all images into memory, and close the band store and the source. */

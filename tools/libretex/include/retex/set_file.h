@@ -3,6 +3,7 @@
 #ifndef RETEX_SET_FILE_H
 #define RETEX_SET_FILE_H
 
+#include <retex/access.h>
 #include <retex/samples.h>
 #include <retex/shrink.h>
 
@@ -34,6 +35,12 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
  * until both are closed, and so must parts that retex_set_preload brought into memory: a pack may make its picture from
  * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
+
+/* Open, as retex_set_open does, the set that samples name (retex_samples_refer). Whoever made the samples chose the
+ * path: access says which files may be read. RETEX_EFORMAT where the file has another size or checksum than the set
+ * that the samples were made for. */
+int retex_samples_open_set(RetexSet **set, const RetexSamples *samples, const RetexAccess *access /* NULL = any */,
+                           int nthreads, RetexError *err);
 
 /* Which level (retex_pack_level) of an open pack is the smallest from which a cut of the picture can be averaged as
  * from the whole set: that has a whole number of pixels for each of the cut's, or at least three times as many to each
