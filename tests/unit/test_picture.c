@@ -604,7 +604,8 @@ static void test_no_bridge_is_needed(void **state)
         failed |= retex_image_write(&im, test_in_folder("n.png"), NULL, 1, &err);
         failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, 1, &err);
         failed |= retex_image_write(&im, test_in_folder("n.exr"), NULL, 1, &err);
-        failed |= retex_image_write(&im, test_in_folder("n.tif"), NULL, 1, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.tif"), NULL, 1, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.tga"), NULL, 1, &err) != RETEX_EUNSUPPORTED;
         params.view = "Raw";
         failed |= retex_image_write(&im, test_in_folder("n.png"), &params, 1, &err) != RETEX_EUNSUPPORTED;
         setenv("OCIO", "/nowhere/config.ocio", 1);

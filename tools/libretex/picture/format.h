@@ -24,7 +24,11 @@ typedef struct RetexPictureFormat {
     void (*end)(RetexPicture *picture); /* free the state, after success or failure; may be NULL */
 } RetexPictureFormat;
 
-extern const RetexPictureFormat retex_picture_jpeg, retex_picture_png, retex_picture_exr, retex_picture_stored;
+extern const RetexPictureFormat retex_picture_jpeg, retex_picture_png, retex_picture_exr, retex_picture_tiff,
+    retex_picture_stored;
+
+/* Whether a TIFF, whose places are of 32 bits, can hold the picture. */
+int retex_tiff_fits(int width, int height, int channels, const RetexWriteParams *params);
 
 typedef enum RetexStripState { RETEX_STRIP_ABSENT, RETEX_STRIP_SUBMITTED, RETEX_STRIP_ENCODED } RetexStripState;
 

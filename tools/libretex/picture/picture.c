@@ -39,6 +39,8 @@ static const RetexPictureFormat *own_format(const char *path)
 
     if (strcasecmp(ending, "png") == 0)
         return &retex_picture_png;
+    if (strcasecmp(ending, "tif") == 0 || strcasecmp(ending, "tiff") == 0)
+        return &retex_picture_tiff;
     for (size_t i = 0; i < sizeof jpeg_endings / sizeof jpeg_endings[0]; i++)
         if (strcasecmp(ending, jpeg_endings[i]) == 0)
             return &retex_picture_jpeg;
@@ -174,6 +176,15 @@ static void begin_loading(RetexPicture *picture)
         load_plan(picture);
 }
 
+/* OpenImageIO writes what TIFF of our own cannot be: of other colours, very large, or into a pipe, where nothing can be
+ * filled in later. */
+static int needs_other_tiff(const char *path, const RetexOutput *output, int width, int height, int channels,
+                            const RetexWriteParams *params)
+{
+    return !has_own_colors(params) || !retex_tiff_fits(width, height, channels, params) ||
+           (!output && !retex_output_is_file(path));
+}
+
 /* output: where the picture goes, which it takes over; NULL = the file at path, opened with the first bytes. */
 static int open_picture(RetexPicture **result, const char *path, RetexOutput *output, int width, int height,
                         int channels, const RetexWriteParams *params, RetexError *err)
@@ -192,6 +203,8 @@ static int open_picture(RetexPicture **result, const char *path, RetexOutput *ou
     }
     picture->output = output;
     const RetexPictureFormat *own = is_exr(path, params) ? &retex_picture_exr : own_format(path);
+    if (own == &retex_picture_tiff && needs_other_tiff(path, output, width, height, channels, params))
+        own = NULL;
     picture->format = own ? own : &retex_picture_stored;
     if (own == &retex_picture_exr ? !is_linear_exr(path, params) : !own || !has_own_colors(params))
         begin_loading(picture);
