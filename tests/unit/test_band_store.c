@@ -187,7 +187,7 @@ static void a_band_store_needs_no_folder_of_the_output(void **state)
     retex_band_store_close(&store);
 }
 
-/* Bands of a store that compresses fast come back like others, of both kinds of compression. Its streams tell by their
+/* Bands of a store that compresses fast come back like others, all as ZIP. Its streams tell by their
  * headers (RFC 1950: the level) that it does. */
 static void fast_bands_come_back(void **state)
 {
@@ -211,7 +211,7 @@ static void fast_bands_come_back(void **state)
             assert_memory_equal(back, pixels, sizeof back);
             const RetexBandStoreChunk *chunk = retex_band_store_chunk(store, number[k], 1);
             assert_in_range(chunk->bytes, 10, 2000);
-            assert_int_equal(chunk->pxr24, k);
+            assert_int_equal(chunk->pxr24, k && !fast);
             assert_int_equal(pread(store->descriptor, head, sizeof head, (off_t)chunk->offset), 2);
             assert_int_equal((head[0] << 8 | head[1]) % 31, 0);
             assert_int_equal(head[1] >> 6 == 0, fast);

@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-/* What one thread compresses and decompresses zlib streams with. Begin with zeros, or with fast = 1 for streams that are
- * a quarter larger and take a fifth of the time. */
+/* What one thread compresses and decompresses zlib streams with. Begin with zeros, or with fast = 1 for streams that
+ * are a quarter larger and take a fifth of the time. */
 typedef struct RetexZlib {
     int fast;
     struct libdeflate_compressor *compressor;

@@ -36,8 +36,8 @@ int retex_band_store_open(RetexBandStore **store, int width, int height, uint64_
 int retex_band_store_index(char *committed, int width, int height, uint64_t key, const char *path, RetexError *err);
 /* Do not compress bands from now on, for a file that is not compressed either: faster, and larger. */
 void retex_band_store_set_plain(RetexBandStore *store);
-/* Compress bands less from now on, for what does not stay: files in pipes, and images that are computed anew before they
- * are written, as retex_set_round does. */
+/* Compress bands less from now on, for what does not stay: files in pipes, and images that are computed anew before
+ * they are written, as retex_set_round does. */
 void retex_band_store_set_fast(RetexBandStore *store);
 void retex_band_store_close(RetexBandStore **store); /* NULL and pointers to NULL are fine */
 
