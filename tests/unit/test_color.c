@@ -287,6 +287,26 @@ static void test_alpha(void **state)
     retex_image_free(&im);
 }
 
+/* A TIFF's directory says what the fourth channel is: ExtraSamples, one, alpha that colours are not multiplied by. */
+static void test_alpha_is_said(void **state)
+{
+    (void)state;
+    const uint16_t tag[2] = {338, 3}, value = 2;
+    const uint32_t count = 1;
+    unsigned char entry[10];
+    RetexImage im = {0};
+    size_t bytes;
+    memcpy(entry, tag, 4), memcpy(entry + 4, &count, 4), memcpy(entry + 8, &value, 2);
+    for (int channels = 3; channels <= 4; channels++) {
+        test_random_image(&im, 20, 10, channels, channels, 0.05, 1);
+        write_picture(&im, test_in_folder("said.tif"), NULL);
+        unsigned char *file = test_read_file(test_in_folder("said.tif"), &bytes);
+        assert_int_equal(memmem(file, bytes, entry, sizeof entry) != NULL, channels == 4);
+        free(file);
+        retex_image_free(&im);
+    }
+}
+
 static void test_grey(void **state)
 {
     (void)state;
@@ -524,6 +544,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ocio), /* first: it must load the bridge in children */
         cmocka_unit_test(test_exact_srgb),    cmocka_unit_test(test_alpha),       cmocka_unit_test(test_grey),
+        cmocka_unit_test(test_alpha_is_said),
         cmocka_unit_test(test_unusual_files), cmocka_unit_test(test_orientation), cmocka_unit_test(test_colorspaces),
         cmocka_unit_test(test_mistakes),      cmocka_unit_test(test_wild_values),
     };
