@@ -10,8 +10,8 @@ $ mkdir b; ln -s "$(dirname "$(command -v retex-render)")" b/bin; b=$PWD/b; cd "
 >      b/bin/retex-combine  b/demo/living-room.exr --texture:width=1.5 Floor=PHOTOGRAPH.jpg -o mine.png
 $ retex-info b/demo/living-room.exr | grep denoise
 > denoised       yes
-# The set in it is compressed, as piped ones are not.
-$ test $(($(stat -Lc %s b/demo/living-room.exr) * 2)) -lt $(retex-render -q -t Floor -t Wall --spp 4 --size 64x36 "$SCENES/living-room/living-room.pov" | wc -c) && echo small
+# The set in it is smaller than one in a pipe, which is compressed fast.
+$ test $(stat -Lc %s b/demo/living-room.exr) -lt $(retex-render -q -t Floor -t Wall --spp 4 --size 64x36 "$SCENES/living-room/living-room.pov" | wc -c) && echo small
 > small
 $ cp "$SCENES/textures/brick.jpg" PHOTOGRAPH.jpg; sh -c "$(tail -1 b/said)" 2>/dev/null; retex-combine -q b/demo/living-room.exr -o original.png; retex-diff -q b/demo/original.png original.png; retex-diff -q mine.png original.png --fail-psnr 40
 = 1
