@@ -124,7 +124,7 @@ $ cp set.exr out/old.exr; make_set wide.exr 256 256; retex-pack -q --lossless wi
 > 2
 > retex-render: error: cannot write out/new.exr.partial: File too large
 > 2
-> retex-render: error: out/new.tif: cannot write
+> retex-render: error: cannot write out/new.tif: File too large
 > 2
 > retex-sample: error: cannot write a temporary file in DIR: File too large
 > 2

@@ -40,7 +40,7 @@ $ retex-combine -q set.exr --exposure 9 --exposure 1 --view Raw --view Filmic -o
 > retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would
 
 # What is refused.
-$ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '--view Filmic --colorspace sRGB' '--solve red --exposure 1' '--solve red --save-preset y.json' '--save-preset gone/x.json' '--preset gone.json' '--preset set.exr' '--save-preset x.png' '--preset moved --save-preset y.json' '--texture picture:exposure=1'; do retex-combine set.exr $o -o x.png; done; test -e x.png
+$ head -c 9999 set.exr >begin.exr; for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '--view Filmic --colorspace sRGB' '--solve red --exposure 1' '--solve red --save-preset y.json' '--save-preset gone/x.json' '--preset gone.json' '--preset begin.exr' '--save-preset x.png' '--preset moved --save-preset y.json' '--texture picture:exposure=1'; do retex-combine set.exr $o -o x.png; done; test -e x.png
 ! retex-combine: error: exposure '31': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: exposure 'x': expected stops, -30 to 30, as in 0.5
 ! retex-combine: error: white-balance '500': expected kelvins, 1000 to 25000, as in 4000
@@ -50,7 +50,7 @@ $ for o in '--exposure 31' '--exposure x' '--white-balance 500' '--view Filmy' '
 ! retex-combine: error: --solve excludes --batch, --frames, --error and --save-preset
 ! retex-combine: error: cannot write gone/x.json: No such file or directory
 ! retex-combine: error: cannot read gone.json: No such file or directory
-! retex-combine: error: set.exr:1:1: not a preset, which is JSON
+! retex-combine: error: begin.exr:1:1: not a preset, which is JSON
 ! retex-combine: error: x.png: --save-preset and the output are the same file
 ! retex-combine: error: cannot read moved: Is a directory
 ! retex-combine: error: texture 'picture:exposure': the name of a target cannot begin so
