@@ -182,7 +182,7 @@ def overhead_memory(*targets):
 
 
 def speed_over_cycles():
-    """Least and largest of the turns of both scenes."""
+    """Least and largest of the turns of all scenes."""
     found = [float(r["paths_over_cycles"]) for r in rows("speed")]
     return f"{min(found):.1f} to {max(found):.1f} times"
 

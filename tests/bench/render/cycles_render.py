@@ -12,6 +12,7 @@ import sys
 import time
 
 import bpy
+import mathutils
 import numpy as np
 
 MAX_BOUNCES, THREADS = 8, 2
@@ -44,14 +45,23 @@ def material(name, wanted, folder):
     if wanted["glass"]:
         shader = nodes.new("ShaderNodeBsdfGlass")
         shader.inputs["IOR"].default_value, shader.inputs["Roughness"].default_value = wanted["glass"], 0
+    elif wanted["mirror"]:
+        shader = nodes.new("ShaderNodeBsdfGlossy")
+        shader.inputs["Color"].default_value, shader.inputs["Roughness"].default_value = (*wanted["mirror"], 1), 0
     else:
         shader = nodes.new("ShaderNodeBsdfDiffuse")
         if wanted["texture"]:
             texture = nodes.new("ShaderNodeTexImage")
             texture.image = bpy.data.images.load(os.path.join(folder, wanted["texture"]))
-            links.new(texture.outputs["Color"], shader.inputs["Color"])
+            colour = texture.outputs["Color"]
+            if wanted["diffuse"] != 1:
+                factor = nodes.new("ShaderNodeVectorMath")
+                factor.operation, factor.inputs["Scale"].default_value = "SCALE", wanted["diffuse"]
+                links.new(colour, factor.inputs[0])
+                colour = factor.outputs[0]
+            links.new(colour, shader.inputs["Color"])
         else:
-            shader.inputs["Color"].default_value = (*wanted["colour"], 1)
+            shader.inputs["Color"].default_value = (*(wanted["diffuse"] * c for c in wanted["colour"]), 1)
     links.new(shader.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
     return made
 
@@ -78,11 +88,24 @@ def light(scene, wanted):
     scene.collection.objects.link(holder)
 
 
+def sky(scene, path):
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    nodes.clear()
+    texture, shader = nodes.new("ShaderNodeTexEnvironment"), nodes.new("ShaderNodeBackground")
+    texture.image = bpy.data.images.load(path)
+    links.new(texture.outputs["Color"], shader.inputs["Color"])
+    links.new(shader.outputs[0], nodes.new("ShaderNodeOutputWorld").inputs["Surface"])
+    scene.world = world
+
+
 def camera(scene, wanted):
     lens = bpy.data.cameras.new("camera")
     lens.angle = math.radians(wanted["angle"])
     holder = bpy.data.objects.new("camera", lens)
-    holder.location, holder.rotation_euler = wanted["location"], (math.pi / 2, 0, 0)
+    holder.location = wanted["location"]
+    holder.rotation_euler = mathutils.Vector(wanted["direction"]).to_track_quat("-Z", "Y").to_euler()
     scene.collection.objects.link(holder)
     scene.camera = holder
 
@@ -94,7 +117,10 @@ def load(scene, path):
     for i, name in enumerate(header["meshes"]):
         keys = ("vertices", "normals", "uvs", "faces")
         mesh(scene, {k: data[f"{i}-{k}"] for k in keys if f"{i}-{k}" in data}, surfaces[name])
-    light(scene, header["light"])
+    if header["light"]:
+        light(scene, header["light"])
+    if header["sky"]:
+        sky(scene, os.path.join(os.path.dirname(path), header["sky"]))
     camera(scene, header["camera"])
 
 

@@ -7,7 +7,7 @@ class Run:
     """Net seconds are those of all samples without what is done once, which a rendering of one sample tells."""
 
     def __init__(self, size, figures):
-        self.figures, self.paths = figures, figures["paths"]
+        self.size, self.figures, self.paths = size, figures, figures["paths"]
         self.samples = self.paths / size ** 2
         share = self.samples / (self.samples - 1)
         self.wall = (figures["wall"] - figures["wall_once"]) * share

@@ -10,14 +10,18 @@ import numpy as np
 
 
 class Scene:
-    """light: centre, side x, side y, watts; it faces down. camera: location, degrees; it looks along y."""
+    """camera: location, direction, degrees; z is up in its picture. light: centre, side x, side y, watts, what it
+    reflects; it faces down. sky: a picture of all directions; its middle is that of x, and that of y is a
+    quarter from its left."""
 
-    def __init__(self, light, camera, ceiling):
-        self.light, self.camera, self.ceiling = light, camera, ceiling
+    def __init__(self, camera, light=None, sky=None):
+        self.camera, self.light, self.sky = camera, light, sky
         self.materials, self.meshes = {}, []
 
-    def material(self, name, colour=None, texture=None, glass=None):
-        self.materials[name] = {"colour": colour, "texture": texture, "glass": glass}
+    def material(self, name, colour=None, texture=None, diffuse=1.0, glass=None, mirror=None):
+        """Matte with a colour, or a texture times diffuse; or glass, its index of refraction; or a mirror's colour."""
+        self.materials[name] = {"colour": colour, "texture": texture, "diffuse": diffuse, "glass": glass,
+                                "mirror": mirror}
         return name
 
     def mesh(self, material, vertices, faces, uvs=None, normals=None):
@@ -65,7 +69,7 @@ class Scene:
 
     def write(self, folder, name):
         header = {"materials": self.materials, "meshes": [m for m, _ in self.meshes], "light": self.light,
-                  "camera": self.camera}
+                  "sky": self.sky, "camera": self.camera}
         arrays = {f"{i}-{key}": a for i, (_, mesh) in enumerate(self.meshes) for key, a in mesh.items()}
         np.savez(f"{folder}/{name}.npz", header=json.dumps(header), **arrays)
         with open(f"{folder}/{name}.pov", "w", encoding="ascii") as out:
@@ -73,12 +77,17 @@ class Scene:
         print(f"{name}: {self.count()} triangles")
 
     def write_pov(self, out):
-        (x, y, z), angle = self.camera["location"], self.camera["angle"]
+        (x, y, z), (dx, dy, dz) = self.camera["location"], self.camera["direction"]
         out.write("#version 3.7;\nglobal_settings { assumed_gamma 1 }\n"
-                  f"camera {{ location <{x}, {z}, {y}> right x up y angle {angle} look_at <{x}, {z}, {y + 1}> }}\n")
+                  f"camera {{ location <{x}, {z}, {y}> right x up y angle {self.camera['angle']} "
+                  f"look_at <{x + dx}, {z + dz}, {y + dy}> }}\n")
         for name, material in self.materials.items():
             out.write(f"#declare {name} = {pov_material(material)}\n")
-        self.write_light(out)
+        if self.light:
+            self.write_light(out)
+        if self.sky:
+            out.write(f'sky_sphere {{ pigment {{ image_map {{ exr "{self.sky}" map_type 1 interpolate 2 }} }} '
+                      "matrix <-1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0> }\n")
         for material, mesh in self.meshes:
             out.write("mesh2 {\n")
             for key, word in (("vertices", "vertex_vectors"), ("normals", "normal_vectors"), ("uvs", "uv_vectors")):
@@ -93,11 +102,12 @@ class Scene:
         it from below gets its light and that of the ceiling behind it. Here it reflects like the ceiling instead, and
         is clear on its back."""
         (x, y, z), a, b = self.light["centre"], self.light["x"] / 2, self.light["y"] / 2
+        reflects = self.light["reflects"]
         radiance = self.light["watts"] / (4 * self.light["x"] * self.light["y"])  # Cycles has 4 for the pi of physics
         corners = [f"<{x + i * a}, {z}, {y + j * b}>" for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         faces = " ".join("triangle { " + ", ".join(corners[k] for k in face) + " }" for face in ((0, 1, 2), (0, 2, 3)))
-        out.write(f"mesh {{ {faces}\n  texture {{ pigment {{ rgb {self.ceiling} }}\n"
-                  f"    finish {{ diffuse 1 ambient 0 emission {radiance / self.ceiling:.9g} }} }}\n"
+        out.write(f"mesh {{ {faces}\n  texture {{ pigment {{ rgb {reflects} }}\n"
+                  f"    finish {{ diffuse 1 ambient 0 emission {radiance / reflects:.9g} }} }}\n"
                   "  interior_texture { pigment { rgbt 1 } finish { diffuse 0 ambient 0 } } no_image }\n")
 
 
@@ -105,10 +115,19 @@ def pov_material(material):
     if material["glass"]:
         return ("material { texture { pigment { rgbt 1 } finish { diffuse 0 ambient 0 reflection { 0, 1 fresnel }"
                 f" conserve_energy }} }} interior {{ ior {material['glass']} }} }}")
-    pigment = f"rgb <{', '.join(map(str, material['colour'] or ()))}>"
+    if material["mirror"]:
+        return (f"material {{ texture {{ pigment {{ rgb 0 }} finish {{ diffuse 0 ambient 0 "
+                f"reflection {{ {pov_colour(material['mirror'])} }} }} }} }}")
     if material["texture"]:
         pigment = f'uv_mapping image_map {{ png "{material["texture"]}" interpolate 2 }}'
-    return f"material {{ texture {{ pigment {{ {pigment} }} finish {{ diffuse 1 ambient 0 }} }} }}"
+    else:
+        pigment = pov_colour(material["colour"])
+    return (f"material {{ texture {{ pigment {{ {pigment} }} "
+            f"finish {{ diffuse {material['diffuse']:g} ambient 0 }} }} }}")
+
+
+def pov_colour(colour):
+    return f"rgb <{', '.join(map(str, colour))}>"
 
 
 def write_list(out, word, rows, form):

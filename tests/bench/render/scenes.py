@@ -1,12 +1,14 @@
-"""The scenes that two renderers are to render alike: scenes.py FOLDER
+"""The scenes that two renderers are to render alike: scenes.py FOLDER [ARTISTS_ROOM]
 
-scene.py writes them, beside the texture that both renderers read.
+scene.py writes them, beside the textures that both renderers read. The third is made of an artist's scene, which lies
+in a folder of its own, and left out without it.
 """
 import sys
 
 import numpy as np
 import OpenImageIO as oiio
 
+import artists_room
 from scene import Scene
 
 TEXTURE, TEXELS = "checker.png", 2048
@@ -73,7 +75,8 @@ def knot(size, thickness, p, q):
 
 def cornell():
     """A box with a checkered ball and one of glass."""
-    s = Scene({"centre": (0, 0, 0.98), "x": 0.6, "y": 0.6, "watts": 30}, {"location": (0, -3.9, 0), "angle": 40}, 0.73)
+    s = Scene({"location": (0, -3.9, 0), "direction": (0, 1, 0), "angle": 40},
+              light={"centre": (0, 0, 0.98), "x": 0.6, "y": 0.6, "watts": 30, "reflects": 0.73})
     white, red = s.material("White", (0.73, 0.73, 0.73)), s.material("Red", (0.65, 0.05, 0.05))
     green, floor = s.material("Green", (0.12, 0.45, 0.15)), s.material("Floor", texture=TEXTURE)
     glass = s.material("Glass", glass=1.5)
@@ -134,8 +137,8 @@ def shelf(s, boards, colours, random):
 def interior():
     """A furnished room that nothing but its lamp lights."""
     random = np.random.default_rng(7)
-    s = Scene({"centre": (0, 0.2, 2.79), "x": 1.6, "y": 1.0, "watts": 150},
-              {"location": (0.3, -2.4, 1.45), "angle": 75}, 0.8)
+    s = Scene({"location": (0.3, -2.4, 1.45), "direction": (0, 1, 0), "angle": 75},
+              light={"centre": (0, 0.2, 2.79), "x": 1.6, "y": 1.0, "watts": 150, "reflects": 0.8})
     white, floor = s.material("White", (0.8, 0.8, 0.8)), s.material("Floor", texture=TEXTURE)
     wood, dark = s.material("Wood", (0.45, 0.26, 0.12)), s.material("Dark", (0.12, 0.1, 0.09))
     rug, sofa = s.material("Rug", (0.55, 0.5, 0.42)), s.material("Sofa", (0.2, 0.28, 0.42))
@@ -175,10 +178,12 @@ def interior():
     return s
 
 
-def main(folder):
+def main(folder, artist=None):
     write_texture(f"{folder}/{TEXTURE}")
     cornell().write(folder, "cornell")
     interior().write(folder, "interior")
+    if artist:
+        artists_room.read(artist, folder).write(folder, "artists-room")
 
 
 main(*sys.argv[1:])

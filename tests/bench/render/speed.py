@@ -32,11 +32,11 @@ def against_cycles(turns):
 
 
 def against_embree(turns):
-    pairs = list(zip(turns["retex"], turns["embree"]))
     f = turns["retex"][0].figures
     counts = {"camera": f["paths"], "bounce": f["segments"] - f["paths"], "shadow": f["shadow_rays"]}
     print("  rays of retex, a path: " + ", ".join(f"{k} {n / f['paths']:.2f}" for k, n in counts.items()))
-    for prefix, name in (("", "Embree alone"), ("robust_", "Embree, robust")):
+    pairs = list(zip(turns["retex"], turns.get("embree", ())))
+    for prefix, name in (("", "Embree alone"), ("robust_", "Embree, robust")) if pairs else ():
         def limit(e, clock, prefix=prefix):
             return sum(n * e[prefix + k][clock] / e[prefix + k]["rays"] for k, n in counts.items())
         speeds = ", ".join(f"{k} {median(e[prefix + k]['rays'] / e[prefix + k]['wall'] for _, e in pairs) / 1e6:.2f}"
@@ -62,7 +62,8 @@ def main(path, table):
     write_table(table, scenes)
     for scene, turns in scenes.items():
         first = turns["retex"][0]
-        print(f"\n{scene}: {first.paths / 1e6:.1f} million paths, {first.samples:.0f} samples a pixel, "
+        print(f"\n{scene}: {first.paths / 1e6:.1f} million paths, {first.size}x{first.size}, {first.samples:.0f} "
+              f"samples a pixel, "
               f"median of {len(turns['retex'])} turns")
         print(f"  {'seconds':<16}" + "".join(f"{h:>10}" for h in (
             "whole", "1 sample", "net", "net, cpu", "Mpaths/s", "per cpu s", "Mrays/s")))
