@@ -295,11 +295,12 @@ static void test_alpha_is_said(void **state)
     const uint32_t count = 1;
     unsigned char entry[10];
     RetexImage im = {0};
+    RetexError err = {0};
     size_t bytes;
     memcpy(entry, tag, 4), memcpy(entry + 4, &count, 4), memcpy(entry + 8, &value, 2);
     for (int channels = 3; channels <= 4; channels++) {
         test_random_image(&im, 20, 10, channels, channels, 0.05, 1);
-        write_picture(&im, test_in_folder("said.tif"), NULL);
+        test_must(retex_image_write(&im, test_in_folder("said.tif"), NULL, 1, &err), &err);
         unsigned char *file = test_read_file(test_in_folder("said.tif"), &bytes);
         assert_int_equal(memmem(file, bytes, entry, sizeof entry) != NULL, channels == 4);
         free(file);
