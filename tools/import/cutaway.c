@@ -116,7 +116,7 @@ static int find_air(Air *air, RetexError *err)
     spread(air, stack, open);
     free(stack);
     find_bounds(air);
-    return RETEX_OK;
+    return air->low[0] < air->high[0] ? RETEX_OK : RETEX_ENOTFOUND;
 }
 
 /* ---- what is before it ---- */
@@ -170,7 +170,9 @@ static int comes_through(const Air *air, const double from[3], const double dire
     double range[2] = {0.02 * air->room->metre, distance};
     if (!clip(air, from, direction, range))
         return 0;
-    for (double t = range[0]; t < range[1]; t += step) {
+    const int count = (int)fmin((range[1] - range[0]) / step + 1, 10000); /* far away, t + step may be t */
+    for (int i = 0; i < count; i++) {
+        const double t = range[0] + i * step;
         double point[3];
         for (int k = 0; k < 3; k++)
             point[k] = from[k] + t * direction[k];
@@ -283,7 +285,8 @@ static void visit(Import *import, const struct aiNode *node, const Affine *world
         const unsigned index = node->mMeshes[i];
         if (index >= import->scene->mNumMeshes || !affine_is_finite(&placed))
             continue;
-        if (import->is_dropped[walk->at])
+        if (import->is_dropped[walk->at] ||
+            import->scene->mMeshes[index]->mMaterialIndex >= import->scene->mNumMaterials) /* refused later */
             continue;
         if (walk->is_counting)
             walk->placed[index]++;
@@ -304,11 +307,18 @@ static void place(const Import *import, const Air *air, Cutaway *cutaway, double
     }
 }
 
+static int fail_without_room(const Import *import, RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOTFOUND, "--camera cutaway: %s: there is no room in it", import->options->model);
+}
+
 static int find(Import *import, Air *air, RetexError *err)
 {
     Walk walk = {.air = air, .is_counting = 1};
     Cutaway *cutaway = import->cutaway = calloc(1, sizeof *cutaway);
     const int code = cutaway ? find_air(air, err) : retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (code == RETEX_ENOTFOUND)
+        return fail_without_room(import, err);
     if (code)
         return code;
     place(import, air, cutaway, walk.eye);
@@ -326,7 +336,7 @@ int cutaway_find(Import *import, RetexError *err)
     if (!cutaway_is_asked(import))
         return RETEX_OK;
     if (!sense || !sense->space || !sense->room.is_found || sense->room.is_solid || !(sense->room.enclosed > 0.5))
-        return retex_fail(err, RETEX_ENOTFOUND, "--camera cutaway: %s: there is no room in it", import->options->model);
+        return fail_without_room(import, err);
     Air air = {.room = &sense->room};
     const int code = find(import, &air, err);
     free(air.columns);
