@@ -2,10 +2,11 @@
 """Mutation testing: each small wrongness of list.txt is built, and a test must notice. Prints TAP.
 
 A mutant that no named test notices fails, and so does one that does not compile or whose text is not in its file once.
-MUTANTS chooses: `all`; `tenth`, the default, those that the commit's hash picks; or names. A test counts only if it
-passes without a mutant, which is tried once a test; with `tenth` it is taken as known from `make check`. Trees with
-builds of their own lie in $BUILD/mutants, JOBS of them side by side. $BUILD/mutants/results keeps what was found, so
-that a run that was stopped goes on; it counts as long as the sources are the same.
+MUTANTS chooses: `all`; `tenth`, the default, those whose turn it is on the day of the last commit, so that ten days see
+all; or names. A test counts only if it passes without a mutant, which is tried once a test; with `tenth` it is taken as
+known from `make check`. Trees with builds of their own lie in $BUILD/mutants, JOBS of them side by side.
+$BUILD/mutants/results keeps what was found, so that a run that was stopped goes on; it counts as long as the sources are
+the same.
 
 run.py --lint checks the list alone, and prints what is wrong with it."""
 
@@ -216,8 +217,9 @@ def choose(mutants):
     if wanted == "all":
         return mutants
     if wanted == "tenth":
-        commit = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=ROOT).decode().strip()
-        return [m for m in mutants if hashlib.sha256((commit + m.name).encode()).digest()[0] % 10 == 0
+        seconds = subprocess.check_output(["git", "show", "-s", "--format=%ct", "HEAD"], cwd=ROOT)
+        turn = int(seconds) // 86400 % 10
+        return [m for m in mutants if int(hashlib.sha256(m.name.encode()).hexdigest(), 16) % 10 == turn
                 and not any(test.startswith("long/") for test in m.tests)]  # those need `make check-all`'s programs
     unknown = set(wanted.split()) - {m.name for m in mutants}
     if unknown:
@@ -265,7 +267,7 @@ def main():
 
     print(f"1..{max(len(chosen), 1)}", flush=True)
     if not chosen:
-        print("ok 1 - the commit's hash picks no mutant")
+        print("ok 1 - it is no mutant's turn")
     with concurrent.futures.ThreadPoolExecutor(max(trees.qsize(), 1)) as pool:
         for number, (mutant, (passed, told)) in enumerate(zip(chosen, pool.map(work, chosen)), 1):
             print(f"{'' if passed else 'not '}ok {number} - {mutant.name} ({mutant.path}): {told}", flush=True)
