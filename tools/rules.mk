@@ -82,7 +82,8 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 
 # The player of --web is one script: its parts one after the other, made small by esbuild, which keeps the names that the
 # parts share. A comment that begins with /*! stays. Shaders are texts, whose blanks esbuild would leave.
-PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit lamps shaders develop maps adjust lay images renderer look folders textures element)
+PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit lamps shaders develop maps adjust lay images renderer look folders \
+	textures lighting state loading view page controls events element)
 # The names of colours are those of the library; it has each grey by both spellings.
 $(BUILD)/gen/colors.js: tools/libretex/base/color_text.c tools/rules.mk
 	@mkdir -p $(@D)

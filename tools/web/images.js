@@ -3,6 +3,8 @@
 /* The size of a picture, or of a colour. */
 const sizeOf = (source) => [source.naturalWidth || source.width || 1, source.naturalHeight || source.height || 1];
 
+const drawingContext = (width, height) => Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
+
 /* What is drawn, and how pictures become what is filtered: colours are adjusted, maps of finishes take images apart, repeats
  * are laid. An image is a texture, with room for its levels, its size and its format. */
 class Images {

@@ -76,3 +76,9 @@ function miredOf(color) {
   const far = bodies.map((body) => Math.hypot(...body.map((x, k) => x - color[k] / luminanceOf(color)))), least = Math.min(...far);
   return least < 0.2 ? MIREDS[far.indexOf(least)] : null;
 }
+
+/* Which one a name means: exactly, else ignoring case if that is unique; or -1. */
+function indexNamed(list, name) {
+  const exact = list.findIndex((l) => l.name === name), alike = list.filter((l) => l.name.toLowerCase() === name.toLowerCase());
+  return exact < 0 && alike.length === 1 ? list.indexOf(alike[0]) : exact;
+}
