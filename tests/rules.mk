@@ -67,6 +67,10 @@ $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+# The player's functions for tests without a browser, made as the player is.
+$(BUILD)/tests/web/player.js: tests/web/modules.js $(WEB_MODULES) tools/rules.mk
+	$(SAY)$(BUNDLE) --global-name=player
+
 # Stands before the C library, so it knows it well; and its driver.
 $(BUILD)/tests/faults/shim.so: tests/faults/shim.c
 	@mkdir -p $(@D)
@@ -95,7 +99,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 .PHONY: unit-tests test-programs tests check check-all check-faults check-mutants check-unit check-cli check-web check-oiio check-python check-golden check-man check-docs check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
-test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) all
+test-programs: $(TEST_PROGRAMS) $(OIDN_STAND_INS) $(BUILD)/tests/web/player.js all
 tests: test-programs $(FAULTS) unit-tests fuzz-programs $(BUILD)/tests/bench/bench
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.

@@ -80,21 +80,18 @@ $(BUILD)/bin/retex: $(BUILD)/obj/tools/retex.o $(TOOL_OBJECTS) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
-# The player of --web is one script: its parts one after the other, made small by esbuild, which keeps the names that the
-# parts share. A comment that begins with /*! stays. Shaders are texts, whose blanks esbuild would leave.
-PLAYER_PARTS := tools/web/files.js $(BUILD)/gen/colors.js $(patsubst %,tools/web/%.js,edit lamps shaders develop maps adjust lay images renderer look folders \
-	textures lighting state loading view page controls events element)
+# What a page loads is one script, which esbuild makes of its first module and all that this imports. The comment at the
+# module's head is the script's. The rule of a script has the module first, then the others.
+BUNDLE = esbuild --bundle $< --minify --charset=utf8 --legal-comments=none --banner:js="$$(sed '/\*\//q' $<)" \
+	--alias:colors=$(abspath $(BUILD)/gen/colors.js) --log-level=warning --outfile=$@
+WEB_MODULES := $(wildcard tools/web/*.js) $(BUILD)/gen/colors.js
+$(BUILD)/gen/retex-room.js: tools/web/element.js $(WEB_MODULES) tools/rules.mk
+	$(SAY)$(BUNDLE) --format=esm
 # The names of colours are those of the library; it has each grey by both spellings.
 $(BUILD)/gen/colors.js: tools/libretex/base/color_text.c tools/rules.mk
 	@mkdir -p $(@D)
-	$(SAY){ printf 'const COLORS = "'; grep -o '{"[a-z]*", 0x[0-9a-f]*}' $< | grep -v grey | \
+	$(SAY){ printf 'export const COLORS = "'; grep -o '{"[a-z]*", 0x[0-9a-f]*}' $< | grep -v grey | \
 	    sed 's/{"\(.*\)", 0x\(.*\)}/\1\U\2/' | tr -d '\n'; echo '";'; } >$@
-$(BUILD)/gen/retex-room.js: $(PLAYER_PARTS) tools/rules.mk
-	@mkdir -p $(@D)
-	$(SAY)for part in $(PLAYER_PARTS); do case $$part in *shaders.js|*develop.js|*maps.js|*adjust.js|*lay.js) \
-	    sed -E 's/ ?([-=*+<>?:\/]|&&|\|\||[<>=!]=|[-+*]=) /\1/g; s/([,;]) /\1/g; s/^ *//' $$part;; \
-	    *) sed 's/^ *//' $$part;; esac; done | esbuild --loader=js --minify --charset=utf8 --legal-comments=inline \
-	    --log-level=warning --footer='export { RetexRoom };' >$@
 
 # The player's files are embedded in retex-pack as bytes.
 PLAYER := tools/web/index.html $(BUILD)/gen/retex-room.js $(patsubst %,tools/web/%,retex-room.d.ts package.json README.md)

@@ -14,7 +14,7 @@ set -eu
 # reads and writes manifests, libdeflate-dev compresses EXR, libisal-dev PNG, libpng-dev reads PNG, libfreetype-dev the
 # fonts of text in scenes, libgif-dev palettes of pictures, libassimp-dev models for retex-import, libdraco-dev and
 # libmeshoptimizer-dev meshes of glTF that are compressed, libmicrohttpd-dev HTTP and nettle-dev the names of uploads for
-# retex-serve. esbuild makes the player for web pages small.
+# retex-serve. esbuild makes one small script of the modules of web pages.
 # fonts-povray has the fonts that are built into POV-Ray: timrom.ttf, cyrvetic.ttf, crystal.ttf, povlogo.ttf.
 needs_build='
 command gcc build-essential

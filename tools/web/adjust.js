@@ -1,16 +1,20 @@
 // ---- adjustments of a texture's colours, before anything is filtered ----
 
+import { ADJUSTMENTS, WRAPS } from "./edit.js";
+import { HEAD } from "./glsl.js";
+import { parseColor } from "./values.js";
+
 const ADJUSTS = Object.keys(ADJUSTMENTS);
 
 /* What the shader gets of an adjustment: its number, and three numbers. */
-function adjustNumbers([word, value]) {
+export function adjustNumbers([word, value]) {
   const numbers = word === "invert" ? [1] : typeof value === "string" ? parseColor(value) : [value].flat();
   return { kind: ADJUSTS.indexOf(word), value: [0, 1, 2].map((k) => numbers[k] ?? 0) };
 }
 
 /* Adjustments of single colours, one after the other; texels are multiplied by what they cover. mean: sums of the whole, for
  * `colorize`. The hue is turned in Oklab: B. Ottosson, 'A perceptual color space for image processing' (2020). */
-const ADJUST = `${HEAD}
+export const ADJUST = `${HEAD}
 uniform sampler2D image, mean;
 uniform int count;
 uniform int kinds[${ADJUSTS.length}];
@@ -49,8 +53,8 @@ void main() {
 }`;
 
 /* Sums of squares of texels, and of such sums: their proportions are those of the whole. */
-const SUM_SIDE = 16;
-const SUM = `${HEAD}
+export const SUM_SIDE = 16;
+export const SUM = `${HEAD}
 uniform sampler2D image;
 out vec4 result;
 void main() {
@@ -62,7 +66,7 @@ void main() {
 }`;
 
 /* A Gaussian along rows, or columns, of texels, with what lies beyond the image; `stride` texels for each that is made. */
-const BLUR = `${HEAD}
+export const BLUR = `${HEAD}
 uniform sampler2D image;
 uniform bool down;
 uniform int wrap;
@@ -91,7 +95,7 @@ void main() {
 
 /* How a blurred line of texels is made: of wide Gaussians fewer texels, which then are enlarged linearly, and that widens
  * them a little. */
-function blurSizes(sigma, texels) {
+export function blurSizes(sigma, texels) {
   const made = Math.ceil(texels / Math.max(1, sigma / 4)), stride = texels / made;
   return { made, stride, sigma: Math.sqrt(sigma * sigma - (made < texels ? stride * stride / 6 : 0)) };
 }

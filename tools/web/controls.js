@@ -1,7 +1,14 @@
 // ---- the panel's controls ----
 
+import { BONDS } from "./edit.js";
+import { nameOf } from "./files.js";
+import { isBlack, kelvinColor, kelvinOf, lampText, lampsOf, miredOf, parseLamp } from "./lamps.js";
+import { wordsOf } from "./look.js";
+import { LAMP_ROW } from "./page.js";
+import { parseColor } from "./values.js";
+
 /* What an element's controls show and do. */
-const withControls = (Base) => class extends Base {
+export const withControls = (Base) => class extends Base {
   /* Pictures and colours that are offered: attribute `textures`, URLs separated by blanks. */
   get offers() {
     const given = (this.getAttribute("textures") || "").split(/\s+/).filter(Boolean);

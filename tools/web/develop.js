@@ -1,5 +1,9 @@
 // ---- how the picture is developed, as in retex-edit(5) ----
 
+import { HEAD, number } from "./glsl.js";
+import { kelvinColor } from "./lamps.js";
+import { clamp } from "./values.js";
+
 /* From linear Rec.709 to Bradford's responses of cones, and back. */
 const TO_CONES = [[0.4227253, 0.4913453, 0.0273579], [0.0556998, 0.9615341, 0.0231838], [0.0213826, 0.0876419, 0.9805081]];
 const FROM_CONES = [[2.5380445, -1.293277, -0.0402369], [-0.1460041, 1.1166483, -0.022329], [-0.0422985, -0.0716072, 1.0227527]];
@@ -7,7 +11,7 @@ const dotOf = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
 /* What light makes of linear colours, without the view: nine numbers, by rows. The colour of whiteBalance becomes white; warmth
  * multiplies red and blue. stops: of the automatic exposure, beside those of the light. */
-function developMatrix({ exposure, warmth, whiteBalance }, stops = 0) {
+export function developMatrix({ exposure, warmth, whiteBalance }, stops = 0) {
   const gain = 2 ** clamp(exposure + stops, -30, 30), lit = whiteBalance && kelvinColor(whiteBalance);
   const scales = lit && TO_CONES.map((row) => dotOf(row, [1, 1, 1]) / dotOf(row, lit));
   return [1, 0, -1].flatMap((side, i) => [0, 1, 2].map((j) =>
@@ -16,7 +20,7 @@ function developMatrix({ exposure, warmth, whiteBalance }, stops = 0) {
 
 /* From linear colours to those of the display, by the number of the view. Filmic: Narkowicz's fit of the Academy's curve, with
  * a grey of 0.18 as it is. Neutral: the Khronos PBR Neutral Tone Mapper. */
-const SHOWN = `
+export const SHOWN = `
 uniform vec3 develop[3];
 uniform int view;
 vec3 shown(vec3 color) {
@@ -41,8 +45,8 @@ vec3 shown(vec3 color) {
 
 /* Of each block of the picture: the sum of the binary logarithms of luminances that are not 0, and how many they are, both by
  * the pixels of a block. */
-const METER_BLOCK = 16;
-const METER = `${HEAD}
+export const METER_BLOCK = 16;
+export const METER = `${HEAD}
 uniform sampler2D picture;
 out vec4 result;
 void main() {

@@ -1,37 +1,10 @@
-// ---- edits: colours and the grammar of links, as in retex-edit(5) ----
+// ---- edits: the grammar of links, as in retex-edit(5) ----
 
-const srgbDecode = (y) => (y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4);
-const colorNames = new Map(Array.from(COLORS.matchAll(/([a-z]+)(\w{6})/g), ([, name, code]) => [name, code]));
+import { lampText, parseLamp } from "./lamps.js";
+import { numberOf, numberText, parseColor, readColor } from "./values.js";
 
-/* Text as a finite number; NaN if it is none. */
-const numberOf = (text) => (/^\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*$/i.test(text) && isFinite(text) ? Number(text) + 0 : NaN);
-
-/* A colour, scene-linear; null if the text is none and may be the address of a picture. */
-function readColor(text) {
-  const word = text.trim().toLowerCase(), wrong = (expected) => new Error(`'${text}' is no colour: expected ${expected}.`);
-  const call = /^(s?rgb)\s*\((.*)$/s.exec(word), digits = /^#([^./]*)$/.exec(word)?.[1] ?? colorNames.get(word.replace("grey", "gray"));
-  if (call) {
-    const numbers = call[2].endsWith(")") ? call[2].slice(0, -1).split(",").map(numberOf) : [], encoded = call[1] === "srgb";
-    if (numbers.length !== 3 || !numbers.every((x) => x >= 0 && x <= (encoded ? 1 : 1e30)))
-      throw wrong(encoded ? "srgb(r,g,b) with three numbers from 0 to 1" : "rgb(r,g,b) with three numbers of 0 or more");
-    return encoded ? numbers.map(srgbDecode) : numbers;
-  }
-  if (digits === undefined) return null;
-  if (!/^([0-9a-f]{3}){1,2}$/i.test(digits)) throw wrong("#rgb or #rrggbb");
-  return digits.replace(/^(.)(.)(.)$/, "$1$1$2$2$3$3").match(/../g).map((x) => srgbDecode(parseInt(x, 16) / 255));
-}
-
-/* The same, and null if the text is wrong. */
-function parseColor(text) {
-  try {
-    return readColor(text);
-  } catch {
-    return null;
-  }
-}
-
-const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
-const BONDS = ["herringbone", "basket", "hexagon"], VARY = ["turn", "flip", "shift"];
+export const REPEATS = ["straight", "mirror", "brick", "half-drop"], WRAPS = ["repeat", "mirror", "clamp", "black"];
+export const BONDS = ["herringbone", "basket", "hexagon"], VARY = ["turn", "flip", "shift"];
 const isShifted = (repeat) => repeat === "brick" || repeat === "half-drop";
 
 /* One or two numbers that are allowed, and what stands for the second. */
@@ -60,7 +33,7 @@ function lengthsOf(text, isAllowed) {
   return units && lengths.some(Boolean) ? lengths.map((x) => `${numberText(x)}m`).join() : lengths.length > 1 ? lengths : lengths[0];
 }
 /* Whether some of these are in metres, and some are not; nothing and 0 are neither. */
-function mixesUnits(lengths) {
+export function mixesUnits(lengths) {
   const said = lengths.filter((length) => [length].flat().some(Boolean));
   return said.some((length) => typeof length === "string") && said.some((length) => typeof length !== "string");
 }
@@ -77,7 +50,7 @@ function tilesOf(text) {
 }
 
 /* Adjustments of colours, which follow the others in the order in which they are made: a value, and what changes nothing. */
-const ADJUSTMENTS = {
+export const ADJUSTMENTS = {
   hue: [numberIn(-1e6, 1e6), "0"],
   saturation: [numberIn(0, 1e3), "1"],
   gain: [(text) => numbersOf(text, 3, 0, 1e6), "1,1,1"],
@@ -91,7 +64,7 @@ const ADJUSTMENTS = {
 
 /* The statements about a texture, in the order of the canonical text: what reads a value, undefined if there is none; and
  * the text that needs no statement. */
-const OPTIONS = {
+export const OPTIONS = {
   scale: [(text) => pairOf(text, (x) => x !== 0), "1,1"],
   rotate: [(text) => [numberOf(text)].find(isFinite), "0"],
   offset: [(text) => pairOf(text, () => true), "0,0"],
@@ -111,7 +84,7 @@ const OPTIONS = {
 };
 /* Statements about the light of the whole picture, in the order of the canonical text: what a state calls it, what reads a
  * value, and what null means. A view of the tools may be one that pages do not have. */
-const PICTURE = "picture:", VIEWS = ["Standard", "Filmic", "Neutral", "Raw"];
+export const PICTURE = "picture:", VIEWS = ["Standard", "Filmic", "Neutral", "Raw"];
 const LIGHT = {
   [PICTURE + "auto-exposure"]: ["autoExposure", (text) => ({ yes: true, no: false })[text.toLowerCase()], false],
   [PICTURE + "exposure"]: ["exposure", numberIn(-30, 30), 0],
@@ -121,7 +94,7 @@ const LIGHT = {
 };
 const lightText = (value) => (typeof value === "boolean" ? (value ? "yes" : "no") : textOf(value));
 /* What the light of a room is said to be, of what is said: undefined where nothing is. */
-function checkedLight(said) {
+export function checkedLight(said) {
   const light = {};
   for (const [name, read, none] of Object.values(LIGHT)) {
     if (said[name] === undefined) continue;
@@ -140,18 +113,18 @@ function checkedLight(said) {
 const LAMP = "light:", FINISH = "finish:";
 
 /* Layers: over:TARGET, over2:TARGET and so on. The target and the number, from 1; 0: it is no layer. */
-const layerOf = (key) => { const [, number, target] = /^over([2-4]?):(.*)$/s.exec(key) || []; return target === undefined ? [key, 0] : [target, Number(number || 1)]; };
-const layerKey = (target, layer) => `over${layer > 1 ? layer : ""}:${target}`;
-const NOT_OF_LAYERS = ["wrap", "repeat", "grout", "groutcolor", "vary", "tiles", "finish", "normal"];
+export const layerOf = (key) => { const [, number, target] = /^over([2-4]?):(.*)$/s.exec(key) || []; return target === undefined ? [key, 0] : [target, Number(number || 1)]; };
+export const layerKey = (target, layer) => `over${layer > 1 ? layer : ""}:${target}`;
+export const NOT_OF_LAYERS = ["wrap", "repeat", "grout", "groutcolor", "vary", "tiles", "finish", "normal"];
 function byTargetAndLayer(a, b) {
   const [x, i] = layerOf(a), [y, j] = layerOf(b);
   return x < y ? -1 : x > y ? 1 : i - j;
 }
 
-const hasGrout = ({ grout }) => parseFloat(grout) > 0;
+export const hasGrout = ({ grout }) => parseFloat(grout) > 0;
 
 /* What options of laying need, and what they exclude. of: who has them, for messages. */
-function checkLaying(of, said) {
+export function checkLaying(of, said) {
   const bond = BONDS.includes(said.repeat), laid = hasGrout(said) ? "grout" : said.vary ? "vary" : said.tiles ? "tiles" : "";
   const what = bond || isShifted(said.repeat) ? `repeat ${said.repeat}` : laid;
   if (what && (said.wrap || "repeat").split(",").some((mode) => mode !== "repeat")) throw new Error(`${of} ${what} needs wrap repeat.`);
@@ -163,7 +136,7 @@ function checkLaying(of, said) {
 const optionOf = (key) => Object.keys(OPTIONS).find((word) => key.endsWith(`.${word}`));
 
 /* What the text of an edit says, as getState() has it. A target without a scale has the tools', not a picture's own. */
-function parseEdit(text) {
+export function parseEdit(text) {
   const textures = Object.create(null), light = {}, lamps = Object.create(null), finishes = Object.create(null);
   const decode = (part) => part.replace(/%(25|26|2e|3b)/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
   for (const statement of text ? text.split(/[;&]/) : []) {
@@ -217,18 +190,10 @@ function parseEdit(text) {
   return { textures, light, lamps, finishes };
 }
 
-/* The fewest digits that mean the same, as printf has them; single: as a float. */
-function numberText(x, single) {
-  const as = single ? Math.fround : Number;
-  const digits = [6, 7, 8, 9, 15, 16, 17].find((n) => (single || n > 9) && as(x.toPrecision(n)) === as(x)), [fraction, power] = x.toExponential(digits - 1).split("e");
-  if (power >= -4 && power < digits) return String(Number(x.toPrecision(digits)));
-  return `${fraction.replace(/\.?0+$/, "")}e${power[0]}${power.slice(1).padStart(2, "0")}`;
-}
-
-const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
+export const textOf = (value) => [value].flat().map((x) => (typeof x === "number" ? numberText(x) : x)).join();
 
 /* The text of an edit that says what a state does. */
-function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
+export function editText({ textures = {}, light = {}, lamps = {}, finishes = {} }) {
   const encode = (part) => part.replace(/[%&;]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
   const statements = [];
   for (const target of Object.keys(textures).sort(byTargetAndLayer)) {

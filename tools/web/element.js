@@ -1,10 +1,23 @@
+/*! <retex-room src="FOLDER/">: a room whose textures can be changed in the browser. FOLDER is what `retex-pack --web`
+ * wrote. The picture is a polynomial in the textures, see retex-web(5); WebGL 2 evaluates it. See README.md.
+ * Licence: Apache-2.0. */
+
+import { withControls } from "./controls.js";
+import { withEvents } from "./events.js";
+import { withLighting } from "./lighting.js";
+import { withLoading } from "./loading.js";
+import { BODY, STYLE } from "./page.js";
+import { withState } from "./state.js";
+import { withTextures } from "./textures.js";
+import { withView } from "./view.js";
+
 // ---- the element ----
 
 /* What it does is in parts, each of which adds to the class before it. Servers that render pages import the script too, and
  * have no elements. */
 const PARTS = [withTextures, withLighting, withState, withLoading, withView, withControls, withEvents];
 
-class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), globalThis.HTMLElement || Object) {
+export class RetexRoom extends PARTS.reduce((Base, withPart) => withPart(Base), globalThis.HTMLElement || Object) {
   static observedAttributes = ["src"];
 
   constructor() {

@@ -1,7 +1,9 @@
 // ---- events: pointers, keys, files that are dropped ----
 
+import { droppedFiles } from "./folders.js";
+
 /* What an element listens to. */
-const withEvents = (Base) => class extends Base {
+export const withEvents = (Base) => class extends Base {
   listen(root) {
     const stage = this.$(".stage"), canvas = this.$("canvas"), pointers = new Map();
     let moved = 0, pinch = 0;

@@ -1,6 +1,3 @@
-/*! <retex-room src="FOLDER/">: a room whose textures can be changed in the browser. FOLDER is what `retex-pack --web`
- * wrote. The picture is a polynomial in the textures, see retex-web(5); WebGL 2 evaluates it. See README.md. */
-
 // ---- files ----
 
 const crcTable = Uint32Array.from({ length: 256 }, (_, n) => {
@@ -8,14 +5,14 @@ const crcTable = Uint32Array.from({ length: 256 }, (_, n) => {
   return n;
 });
 
-function crc32(bytes) {
+export function crc32(bytes) {
   let crc = -1;
   for (let i = 0; i < bytes.length; i++) crc = crcTable[(crc ^ bytes[i]) & 255] ^ (crc >>> 8);
   return ~crc >>> 0;
 }
 
 /* Connections that break and servers that are busy are tried again, after .5, 1, 2 and 4 seconds. */
-async function fetchBytes(url, signal, cache = "default") {
+export async function fetchBytes(url, signal, cache = "default") {
   for (let wait = 500; ; wait *= 2) {
     let answer;
     try {
@@ -33,7 +30,7 @@ async function fetchBytes(url, signal, cache = "default") {
 }
 
 /* What people call the file of an address. */
-function nameOf(url) {
+export function nameOf(url) {
   const name = /^(data|blob):/.test(url) ? "Picture" : String(url).split(/[?#]/)[0].split("/").pop();
   try {
     return decodeURIComponent(name);
@@ -43,7 +40,7 @@ function nameOf(url) {
 }
 
 /* A file of the room, whose size and checksum the manifest has. A damaged one may be a cache's. */
-async function fetchChecked(base, entry, signal) {
+export async function fetchChecked(base, entry, signal) {
   for (const cache of ["default", "reload"]) {
     const bytes = await fetchBytes(new URL(entry.file, base), signal, cache);
     if (bytes.length === entry.bytes && crc32(bytes) === entry.crc32) return bytes;
@@ -53,7 +50,7 @@ async function fetchChecked(base, entry, signal) {
 
 /* Browsers show what is left of a damaged picture, without a word. What its markers, lengths and checksums tell is looked
  * up here; of changes in between, such as in the codes of a JPEG, nobody is told. */
-function isDamaged(bytes) {
+export function isDamaged(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
   try {
     if (view.getUint32(0) === 0x89504e47)
@@ -79,7 +76,7 @@ function isDamaged(bytes) {
   }
 }
 
-async function decodeImage(blob, name) {
+export async function decodeImage(blob, name) {
   const image = new Image();
   image.src = URL.createObjectURL(blob);
   try {
@@ -93,10 +90,10 @@ async function decodeImage(blob, name) {
   return image;
 }
 
-const decodeJpeg = (bytes, name) => decodeImage(new Blob([bytes], { type: "image/jpeg" }), name);
+export const decodeJpeg = (bytes, name) => decodeImage(new Blob([bytes], { type: "image/jpeg" }), name);
 
 /* most: more bytes than a whole file has. */
-async function inflate(bytes, name, most) {
+export async function inflate(bytes, name, most) {
   const parts = [];
   try {
     const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
@@ -108,12 +105,12 @@ async function inflate(bytes, name, most) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-const mostBytes = (c) => 1 + c.footprints.length * (16 + c.height * (((c.width + 7) >> 3) + c.width * (c.spreads + 8 + 2)));
+export const mostBytes = (c) => 1 + c.footprints.length * (16 + c.height * (((c.width + 7) >> 3) + c.width * (c.spreads + 8 + 2)));
 
 // ---- footprints ----
 
 /* The integers of one plane, in the pixels where `present` is 1. */
-function decodePlane(stream, present, width, height, out, shift, mask) {
+export function decodePlane(stream, present, width, height, out, shift, mask) {
   const head = stream.data[stream.at++], predictor = head & 15, size = head >> 4;
   out.fill(0);
   if (!size) return;
@@ -144,8 +141,8 @@ function decodePlane(stream, present, width, height, out, shift, mask) {
   if (stream.at > data.length) throw new Error("Footprints are damaged.");
 }
 
-const RECORD_COLUMNS = 2048;
-const LOG_OFFSET = 24, LOG_STEPS = 2048;
+export const RECORD_COLUMNS = 2048;
+export const LOG_OFFSET = 24, LOG_STEPS = 2048;
 
 /* The derivative of mean UV at pixel i, to the right or down, of u or v, by its neighbours within 64 rows: half the difference
  * of both or, with one of them only, by two on its side. On a periodic axis differences go the shorter way round. */
@@ -163,11 +160,11 @@ function stepAt({ present, uv }, i, down, axis, { width, height }, periodic) {
 }
 
 /* How many records a footprint takes in a pixel: those with axes have a second one. */
-const recordsEach = (info) => (info.spreads === 4 ? 2 : 1);
+export const recordsEach = (info) => (info.spreads === 4 ? 2 : 1);
 
 /* All footprints of a class as records of four 32-bit numbers, pixel by pixel, and for each pixel where its records
  * begin, times 32, plus how many there are. */
-function decodeClass(info, data, base, periodic = []) {
+export function decodeClass(info, data, base, periodic = []) {
   const { width, height } = info, pixels = width * height, stream = { data, at: 0, count: 0 };
   const footprints = info.footprints.map((f) => {
     const present = new Uint8Array(pixels), rowBytes = (width + 7) >> 3;
@@ -228,4 +225,3 @@ function decodeClass(info, data, base, periodic = []) {
   }
   return { heads, records, rows };
 }
-

@@ -23,7 +23,7 @@ function bestOf(files, kind) {
 }
 
 /* The base colour of a folder's files, and the map of roughness if there is one: { color, rough, channel }. */
-function readFolder(files) {
+export function readFolder(files) {
   const named = files.map((file) => ({ ...readName(file.name), file })), colors = bestOf(named, "c");
   if (!colors.length) throw new Error("None of these files is a base colour by its name, such as wood_diff_2k.jpg or wood_Color.png.");
   if (colors[1]) throw new Error(`Several base colours, such as ${colors[0].name} and ${colors[1].name}: choose one of them.`);
@@ -32,10 +32,10 @@ function readFolder(files) {
 }
 
 /* Whether roughness chooses among a target's finishes: that of two is known. */
-const hasRoughness = ({ finish_roughness: known = [], normal_tilt: tilt }) => !tilt && known.filter((x) => x >= 0).length > 1;
+export const hasRoughness = ({ finish_roughness: known = [], normal_tilt: tilt }) => !tilt && known.filter((x) => x >= 0).length > 1;
 
 /* All files that were dropped, those of folders too, and of folders `textures` in them. To be called before the event ends. */
-async function droppedFiles({ items, files }) {
+export async function droppedFiles({ items, files }) {
   const entries = [...items].map((item) => item.webkitGetAsEntry?.()), found = [];
   if (!entries.some((entry) => entry?.isDirectory)) return [...files];
   const add = async (entry, depth) => {

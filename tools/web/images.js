@@ -1,13 +1,15 @@
 // ---- images on the graphics card ----
 
-/* The size of a picture, or of a colour. */
-const sizeOf = (source) => [source.naturalWidth || source.width || 1, source.naturalHeight || source.height || 1];
-
-const drawingContext = (width, height) => Object.assign(document.createElement("canvas"), { width, height }).getContext("2d");
+import { ADJUST, BLUR, SUM, SUM_SIDE, adjustNumbers, blurSizes } from "./adjust.js";
+import { WRAPS } from "./edit.js";
+import { HALVE, PREMULTIPLY, VERTEX } from "./glsl.js";
+import { LAY, MOST_LAID, copyOf, paintingsOf } from "./lay.js";
+import { PRODUCT, WEIGH } from "./maps.js";
+import { isClear, isGrey, sizeOf } from "./pictures.js";
 
 /* What is drawn, and how pictures become what is filtered: colours are adjusted, maps of finishes take images apart, repeats
  * are laid. An image is a texture, with room for its levels, its size and its format. */
-class Images {
+export class Images {
   constructor(gl, room) {
     Object.assign(this, { gl, room, programs: new Map(), most: gl.getParameter(gl.MAX_TEXTURE_SIZE), overs: null, overEnd: room.targets.map(() => 0) });
   }

@@ -1,10 +1,12 @@
 // ---- the values of lamps, as in retex-edit(5) ----
 
+import { numberOf, numberText, readColor } from "./values.js";
+
 const luminanceOf = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 /* The colour of a black body, of luminance 1: Planck's law seen by the CIE 1931 observer, in the fit of Wyman, Sloan and
  * Shirley. */
-function kelvinColor(kelvin) {
+export function kelvinColor(kelvin) {
   const lobe = (x, [height, mean, below, above]) => height * Math.exp(-0.5 * ((x - mean) / (x < mean ? below : above)) ** 2);
   const xyz = [0, 0, 0];
   for (let x = 360; x <= 830; x += 5) {
@@ -19,7 +21,7 @@ const OBSERVER = [[[1.056, 599.8, 37.9, 31], [0.362, 442, 16, 26.7], [-0.065, 50
 const REC709 = [[3.2404542, -1.5371385, -0.4985314], [-0.969266, 1.8760108, 0.041556], [0.0556434, -0.2040259, 1.0572252]];
 
 /* A value: numbers multiply; colours and kelvins, which filter each other, are a colour of luminance 1, or null. */
-function parseLamp(text) {
+export function parseLamp(text) {
   const wrong = (why = "numbers, colours and kelvins, as in 2.5, #ffd0a0, 3000K or 1.5*3000K") => new Error(`Light '${text}': expected ${why}.`);
   let gain = 1, color = null;
   for (const factor of text.split("*")) {
@@ -39,46 +41,46 @@ function parseLamp(text) {
   return { gain, color };
 }
 
-const lampText = ({ gain, color }) =>
+export const lampText = ({ gain, color }) =>
   [...(gain === 1 && color ? [] : [numberText(gain)]), ...(color ? [`rgb(${color.map((x) => numberText(x, true))})`] : [])].join("*");
 
-const isBlack = (color) => color.every((x) => x === 0);
+export const isBlack = (color) => color.every((x) => x === 0);
 
 /* What a value makes of a lamp of the room: its linear colour. */
-function lampColor({ gain, color }, { value, kept = value, several }) {
+export function lampColor({ gain, color }, { value, kept = value, several }) {
   const base = isBlack(value) ? kept : value;
   return base.map((x, k) => gain * (!color ? x : color[k] * (several ? x : luminanceOf(base))));
 }
 
 /* The parameters that are lamps, with their names. Where targets have finishes, light is kept by lamp, or as that of none,
  * and by finish: the value of a lamp is that of its light which met no such target. */
-const lampsOf = ({ parameters = [] }) => parameters.map((p, index) => ({ ...p, index, name: p.lamp ?? p.name }))
+export const lampsOf = ({ parameters = [] }) => parameters.map((p, index) => ({ ...p, index, name: p.lamp ?? p.name }))
   .filter((p) => p.lamp !== "" && !p.finishes?.some(Boolean));
 
 /* What colours parameters have: their lamp's, or white; black where light met a target with another finish than it has.
  * said: of the lamps what parseLamp makes of it, or null: as rendered; chosen: the number of each target's finish, from 1;
  * null: all. */
-function parameterColors(room, said, chosen) {
+export function parameterColors(room, said, chosen) {
   const lamps = lampsOf(room), own = lamps.map((lamp, i) => (said[i] ? lampColor(said[i], lamp) : lamp.value));
   return (room.parameters ?? []).map(({ name, lamp = name, finishes = [] }) =>
     finishes.some((f, t) => f && chosen[t] !== null && f !== chosen[t]) ? [0, 0, 0] : own[lamps.findIndex((l) => l.name === lamp)] ?? [1, 1, 1]);
 }
 
-const finishesAsRendered = ({ targets = [] }) => targets.map((t) => t.finish ?? 0);
+export const finishesAsRendered = ({ targets = [] }) => targets.map((t) => t.finish ?? 0);
 
 /* Warmth is told in mireds, millionths by kelvin, which look even: the nearest of a colour, null where it is far from that
  * of any black body. */
 const MIREDS = Array.from({ length: 91 }, (_, k) => 100 + 5 * k);
-const kelvinOf = (mired) => Math.round(1e5 / mired) * 10;
+export const kelvinOf = (mired) => Math.round(1e5 / mired) * 10;
 let bodies;
-function miredOf(color) {
+export function miredOf(color) {
   bodies ||= MIREDS.map((mired) => kelvinColor(kelvinOf(mired)));
   const far = bodies.map((body) => Math.hypot(...body.map((x, k) => x - color[k] / luminanceOf(color)))), least = Math.min(...far);
   return least < 0.2 ? MIREDS[far.indexOf(least)] : null;
 }
 
 /* Which one a name means: exactly, else ignoring case if that is unique; or -1. */
-function indexNamed(list, name) {
+export function indexNamed(list, name) {
   const exact = list.findIndex((l) => l.name === name), alike = list.filter((l) => l.name.toLowerCase() === name.toLowerCase());
   return exact < 0 && alike.length === 1 ? list.indexOf(alike[0]) : exact;
 }

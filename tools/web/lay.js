@@ -1,11 +1,15 @@
 // ---- laying: several repeats of a texture, with joints between them, become one image that repeats ----
 
-const MOST_LAID = 2 ** 24, LIBRARY_LAID = 2 ** 26, HEXAGON = Math.sqrt(3) / 2;
-const rint = (x) => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
+import { BONDS } from "./edit.js";
+import { HEAD } from "./glsl.js";
+import { parseColor } from "./values.js";
+
+export const MOST_LAID = 2 ** 24, LIBRARY_LAID = 2 ** 26, HEXAGON = Math.sqrt(3) / 2;
+export const rint = (x) => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
 const jointTexels = (grout, texel) => (grout > 0 ? Math.max(1, Math.ceil(grout / texel - 1e-6)) : 0);
 
 /* Whether a texture's texels are more than the image's own. */
-const isLaid = ({ repeat, grout, vary, tiles }) => !["straight", "mirror"].includes(repeat) || grout > 0 || !!vary || !!tiles;
+export const isLaid = ({ repeat, grout, vary, tiles }) => !["straight", "mirror"].includes(repeat) || grout > 0 || !!vary || !!tiles;
 
 /* Bonds whose repeats all lie alike. */
 function planRows({ repeat, grout }, block, size) {
@@ -86,7 +90,7 @@ function copiesOf({ size, blocks }) {
 
 /* The image of a texture whose repeats have so many texels: its size, and where each repeat lies, as the tools lay them. An
  * image that is too large for a page, with a longer side or more texels than these, is coarser. */
-function layoutOf(laid, [width, height], most, texels) {
+export function layoutOf(laid, [width, height], most, texels) {
   const size = laid.width ? [laid.width[0], laid.width[1] || laid.width[0] * height / width] : [1, 1], short = Math.min(...size), turned = BONDS.includes(laid.repeat);
   if (turned && Math.max(...size) > 256 * short) throw new Error("A repeat that turns is at most 256 times as long as wide.");
   if (laid.grout > short) throw new Error("The grout is wider than a repeat.");
@@ -124,7 +128,7 @@ function randomsOf(seed) {
 }
 
 /* What differs from repeat to repeat: the number of the tile, quarters of a turn, flips, and how far it is shifted. */
-function looksOf({ vary, width }, { block }, { column, row }, ntiles) {
+export function looksOf({ vary, width }, { block }, { column, row }, ntiles) {
   const parts = vary.split(","), first = randomsOf(BigInt(parts.find((part) => part > 0) || 0));
   const next = randomsOf(first() ^ (BigInt(column) << 32n) ^ BigInt(row)), [random, x, y] = [next(), next(), next()];
   const isSquare = width && Math.abs((width[1] ? width[1] / width[0] : block[1] / block[0]) - 1) < 1e-3;
@@ -146,7 +150,7 @@ function placeInTile(stands, { quarters, flip, shift }) {
 }
 
 /* How each repeat is painted: the box that it takes, from the lower left corner of the image, its tile, and what LAY needs. */
-function paintingsOf(laid, layout, tiles) {
+export function paintingsOf(laid, layout, tiles) {
   const { block, joint, grout, hexagon } = layout, color = parseColor(laid.groutcolor || "#808080");
   return layout.blocks.map((b) => {
     const look = looksOf(laid, layout, b, tiles.length), tile = tiles[look.tile].size, stands = !!b.stands, values = { joint, grout, color, ...placeInTile(stands, look) };
@@ -163,7 +167,7 @@ function paintingsOf(laid, layout, tiles) {
 /* A repeat and its joints: grout lies at a joint's outer end, where another joint may begin. origin: the lower left corner,
  * or of a hexagon the middle. hexagon: how far hexagons are apart, and their rows; whether a texel is one's is counted in
  * whole numbers, so that hexagons side by side have no texel twice. */
-const LAY = `${HEAD}
+export const LAY = `${HEAD}
 uniform sampler2D tile;
 uniform mat2 turned;
 uniform vec2 moved, origin, block, joint, grout;
@@ -190,7 +194,7 @@ void main() {
 }`;
 
 /* What LAY needs to paint a whole image of another size with one. */
-const copyOf = ({ texture, size }, to) => ({
+export const copyOf = ({ texture, size }, to) => ({
   tile: texture, origin: [0, to[1]], block: to, joint: [0, 0], grout: [0, 0], hexagon: [0, 0], color: [0, 0, 0], turned: [1, 0, 0, -1], moved: [0, 1],
   lod: Math.max(0, Math.log2(Math.min(...size.map((s, k) => s / to[k])))),
 });

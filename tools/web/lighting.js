@@ -1,7 +1,11 @@
 // ---- light: what is said of lamps, finishes and the picture ----
 
+import { checkedLight } from "./edit.js";
+import { finishesAsRendered, indexNamed, lampColor, lampText, lampsOf, parameterColors, parseLamp } from "./lamps.js";
+import { mapOn } from "./textures.js";
+
 /* What an element does with light. */
-const withLighting = (Base) => class extends Base {
+export const withLighting = (Base) => class extends Base {
   /* The lamps: names; values as in links, null as rendered; and colours, linear numbers. */
   get lamps() {
     return lampsOf(this.room || {}).map(({ name, index }, i) => ({ name, value: this.said[i], color: [...this.colors[index]] }));

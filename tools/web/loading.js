@@ -1,9 +1,14 @@
 // ---- loading of a room's folder ----
 
+import { decodeClass, decodeJpeg, fetchBytes, fetchChecked, inflate, mostBytes } from "./files.js";
+import { finishesAsRendered, lampsOf } from "./lamps.js";
+import { plainTexture } from "./look.js";
+import { Renderer, checkManifest, isRelit } from "./renderer.js";
+
 const NO_WEBGL = "This browser cannot change textures: it has no WebGL 2. The picture is as it was rendered.";
 
 /* How an element loads its room. */
-const withLoading = (Base) => class extends Base {
+export const withLoading = (Base) => class extends Base {
   /* kept: textures that come back with the room, after the graphics card was lost. */
   async load(kept) {
     this.started = true;

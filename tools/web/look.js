@@ -1,15 +1,19 @@
 // ---- how textures lie ----
 
-/* A file's name as people read it. */
-const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
+import { ADJUSTMENTS, BONDS, OPTIONS, REPEATS, WRAPS, checkLaying, mixesUnits, textOf } from "./edit.js";
+import { rint } from "./lay.js";
+import { clamp } from "./values.js";
 
-const plainTexture = () => ({
+/* A file's name as people read it. */
+export const wordsOf = (name) => name.replace(/\.\w+$/, "").replace(/[-_]+/g, " ");
+
+export const plainTexture = () => ({
   source: null, label: "Original", image: null, scale: 1, rotate: 0, offset: [0, 0], flip: "", wrap: "repeat", repeat: "straight", width: "", grout: "", groutcolor: "",
   vary: "", at: "", tiles: "", adjust: {}, finish: "", normal: "", map: null, mapLabel: "", channel: null, tileImages: [], overs: [],
 });
 
 /* What the options of a texture may be. */
-const isPair = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite);
+export const isPair = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite);
 const PLACING = {
   scale: (x) => (Number.isFinite(x) || isPair(x)) && ![x].flat().includes(0),
   rotate: Number.isFinite,
@@ -20,17 +24,17 @@ const PLACING = {
   label: (x) => typeof x === "string",
 };
 /* Those that are read as in links. */
-const LAYING = ["width", "grout", "groutcolor", "vary", "at"];
+export const LAYING = ["width", "grout", "groutcolor", "vary", "at"];
 
 /* An option as links have it: "" is none. */
-function readOption(key, value) {
+export function readOption(key, value) {
   const [read, unsaid] = OPTIONS[key], text = textOf(value === true ? "yes" : value === false ? "" : value), said = text === unsaid || !text ? "" : read(text);
   if (said === undefined) throw new Error(`A texture's ${key} cannot be ${JSON.stringify(value)}.`);
   return said;
 }
 
 /* What `options` change about how a texture lies and looks. Adjustments stay in the order in which they are made. */
-function placing(texture, options) {
+export function placing(texture, options) {
   const placed = { adjust: { ...texture.adjust } };
   for (const key in PLACING) {
     placed[key] = options[key] ?? texture[key];
@@ -52,7 +56,7 @@ function placing(texture, options) {
 
 /* How an image of that size lies on a target: a matrix by columns, and an offset. period: how many of its repeats it has. With
  * a width, a whole number of repeats goes round surfaces that close. */
-function lie({ scale, rotate, offset, flip, width, at }, { uv_scale: unit, periodic }, wrap, size, period) {
+export function lie({ scale, rotate, offset, flip, width, at }, { uv_scale: unit, periodic }, wrap, size, period) {
   const before = scale.map((x) => bounded(x, 1e100)), after = [1, 1], quarters = rotate / 90, isWhole = quarters % 1 === 0, angle = (rotate % 360) * Math.PI / 180;
   const [c, s] = [Math.cos(angle), Math.sin(angle)].map((x) => (isWhole ? Math.round(x) : x)), turn = [[c, -s], [s, c]];
   if (width) {
@@ -79,5 +83,3 @@ function lie({ scale, rotate, offset, flip, width, at }, { uv_scale: unit, perio
 
 /* Beyond a million all is an average, or one texel; and shaders have no larger numbers. */
 const bounded = (x, most) => Math.sign(x) * clamp(Math.abs(x), 1 / most, most);
-
-const clamp = (x, low, high) => Math.min(Math.max(x, low), high);

@@ -1,18 +1,10 @@
 // ---- maps: pictures that say which finish of a target is where ----
 
-/* Whether a map is grey: its value then goes through the list of finishes. Else red is the second, green the third, blue
- * the fourth, and the rest the first. JPEG stores colours and not grey. */
-function isGrey(image) {
-  const [width, height] = [image.naturalWidth || image.width, image.naturalHeight || image.height].map((x) => Math.min(x, 1024));
-  const context = drawingContext(width, height);
-  context.drawImage(image, 0, 0, width, height);
-  const { data } = context.getImageData(0, 0, width, height), far = (a, b) => Math.abs(data[a] - data[b]) > 2.6;
-  return !data.some((_, i) => i % 4 === 0 && (far(i, i + 1) || far(i + 1, i + 2)));
-}
+import { FILTER, HEAD, SHARE, classCode, imageUniforms, number, withTargets } from "./glsl.js";
 
 /* Weights of the second finish and of later ones by texels of a map: rough: of roughness, in one channel; channel.w: 1 of
  * gloss. A roughness is between two finishes of the target, by their own. */
-const WEIGH = `${HEAD}
+export const WEIGH = `${HEAD}
 uniform sampler2D codes;
 uniform bool grey, rough;
 uniform int count;
@@ -42,7 +34,7 @@ void main() {
 }`;
 
 /* Texels of the texture where it has one finish, multiplied before they are filtered; of finish 0 the weights. */
-const PRODUCT = `${HEAD}${SHARE}
+export const PRODUCT = `${HEAD}${SHARE}
 uniform sampler2D image, weights;
 uniform vec2 size;
 uniform int finish;
@@ -67,7 +59,7 @@ out vec4 result;
 `;
 
 /* The sums of one class that is smaller than the picture. */
-const smallGateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
+export const smallGateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec3 sum = vec3(0.0);
@@ -77,7 +69,7 @@ void main() {
 }`;
 
 /* The gate of one target. */
-const gateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
+export const gateShader = (room) => `${HEAD}${withTargets(room, FILTER)}${imageUniforms(room)}${withTargets(room, GATES)}
 uniform sampler2DArray sums;
 vec4 smaller(int layer, vec2 size, float times) {
   vec2 at = clamp(gl_FragCoord.xy / times, vec2(0.5), size - 0.5);
@@ -100,13 +92,13 @@ void main() {
 }`;
 
 /* The target on which a mixture is a path's first hit; -1: none, or several. */
-function firstHit(room, mixture) {
+export function firstHit(room, mixture) {
   const classes = mixture < 0 || room.further?.mixtures.includes(mixture) ? [] : room.mixtures[mixture].map(([c]) => room.classes[c]);
   return classes.length && classes.every((c) => c.target === classes[0].target && c.kind !== "interreflection") ? classes[0].target : -1;
 }
 
 /* The target of the first hit of a group's light. */
-function firstHitOf(room, group) {
+export function firstHitOf(room, group) {
   const { mixture } = room.groups[group], terms = room.lamps.terms.filter((t) => t.group === group);
   const hits = new Set(mixture >= 0 ? [firstHit(room, mixture)] : terms.map((t) => firstHit(room, t.factors[0] ?? -1)));
   return hits.size === 1 ? [...hits][0] : -1;
@@ -114,15 +106,15 @@ function firstHitOf(room, group) {
 
 /* The choices of finishes of mapped targets for which a room keeps light apart: 0 = of light that met none. The picture is
  * the sum over them. */
-function passesOf(room, mapped) {
+export function passesOf(room, mapped) {
   const choices = [room.targets.map(() => 0), ...room.parameters.map((p) => p.finishes.map((f, t) => (mapped[t] ? f : 0)))];
   return [...new Map(choices.map((pass) => [String(pass), pass])).values()];
 }
 
 /* The colours of parameters in a pass. */
-const passColors = (room, mapped, pass, colors) =>
+export const passColors = (room, mapped, pass, colors) =>
   room.parameters.map((p, i) => (p.finishes.every((f, t) => !mapped[t] || f === pass[t]) ? colors[i] : [0, 0, 0]));
 
 /* The same while there are no passes: of the finishes that are chosen. */
-const chosenColors = (room, chosen, colors) =>
+export const chosenColors = (room, chosen, colors) =>
   room.parameters.map((p, i) => (p.finishes.every((f, t) => !f || f === chosen[t]) ? colors[i] : [0, 0, 0]));

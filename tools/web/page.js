@@ -1,6 +1,8 @@
 // ---- what an element shows: its style, its picture and its panel ----
 
-const STYLE = `
+import { BONDS, REPEATS } from "./edit.js";
+
+export const STYLE = `
 :host { display: block; position: relative; container: room / size; height: clamp(min(80svh, 640px), 56vw, 90svh); font: 15px/1.4 system-ui, sans-serif; color: #222; background: #f6f5f3; --line: #0002; --soft: #555; --paper: #fff; --accent: #2f5d50; }
 * { box-sizing: border-box; }
 [hidden] { display: none !important; }
@@ -89,10 +91,10 @@ const TOOLS = [
 
 const slider = (name, text, low, high, step) => `<label class="slider"><span>${text}</span><input type="range" min="${low}" max="${high}" step="${step}" value="0" data-set="${name}"><output aria-hidden="true"></output></label>`;
 
-const LAMP_ROW = `<button><span></span><i aria-hidden="true"></i></button><button title="As rendered">↺</button>
+export const LAMP_ROW = `<button><span></span><i aria-hidden="true"></i></button><button title="As rendered">↺</button>
 ${slider("gain", "Strength", -5, 5, 0.1)}${slider("mired", "Warmth", 100, 550, 5)}`;
 
-const BODY = `
+export const BODY = `
 <div class="room">
   <div class="stage" part="stage" tabindex="0" role="group" aria-label="Picture">
     <div class="view"><img alt="" hidden><canvas role="img" aria-label="The room"></canvas></div>

@@ -1,9 +1,18 @@
 // ---- the room on the graphics card ----
 
+import { METER, METER_BLOCK, developMatrix } from "./develop.js";
+import { VIEWS } from "./edit.js";
+import { RECORD_COLUMNS, recordsEach } from "./files.js";
+import { Images } from "./images.js";
+import { isPair } from "./look.js";
+import { chosenColors, firstHit, gateShader, passColors, passesOf, smallGateShader } from "./maps.js";
+import { factorShader, lampShader, mixtureShader, pictureShader } from "./shaders.js";
+import { clamp } from "./values.js";
+
 const FACTORS_MOST = 16; // of a term
 
 /* Numbers go into shaders and sizes into memory, so all are what retex-pack can have written. */
-function checkManifest(room) {
+export function checkManifest(room) {
   const check = (good) => { if (!good) throw new Error("room.json is damaged."); };
   const number = (x, low = 0, high = 1e30) => check(Number.isFinite(x) && x >= low && x <= high);
   const whole = (x, low, high) => check(Number.isInteger(x) && x >= low && x <= high);
@@ -112,9 +121,9 @@ function checkManifest(room) {
 }
 
 /* Whether the terms of all light do not have lamps of these colours: those of single lamps take their place. */
-const isRelit = ({ lamps, parameters }, colors) => !!lamps && colors.some((c, i) => c.some((x, k) => x !== parameters[i].kept[k]));
+export const isRelit = ({ lamps, parameters }, colors) => !!lamps && colors.some((c, i) => c.some((x, k) => x !== parameters[i].kept[k]));
 
-class Renderer extends Images {
+export class Renderer extends Images {
   constructor(canvas, room) {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL 2");
@@ -362,4 +371,3 @@ class Renderer extends Images {
     });
   }
 }
-

@@ -1,7 +1,12 @@
 // ---- states and links ----
 
+import { editText, hasGrout, layerKey, parseEdit } from "./edit.js";
+import { OVERS_MOST } from "./glsl.js";
+import { finishesAsRendered, indexNamed } from "./lamps.js";
+import { LAYING } from "./look.js";
+
 /* An element's state as an object, and as a link. */
-const withState = (Base) => class extends Base {
+export const withState = (Base) => class extends Base {
   getState() {
     const textures = {}, said = ({ source, scale, rotate, offset, flip, wrap, repeat, adjust, ...t }, layer) => {
       const others = [...LAYING, "tiles", "finish", "normal"].filter((key) => t[key]).map((key) => [key, t[key]]);

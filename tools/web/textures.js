@@ -1,41 +1,22 @@
 // ---- what lies on targets: textures, and how they lie ----
 
-/* Whether a picture may show what lies below it. */
-function isClear(image) {
-  const context = drawingContext(64, 64);
-  context.drawImage(image, 0, 0, 64, 64);
-  return context.getImageData(0, 0, 64, 64).data.some((x, i) => i % 4 === 3 && x < 255);
-}
+import { NOT_OF_LAYERS, hasGrout, layerOf, textOf } from "./edit.js";
+import { fetchBytes, nameOf } from "./files.js";
+import { hasRoughness, readFolder } from "./folders.js";
+import { MOST_LAID, isLaid, layoutOf } from "./lay.js";
+import { lie, placing, plainTexture, readOption } from "./look.js";
+import { DRAWING, MOST_SIDE, decodePicture, sizeOf, smaller } from "./pictures.js";
+import { readColor } from "./values.js";
 
-const DRAWING = "image/svg+xml", MOST_SIDE = 4096;
-
-/* A visitor's picture. Drawings may have no size of their own. A JPEG file has no transparent parts, but if its end is
- * missing the browser leaves some. */
-async function decodePicture(blob, name) {
-  const image = await decodeImage(blob, name), bytes = new Uint8Array(await blob.arrayBuffer());
-  if (isDamaged(bytes) || (bytes[0] === 255 && isClear(image))) throw new Error(`${name} is damaged.`);
-  return blob.type === DRAWING ? smaller(image, 1024) : image;
-}
-
-/* A picture in a canvas whose longer side has so many pixels. */
-function smaller(image, most) {
-  const times = most / Math.max(image.naturalWidth, image.naturalHeight);
-  const size = [image.naturalWidth, image.naturalHeight].map((x) => Math.max(1, Math.round(x * times))), context = drawingContext(...size);
-  context.imageSmoothingQuality = "high";
-  context.drawImage(image, 0, 0, ...size);
-  return context.canvas;
-}
-
-/* What a texture keeps of a map: its address, for links, its name, and the channel that is roughness. */
 const mapOf = (map, from, channel = null) => ({
   map, channel: map && channel, finish: map && !(from instanceof Blob) ? String(from) : "", mapLabel: map ? (from instanceof Blob ? from.name || "Picture" : nameOf(String(from))) : "",
 });
 
 /* Where a map counts: that of a folder does not below layers. */
-const mapOn = ({ map, channel, overs }) => (channel && overs.length ? null : map);
+export const mapOn = ({ map, channel, overs }) => (channel && overs.length ? null : map);
 
 /* What an element does with textures. */
-const withTextures = (Base) => class extends Base {
+export const withTextures = (Base) => class extends Base {
   /* Put a texture on a target, or as a layer on it, "over:Floor", "over2:Floor": a File or Blob, a list of the Files of one
    * texture, the URL of a picture, a colour as in retex-edit(5), or null for the original or no layer. options: scale (a number
    * keeps the picture's proportions, a pair is as of retex-combine), rotate in degrees, offset [u, v], label; finish: a File,

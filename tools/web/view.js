@@ -1,7 +1,9 @@
 // ---- the view: what is seen where, zoom ----
 
+import { clamp } from "./values.js";
+
 /* How an element's picture lies on the stage. */
-const withView = (Base) => class extends Base {
+export const withView = (Base) => class extends Base {
   moveLine() {
     const { left, top, width, height } = this.$("canvas").getBoundingClientRect(), stage = this.$(".stage").getBoundingClientRect();
     const split = this.$(".split");
