@@ -157,13 +157,6 @@ void film_add_light(FilmPixel *p, const double light[3])
     p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
 }
 
-void film_add_folded(FilmPixel *p, Rgb light, Rgb white)
-{
-    p->light.folded += rgb_luminance(light);
-    if (p->film->layout->keeps_white)
-        p->light.folded_white += rgb_luminance(white);
-}
-
 void film_hit_limits(const FilmPixel *p, int *orders, int *most_hits)
 {
     *orders = p->film->params.orders;
@@ -184,8 +177,12 @@ static void signal_totals(const FilmPixel *p, SignalTotals *totals)
 
 void film_path_end(FilmPixel *p, const TargetTree *hits)
 {
-    if (p->film->layout)
+    if (p->film->layout) {
+        p->light.folded += hits->folded;
+        if (p->film->layout->keeps_white)
+            p->light.folded_white += hits->folded_white;
         p->film->layout->path_end(p->layout_pixel, hits);
+    }
     if (++p->paths == p->spp / 2 && p->film->noise.count)
         signal_totals(p, &p->half);
 }

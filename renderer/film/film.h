@@ -18,8 +18,6 @@ void film_pixel_close(FilmPixel **pixel);
 
 void film_drop(FilmPixel *pixel);                             /* count a sample that is not finite; nothing is added */
 void film_add_light(FilmPixel *pixel, const double light[3]); /* the sum of one path's contributions */
-/* Add the part of a path's light that has folded hits, as it is and as it would be with white targets. */
-void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
 /* Of films with a split: how many hits on one target, and on all together, a path may keep apart. */
 void film_hit_limits(const FilmPixel *pixel, int *orders, int *most_hits);
 /* End a path. hits: its hits on targets, which films with a split read; within film_hit_limits, from the camera to any

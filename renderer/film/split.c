@@ -3,11 +3,11 @@
 #include <string.h>
 #include "film/split.h"
 
-int split_open(SplitSink *s, FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err)
+int split_open(SplitSink *s, const FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err)
 {
     const size_t nodes = paths * TARGET_NODES_MAX, lights = paths * (TARGET_NODES_MAX + 1) * (size_t)scene->nkept;
     const int has_finishes = scene->ncombinations > 0;
-    s->pixel = pixel, s->scene = scene, s->count = s->nlamp_light = 0;
+    s->scene = scene, s->count = s->nlamp_light = 0;
     s->ncombinations = has_finishes ? scene->ncombinations : 1;
     film_hit_limits(pixel, &s->orders, &s->most_hits);
     s->nodes = aligned_alloc(sizeof *s->nodes, nodes * sizeof *s->nodes);
@@ -206,10 +206,10 @@ static inline void add_hits(SplitSink *s, SplitPath *p, int ncombinations, Contr
     }
 }
 
-static void add_folded(const SplitSink *s, const ContributionHits *hits, Float4 light, Float4 d, Float4 i)
+static void add_folded(TargetTree *tree, const TargetNode *last, Float4 light, Float4 d, Float4 i)
 {
-    if (hits->folded)
-        film_add_folded(s->pixel, rgb_of4(light), rgb_of4(hits->last ? with_white_targets(hits->last, d, i) : i));
+    tree->folded += luminance4(light);
+    tree->folded_white += luminance4(last ? with_white_targets(last, d, i) : i);
 }
 
 static inline __attribute__((always_inline)) int add(SplitSink *s, SplitPath *p, int ncombinations,
@@ -244,7 +244,8 @@ static inline __attribute__((always_inline)) int add(SplitSink *s, SplitPath *p,
         target_node_add_light(hits.last, d, i);
     else
         p->tree.without_hit += i, p->tree.nwithout_hit++;
-    add_folded(s, &hits, all, d, i);
+    if (hits.folded)
+        add_folded(&p->tree, hits.last, all, d, i);
     return 1;
 }
 

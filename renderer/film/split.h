@@ -15,7 +15,6 @@ typedef struct SplitThroughput {
 
 /* Of one thread. */
 typedef struct SplitSink {
-    FilmPixel *pixel;
     int orders, most_hits; /* of one target, and of all together, that are kept apart */
     const Scene *scene;
     int ncombinations;     /* of finishes; 1 where there are no finishes */
@@ -43,7 +42,8 @@ typedef struct SplitPath {
 } SplitPath;
 
 /* paths: that are traced side by side. */
-int split_open(SplitSink *sink, FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err);
+/* pixel: of the film that paths go to. */
+int split_open(SplitSink *sink, const FilmPixel *pixel, size_t paths, const Scene *scene, RetexError *err);
 void split_close(SplitSink *sink);
 /* Begin the k-th of them. */
 static inline void split_start(const SplitSink *sink, SplitPath *path, int k)

@@ -88,6 +88,7 @@ typedef struct TargetTree {
     SeenTarget seen;
     Float4 without_hit; /* sum of contributions without a hit */
     int nwithout_hit;   /* their number */
+    double folded, folded_white; /* luminance of light with folded hits, as it is and as with white targets */
 } TargetTree;
 
 /* Add a hit, in memory of the caller; before_d and before_i are of the hit before it. */

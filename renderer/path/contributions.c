@@ -103,10 +103,8 @@ void path_contribute(PathWorker *w, Path *path, const Contribution *c)
         film_drop(w->pixel);
 }
 
-void path_end(PathWorker *w, Path *path)
+void path_end(PathWorker *w, const PathResult *result)
 {
-    film_add_light(w->pixel, path->light);
-    film_path_end(w->pixel, &path->split.tree);
-    if (w->control)
-        control_end(w->control, path->control, path->half);
+    film_add_light(w->pixel, result->light);
+    film_path_end(w->pixel, &result->hits);
 }

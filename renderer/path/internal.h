@@ -35,6 +35,7 @@ typedef struct Path {
     double light[3];             /* sum of its contributions */
     SplitPath split;             /* in sets */
     ControlPath *control;        /* in variants */
+    FirstHits *first_hits;       /* of its pixel */
 } Path;
 
 /* A direct-light sample: a point on one light, chosen for a vertex before its shadow ray is traced. */
@@ -119,8 +120,6 @@ int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Split we
                       const float (*weights)[FINISHES_MAX], const FinishFactor *variants, int reflects);
 /* Hand a contribution to all sinks. */
 void path_contribute(PathWorker *worker, Path *path, const Contribution *contribution);
-/* Hand the path's light over to the film, which takes paths one after the other. */
-void path_end(PathWorker *worker, Path *path);
 /* Whether factors of this surface are never hits, so that they may be multiplied into throughput or light. */
 static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
 {

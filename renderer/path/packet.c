@@ -201,7 +201,7 @@ static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
             find_bsdf(w, path, v, ray, hit);
             if (!v->is_last)
                 sample_direct_light(w, path, v);
-        } else if (w->first_hits_wanted > 0 && path->segments == 1) { /* who observes first hits looks at BSDFs */
+        } else if (path->first_hits->wanted > 0 && path->segments == 1) { /* who observes first hits looks at BSDFs */
             shading_bsdf(&v->s, vec_neg(ray->direction));
         }
     }
@@ -315,7 +315,7 @@ static void trace_wavefront(PathWorker *w, Wavefront *wave)
 }
 
 /* From the camera to their ends. */
-static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const Sampler *samplers, int count)
+static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const Sampler *samplers, int count, int each)
 {
     wave->count = count;
     w->split.count = w->split.nlamp_light = 0;
@@ -323,7 +323,7 @@ static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const S
         Path *path = wave->live[i] = &wave->paths[i];
         wave->rays[i] = rays[i];
         path->half = w->context->halves == 2 ? i & 1 : 0;
-        path->control = &w->controls[i];
+        path->control = &w->controls[i], path->first_hits = &w->first_hits[i / each];
         path_start(w, path, &rays[i], &samplers[i]);
     }
     if (w->context->scene->has_media)
@@ -335,18 +335,16 @@ static void trace_paths(PathWorker *w, Wavefront *wave, const Ray *rays, const S
         trace_wavefront(w, wave);
 }
 
-void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count)
+void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count, int each, PathResult *results)
 {
     Wavefront wave;
-    trace_paths(w, &wave, rays, samplers, count);
-    for (int i = 0; i < count; i++)
-        path_end(w, &wave.paths[i]);
-}
-
-void path_trace_light(PathWorker *w, const Ray *rays, const Sampler *samplers, int count, double (*light)[3])
-{
-    Wavefront wave;
-    trace_paths(w, &wave, rays, samplers, count);
-    for (int i = 0; i < count; i++)
-        memcpy(light[i], wave.paths[i].light, sizeof light[i]);
+    trace_paths(w, &wave, rays, samplers, count, each);
+    for (int i = 0; i < count; i++) {
+        const Path *path = &wave.paths[i];
+        memcpy(results[i].light, path->light, sizeof path->light);
+        if (w->context->split)
+            results[i].hits = path->split.tree;
+        if (w->control)
+            control_end(w->control, path->control, path->half);
+    }
 }

@@ -93,8 +93,9 @@ void find_bsdf(PathWorker *w, Path *path, Vertex *v, const Ray *ray, const Hit *
 
 void observe_first_hit(PathWorker *w, const Path *path, const Vertex *v, const Ray *ray, const Hit *hit)
 {
-    if (w->first_hits_wanted > 0 && is_first_hit(path))
-        w->first_hits_wanted = w->first_hit(w->first_hit_context, ray, hit, &v->s);
+    FirstHits *first = path->first_hits;
+    if (first->wanted > 0 && is_first_hit(path))
+        first->wanted = w->observe(first->pixel, ray, hit, &v->s);
 }
 
 /* ---- emission ---- */
@@ -276,7 +277,8 @@ int survives_roulette(PathWorker *w, Path *path, float u)
 static MediumEvent cross_media(PathWorker *w, Path *path, Ray *ray, const Hit *hit)
 {
     const Ray before = *ray;
-    const int is_wanted = w->first_hits_wanted > 0 && is_first_hit(path);
+    FirstHits *first = path->first_hits;
+    const int is_wanted = first->wanted > 0 && is_first_hit(path);
     MediumEvent event = path_cross_media(w, path, ray, hit);
     if (event == MEDIUM_SCATTERED && !survives_roulette(w, path, media_draw(w, path)))
         event = MEDIUM_ENDED;
@@ -284,7 +286,7 @@ static MediumEvent cross_media(PathWorker *w, Path *path, Ray *ray, const Hit *h
         Shading s = {.is_leaf = 0};
         if (hit->primitive >= 0)
             shading_at(&s, w->context->scene, w->variants, w->context->nvariants, &before, hit);
-        w->first_hits_wanted = w->first_hit(w->first_hit_context, &before, hit, &s);
+        first->wanted = w->observe(first->pixel, &before, hit, &s);
     }
     return event;
 }

@@ -44,9 +44,21 @@ typedef struct PathContext {
     FILE *trace;       /* print every step, or NULL */
 } PathContext;
 
-/* Is told what a ray from the camera meets: hit->primitive is -1, or the shading has its BSDF. Returns how many more of
- * the pixel it wants to be told. */
-typedef int FirstHitObserver(void *context, const Ray *ray, const Hit *hit, const Shading *shading);
+/* Is told what a ray from the camera meets: hit->primitive is -1, or the shading has its BSDF. pixel: of FirstHits.
+ * Returns how many more of the pixel it wants to be told. */
+typedef int FirstHitObserver(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
+
+/* What a pixel is told of first hits. */
+typedef struct FirstHits {
+    void *pixel; /* the observer's */
+    int wanted;  /* 0: there is no observer, or it has enough */
+} FirstHits;
+
+/* What a path brought. */
+typedef struct PathResult {
+    double light[3]; /* the sum of its contributions */
+    TargetTree hits; /* of sets; it borrows memory of the worker, until that traces the next paths */
+} PathResult;
 
 /* One thread's counters and scratch. */
 typedef struct PathWorker {
@@ -54,9 +66,8 @@ typedef struct PathWorker {
     FilmPixel *pixel;
     ControlPixel *control;                   /* or NULL: there is no control film */
     const RenderVariant *variants;           /* or NULL: the original */
-    FirstHitObserver *first_hit;
-    void *first_hit_context;
-    int first_hits_wanted;                   /* of the current pixel; 0: there is no observer, or it has enough */
+    FirstHitObserver *observe;
+    FirstHits first_hits[PATHS_MAX];         /* of the pixels whose paths are traced side by side */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* the variants, where the last one has constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the current pixel */
     SplitSink split; /* of sets */
@@ -71,11 +82,12 @@ typedef struct PathWorker {
 Media media_at(const Scene *scene, Vec3 point);
 int path_worker_open(PathWorker *worker, RetexError *err); /* the rest is filled in */
 void path_worker_close(PathWorker *worker);
-/* Trace up to PATHS_MAX paths of one pixel, side by side; the result is the same as of one after the other. The
- * first is of the first half of the samples. With PathContext.trace it is one path at a time. */
-void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
-/* The same of any pixels, where nothing is asked for but the light of each path: without split, control film and
- * observer. The film is told nothing. */
-void path_trace_light(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count, double (*light)[3]);
+/* Trace up to PATHS_MAX paths side by side, `each` of every pixel, pixel by pixel; the results are the same as of one
+ * after the other. A pixel's first is of the first half of its samples. A control film takes them at once, and so has
+ * one pixel at a time. With PathContext.trace it is one path at a time. */
+void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count, int each,
+                PathResult *results);
+/* Hand a path over to the film, which takes those of one pixel after the other. */
+void path_end(PathWorker *worker, const PathResult *result);
 
 #endif

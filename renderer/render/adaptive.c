@@ -47,11 +47,12 @@ PathWorker *adaptive_worker(Adaptive *adaptive)
     return &adaptive->worker;
 }
 
-void adaptive_pixel_end(Adaptive *a, const double light[ADAPTIVE_PILOT][3])
+void adaptive_pixel_end(Adaptive *a, const PathResult paths[ADAPTIVE_PILOT])
 {
     double sum = 0, squares = 0;
     for (int i = 0; i < ADAPTIVE_PILOT; i++) {
-        const double l = rgb_luminance(rgb((float)light[i][0], (float)light[i][1], (float)light[i][2]));
+        const double *light = paths[i].light;
+        const double l = rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
         sum += l, squares += l * l;
     }
     const double n = ADAPTIVE_PILOT, mean = sum / n, variance = (squares / n - mean * mean) * n / (n - 1);

@@ -17,9 +17,9 @@ typedef struct Adaptive Adaptive;
 /* context, variants: of the picture. The pilot's paths do not split contributions and have one variant. */
 int adaptive_create(Adaptive **adaptive, const PathContext *context, const RenderVariant *variants, RetexError *err);
 void adaptive_close(Adaptive **adaptive);
-/* The worker that traces the pilot's paths. Call adaptive_pixel_end with the light of each pixel's. */
+/* The worker that traces the pilot's paths. Call adaptive_pixel_end with those of each pixel. */
 PathWorker *adaptive_worker(Adaptive *adaptive);
-void adaptive_pixel_end(Adaptive *adaptive, const double light[ADAPTIVE_PILOT][3]);
+void adaptive_pixel_end(Adaptive *adaptive, const PathResult paths[ADAPTIVE_PILOT]);
 /* The samples of each pixel that the tile needs: whole packets, at most `most`. Then the next tile begins. noise: the
  * standard deviation of a pixel over the square root of its value, as root mean square over the tile. A display encodes
  * values by about their square root, so that this is about twice the standard deviation of what is shown. */

@@ -260,18 +260,24 @@ void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
     *p = (PixelGuides){.guides = job};
 }
 
-int pixel_guides_create(PixelGuides **pixel, const DenoiseGuides *guides, RetexError *err)
+int pixel_guides_create(PixelGuides **pixels, int count, const DenoiseGuides *guides, RetexError *err)
 {
-    if (!(*pixel = calloc(1, sizeof **pixel)))
+    if (!(*pixels = calloc((size_t)count, sizeof **pixels)))
         return retex_fail(err, RETEX_ENOMEM, "out of memory for guides");
-    (*pixel)->guides = guides;
+    for (int k = 0; k < count; k++)
+        (*pixels)[k].guides = guides;
     return RETEX_OK;
 }
 
-void pixel_guides_close(PixelGuides **pixel)
+void pixel_guides_close(PixelGuides **pixels)
 {
-    free(*pixel);
-    *pixel = NULL;
+    free(*pixels);
+    *pixels = NULL;
+}
+
+PixelGuides *pixel_guides_at(PixelGuides *pixels, int k)
+{
+    return pixels + k;
 }
 
 int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)

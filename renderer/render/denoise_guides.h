@@ -17,13 +17,15 @@ typedef struct DenoiseGuides {
     int guides[RETEX_FEATURE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
 } DenoiseGuides;
 
-/* One thread's sums over the sample points of the current pixel. */
+/* One thread's sums over the sample points of a pixel. */
 typedef struct PixelGuides PixelGuides;
 
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
 
-int pixel_guides_create(PixelGuides **pixel, const DenoiseGuides *guides, RetexError *err);
-void pixel_guides_close(PixelGuides **pixel);
+/* An array of so many. */
+int pixel_guides_create(PixelGuides **pixels, int count, const DenoiseGuides *guides, RetexError *err);
+void pixel_guides_close(PixelGuides **pixels);
+PixelGuides *pixel_guides_at(PixelGuides *pixels, int k);
 
 /* Add a sample point by the first hit of its camera ray: a FirstHitObserver. pixel: PixelGuides. */
 int denoise_guides_observe(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);

@@ -30,7 +30,7 @@ typedef struct Render {
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     DenoiseGuides guides;
-    PixelGuides **pixel_guides; /* by thread, or NULL: no guides */
+    PixelGuides **pixel_guides; /* by thread, of the pixels that it traces side by side; or NULL: no guides */
     char *resumed;              /* by band: finished by another render */
     int wanted;                 /* tiles, of all that are to be rendered */
     PathContext context;

@@ -193,8 +193,9 @@ static int open_worker(Render *r, int k, RetexError *err)
     PathWorker *w = &r->workers[k];
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
-    if (r->pixel_guides)
-        w->first_hit = denoise_guides_observe, w->first_hit_context = r->pixel_guides[k];
+    w->observe = denoise_guides_observe;
+    for (int i = 0; r->pixel_guides && i < PATHS_MAX; i++)
+        w->first_hits[i].pixel = pixel_guides_at(r->pixel_guides[k], i);
     w->variants = r->variants;
     if (r->constants) {
         memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
@@ -261,7 +262,7 @@ static int open_guides(Render *r, int threads, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
     int code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
     for (int k = 0; k < threads && !code; k++)
-        code = pixel_guides_create(&r->pixel_guides[k], &r->guides, err);
+        code = pixel_guides_create(&r->pixel_guides[k], PATHS_MAX, &r->guides, err);
     return code;
 }
 

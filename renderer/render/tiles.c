@@ -54,20 +54,6 @@ static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sa
     return camera_ray(camera, r->width, r->height, start->x + dx, start->y + dy, varies ? lens : NULL);
 }
 
-/* Trace all samples of a pixel, or stop early if the render is stopped. */
-static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
-{
-    Ray rays[PATHS_MAX];
-    Sampler samplers[PATHS_MAX];
-    const PixelStart start = start_pixel(r, r->params.seed, x, y);
-    for (int s = 0; s < spp && !render_is_stopped(r); s += PATHS_MAX) {
-        int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
-        for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, &start, s + i, &samplers[i]);
-        path_trace(worker, rays, samplers, count);
-    }
-}
-
 /* Some pixels of a tile, by their numbers in it. */
 typedef struct PixelRun {
     int x0, y0, across; /* of the tile */
@@ -84,18 +70,18 @@ static int run_y(const PixelRun *run, int k)
     return run->y0 + (run->first + k) / run->across;
 }
 
-/* The light of all their samples, pixel by pixel, traced side by side. */
-static void trace_run(const Render *r, PathWorker *worker, const PixelRun *run, uint32_t seed, int spp,
-                      double light[PATHS_MAX][3])
+/* Trace some samples of each of them side by side, from the first of these on. */
+static void trace_run(const Render *r, PathWorker *worker, const PixelRun *run, uint32_t seed, int first, int each,
+                      PathResult results[PATHS_MAX])
 {
     Ray rays[PATHS_MAX];
     Sampler samplers[PATHS_MAX];
     for (int k = 0; k < run->count; k++) {
         const PixelStart start = start_pixel(r, seed, r->x0 + run_x(run, k), r->y0 + run_y(run, k));
-        for (int s = 0; s < spp; s++)
-            rays[k * spp + s] = start_sample(r, &start, s, &samplers[k * spp + s]);
+        for (int s = 0; s < each; s++)
+            rays[k * each + s] = start_sample(r, &start, first + s, &samplers[k * each + s]);
     }
-    path_trace_light(worker, rays, samplers, run->count * spp, light);
+    path_trace(worker, rays, samplers, run->count * each, each, results);
 }
 
 /* Samples per pixel of a tile. */
@@ -103,15 +89,15 @@ static int tile_samples(const Render *r, int thread, int x0, int y0, int across,
 {
     enum { TOGETHER = PATHS_MAX / ADAPTIVE_PILOT };
     Adaptive *pilot = r->pilots ? r->pilots[thread] : NULL;
-    double light[PATHS_MAX][3];
+    PathResult paths[PATHS_MAX];
     if (!pilot)
         return r->params.spp;
     for (int first = 0; first < across * down && !render_is_stopped(r); first += TOGETHER) {
         const int left = across * down - first;
         const PixelRun run = {x0, y0, across, first, left < TOGETHER ? left : TOGETHER};
-        trace_run(r, adaptive_worker(pilot), &run, hash_pair(r->params.seed, 3), ADAPTIVE_PILOT, light);
+        trace_run(r, adaptive_worker(pilot), &run, hash_pair(r->params.seed, 3), 0, ADAPTIVE_PILOT, paths);
         for (int k = 0; k < run.count; k++)
-            adaptive_pixel_end(pilot, light + k * ADAPTIVE_PILOT);
+            adaptive_pixel_end(pilot, paths + k * ADAPTIVE_PILOT);
     }
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
@@ -125,9 +111,8 @@ void render_camera_rays(const Render *r, int x, int y, int first, int count, Ray
 }
 
 /* Trace additional camera rays for the guides, if the guides need more sample points than the pixel has samples. */
-static void end_guides(const Render *r, int thread, int spp, int x, int y)
+static void end_guides(const Render *r, int thread, PixelGuides *guides, int spp, int x, int y)
 {
-    PixelGuides *guides = r->pixel_guides[thread];
     Ray rays[ACCEL_PACKET];
     for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
         count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
@@ -137,44 +122,49 @@ static void end_guides(const Render *r, int thread, int spp, int x, int y)
     denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
 }
 
-static void render_pixel(Render *r, int thread, int spp, int x, int y)
+static void start_run(Render *r, int thread, const PixelRun *run)
 {
-    FilmPixel *pixel = r->pixels[thread];
     PathWorker *worker = &r->workers[thread];
-    for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
-        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
+    for (int t = 0; r->constants && t < r->scene->ntargets; t++) { /* with a control film, of one pixel */
+        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], run_x(run, 0), run_y(run, 0));
         worker->constants[t] = rgb(p[0], p[1], p[2]);
     }
-    worker->first_hits_wanted = r->pixel_guides ? denoise_guides_missing(r->pixel_guides[thread]) : 0;
-    trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
-    if (render_is_stopped(r))
-        return;
-    film_pixel_end(pixel, x, y);
+    for (int k = 0; r->pixel_guides && k < run->count; k++)
+        worker->first_hits[k].wanted = denoise_guides_missing(pixel_guides_at(r->pixel_guides[thread], k));
+}
+
+/* The k-th pixel of a run has all its paths. */
+static void end_pixel(const Render *r, int thread, const PixelRun *run, int k, int spp)
+{
+    const int x = run_x(run, k), y = run_y(run, k);
+    film_pixel_end(r->pixels[thread], x, y);
     if (r->control)
         control_pixel_end(r->controls[thread], x, y);
     if (r->pixel_guides)
-        end_guides(r, thread, spp, x, y);
+        end_guides(r, thread, pixel_guides_at(r->pixel_guides[thread], k), spp, x, y);
 }
 
 /* How many pixels are traced side by side: those of few samples fill no packets. */
 static int pixels_together(const Render *r, int spp)
 {
-    const int is_light_alone = !r->context.split && !r->control && !r->pixel_guides && !r->context.trace;
-    return is_light_alone && spp <= PATHS_MAX / 2 ? PATHS_MAX / spp : 1;
+    return !r->control && !r->context.trace && spp <= PATHS_MAX / 2 ? PATHS_MAX / spp : 1;
 }
 
-/* As render_pixel, of several. */
+/* Pixels with all their samples, at once or in turns of PATHS_MAX; or stop early if the render is stopped. */
 static void render_run(Render *r, int thread, const PixelRun *run, int spp)
 {
-    double light[PATHS_MAX][3];
-    FilmPixel *pixel = r->pixels[thread];
-    trace_run(r, &r->workers[thread], run, r->params.seed, spp, light);
-    for (int k = 0; k < run->count; k++) {
-        for (int s = 0; s < spp; s++) {
-            film_add_light(pixel, light[k * spp + s]);
-            film_path_end(pixel, NULL);
+    PathResult paths[PATHS_MAX];
+    PathWorker *worker = &r->workers[thread];
+    start_run(r, thread, run);
+    for (int first = 0; first < spp && !render_is_stopped(r); first += PATHS_MAX) {
+        const int each = spp - first < PATHS_MAX ? spp - first : PATHS_MAX;
+        trace_run(r, worker, run, r->params.seed, first, each, paths);
+        for (int k = 0; k < run->count; k++) {
+            for (int s = 0; s < each; s++)
+                path_end(worker, &paths[k * each + s]);
+            if (first + each == spp)
+                end_pixel(r, thread, run, k, spp);
         }
-        film_pixel_end(pixel, run_x(run, k), run_y(run, k));
     }
 }
 
@@ -191,10 +181,7 @@ static void render_tile(void *context, int tile, int thread)
     for (int first = 0; first < across * down && !render_is_stopped(r); first += together) {
         const int left = across * down - first;
         const PixelRun run = {x0, y0, across, first, left < together ? left : together};
-        if (together > 1)
-            render_run(r, thread, &run, spp);
-        else
-            render_pixel(r, thread, spp, run_x(&run, 0), run_y(&run, 0));
+        render_run(r, thread, &run, spp);
     }
     if (render_is_stopped(r)) /* a stopped render: pixels of the tile may lack samples */
         return;
@@ -210,7 +197,8 @@ void render_sample(Render *r, int x, int y, int sample)
     const PixelStart start = start_pixel(r, r->params.seed, x, y);
     Sampler sampler;
     Ray ray = start_sample(r, &start, sample, &sampler);
-    path_trace(&r->workers[0], &ray, &sampler, 1);
+    PathResult result;
+    path_trace(&r->workers[0], &ray, &sampler, 1, 1, &result);
 }
 
 static void fill_stats(RenderStats *stats, const Render *r)

@@ -37,10 +37,10 @@ static double expected_noise(void)
 static void show_tile(Adaptive *adaptive)
 {
     for (int p = 0; p < PIXELS; p++) {
-        double light[ADAPTIVE_PILOT][3];
+        PathResult paths[ADAPTIVE_PILOT];
         for (int s = 0; s < ADAPTIVE_PILOT; s++)
-            light[s][0] = light[s][1] = light[s][2] = value_of(p, s);
-        adaptive_pixel_end(adaptive, light);
+            paths[s].light[0] = paths[s].light[1] = paths[s].light[2] = value_of(p, s);
+        adaptive_pixel_end(adaptive, paths);
     }
 }
 

@@ -56,7 +56,9 @@ static void begin(Fixture *f, int paper)
 static void finish(Fixture *f)
 {
     RetexError err = {0};
-    path_end(&f->worker, &f->path);
+    PathResult result = {.hits = f->path.split.tree};
+    memcpy(result.light, f->path.light, sizeof result.light);
+    path_end(&f->worker, &result);
     path_worker_close(&f->worker);
     film_pixel_end(f->pixel, 0, 0);
     film_tile_end(f->pixel, 0);

@@ -242,6 +242,11 @@ static void a_black_target_hides_no_other(void **state)
     end_film(&f);
 }
 
+static void fold_light(Fixture *f, double light, double white)
+{
+    f->hits.folded += light, f->hits.folded_white += white;
+}
+
 /* How much light is folded, as it is and with white targets: what the original's black hides counts there too. */
 static void folded_light_is_counted_as_white(void **state)
 {
@@ -249,8 +254,11 @@ static void folded_light_is_counted_as_white(void **state)
     Fixture f;
     begin_film(&f, 1, 4, 2, 2, 1);
     create_film(&f);
-    one_hit(&f, 0.75, 0.5, rgb_grey(0), SHARP, rgb_grey(10));
-    film_add_folded(f.pixel, rgb_grey(0), rgb_grey(10 * 0.8f));
+    begin_path(&f);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0), SHARP);
+    connect_light(&f, rgb_grey(10));
+    fold_light(&f, 0, 10 * 0.8);
+    end_path(&f);
     one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(4));
     begin_path(&f);
     connect_light(&f, rgb_grey(2));
@@ -259,7 +267,7 @@ static void folded_light_is_counted_as_white(void **state)
     for (int k = 0; k < 2; k++)
         hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), k ? BROAD : SHARP);
     connect_light(&f, rgb_grey(5));
-    film_add_folded(f.pixel, rgb_grey(1.25f), rgb_grey(5 * 0.8f * 0.8f));
+    fold_light(&f, 1.25, 5 * 0.8 * 0.8);
     end_path(&f);
     finish_film(&f);
     double hidden = 10 * 0.8, known = 5 * 0.8 * 0.8;
@@ -283,7 +291,7 @@ static void light_of_a_tile_is_counted_once(void **state)
         begin_path(&f);
         connect_light(&f, rgb_grey(2));
         if (tile == 0)
-            film_add_folded(f.pixel, rgb_grey(1), rgb_grey(1));
+            fold_light(&f, 1, 1);
         end_path(&f);
         film_pixel_end(f.pixel, 0, 16 * tile);
         film_tile_end(f.pixel, tile);
