@@ -14,6 +14,7 @@
  * fine features. */
 #include <math.h>
 #include "film/footprints/pixel.h"
+#include "film/footprints/places.h"
 
 #define ROUNDING 1e-9     /* of bounds */
 #define FINE_FEATURE 0.05 /* distance in UV over which textures change that need good clusters */
@@ -373,11 +374,6 @@ void clusters_merge_extra(TargetClusters *target, int t, const FilmParams *param
 
 /* ---- broad clusters and interreflections of a pixel that is complete ---- */
 
-/* Of the UV of a place. */
-typedef struct UvCovariance {
-    double uu, uv, vv;
-} UvCovariance;
-
 /* Few places of a pixel, which merge by what a texture with features of a size would change by that. */
 typedef struct Places {
     const int *periodic;
@@ -388,7 +384,6 @@ typedef struct Places {
                                 places after them are others */
     const RetexUvStats *of[FILM_CLUSTERS_MAX];
     double variance[FILM_CLUSTERS_MAX];                  /* light_variance */
-    UvCovariance covariance[FILM_CLUSTERS_MAX];
     double error2[FILM_CLUSTERS_MAX][FILM_CLUSTERS_MAX]; /* of merging [i][k], i < k */
 } Places;
 
@@ -408,77 +403,58 @@ static void remove_place(Places *places, int a, int b)
     if (b == last)
         return;
     places->moved |= 1u << b;
-    places->variance[b] = places->variance[last], places->covariance[b] = places->covariance[last];
+    places->variance[b] = places->variance[last];
     for (int i = 0; i < b; i++)
         places->error2[i][b] = places->error2[i][last];
-}
-
-/* As fmax, which is a call. */
-static inline double at_least_0(double x)
-{
-    return x > 0 ? x : 0;
-}
-
-/* The determinant of the covariance of two places, which are seen as normal distributions, and of the texture. */
-static double covariance_determinant(double uu, double uv, double vv, double f)
-{
-    return f * f + f * (uu + vv) + at_least_0(uu * vv - uv * uv); /* on a line far away: nothing but rounding */
-}
-
-/* The covariance of what two places see of a texture, of variance 1, whose values are correlated as exp(-d^2 / 2) by
- * their distance d in features. */
-static inline double texture_covariance(const RetexUvStats *a, const UvCovariance *own, const RetexUvStats *b,
-                                        const UvCovariance *other, double feature, const int periodic[2])
-{
-    const double f = feature * feature;
-    const double uu = own->uu + other->uu, uv = own->uv + other->uv, vv = own->vv + other->vv;
-    const double u = retex_uv_stats_difference(a->mean[0], b->mean[0], periodic[0]);
-    const double v = retex_uv_stats_difference(a->mean[1], b->mean[1], periodic[1]);
-    const double det = covariance_determinant(uu, uv, vv, f);
-    const double distance2 = at_least_0((vv + f) * u * u - 2 * uv * u * v + (uu + f) * v * v) / det;
-    return f / sqrt(det) * exp(-distance2 / 2);
 }
 
 /* How far the light of a place varies, squared, with such a texture. */
 static double light_variance(const RetexUvStats *a, double feature)
 {
     const double f = feature * feature, two = 2 / a->weight;
-    return a->weight * a->weight * f / sqrt(covariance_determinant(a->m2[0] * two, a->m2[1] * two, a->m2[2] * two, f));
+    return a->weight * a->weight * f / sqrt(places_determinant(a->m2[0] * two, a->m2[1] * two, a->m2[2] * two, f));
 }
 
-static UvCovariance covariance_of(const RetexUvStats *a)
+static void set_place(PlaceLanes *to, int lane, const Places *places, int k)
 {
-    return (UvCovariance){a->m2[0] / a->weight, a->m2[1] / a->weight, a->m2[2] / a->weight};
+    const RetexUvStats *a = places->of[k];
+    to->weight[lane] = a->weight, to->variance[lane] = places->variance[k];
+    for (int i = 0; i < 2; i++)
+        to->mean[i][lane] = a->mean[i];
+    for (int i = 0; i < 3; i++)
+        to->m2[i][lane] = a->m2[i], to->covariance[i][lane] = a->m2[i] / a->weight;
 }
 
-/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two. */
-static double merging_error2(const Places *places, int i, int k)
+/* Of so many pairs, each to its place. Returns 0, the number that is left. */
+static int compute_errors(const Places *places, PlacePairs *pairs, double *const *to, int count)
 {
-    const RetexUvStats *a = places->of[i], *b = places->of[k];
-    const UvCovariance *of_a = &places->covariance[i], *of_b = &places->covariance[k];
-    const int *periodic = places->periodic;
-    const double p = a->weight, q = b->weight, feature = places->feature;
-    RetexUvStats both = *a;
-    retex_uv_stats_merge(&both, b, periodic);
-    const UvCovariance of_both = covariance_of(&both);
-    return places->variance[i] + places->variance[k] + light_variance(&both, feature) +
-           2 * p * q * texture_covariance(a, of_a, b, of_b, feature, periodic) -
-           2 * both.weight *
-               (p * texture_covariance(a, of_a, &both, &of_both, feature, periodic) +
-                q * texture_covariance(b, of_b, &both, &of_both, feature, periodic));
+    if (count)
+        place_pairs_errors(pairs, places->feature, places->periodic);
+    for (int n = 0; n < count; n++)
+        *to[n] = pairs->error2[n];
+    return 0;
 }
 
+/* By how much light is expected to change, squared, if such a texture is seen by one cluster instead of two: of pairs
+ * of which a place has changed. */
 static void update_errors(Places *places)
 {
+    PlacePairs pairs = {.error2 = {0}};
+    double *to[PLACE_LANES];
+    int n = 0;
     for (int k = 0; k < places->count; k++) {
-        if (places->changed >> k & 1) {
+        if (places->changed >> k & 1)
             places->variance[k] = light_variance(places->of[k], places->feature);
-            places->covariance[k] = covariance_of(places->of[k]);
+        for (int i = 0; i < k; i++) {
+            if (!((places->changed >> i | places->moved >> i | places->changed >> k) & 1))
+                continue;
+            set_place(&pairs.a, n, places, i), set_place(&pairs.b, n, places, k);
+            to[n++] = &places->error2[i][k];
+            if (n == PLACE_LANES)
+                n = compute_errors(places, &pairs, to, n);
         }
-        for (int i = 0; i < k; i++)
-            if ((places->changed >> i | places->moved >> i | places->changed >> k) & 1)
-                places->error2[i][k] = merging_error2(places, i, k);
     }
+    compute_errors(places, &pairs, to, n);
     places->changed = places->moved = 0;
 }
 
