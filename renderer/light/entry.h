@@ -4,14 +4,14 @@
 #define RENDERER_LIGHT_ENTRY_H
 
 #include "light/light_tree.h"
+#include "light/mesh_light.h"
 #include "light/source.h"
 
 /* The light that was chosen. */
 typedef struct LightPick {
     int entry; /* -1: there is no light */
-    int face;  /* of its mesh light, or -1: not chosen yet */
+    int face;  /* of its mesh light, or -1: the point's numbers choose it */
     float probability;
-    float u_part; /* the random number for the part, uniform again */
 } LightPick;
 
 typedef struct LightEntryOps LightEntryOps;
@@ -59,8 +59,8 @@ struct LightEntryOps {
      * nothing is left of an operand of CSG. And the density at a surface that a ray met, with *face as above. */
     double (*point)(const LightEntry *entry, const LightPick *pick, float u1, float u2, Surface *surface);
     double (*point_density)(const LightEntry *entry, const Surface *surface, int *face);
-    /* See lights_uniform_face. NULL: it has none. */
-    const struct MeshLightFace *(*uniform_face)(const LightEntry *entry, const LightPick *pick, double *density);
+    /* See lights_uniform_point. NULL: it has none. */
+    int (*uniform_point)(const LightEntry *entry, const LightPick *pick, float u1, float u2, MeshLightPoint *point);
 };
 
 /* The rows, in the order of the list: shapes stand first, where photons look for them. A new kind of light is a line

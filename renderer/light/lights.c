@@ -326,10 +326,10 @@ static float pick_probability(const Lights *lights, const LightSampleContext *po
            lights->lamp_share / (float)lights->nchoices * probability_within(lamp, point, entry, face);
 }
 
-static LightPick exact_pick(const Choice *choice, const LightSampleContext *point, float u, float u_part)
+static LightPick exact_pick(const Choice *choice, const LightSampleContext *point, float u)
 {
     if (choice->count == 1)
-        return (LightPick){choice->first, -1, 1, u_part};
+        return (LightPick){choice->first, -1, 1};
     float shares[EXACT_MOST], sum = 0;
     local_shares(choice, point, shares);
     int k = 0;
@@ -338,11 +338,11 @@ static LightPick exact_pick(const Choice *choice, const LightSampleContext *poin
     while (k > 0 && shares[k] == 0)
         k--; /* u is just below 1: the last one that shines on the point */
     if (shares[k] == 0)
-        return (LightPick){-1, -1, 1, u_part};
-    return (LightPick){k, -1, shares[k], u_part};
+        return (LightPick){-1, -1, 1};
+    return (LightPick){k, -1, shares[k]};
 }
 
-static LightPick pick_infinite(const Choice *choice, float share, double u, float u_part)
+static LightPick pick_infinite(const Choice *choice, float share, double u)
 {
     const float *sums = choice->infinite_sums;
     int low = 0, high = choice->ninfinite;
@@ -353,46 +353,46 @@ static LightPick pick_infinite(const Choice *choice, float share, double u, floa
         else
             high = middle;
     }
-    return (LightPick){choice->infinite[low], -1, share * infinite_share(choice, low), u_part};
+    return (LightPick){choice->infinite[low], -1, share * infinite_share(choice, low)};
 }
 
-static LightPick pick_within(const Choice *choice, const LightSampleContext *point, float u_pick, float u_part)
+static LightPick pick_within(const Choice *choice, const LightSampleContext *point, float u_pick, float u_more)
 {
     if (choice->count == 0)
-        return (LightPick){-1, -1, 1, u_part};
+        return (LightPick){-1, -1, 1};
     if (is_exact(choice))
-        return exact_pick(choice, point, u_pick, u_part);
+        return exact_pick(choice, point, u_pick);
     /* both numbers together: a path down a large tree takes more bits than a float has */
-    double u = u_pick + u_part * 0x1p-24;
+    double u = u_pick + u_more * 0x1p-24;
     float share = tree_share(choice, point), probability;
     if (u >= share)
-        return pick_infinite(choice, 1 - share, (u - share) / (1 - share), u_part);
+        return pick_infinite(choice, 1 - share, (u - share) / (1 - share));
     u /= share;
     const Leaf *leaf = &choice->leaves[light_tree_pick(choice->tree, point, &u, &probability)];
-    return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
+    return (LightPick){leaf->entry, leaf->face, share * probability};
 }
 
 /* A lamp is chosen by the first part of the random number, which is uniform again in each. */
-static LightPick pick_by_lamp(const Lights *lights, const LightSampleContext *point, float u, float u_part)
+static LightPick pick_by_lamp(const Lights *lights, const LightSampleContext *point, float u, float u_more)
 {
     const float most = 1 - 0x1p-24f, share = lights->lamp_share;
     LightPick pick;
     if (u < share) {
         const float place = u / share * (float)lights->nchoices;
         const int l = place < (float)(lights->nchoices - 1) ? (int)place : lights->nchoices - 1;
-        pick = pick_within(&lights->lamps[l], point, fminf(place - (float)l, most), u_part);
+        pick = pick_within(&lights->lamps[l], point, fminf(place - (float)l, most), u_more);
     } else {
-        pick = pick_within(&lights->all, point, fminf((u - share) / (1 - share), most), u_part);
+        pick = pick_within(&lights->all, point, fminf((u - share) / (1 - share), most), u_more);
     }
     if (pick.entry >= 0)
         pick.probability = pick_probability(lights, point, pick.entry, pick.face);
     return pick;
 }
 
-LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part)
+LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_more)
 {
-    return lights->lamp_share > 0 ? pick_by_lamp(lights, point, u_pick, u_part)
-                                  : pick_within(&lights->all, point, u_pick, u_part);
+    return lights->lamp_share > 0 ? pick_by_lamp(lights, point, u_pick, u_more)
+                                  : pick_within(&lights->all, point, u_pick, u_more);
 }
 
 int lights_lamp(const Lights *lights, const LightPick *pick)
@@ -400,10 +400,10 @@ int lights_lamp(const Lights *lights, const LightPick *pick)
     return lights->list.entries[pick->entry].lamp;
 }
 
-const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density)
+int lights_uniform_point(const Lights *lights, const LightPick *pick, float u1, float u2, MeshLightPoint *point)
 {
     const LightEntry *e = pick->entry >= 0 ? &lights->list.entries[pick->entry] : NULL;
-    return e && e->ops->uniform_face ? e->ops->uniform_face(e, pick, density) : NULL;
+    return e && e->ops->uniform_point && e->ops->uniform_point(e, pick, u1, u2, point);
 }
 
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
@@ -465,7 +465,7 @@ int lights_small_emitter(const Lights *lights, Vec3 from)
     return power > 0 && power >= MUCH * lights->emitter_sums[lights->nemitters];
 }
 
-int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point)
+int lights_emission(const Lights *lights, float u_pick, float u1, float u2, EmissionPoint *point)
 {
     if (!lights_emit(lights))
         return 0;
@@ -478,7 +478,7 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
         else
             high = middle;
     }
-    LightPick whole = {low, -1, 1, u_part};
+    LightPick whole = {low, -1, 1};
     Surface surface;
     const LightEntry *e = &lights->list.entries[low];
     double density = e->ops->point(e, &whole, u1, u2, &surface);

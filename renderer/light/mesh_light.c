@@ -137,7 +137,8 @@ void mesh_light_close(MeshLight **light)
     *light = NULL;
 }
 
-int mesh_light_face(const MeshLight *light, float u)
+/* The face whose share of the power holds u. */
+static int find_face(const MeshLight *light, float u)
 {
     int low = 0, high = light->count;
     while (high - low > 1) {
@@ -150,9 +151,29 @@ int mesh_light_face(const MeshLight *light, float u)
     return low;
 }
 
-void mesh_light_point(const MeshLightFace *f, const Primitive *p, double u1, double u2, Surface *surface)
+/* Faces are a fan about their first corners. Each half of the unit square, on either side of its diagonal, goes to half
+ * of the fan by an affine map: two faces that make a parallelogram get the square itself, so that evenly spread numbers
+ * are evenly spread points. For one face this is the map of Heitz, 'A low-distortion map between triangle and square'
+ * (2019). */
+MeshLightPoint mesh_light_point(const MeshLight *light, int face, float u1, float u2)
 {
-    double root = sqrt(u1), b1 = root * (1 - u2), b2 = root * u2;
+    const float along = fmaxf(u1, u2);
+    float across = u1 >= u2 ? u2 / (2 * fmaxf(u1, 0x1p-25f)) : 1 - u1 / (2 * u2);
+    double share = 1;
+    if (face < 0) {
+        face = find_face(light, across);
+        const double first = light->sums[face];
+        share = light->faces[face].share;
+        across = (float)((across - first) / (light->sums[face + 1] - first));
+    }
+    const MeshLightFace *f = &light->faces[face];
+    return (MeshLightPoint){f, along, across, share * f->inverse_area};
+}
+
+void mesh_light_surface(const MeshLightPoint *point, const Primitive *p, Surface *surface)
+{
+    const MeshLightFace *f = point->face;
+    const double along = point->along, across = point->across, b1 = along * (1 - across), b2 = along * across;
     *surface = (Surface){.primitive = p,
                          .face = f->face,
                          .texture = f->texture,

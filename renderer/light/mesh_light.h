@@ -25,13 +25,20 @@ typedef struct MeshLight {
     int closed;         /* its faces' area vectors add up to 0: the outside is what is seen most */
 } MeshLight;
 
+/* A point of a face: a share `along` of the way from its corner to the opposite edge, and a share `across` of that edge
+ * from the end of edge1. */
+typedef struct MeshLightPoint {
+    const MeshLightFace *face;
+    float along, across;
+    double density; /* of such points, by area */
+} MeshLightPoint;
+
 /* *light is NULL where no face emits. */
 int mesh_light_create(MeshLight **light, const Primitive *primitive, RetexError *err);
 void mesh_light_close(MeshLight **light);
-/* Choose a face by its power, by u in [0,1). */
-int mesh_light_face(const MeshLight *light, float u);
-/* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but with the shading normal
- * of a flat face. */
-void mesh_light_point(const MeshLightFace *face, const Primitive *primitive, double u1, double u2, Surface *surface);
+/* A point of a face, uniform in area, by u1 and u2 in [0,1). face: -1 for one chosen by its power. */
+MeshLightPoint mesh_light_point(const MeshLight *light, int face, float u1, float u2);
+/* There: a Surface of backside 0 as from shape_sample, but with the shading normal of a flat face. */
+void mesh_light_surface(const MeshLightPoint *point, const Primitive *primitive, Surface *surface);
 
 #endif

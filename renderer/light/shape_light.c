@@ -1,6 +1,5 @@
 /* Emitting shapes and meshes as entries of the list of lights. */
 #include "light/entry.h"
-#include "light/mesh_light.h"
 #include "shade/bsdf.h"
 #include "shade/texture.h"
 #include "shape/csg.h"
@@ -166,21 +165,12 @@ static double shape_density(const LightEntry *e, const Surface *surface, int *fa
     return shape_pdf_area(surface->primitive, surface);
 }
 
-/* The picked face of an emitting mesh, and the density of points on it. */
-static const MeshLightFace *picked_face(const LightEntry *e, const LightPick *pick, double *density)
-{
-    const MeshLight *mesh = e->data;
-    const MeshLightFace *f = &mesh->faces[pick->face >= 0 ? pick->face : mesh_light_face(mesh, pick->u_part)];
-    *density = (pick->face >= 0 ? 1 : f->share) * f->inverse_area;
-    return f;
-}
-
 static double mesh_point(const LightEntry *e, const LightPick *pick, float u1, float u2, Surface *surface)
 {
     const Primitive *p = &e->scene->primitives[e->index];
-    double density;
-    mesh_light_point(picked_face(e, pick, &density), p, u1, u2, surface);
-    return left_of_operand(p, surface->position, density);
+    const MeshLightPoint point = mesh_light_point(e->data, pick->face, u1, u2);
+    mesh_light_surface(&point, p, surface);
+    return left_of_operand(p, surface->position, point.density);
 }
 
 static double mesh_density(const LightEntry *e, const Surface *surface, int *face)
@@ -193,13 +183,13 @@ static double mesh_density(const LightEntry *e, const Surface *surface, int *fac
     return (e->nfaces > 0 ? 1 : f->share) * f->inverse_area;
 }
 
-static const MeshLightFace *uniform_face(const LightEntry *e, const LightPick *pick, double *density)
+static int uniform_point(const LightEntry *e, const LightPick *pick, float u1, float u2, MeshLightPoint *point)
 {
     const Primitive *p = &e->scene->primitives[e->index];
     if (p->no_reflection || p->csg)
-        return NULL;
-    const MeshLightFace *f = picked_face(e, pick, density);
-    return f->uniform ? f : NULL;
+        return 0;
+    *point = mesh_light_point(e->data, pick->face, u1, u2);
+    return point->face->uniform;
 }
 
 /* ---- directions ---- */
@@ -281,4 +271,4 @@ const LightEntryOps entry_mesh = {.close = close_mesh,
                                   .pdf = shape_pdf,
                                   .point = mesh_point,
                                   .point_density = mesh_density,
-                                  .uniform_face = uniform_face};
+                                  .uniform_point = uniform_point};

@@ -25,7 +25,8 @@ typedef struct MattePacket {
     MatteVectors corner, edge1, edge2, face_normal;
     MatteDoubles density;
     MatteFloats pick_probability;
-    MatteFloats light_u, light_v, direction_u, direction_v; /* in [0, 1) */
+    MatteFloats along, across;             /* the point on it, see MeshLightPoint */
+    MatteFloats direction_u, direction_v; /* in [0, 1) */
 } MattePacket;
 
 /* Direct-light samples of the faces, before their shadow rays are traced. */

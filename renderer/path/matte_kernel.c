@@ -12,8 +12,7 @@ RETEX_CPU_INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
 {
     Vec3 position = matte_get(&p->position, k), geometric = matte_get(&p->geometric, k);
     Vec3 face_normal = matte_get(&p->face_normal, k);
-    /* a point of the face, uniform in area */
-    double u = p->light_u[k], v = p->light_v[k], root = sqrt(u), b1 = root * (1 - v), b2 = root * v;
+    double along = p->along[k], across = p->across[k], b1 = along * (1 - across), b2 = along * across;
     Vec3 point = vec_mad(vec_mad(matte_get(&p->corner, k), matte_get(&p->edge1, k), b1), matte_get(&p->edge2, k), b2);
     Vec3 d = vec_sub(point, position);
     double distance = vec_length(d);

@@ -94,18 +94,18 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     const Finish *finish = s->surface.texture->finish;
     MattePacket *m = &p->mattes;
     int k = m->count;
-    double density;
+    MeshLightPoint point;
     Vec3 normal, geometric;
     if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte || s->surface.texture->normal ||
         s->surface.primitive->double_illuminate || shading_has_finishes(s, c->scene))
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
     LightSampleContext context = {s->surface.position, normal, s->surface.primitive->light_group};
-    v->pick = lights_pick(c->lights, &context, u->light_choice[lane], u->light_part[lane]);
+    v->pick = lights_pick(c->lights, &context, u->light_choice[lane], u->light_more[lane]);
     v->picked = 1;
-    const MeshLightFace *face = lights_uniform_face(c->lights, &v->pick, &density);
-    if (!face)
+    if (!lights_uniform_point(c->lights, &v->pick, u->light_point_u[lane], u->light_point_v[lane], &point))
         return 0;
+    const MeshLightFace *face = point.face;
     matte_set(&m->position, k, s->surface.position);
     matte_set(&m->normal, k, normal);
     matte_set(&m->geometric, k, geometric);
@@ -113,9 +113,9 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     matte_set(&m->edge1, k, face->edge1);
     matte_set(&m->edge2, k, face->edge2);
     matte_set(&m->face_normal, k, face->normal);
-    m->density[k] = density, m->pick_probability[k] = v->pick.probability;
+    m->density[k] = point.density, m->pick_probability[k] = v->pick.probability;
     m->diffuse[k] = (float)finish->diffuse;
-    m->light_u[k] = u->light_point_u[lane], m->light_v[k] = u->light_point_v[lane];
+    m->along[k] = point.along, m->across[k] = point.across;
     m->direction_u[k] = u->direction_u[lane], m->direction_v[k] = u->direction_v[lane];
     p->faces[k] = face;
     p->matte[lane] = m->count++;

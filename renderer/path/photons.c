@@ -130,8 +130,8 @@ static void start_from_emitter(const Tracing *m, uint32_t photon, Start *start)
 {
     const Aim *c = &m->casters[start->caster];
     EmissionPoint point;
-    if (!lights_emission(m->lights, photon_number(photon, 0), photon_number(photon, 1), photon_number(photon, 2),
-                         photon_number(photon, 3), &point))
+    if (!lights_emission(m->lights, photon_number(photon, 0), photon_number(photon, 2), photon_number(photon, 3),
+                         &point))
         return;
     double angle = aim(c, point.position, photon_number(photon, 5), photon_number(photon, 6), &start->ray.direction);
     start->ray.origin = accel_offset(point.position, point.normal, start->ray.direction);

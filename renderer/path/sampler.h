@@ -30,7 +30,7 @@ enum {
     DIMENSION_CAMERA = 0x40000000, /* beyond those of all vertices; only of cameras that need it */
     VERTEX_LOBE = 0,        /* u: which lobe, v: Russian roulette */
     VERTEX_DIRECTION = 1,
-    VERTEX_LIGHT_CHOICE = 2, /* u: which light, v: which part of it */
+    VERTEX_LIGHT_CHOICE = 2, /* u: which light, v: more digits of u, for many */
     VERTEX_LIGHT_POINT = 3,
     DIMENSIONS_PER_VERTEX = 4
 };

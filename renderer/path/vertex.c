@@ -133,7 +133,7 @@ void sample_direct_light(PathWorker *w, const Path *path, Vertex *v)
     LightSampleContext context = light_sample_context(s);
     sample->found = 0;
     if (!v->picked)
-        v->pick = lights_pick(c->lights, &context, u->light_choice[k], u->light_part[k]);
+        v->pick = lights_pick(c->lights, &context, u->light_choice[k], u->light_more[k]);
     if (!lights_sample(c->lights, &context, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
         return;
     const int is_source = light->source != NULL;

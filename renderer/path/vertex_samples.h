@@ -11,7 +11,7 @@
 /* In [0, 1); u of the pairs, then v; by lane. */
 typedef struct VertexSamples {
     float lobe[VERTEX_LANES], direction_u[VERTEX_LANES], light_choice[VERTEX_LANES], light_point_u[VERTEX_LANES];
-    float roulette[VERTEX_LANES], direction_v[VERTEX_LANES], light_part[VERTEX_LANES], light_point_v[VERTEX_LANES];
+    float roulette[VERTEX_LANES], direction_v[VERTEX_LANES], light_more[VERTEX_LANES], light_point_v[VERTEX_LANES];
 } VertexSamples;
 
 /* Vertex 0 is the first hit. By lane: the sampler's key, and the sample in its pixel. */

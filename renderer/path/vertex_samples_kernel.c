@@ -20,7 +20,7 @@ RETEX_CPU_INLINE void numbers_body(const uint32_t *key, const uint32_t *sample, 
 {
     pair_lanes(key, first + VERTEX_LOBE, sample, samples->lobe, samples->roulette);
     pair_lanes(key, first + VERTEX_DIRECTION, sample, samples->direction_u, samples->direction_v);
-    pair_lanes(key, first + VERTEX_LIGHT_CHOICE, sample, samples->light_choice, samples->light_part);
+    pair_lanes(key, first + VERTEX_LIGHT_CHOICE, sample, samples->light_choice, samples->light_more);
     pair_lanes(key, first + VERTEX_LIGHT_POINT, sample, samples->light_point_u, samples->light_point_v);
 }
 

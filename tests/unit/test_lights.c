@@ -261,6 +261,57 @@ static void spheres_are_sampled_where_they_are_seen(void **state)
     scene_close(&scene);
 }
 
+/* Two faces that make a parallelogram are sampled as it: cells of numbers are cells of it. */
+static void even_numbers_are_even_points(void **state)
+{
+    (void)state;
+    enum { N = 32 };
+    Scene *scene = test_scene(HEAD SHEET(1));
+    Lights *lights;
+    LightSampleContext from = {{0, 0, 0}, {0, 1, 0}, NULL};
+    int cells[N][N] = {{0}};
+    assert_int_equal(lights_create(&lights, scene, 0, NULL), 0);
+    for (int k = 0; k < N * N; k++) {
+        const LightPick pick = lights_pick(lights, &from, 0.5f, 0.5f);
+        LightSample s;
+        const float u = ((float)(k % N) + 0.4f) / N, v = ((float)(k / N) + 0.6f) / N;
+        assert_true(lights_sample(lights, &from, &pick, u, v, &s));
+        cells[(int)((s.surface.position.x + 1) / 2 * N)][(int)((s.surface.position.z + 1) / 2 * N)]++;
+    }
+    for (int k = 0; k < N * N; k++)
+        assert_int_equal(cells[k / N][k % N], 1);
+    lights_close(&lights);
+    scene_close(&scene);
+}
+
+/* Points are uniform in area: so many lie in each face, and in each quarter of it, at its corners and between. */
+static void faces_are_sampled_uniformly(void **state)
+{
+    (void)state;
+    enum { N = 512 };
+    Scene *scene = test_scene(HEAD "mesh { triangle { 0, 4*x, y } triangle { 0, y, -x } triangle { 2*z, 3*z, 2*z + x }"
+                                   "texture { Shine } }");
+    MeshLight *light;
+    const double areas[] = {2, .5, .5};
+    double counts[3][4] = {{0}};
+    assert_int_equal(mesh_light_create(&light, &scene->primitives[0], NULL), 0);
+    for (int k = 0; k < N * N; k++) {
+        const MeshLightPoint p =
+            mesh_light_point(light, -1, ((float)(k % N) + 0.5f) / N, ((float)(k / N) + 0.5f) / N);
+        Surface s;
+        mesh_light_surface(&p, &scene->primitives[0], &s);
+        assert_true(fabs(p.density - 1 / 3.0) < 1e-6 && s.b1 >= 0 && s.b2 >= 0 && s.b1 + s.b2 <= 1);
+        counts[s.face][s.b1 + s.b2 < .5 ? 0 : s.b1 > .5 ? 1 : s.b2 > .5 ? 2 : 3]++;
+    }
+    for (int k = 0; k < 12; k++) {
+        const double wanted = areas[k / 4] / 3 * N * N / 4, got = counts[k / 4][k % 4];
+        if (fabs(got - wanted) > 0.02 * wanted)
+            fail_msg("face %d, quarter %d: %g points, should be %g", k / 4, k % 4, got, wanted);
+    }
+    mesh_light_close(&light);
+    scene_close(&scene);
+}
+
 /* Photons carry the light of all emitters together, each its share: radiance times area. */
 static void photons_carry_all_light(void **state)
 {
@@ -278,7 +329,7 @@ static void photons_carry_all_light(void **state)
         sampler.sample = k;
         sampler_pair(&sampler, 0, &u[0], &u[1]);
         sampler_pair(&sampler, 1, &u[2], &u[3]);
-        assert_int_equal(lights_emission(lights, u[0], u[1], u[2], u[3], &p), 1);
+        assert_int_equal(lights_emission(lights, u[0], u[2], u[3], &p), 1);
         sum += (double)p.power / SAMPLES;
         of_sphere += p.position.y < -4 ? (double)p.power / SAMPLES : 0;
     }
@@ -580,6 +631,8 @@ int main(void)
         cmocka_unit_test(densities_agree),
         cmocka_unit_test(each_lamp_has_a_share),
         cmocka_unit_test(spheres_are_sampled_where_they_are_seen),
+        cmocka_unit_test(even_numbers_are_even_points),
+        cmocka_unit_test(faces_are_sampled_uniformly),
         cmocka_unit_test(photons_carry_all_light),
         cmocka_unit_test(met_sources_give_their_irradiance),
         cmocka_unit_test(sources_shine_by_their_laws),

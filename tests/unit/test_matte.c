@@ -33,7 +33,7 @@ static void fill(MattePacket *p, double size)
         matte_set(&p->face_normal, k, vec_normalize(anywhere(1)));
         p->density[k] = 10 * uniform();
         p->pick_probability[k] = (float)uniform(), p->diffuse[k] = (float)uniform();
-        p->light_u[k] = (float)(rand() % 1024) / 1024, p->light_v[k] = (float)(rand() % 1024) / 1024;
+        p->along[k] = (float)(rand() % 1024) / 1024, p->across[k] = (float)(rand() % 1024) / 1024;
         p->direction_u[k] = (float)(rand() % 1024) / 1024, p->direction_v[k] = (float)(rand() % 1024) / 1024;
     }
 }
@@ -78,7 +78,7 @@ static int light_is_sample(const MattePacket *p, const MatteLights *lights, int 
     Vec3 position = matte_get(&p->position, k), wi = matte_get(&lights->direction, k);
     Surface surface;
     float pdf;
-    mesh_light_point(&face, NULL, p->light_u[k], p->light_v[k], &surface);
+    mesh_light_surface(&(MeshLightPoint){&face, p->along[k], p->across[k], 1}, NULL, &surface);
     Vec3 d = vec_sub(surface.position, position);
     double distance = vec_length(d), facing = vec_dot(wi, face.normal);
     Split f = bsdf_eval(&b, wi, 0, &pdf);

@@ -78,7 +78,7 @@ static void vertices_are_pairs(void **state)
             assert_memory_equal(&all, &plain, sizeof all);
             const float *of[DIMENSIONS_PER_VERTEX][2] = {[VERTEX_LOBE] = {all.lobe, all.roulette},
                                                          [VERTEX_DIRECTION] = {all.direction_u, all.direction_v},
-                                                         [VERTEX_LIGHT_CHOICE] = {all.light_choice, all.light_part},
+                                                         [VERTEX_LIGHT_CHOICE] = {all.light_choice, all.light_more},
                                                          [VERTEX_LIGHT_POINT] = {all.light_point_u, all.light_point_v}};
             for (uint32_t i = 0; i < VERTEX_LANES * DIMENSIONS_PER_VERTEX; i++) {
                 uint32_t lane = i % VERTEX_LANES, pair = i / VERTEX_LANES;
